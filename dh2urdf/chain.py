@@ -1,0 +1,133 @@
+"""The serial chain: the one form that every conversion and every algorithm starts from.
+
+A table, a URDF, an MJCF and a Pinocchio model all become::
+
+    T_base_tool(q) = links[0] Z_1(q_1) links[1] Z_2(q_2) ... Z_n(q_n) links[n]
+
+with constant rigid ``links`` and ``Z_i = Rot_z(q_i)`` for a revolute, ``Trans_z(q_i)`` for a
+prismatic joint: every joint's axis is its own z, signs and offsets are in the links. The
+product equals the DH product factor by factor, so nothing is lost to rounding; axes and
+points of the screws at q = 0 follow from it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from dh2urdf.dh import JointType
+from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["SerialChain"]
+
+
+@dataclass(frozen=True, eq=False)
+class SerialChain:
+    """A serial chain of single-degree joints, immutable.
+
+    Parameters
+    ----------
+    links : array, shape (n + 1, 4, 4)
+        Constant transforms before, between and after the joints, lengths in [m].
+    joint_types : tuple of JointType
+        ``REVOLUTE`` or ``PRISMATIC``, n of them.
+    names : tuple of str
+    lower, upper : array, shape (n,)
+        Bounds of q [rad] or [m]; infinite where there are none.
+    """
+
+    links: Array
+    joint_types: tuple[JointType, ...]
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+
+    def __post_init__(self) -> None:
+        n = len(self.joint_types)
+        sizes = (self.links.shape, len(self.names), self.lower.shape, self.upper.shape)
+        if sizes != ((n + 1, 4, 4), n, (n,), (n,)):
+            raise Dh2UrdfError(f"a chain of {n} joints cannot have parts of sizes {sizes}")
+        for key in ("links", "lower", "upper"):
+            array = np.array(getattr(self, key), float, order="C")
+            array.flags.writeable = False
+            object.__setattr__(self, key, array)
+
+    @property
+    def n(self) -> int:
+        """Number of joints."""
+        return len(self.joint_types)
+
+    @cached_property
+    def prismatic(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """True where a joint slides, shape (n,)."""
+        out = np.array([t is JointType.PRISMATIC for t in self.joint_types], dtype=np.bool_)
+        out.flags.writeable = False
+        return out
+
+    @cached_property
+    def joint_frames(self) -> Array:
+        """Frame of each joint in base at q = 0, z along the axis, shape (n, 4, 4)."""
+        frames, T = [], np.eye(4)
+        for link in self.links[:-1]:
+            T = T @ link
+            frames.append(T)
+        return np.stack(frames)
+
+    @property
+    def axes(self) -> Array:
+        """Unit joint axes in base at q = 0, shape (n, 3)."""
+        return self.joint_frames[:, :3, 2]
+
+    @property
+    def points(self) -> Array:
+        """A point on each joint axis in base at q = 0 [m], shape (n, 3)."""
+        return self.joint_frames[:, :3, 3]
+
+    @cached_property
+    def tool(self) -> Array:
+        """``T_base_tool`` at q = 0, shape (4, 4)."""
+        T: Array = self.joint_frames[-1] @ self.links[-1]
+        return T
+
+    @cached_property
+    def size(self) -> float:
+        """Sum of the distances between consecutive axes and to the tool [m]; at least 1e-9.
+
+        The length that tolerances are relative to. Distances are between the axes as lines, so
+        that frames far out along parallel axes (calibrated arms) do not count.
+        """
+        total, last = 0.0, None
+        for point, axis in zip(self.points, self.axes, strict=True):
+            if last is None:
+                last = point
+                continue
+            foot = point + axis * float(axis @ (last - point))
+            total += math.dist(foot, last)
+            last = foot
+        total += math.dist(self.tool[:3, 3], last) if last is not None else 0.0
+        return max(total, 1e-9)
+
+    def fk(self, q: Array) -> Array:
+        """``T_base_tool`` at q (n,) by the defining product, shape (4, 4)."""
+        T = self.links[0]
+        for qi, slides, link in zip(q, self.prismatic, self.links[1:], strict=True):
+            c, s, t = (1.0, 0.0, qi) if slides else (math.cos(qi), math.sin(qi), 0.0)
+            T = T @ np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, t], [0, 0, 0, 1]]) @ link
+        return T
+
+    def reversed(self) -> SerialChain:
+        """The chain from tool to base: ``T_tool_base`` with the joints in reverse order.
+
+        ``Z(q)^-1 = Z(-q) = S Z(q) S`` with ``S = Rot_x(pi)`` keeps the joint values.
+        """
+        S = np.diag([1.0, -1.0, -1.0, 1.0])
+        inv = inverse(self.links)[::-1]
+        links = np.stack([L if k == 0 else S @ L for k, L in enumerate(inv)])
+        links[:-1] = links[:-1] @ S
+        return SerialChain(
+            links, self.joint_types[::-1], self.names[::-1], self.lower[::-1], self.upper[::-1]
+        )

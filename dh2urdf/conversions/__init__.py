@@ -1,0 +1,1 @@
+"""Between tables, chains, URDF files and Pinocchio models; one file a direction."""

@@ -1,0 +1,83 @@
+"""How a grid of cells is printed: text, Markdown, HTML, CSV, LaTeX."""
+
+from __future__ import annotations
+
+import csv
+import html
+import io
+from collections.abc import Sequence
+
+__all__ = ["grid_csv", "grid_html", "grid_latex", "grid_markdown", "grid_text", "number"]
+
+Grid = Sequence[Sequence[str]]
+
+HTML_COLOURS = {"theta": "#c2188b", "d": "#00808a", "a": "#d97000", "alpha": "#6a3fbf"}
+"""One colour per DH quantity, the same in tables, figures and the browser view."""
+
+
+def number(value: float, *, minus: str = "\N{MINUS SIGN}") -> str:
+    """Shortest decimal that reads back as the same float, with a true minus sign."""
+    if value == 0:
+        return "0"
+    text = repr(float(value))
+    text = text.removesuffix(".0")
+    return text.replace("-", minus)
+
+
+def grid_text(header: Sequence[str], rows: Grid) -> str:
+    """Columns padded to their widest cell, numbers to the right, a rule under the header."""
+    table = [list(header), *[list(r) for r in rows]]
+    widths = [max(len(r[k]) for r in table) for k in range(len(header))]
+    lines = ["  ".join(c.rjust(w) for c, w in zip(r, widths, strict=True)) for r in table]
+    lines.insert(1, "─" * len(lines[0]))
+    return "\n".join(line.rstrip() for line in lines)
+
+
+def grid_markdown(header: Sequence[str], rows: Grid) -> str:
+    """A pipe table, columns aligned to the right."""
+    table = [[c.replace("|", r"\|") for c in r] for r in [header, *rows]]
+    widths = [max(3, *(len(r[k]) for r in table)) for k in range(len(header))]
+    lines = [
+        "| " + " | ".join(c.rjust(w) for c, w in zip(r, widths, strict=True)) + " |" for r in table
+    ]
+    lines.insert(1, "|" + "|".join("-" * (w + 1) + ":" for w in widths) + "|")
+    return "\n".join(lines)
+
+
+def grid_csv(header: Sequence[str], rows: Grid) -> str:
+    """Comma-separated values with a header line."""
+    out = io.StringIO()
+    csv.writer(out, lineterminator="\n").writerows([header, *rows])
+    return out.getvalue()
+
+
+def grid_latex(header: Sequence[str], rows: Grid) -> str:
+    """A ``tabular`` with ``booktabs`` rules; cells are LaTeX already."""
+    lines = [r"\begin{tabular}{" + "r" * len(header) + "}", r"\toprule"]
+    lines.append(" & ".join(header) + r" \\")
+    lines.append(r"\midrule")
+    lines += [" & ".join(r) + r" \\" for r in rows]
+    lines += [r"\bottomrule", r"\end{tabular}"]
+    return "\n".join(lines)
+
+
+def grid_html(header: Sequence[str], rows: Grid, *, keys: Sequence[str], caption: str) -> str:
+    """A table for notebooks: DH quantities in their colours, zeros in light grey."""
+    cell = "text-align:right;padding:2px 10px;"
+    head = "".join(
+        f'<th style="{cell}color:{HTML_COLOURS.get(k, "inherit")}">{html.escape(h)}</th>'
+        for k, h in zip(keys, header, strict=True)
+    )
+    body = []
+    for row in rows:
+        cells = []
+        for key, text in zip(keys, row, strict=True):
+            zero = text in {"0", "0°"}
+            colour = "#b0b0b0" if zero else HTML_COLOURS.get(key, "inherit")
+            cells.append(f'<td style="{cell}color:{colour}">{html.escape(text)}</td>')
+        body.append("<tr>" + "".join(cells) + "</tr>")
+    return (
+        f'<table style="border-collapse:collapse"><caption style="text-align:left">'
+        f"{html.escape(caption)}</caption><thead><tr>{head}</tr></thead>"
+        f"<tbody>{''.join(body)}</tbody></table>"
+    )

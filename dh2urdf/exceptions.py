@@ -1,0 +1,97 @@
+"""One tree of errors.
+
+Every error that the package raises on purpose derives from :class:`Dh2UrdfError`,
+and its text says what was wrong, where, and what is allowed::
+
+    Dh2UrdfError
+    ├── TableError (ValueError)          a DH table that cannot be meant
+    │   └── TableFileError               a table file, all of its faults at once
+    ├── UrdfError (ValueError)           a URDF, MJCF or model that cannot be read
+    ├── VerificationError                a written result that differs from its source
+    ├── PoseError (ValueError)           a target that is not in SE(3)
+    ├── ConfigurationError (ValueError)  a q, seed or locked value of the wrong shape or kind
+    ├── NameNotFoundError (LookupError)  no such table, frame or joint
+    ├── NoSolverError                    no analytic solver for this chain or task
+    ├── OutputExistsError (OSError)      a file of somebody else's in the way
+    └── MissingExtraError (ImportError)  an optional dependency is not installed
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+__all__ = [
+    "ConfigurationError",
+    "Dh2UrdfError",
+    "MissingExtraError",
+    "NameNotFoundError",
+    "NoSolverError",
+    "OutputExistsError",
+    "PoseError",
+    "TableError",
+    "TableFileError",
+    "UrdfError",
+    "VerificationError",
+]
+
+
+class Dh2UrdfError(Exception):
+    """Base of all errors raised on purpose."""
+
+
+class TableError(Dh2UrdfError, ValueError):
+    """A DH table that cannot be meant; ``problems`` lists every fault found."""
+
+    def __init__(self, problems: str | Iterable[str]) -> None:
+        self.problems = (problems,) if isinstance(problems, str) else tuple(problems)
+        super().__init__("\n".join(self.problems))
+
+    def __reduce__(self) -> tuple[type[TableError], tuple[tuple[str, ...]]]:
+        """Pickle by the list of problems."""
+        return type(self), (self.problems,)
+
+
+class TableFileError(TableError):
+    """A table file with faults; each problem opens with ``file:line:column``."""
+
+
+class UrdfError(Dh2UrdfError, ValueError):
+    """A URDF, MJCF or Pinocchio model that cannot be read or has no such chain."""
+
+
+class VerificationError(Dh2UrdfError):
+    """A result that differs from its source by more than is allowed; nothing was written."""
+
+
+class PoseError(Dh2UrdfError, ValueError):
+    """A target that is not a rigid pose: wrong shape, NaN, or not a rotation."""
+
+
+class ConfigurationError(Dh2UrdfError, ValueError):
+    """A configuration, seed or locked joint of the wrong length or kind."""
+
+
+class NameNotFoundError(Dh2UrdfError, LookupError):
+    """No table, frame or joint of that name; the message lists the ones there are."""
+
+
+class NoSolverError(Dh2UrdfError):
+    """No analytic solver covers this chain or task; the message says which classes exist."""
+
+
+class OutputExistsError(Dh2UrdfError, OSError):
+    """The output path holds something that this package did not write."""
+
+
+class MissingExtraError(Dh2UrdfError, ImportError):
+    """An optional dependency is missing; the message names the extra to install."""
+
+    def __init__(self, extra: str, purpose: str) -> None:
+        self.extra, self.purpose = extra, purpose
+        super().__init__(
+            f"{purpose} needs the extra {extra!r}: pip install 'dh2urdf[{extra}]'",
+        )
+
+    def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str]]:
+        """Pickle by extra and purpose."""
+        return type(self), (self.extra, self.purpose)

@@ -1,0 +1,269 @@
+"""Rigid transforms on plain NumPy arrays.
+
+A pose ``T_a_b`` is a (4, 4) homogeneous matrix that takes coordinates in frame b to
+coordinates in frame a, so subscripts cancel: ``T_a_c = T_a_b @ T_b_c``. Angles are in
+radians, lengths in metres. Roll, pitch and yaw follow URDF: ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from dh2urdf.exceptions import PoseError
+
+__all__ = [
+    "check_pose",
+    "inverse",
+    "matrix_to_rpy",
+    "matrix_to_zyz",
+    "origin_matrix",
+    "planar_rotation",
+    "planar_translation",
+    "pose_error",
+    "rot_x",
+    "rot_y",
+    "rot_z",
+    "rotation",
+    "rotation_angle",
+    "rpy_to_matrix",
+    "trans",
+    "zyz_to_matrix",
+]
+
+Array = NDArray[np.float64]
+
+ORTHONORMAL_TOLERANCE = 1e-6
+"""Largest entry of ``R^T R - 1`` that still counts as a rotation: hand-typed six digits."""
+
+ZYZ_SINGULAR = 1e-9
+"""``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""
+
+
+def rotation(axis: ArrayLike, angle: float) -> Array:
+    """Rotation about a unit axis by an angle (Rodrigues), shape (3, 3)."""
+    x, y, z = np.asarray(axis, float)
+    c, s = math.cos(angle), math.sin(angle)
+    v = 1.0 - c
+    return np.array(
+        [
+            [x * x * v + c, x * y * v - z * s, x * z * v + y * s],
+            [x * y * v + z * s, y * y * v + c, y * z * v - x * s],
+            [x * z * v - y * s, y * z * v + x * s, z * z * v + c],
+        ]
+    )
+
+
+def rot_x(angle: float) -> Array:
+    """``Rot_x(angle)`` as a (4, 4) homogeneous matrix."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[1.0, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
+
+
+def rot_y(angle: float) -> Array:
+    """``Rot_y(angle)`` as a (4, 4) homogeneous matrix."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, 0, s, 0], [0, 1.0, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]])
+
+
+def rot_z(angle: float) -> Array:
+    """``Rot_z(angle)`` as a (4, 4) homogeneous matrix."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1]])
+
+
+def trans(x: float, y: float, z: float) -> Array:
+    """``Trans(x, y, z)`` as a (4, 4) homogeneous matrix, lengths in [m]."""
+    T = np.eye(4)
+    T[:3, 3] = x, y, z
+    return T
+
+
+def planar_rotation(theta: float) -> Array:
+    """Homogeneous transform of the plane that turns by theta [rad], shape (3, 3)."""
+    c, s = math.cos(theta), math.sin(theta)
+    return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
+
+
+def planar_translation(x: float, y: float = 0.0) -> Array:
+    """Homogeneous transform of the plane that moves by (x, y) [m], shape (3, 3).
+
+    The planar RR arm of lecture notes section 2 is the product
+    ``planar_rotation(q1) @ planar_translation(l1) @ planar_rotation(q2) @
+    planar_translation(l2)``.
+    """
+    return np.array([[1.0, 0, x], [0, 1.0, y], [0, 0, 1.0]])
+
+
+def rpy_to_matrix(rpy: Sequence[float]) -> Array:
+    """Rotation of URDF's roll, pitch, yaw [rad]: ``Rz(yaw) Ry(pitch) Rx(roll)``, shape (3, 3)."""
+    r, p, y = (float(v) for v in rpy)
+    cr, sr, cp, sp, cy, sy = (
+        math.cos(r),
+        math.sin(r),
+        math.cos(p),
+        math.sin(p),
+        math.cos(y),
+        math.sin(y),
+    )
+    return np.array(
+        [
+            [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+            [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+            [-sp, cp * sr, cp * cr],
+        ]
+    )
+
+
+def matrix_to_rpy(R: ArrayLike) -> tuple[float, float, float]:
+    """Roll, pitch and yaw [rad] of a rotation, exact to rounding at every pitch.
+
+    Yaw is read first; pitch and roll are read from ``Rz(yaw)^T R``, so that at pitch +-90
+    degrees, where yaw alone is arbitrary, the three still multiply back to ``R``.
+
+    Parameters
+    ----------
+    R : array_like, shape (3, 3) or (4, 4)
+    """
+    m = np.asarray(R, float)
+    cos_pitch = math.hypot(m[0, 0], m[1, 0])
+    yaw = math.atan2(m[1, 0], m[0, 0]) if cos_pitch > 1e-15 else 0.0
+    cy, sy = math.cos(yaw), math.sin(yaw)
+    pitch = math.atan2(-m[2, 0], cy * m[0, 0] + sy * m[1, 0])
+    roll = math.atan2(sy * m[0, 2] - cy * m[1, 2], cy * m[1, 1] - sy * m[0, 1])
+    return roll, pitch, yaw
+
+
+def origin_matrix(xyz: Sequence[float], rpy: Sequence[float]) -> Array:
+    """Pose of a URDF ``<origin xyz rpy>``, shape (4, 4)."""
+    T = np.eye(4)
+    T[:3, :3] = rpy_to_matrix(rpy)
+    T[:3, 3] = xyz
+    return T
+
+
+def inverse(T: ArrayLike) -> Array:
+    """Inverse of rigid poses, shape (..., 4, 4): ``T_b_a`` from ``T_a_b``."""
+    m = np.asarray(T, float)
+    out = np.zeros_like(m)
+    Rt = np.swapaxes(m[..., :3, :3], -1, -2)
+    out[..., :3, :3] = Rt
+    out[..., :3, 3] = -(Rt @ m[..., :3, 3, None])[..., 0]
+    out[..., 3, 3] = 1.0
+    return out
+
+
+def rotation_angle(R: ArrayLike) -> Array:
+    """Angle of rotations [rad] in [0, pi], shape (...), accurate at both ends.
+
+    ``atan2(|vee(R - R^T)| / 2, (tr R - 1) / 2)`` keeps full precision near 0, where the
+    arc cosine of the trace loses half the digits.
+    """
+    m = np.asarray(R, float)
+    v = np.stack(
+        [
+            m[..., 2, 1] - m[..., 1, 2],
+            m[..., 0, 2] - m[..., 2, 0],
+            m[..., 1, 0] - m[..., 0, 1],
+        ],
+        axis=-1,
+    )
+    trace = m[..., 0, 0] + m[..., 1, 1] + m[..., 2, 2]
+    angle: Array = np.arctan2(0.5 * np.linalg.norm(v, axis=-1), 0.5 * (trace - 1.0))
+    return angle
+
+
+def pose_error(T: ArrayLike, T_ref: ArrayLike) -> float:
+    """Largest difference of two stacks of poses.
+
+    The larger of position difference [m] and angle between the orientations [rad], taken
+    over the whole stack; the project's residual.
+    """
+    a, b = np.asarray(T, float), np.asarray(T_ref, float)
+    position = np.linalg.norm(a[..., :3, 3] - b[..., :3, 3], axis=-1)
+    angle = rotation_angle(np.swapaxes(b[..., :3, :3], -1, -2) @ a[..., :3, :3])
+    return float(max(position.max(initial=0.0), angle.max(initial=0.0)))
+
+
+def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
+    """Return poses as a float array after checking that they are rigid.
+
+    Parameters
+    ----------
+    T : array_like, shape (..., 4, 4), or pinocchio.SE3
+        Homogeneous matrices, rotation orthonormal within 1e-6.
+    what : str
+        Name of the argument in messages.
+
+    Raises
+    ------
+    PoseError
+        Wrong shape, NaN or infinity, a reflection, a scaled or skewed rotation, or a last
+        row other than (0, 0, 0, 1). The message names the index of the first bad pose.
+    """
+    try:
+        m = np.asarray(getattr(T, "homogeneous", T), float)
+    except (TypeError, ValueError):
+        raise PoseError(f"{what}: expected numbers of shape (..., 4, 4), got {T!r:.60}") from None
+    if m.ndim < 2 or m.shape[-2:] != (4, 4):
+        raise PoseError(f"{what}: expected shape (4, 4) or (..., 4, 4), got {m.shape}")
+    if not np.isfinite(m).all():
+        raise PoseError(f"{what}{_where(~np.isfinite(m).all(axis=(-2, -1)))}: NaN or infinity")
+    R = m[..., :3, :3]
+    gram = np.swapaxes(R, -1, -2) @ R
+    off = np.abs(gram - np.eye(3)).max(axis=(-2, -1))
+    if (off > ORTHONORMAL_TOLERANCE).any():
+        raise PoseError(
+            f"{what}{_where(off > ORTHONORMAL_TOLERANCE)}: rotation part is not orthonormal, "
+            f"R^T R differs from 1 by {off.max():.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e})"
+        )
+    det = np.linalg.det(R)
+    if (det < 0).any():
+        raise PoseError(
+            f"{what}{_where(det < 0)}: rotation part is a reflection (determinant -1)"
+        )
+    last = np.abs(m[..., 3, :] - np.array([0.0, 0, 0, 1])).max(axis=-1)
+    if (last > 1e-12).any():
+        raise PoseError(f"{what}{_where(last > 1e-12)}: last row must be 0 0 0 1")
+    return m
+
+
+def _where(bad: NDArray[np.bool_]) -> str:
+    """Index of the first bad pose of a stack, as a suffix of its name."""
+    if bad.ndim == 0:
+        return ""
+    first = np.argwhere(bad)[0]
+    return f"[{', '.join(str(i) for i in first)}]"
+
+
+def zyz_to_matrix(phi: float, theta: float, psi: float) -> Array:
+    """Rotation of ZYZ Euler angles [rad]: ``Rz(phi) Ry(theta) Rz(psi)``, shape (3, 3)."""
+    R: Array = (rot_z(phi) @ rot_y(theta) @ rot_z(psi))[:3, :3]
+    return R
+
+
+def matrix_to_zyz(R: ArrayLike) -> tuple[tuple[float, float, float], ...]:
+    """ZYZ Euler angles (phi, theta, psi) [rad] of a rotation (Spong, section 2.5.1).
+
+    Returns
+    -------
+    tuple of triples
+        Two solutions, theta positive first; or one, where ``sin(theta) = 0``: there only
+        ``phi + psi`` (theta = 0) or ``phi - psi`` (theta = pi) is determined, and the
+        representative has ``phi = 0``.
+    """
+    m = np.asarray(R, float)
+    sin_theta = math.hypot(m[0, 2], m[1, 2])
+    theta = math.atan2(sin_theta, m[2, 2])
+    if sin_theta <= ZYZ_SINGULAR:
+        return ((0.0, 0.0 if m[2, 2] > 0 else math.pi, math.atan2(m[1, 0], m[1, 1])),)
+    phi, psi = math.atan2(m[1, 2], m[0, 2]), math.atan2(m[2, 1], -m[2, 0])
+    return (phi, theta, psi), (_turn(phi), -theta, _turn(psi))
+
+
+def _turn(angle: float) -> float:
+    """The angle half a turn away, in (-pi, pi]."""
+    return angle - math.pi if angle > 0 else angle + math.pi
