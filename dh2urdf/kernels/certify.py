@@ -1,0 +1,305 @@
+"""Certification: candidates of one pose become solutions, each with the residual of the chain.
+
+Every solver ends here. A candidate is kept when the exact chain reaches the pose within
+``ACCEPT``; Newton's method repairs what rounding, noise or an approximate root left over.
+
+A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joint: 1.0 where it
+slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.chain import _joint_times_link, _load
+
+__all__ = ["finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
+
+ACCEPT = 1e-9
+"""Largest residual of a solution [m and rad]."""
+
+POLISH = 1e-13
+"""Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
+
+CLUSTER = 1e-6
+"""Joint distance [rad or m] at which two solutions are one."""
+
+HOPELESS = 0.3
+"""Residual [m and rad] of a candidate that Newton is not asked to repair."""
+
+MAX_STEPS = 12
+"""Newton steps before a candidate is given up; a sound one needs two or three."""
+
+MAX_TURN = 0.3
+"""Longest Newton step of one joint [rad or m]."""
+
+TWO_PI = 2.0 * math.pi
+
+
+def new_work(n):
+    """Scratch of :func:`finish_pose` for n joints: one array for a whole batch."""
+    return np.empty((n, n + 8))
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def residual_of(r, T):
+    """Residual of a pose r (twelve scalars) against a target T (4, 4).
+
+    The larger of the position error [m] and the angle between the orientations [rad],
+    ``|sum_i r_i x t_i| / 2 = sin(angle)`` over the columns of the rotations; pi where the angle is
+    over 90 degrees. Stretching T (six-digit input) does not enter to first order.
+    """
+    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    ex, ey, ez, cosine = _turn_between(r, T)
+    if cosine <= 1.0:
+        return math.pi
+    return math.sqrt(max(x * x + y * y + z * z, ex * ex + ey * ey + ez * ez))
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _turn_between(r, T):
+    """Rotation vector (sine long) from r to T in base axes, and ``trace(r^T T)``."""
+    ex = r[4] * T[2, 0] - r[8] * T[1, 0] + r[5] * T[2, 1] - r[9] * T[1, 1]
+    ey = r[8] * T[0, 0] - r[0] * T[2, 0] + r[9] * T[0, 1] - r[1] * T[2, 1]
+    ez = r[0] * T[1, 0] - r[4] * T[0, 0] + r[1] * T[1, 1] - r[5] * T[0, 1]
+    ex += r[6] * T[2, 2] - r[10] * T[1, 2]
+    ey += r[10] * T[0, 2] - r[2] * T[2, 2]
+    ez += r[2] * T[1, 2] - r[6] * T[0, 2]
+    trace = r[0] * T[0, 0] + r[4] * T[1, 0] + r[8] * T[2, 0]
+    trace += r[1] * T[0, 1] + r[5] * T[1, 1] + r[9] * T[2, 1]
+    trace += r[2] * T[0, 2] + r[6] * T[1, 2] + r[10] * T[2, 2]
+    return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def pose_residual(links, joints, T, q):
+    """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
+    r = _load(links[0])
+    for i in range(q.shape[0]):
+        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    return residual_of(r, T)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _normal_equations(links, joints, T, q, work):
+    """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
+
+    J is the geometric Jacobian at the tip in base axes (Spong, eqs. 4.57 to 4.60). Written to
+    ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
+    """
+    n = q.shape[0]
+    r = _load(links[0])
+    for i in range(n):
+        work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
+        work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
+        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    ex, ey, ez, _ = _turn_between(r, T)
+    px, py, pz = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    for i in range(n):
+        zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
+        if joints[i, 0] != 0.0:
+            work[i, 0], work[i, 1], work[i, 2] = zx, zy, zz
+            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
+        else:
+            x, y, z = r[3] - work[i, 0], r[7] - work[i, 1], r[11] - work[i, 2]
+            work[i, 0] = zy * z - zz * y
+            work[i, 1] = zz * x - zx * z
+            work[i, 2] = zx * y - zy * x
+        work[i, 6] = (
+            work[i, 0] * px
+            + work[i, 1] * py
+            + work[i, 2] * pz
+            + work[i, 3] * ex
+            + work[i, 4] * ey
+            + work[i, 5] * ez
+        )
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(6):
+                total += work[i, k] * work[j, k]
+            work[i, 8 + j] = total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _damped_step(work, damping):
+    """Solve ``(J^T J + damping) dq = J^T e`` by Cholesky, dq in ``work[:, 7]``; longest entry.
+
+    Factors in place over the Jacobian and the triangle, so the equations are built anew for
+    every step. Pivots that rounding made non-positive are raised to the damping.
+    """
+    n = work.shape[0]
+    for i in range(n):
+        total = work[i, 6]
+        for j in range(i):
+            part = work[i, 8 + j]
+            for k in range(j):
+                part -= work[i, 8 + k] * work[j, 8 + k]
+            part /= work[j, 8 + j]
+            work[i, 8 + j] = part
+            total -= part * work[j, 7]
+        pivot = work[i, 8 + i] + damping
+        for k in range(i):
+            pivot -= work[i, 8 + k] * work[i, 8 + k]
+        pivot = math.sqrt(max(pivot, damping))
+        work[i, 8 + i] = pivot
+        work[i, 7] = total / pivot
+    longest = 0.0
+    for i in range(n - 1, -1, -1):
+        total = work[i, 7]
+        for k in range(i + 1, n):
+            total -= work[k, 8 + i] * work[k, 7]
+        total /= work[i, 8 + i]
+        work[i, 7] = total
+        longest = max(longest, abs(total))
+    return longest
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def polish(links, joints, T, q, work):
+    """Newton's method on the exact chain, q (n,) in place; returns the residual.
+
+    Levenberg's damped step where the plain one does not help: at a singularity the residual
+    falls linearly instead of quadratically, and q stays near where it was.
+    """
+    n = q.shape[0]
+    residual = pose_residual(links, joints, T, q)
+    if residual > HOPELESS:
+        return residual
+    damping, failures = 1e-18, 0
+    for _ in range(MAX_STEPS):
+        if residual <= POLISH or failures > 3:
+            break
+        _normal_equations(links, joints, T, q, work)
+        longest = _damped_step(work, damping)
+        step = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
+        for i in range(n):
+            q[i] += step * work[i, 7]
+        after = pose_residual(links, joints, T, q)
+        if after < 0.5 * residual:
+            damping *= 0.01
+        else:
+            failures += 1
+            damping = max(100.0 * damping, 1e-3 * residual)
+        if after < residual:
+            residual = after
+        else:
+            for i in range(n):
+                q[i] -= step * work[i, 7]
+    return residual
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _principal(angle):
+    """Bring an angle into [-pi, pi]."""
+    if -math.pi <= angle <= math.pi:
+        return angle
+    return angle - TWO_PI * math.floor(angle / TWO_PI + 0.5)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _same(joints, q, p, reach):
+    """Whether two configurations with principal angles differ by at most ``reach`` a joint."""
+    for i in range(q.shape[0]):
+        gap = abs(q[i] - p[i])
+        if gap > reach and (joints[i, 0] != 0.0 or gap < TWO_PI - reach):
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _into_limits(links, joints, T, q, residual):
+    """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual, or -1.0 if outside.
+
+    A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
+    still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
+    """
+    inside, moved = True, False
+    for i in range(q.shape[0]):
+        lower, upper = joints[i, 1], joints[i, 2]
+        bounded = lower > -math.inf and upper < math.inf
+        if joints[i, 0] == 0.0:
+            if bounded:
+                q[i] -= TWO_PI * math.floor((q[i] - 0.5 * (lower + upper)) / TWO_PI + 0.5)
+            elif lower > -math.inf:
+                q[i] += TWO_PI * math.ceil((lower - CLUSTER - q[i]) / TWO_PI)
+            elif upper < math.inf:
+                q[i] -= TWO_PI * math.ceil((q[i] - upper - CLUSTER) / TWO_PI)
+        if q[i] < lower or q[i] > upper:
+            if q[i] < lower - CLUSTER or q[i] > upper + CLUSTER:
+                inside = False
+            else:
+                moved = True
+    if not inside:
+        return -1.0
+    if not moved:
+        return residual
+    for i in range(q.shape[0]):
+        q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
+    residual = pose_residual(links, joints, T, q)
+    return residual if residual <= ACCEPT else -1.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
+    """Certify the candidates of one pose in place; returns how many solutions are left.
+
+    Parameters
+    ----------
+    links : array, shape (n + 1, 4, 4)
+    joints : array, shape (n, 3)
+        Sliding, lower, upper.
+    T : array, shape (4, 4)
+        Target ``T_base_tool``.
+    within_limits : bool
+        Drop what no full turn brings into the limits.
+    q : array, shape (kmax, n)
+        Candidates in the first ``count`` rows, any turn.
+    residual : array, shape (kmax,)
+        Residuals that the caller measured on the exact chain, or negative: not yet.
+    branch, free : int64 array, shape (kmax,)
+        Branch code and mask of free joints; moved along with their candidate.
+    count : int
+    work : array
+        From :func:`new_work`.
+
+    Notes
+    -----
+    Two solutions are one if no joint differs by more than ``CLUSTER`` or the square root of
+    their residual: on the rim of the workspace two branches meet as a square root. The one with
+    the smaller residual stays.
+    """
+    n = q.shape[1]
+    kept = 0
+    for k in range(count):
+        if residual[k] < 0.0 or residual[k] > POLISH:
+            residual[k] = polish(links, joints, T, q[k], work)
+        if not residual[k] <= ACCEPT:
+            continue
+        for i in range(n):
+            q[kept, i] = q[k, i] if joints[i, 0] != 0.0 else _principal(q[k, i])
+        residual[kept], branch[kept], free[kept] = residual[k], branch[k], free[k]
+        twin = -1
+        for j in range(kept):
+            reach = max(CLUSTER, math.sqrt(max(residual[j], residual[kept])))
+            if _same(joints, q[j], q[kept], reach):
+                twin = j
+                break
+        if twin < 0:
+            kept += 1
+        elif residual[kept] < residual[twin]:
+            q[twin, :] = q[kept, :]
+            residual[twin], branch[twin], free[twin] = residual[kept], branch[kept], free[kept]
+    solutions = 0
+    for k in range(kept):
+        certified = _into_limits(links, joints, T, q[k], residual[k])
+        if certified < 0.0 and within_limits:
+            continue
+        if solutions < k:
+            q[solutions, :] = q[k, :]
+            branch[solutions], free[solutions] = branch[k], free[k]
+        residual[solutions] = certified if certified >= 0.0 else residual[k]
+        solutions += 1
+    return solutions
