@@ -243,6 +243,14 @@ def _into_limits(links, joints, T, q, residual):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _move(q, residual, branch, free, source, target):
+    """Copy one row of the candidates over another."""
+    for i in range(q.shape[1]):
+        q[target, i] = q[source, i]
+    residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
@@ -290,16 +298,14 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
         if twin < 0:
             kept += 1
         elif residual[kept] < residual[twin]:
-            q[twin, :] = q[kept, :]
-            residual[twin], branch[twin], free[twin] = residual[kept], branch[kept], free[kept]
+            _move(q, residual, branch, free, kept, twin)
     solutions = 0
     for k in range(kept):
         certified = _into_limits(links, joints, T, q[k], residual[k])
         if certified < 0.0 and within_limits:
             continue
-        if solutions < k:
-            q[solutions, :] = q[k, :]
-            branch[solutions], free[solutions] = branch[k], free[k]
-        residual[solutions] = certified if certified >= 0.0 else residual[k]
+        if certified >= 0.0:
+            residual[k] = certified
+        _move(q, residual, branch, free, k, solutions)
         solutions += 1
     return solutions
