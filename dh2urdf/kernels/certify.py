@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from dh2urdf.kernels.chain import _joint_times_link, _load
 
@@ -39,7 +40,7 @@ MAX_TURN = 0.3
 TWO_PI = 2.0 * math.pi
 
 
-def new_work(n):
+def new_work(n: int) -> NDArray[np.float64]:
     """Scratch of :func:`finish_pose` for n joints: one array for a whole batch."""
     return np.empty((n, n + 8))
 

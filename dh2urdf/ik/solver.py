@@ -1,0 +1,173 @@
+"""What an inverse-kinematics solver is, and the table that picks one for a chain.
+
+Each family of arms has one class with the same five members. ``obstacle`` says, without
+computing anything per pose, what keeps the family from covering a chain; ``solve_batch`` fills
+the caller's arrays in one jitted call that holds no interpreter lock.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from importlib import import_module
+from typing import ClassVar, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import NoSolverError
+from dh2urdf.transforms import Array
+
+__all__ = ["SOLVERS", "Solver", "SolverBase", "SolverRow", "Task", "select_solver"]
+
+IntArray = NDArray[np.int64]
+
+
+class Task(StrEnum):
+    """What of the target pose has to be reached."""
+
+    POSE = "pose"
+    POSITION = "position"
+    POSITION_AXIS = "position+axis"
+
+
+class Solver(Protocol):
+    """All solutions of many poses of one chain."""
+
+    name: ClassVar[str]
+    """Short name of the family: ``spherical wrist``, ``general 6R``, ..."""
+
+    chain: SerialChain
+    """The exact chain that every solution is certified on."""
+
+    kmax: int
+    """Most solutions that a pose can have."""
+
+    def explain(self) -> str:
+        """Name the class, its axes and subproblems, and why better solvers did not apply."""
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4), C-contiguous, in one call without the interpreter lock.
+
+        Parameters
+        ----------
+        Ts : array, shape (m, 4, 4)
+        within_limits : bool
+            Leave out what no full turn brings into the limits.
+        q_out : array, shape (m, kmax, n)
+            Solutions in the first ``count_out[i]`` rows; the others keep what they held.
+        residual_out : array, shape (m, kmax)
+        count_out : int64 array, shape (m,)
+        branch_out : int64 array, shape (m, kmax)
+            Bit 0 shoulder (0 left, 1 right), bit 1 elbow (0 up, 1 down), bit 2 wrist (0 no flip,
+            1 flip); -1 where the family has no such names.
+        free_out : int64 array, shape (m, kmax)
+            Bit i set where joint i moves along a singular family through this solution.
+        """
+
+
+@dataclass(frozen=True)
+class SolverRow:
+    """One row of :data:`SOLVERS`: a family, what it needs, and where its class is."""
+
+    name: str
+    needs: str
+    module: str
+    cls: str
+
+    def load(self) -> type[SolverBase]:
+        """Import the class, when it is first wanted."""
+        family: type[SolverBase] = getattr(import_module(self.module), self.cls)
+        return family
+
+
+class SolverBase:
+    """What all families share: the exact chain as kernel arrays, and the explanation.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    task : Task
+    others : tuple of (str, str)
+        Names of the better solvers and what kept them from this chain.
+    """
+
+    name: ClassVar[str] = ""
+    kmax: int = 0
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        self.chain, self.task, self.others = chain, task, others
+        self.links = np.ascontiguousarray(chain.links)
+        self.joints = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the family from covering the chain for the task; None: it covers it."""
+        raise NotImplementedError
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
+        raise NotImplementedError
+
+    def details(self) -> str:
+        """Name the axes and the subproblems, in one sentence or a few."""
+        raise NotImplementedError
+
+    def explain(self) -> str:
+        """Name the class, its axes and subproblems, and why better solvers did not apply."""
+        lines = [f"{self.name}: {self.details()}"]
+        lines += [f"not {name}: {reason}" for name, reason in self.others]
+        return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.name
+
+
+SOLVERS: tuple[SolverRow, ...] = ()
+"""Families, best first; a chain gets the first that has no obstacle."""
+
+
+def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
+    """Build the best solver that covers the chain for the task.
+
+    Raises
+    ------
+    NoSolverError
+        No family covers it; the message lists each with what stood in its way.
+    """
+    task = Task(task)
+    others: list[tuple[str, str]] = []
+    for row in SOLVERS:
+        family = row.load()
+        obstacle = family.obstacle(chain, task)
+        if obstacle is None:
+            return family(chain, task, tuple(others))
+        others.append((row.name, obstacle))
+    listing = "\n".join(f"  {name}: {reason}" for name, reason in others)
+    raise NoSolverError(
+        f"no solver for task {task.value!r} of this {chain.n}-joint chain:\n{listing}"
+    )
