@@ -12,7 +12,8 @@ and its text says what was wrong, where, and what is allowed::
     ├── ConfigurationError (ValueError)  a q, seed or locked value of the wrong shape or kind
     ├── NameNotFoundError (LookupError)  no such table, frame or joint
     ├── NoSolverError                    no analytic solver for this chain or task
-    ├── OutputExistsError (OSError)      a file of somebody else's in the way
+    ├── OutputError (OSError)            a file that cannot be written
+    │   └── OutputExistsError            a file of somebody else's in the way
     └── MissingExtraError (ImportError)  an optional dependency is not installed
 """
 
@@ -26,6 +27,7 @@ __all__ = [
     "MissingExtraError",
     "NameNotFoundError",
     "NoSolverError",
+    "OutputError",
     "OutputExistsError",
     "PoseError",
     "TableError",
@@ -79,7 +81,11 @@ class NoSolverError(Dh2UrdfError):
     """No analytic solver covers this chain or task; the message says which classes exist."""
 
 
-class OutputExistsError(Dh2UrdfError, OSError):
+class OutputError(Dh2UrdfError, OSError):
+    """A file that cannot be written; whatever stood at its path is untouched."""
+
+
+class OutputExistsError(OutputError):
     """The output path holds something that this package did not write."""
 
 

@@ -1,0 +1,99 @@
+"""Files that are either written whole or not at all."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import stat
+import tempfile
+from pathlib import Path
+
+from dh2urdf.exceptions import OutputError
+
+__all__ = ["atomic_write"]
+
+_REASONS = {
+    errno.ENOENT: "there is no such folder",
+    errno.ENOTDIR: "part of the path is a file, not a folder",
+    errno.EACCES: "no permission to write there",
+    errno.EPERM: "no permission to write there",
+    errno.EROFS: "the file system is read-only",
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.ENAMETOOLONG: "the name is too long",
+    errno.EISDIR: "it is a folder",
+}
+
+
+def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
+    """Write a file so that nobody ever sees half of it.
+
+    The content goes to a temporary file in the same folder, which then takes the place of the
+    old one. Text is written as UTF-8. An older file keeps its permissions, and stays as it was
+    where anything fails. A symbolic link is followed, not replaced. A device or pipe, such as
+    ``/dev/stdout``, is written to directly.
+
+    Returns
+    -------
+    pathlib.Path
+        The path as given.
+
+    Raises
+    ------
+    OutputError
+        The folder is missing, the path is a folder, no permission, the disk is full.
+    """
+    where = Path(path)
+    try:
+        data = content.encode() if isinstance(content, str) else content
+    except UnicodeEncodeError as error:
+        raise OutputError(f"{where}: cannot write {error.object[error.start]!r} as UTF-8") from None
+    try:
+        target = Path(os.path.realpath(where))
+        mode = _mode(target)
+        if mode is not None and stat.S_ISDIR(mode):
+            raise IsADirectoryError(errno.EISDIR, "")
+        if mode is not None and not stat.S_ISREG(mode):
+            target.write_bytes(data)
+            return where
+        if mode is not None and not os.access(target, os.W_OK):
+            raise PermissionError(errno.EACCES, "")
+        _replace(target, data, mode)
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{where}: cannot write: {_reason(error)}") from None
+    return where
+
+
+def _mode(target: Path) -> int | None:
+    """Kind and permissions of what stands at the path, None where nothing does."""
+    try:
+        return target.stat().st_mode
+    except FileNotFoundError:
+        return None
+
+
+def _replace(target: Path, data: bytes, mode: int | None) -> None:
+    """Write data beside the target, then move it into place."""
+    handle, temporary = tempfile.mkstemp(prefix=".dh2urdf-", suffix=".tmp", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(data)
+        Path(temporary).chmod(stat.S_IMODE(mode) if mode is not None else 0o666 & ~_umask())
+        Path(temporary).replace(target)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            Path(temporary).unlink()
+        raise
+
+
+def _umask() -> int:
+    """Umask of the process; the system only tells it when it is set."""
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask
+
+
+def _reason(error: OSError | ValueError) -> str:
+    code = getattr(error, "errno", None)
+    return _REASONS.get(code or 0) or getattr(error, "strerror", None) or str(error)

@@ -1,0 +1,191 @@
+"""Cells to values: the layer between the raw document and the rows."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from decimal import Decimal
+
+from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.expressions import (
+    FUNCTIONS,
+    PI_NAMES,
+    ExpressionError,
+    Lookup,
+    Value,
+    evaluate,
+    plain_text,
+    to_float,
+)
+from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean
+from dh2urdf.dh_io.units import SI, Kind, Units, unit_kind, unit_name
+
+__all__ = ["Cells", "Context", "found"]
+
+_SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
+_PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
+
+
+def found(node: Node) -> str:
+    """Text of a cell as messages show it."""
+    if isinstance(node, Scalar):
+        return repr(node.text) if len(node.text) <= 60 else repr(node.text[:57] + "...")
+    return "a list" if isinstance(node, Items) else "keys and values"
+
+
+@dataclass
+class Context:
+    """What all cells of a file share."""
+
+    report: Report
+    units: Units = SI
+    constants: dict[str, Value] = field(default_factory=dict)
+
+    def value(
+        self, cell: Node, path: str, kind: Kind, lookup: Lookup | None = None, *, free: bool = False
+    ) -> Value | None:
+        """Value of a cell, None (and a fault) where it has none."""
+        if not isinstance(cell, Scalar):
+            self.report.fault(
+                cell.mark, path, f"found {found(cell)}; expected one {self._one(kind)}"
+            )
+            return None
+        try:
+            value = evaluate(cell.text, kind, self._units(cell), lookup or self.lookup, free=free)
+            to_float(value.number)
+        except ExpressionError as error:
+            message = f"found {found(cell)}; {error}"
+            hint = error.hint or _slip(cell.text) or f"expected {self._one(kind)}"
+            self.report.fault(cell.mark, path, message, hint)
+            return None
+        return value
+
+    def number(self, cell: Node, path: str, kind: Kind = Kind.NUMBER) -> float | None:
+        """Float in [m], [rad] or plain; None (and a fault) where the cell has none."""
+        value = self.value(cell, path, kind)
+        return None if value is None else to_float(value.number)
+
+    def numbers(
+        self, node: Node, path: str, kind: Kind, size: int, names: str
+    ) -> tuple[float, ...] | None:
+        """Floats from a list, or from a text such as ``0 1.5 0``."""
+        unit = node.unit if isinstance(node, Scalar) else ""
+        if isinstance(node, Scalar):
+            words = re.split(r"[\s,;]+", node.text.strip("[]() "))
+            node = Items(tuple(Scalar(w, node.mark, unit) for w in words), node.mark)
+        count = len(node.values) if isinstance(node, Items) else 0
+        if not isinstance(node, Items) or count != size:
+            what = f"{count} values" if isinstance(node, Items) else found(node)
+            self.report.fault(node.mark, path, f"found {what}; expected {size}: [{names}]")
+            return None
+        values = [self.number(v, f"{path}[{i}]", kind) for i, v in enumerate(node.values, 1)]
+        return None if None in values else tuple(v for v in values if v is not None)
+
+    def text(self, node: Node, path: str) -> str:
+        """Plain text of a cell."""
+        if not isinstance(node, Scalar):
+            self.report.fault(node.mark, path, f"found {found(node)}; expected a text")
+            return ""
+        return node.text
+
+    def lookup(self, name: str) -> Value:
+        """Value of a constant."""
+        if name in self.constants:
+            return self.constants[name]
+        raise self.unknown(name)
+
+    def unknown(self, name: str, variable: str = "") -> ExpressionError:
+        """Error for a name without a value."""
+        names = [*self.constants, *FUNCTIONS, "pi", *([variable] if variable else [])]
+        if self.constants:
+            known = f"constants: has {', '.join(sorted(self.constants)[:12])}"
+        else:
+            known = f"give its value under constants: ({name:.20} = ...)"
+        return ExpressionError(
+            f"{name!r} has no value", _slip(name) or did_you_mean(name, names) or known
+        )
+
+    def define(self, node: Node) -> None:
+        """Read ``constants:``; each may use those above it."""
+        if not isinstance(node, Keys):
+            self.report.fault(node.mark, "constants", f"found {found(node)}; expected name: value")
+            return
+        for key, cell in node.pairs:
+            name, path = plain_text(key.text), f"constants.{key.text:.40}"
+            if not name.isidentifier() or name in PI_NAMES or unit_kind(unit_name(name)):
+                hint = "a letter, then letters, digits and _; not pi or a unit"
+                self.report.fault(key.mark, path, "not a name for a constant", hint)
+            elif name in self.constants:
+                self.report.fault(key.mark, path, "given twice")
+            else:
+                value = self.value(cell, path, Kind.NUMBER, free=True)
+                self.constants[name] = value or Value(Decimal(1))
+
+    def _units(self, cell: Scalar) -> Units:
+        """Units of a cell, its column's where the header names one."""
+        kind = unit_kind(cell.unit) if cell.unit else None
+        if kind is Kind.LENGTH:
+            return self.units._replace(length=cell.unit)
+        return self.units._replace(angle=cell.unit) if kind is Kind.ANGLE else self.units
+
+    def _one(self, kind: Kind) -> str:
+        what = {Kind.ANGLE: "angle", Kind.LENGTH: "length", Kind.NUMBER: "number"}[kind]
+        unit = f" [{self.units.of(kind)}]" if self.units.of(kind) else ""
+        return f"{what}{unit}: a number or an expression such as {_EXAMPLES[kind]}"
+
+
+_EXAMPLES = {
+    Kind.ANGLE: "-90, pi/2, 90deg",
+    Kind.LENGTH: "0.335, 2*l1, 100mm",
+    Kind.NUMBER: "1.5, 3/4",
+}
+
+
+def _slip(text: str) -> str:
+    """Hint where only letters for digits or a decimal comma keep a text from being a number."""
+    fixed = text.strip().translate(_SLIPS)
+    right = fixed != text.strip() and _PLAIN_NUMBER.fullmatch(fixed) and any(map(str.isdigit, text))
+    return f"did you mean {fixed}?" if right else ""
+
+
+class Cells:
+    """The cells of one mapping by their canonical keys; unknown and doubled keys are faults."""
+
+    def __init__(self, node: Node, path: str, allowed: tuple[str, ...], report: Report) -> None:
+        self.mark: Mark = node.mark
+        self.path, self.cells = path, dict[str, Node]()
+        self.keys = dict[str, Scalar]()
+        if not isinstance(node, Keys):
+            keys = ", ".join(allowed)
+            report.fault(node.mark, path, f"found {found(node)}; expected the keys {keys}")
+            return
+        for key, cell in node.pairs:
+            name = canonical(key.text)
+            where = self.at(key.text[:40])
+            if name not in allowed:
+                hint = MISUSED_KEYS.get(name) or did_you_mean(name, allowed)
+                message = f"unknown key {found(key)}; allowed: {', '.join(allowed)}"
+                report.fault(key.mark, where, message, hint)
+            elif name in self.keys:
+                first = self.keys[name]
+                also = f" as {first.text!r}" if first.text != key.text else ""
+                report.fault(key.mark, where, f"given twice, first in line {first.mark.line}{also}")
+            else:
+                self.keys[name] = key
+                if not (isinstance(cell, Scalar) and not cell.text):
+                    self.cells[name] = cell
+
+    def at(self, key: str) -> str:
+        """Path of one cell: ``joints[3].alpha``."""
+        return f"{self.path}.{key}" if self.path else key
+
+    def get(self, key: str) -> Node | None:
+        """Cell of a key, None where there is none or it is empty."""
+        return self.cells.get(key)
+
+    def mark_of(self, key: str) -> Mark:
+        """Place of a cell; of its key, or of the mapping, where it is missing."""
+        for place in (self.cells, self.keys):
+            if key in place:
+                return place[key].mark
+        return self.mark

@@ -1,0 +1,138 @@
+"""A document to a `DHTable`: every key known, every cell a value, all faults at once."""
+
+from __future__ import annotations
+
+from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
+from dh2urdf.dh_io.cells import Cells, Context, found
+from dh2urdf.dh_io.document import Items, Keys, Node, Report, Scalar
+from dh2urdf.dh_io.rows import read_row
+from dh2urdf.dh_io.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
+from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, unit_name
+from dh2urdf.exceptions import TableError
+
+__all__ = ["check_document"]
+
+
+def check_document(root: Node, report: Report, name: str) -> DHTable:
+    """Turn a document into a table.
+
+    Parameters
+    ----------
+    root : Node
+    report : Report
+        Takes the faults and warnings.
+    name : str
+        Name of the table where the file gives none.
+
+    Raises
+    ------
+    TableFileError
+        All faults of the file.
+    """
+    if not isinstance(root, Keys):
+        hint = "a table file opens with keys: convention, units, joints"
+        report.stop(root.mark, f"no table: found {found(root)}", hint)
+    cells = Cells(root, "", TABLE_KEYS, report)
+    context = Context(report, _units(cells, report))
+    if (constants := cells.get("constants")) is not None:
+        context.define(constants)
+    convention = _convention(cells, report)
+    rows = _rows(cells, context)
+    texts = {
+        key: context.text(cell, key)
+        for key in ("name", "source", "checked")
+        if (cell := cells.get(key)) is not None
+    }
+    base, tool = _origin(cells, "base", context), _origin(cells, "tool", context)
+    report.raise_faults()
+    try:
+        return DHTable(tuple(rows), convention, base=base, tool=tool, **{"name": name, **texts})
+    except TableError as error:
+        for problem in error.problems:
+            report.fault(cells.mark_of("joints"), "", problem)
+        report.raise_faults()
+        raise
+
+
+def _convention(cells: Cells, report: Report) -> DHConvention:
+    cell = cells.get("convention")
+    meaning = "standard (distal: Paul, Spong) or modified (proximal: Craig, Khalil)"
+    if cell is None:
+        hint = "there is no default: the two look alike and describe different arms"
+        report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
+        return DHConvention.STANDARD
+    word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
+    if word not in CONVENTIONS:
+        hint = did_you_mean(word, CONVENTIONS)
+        report.fault(cell.mark, "convention", f"found {found(cell)}; allowed: {meaning}", hint)
+    return CONVENTIONS.get(word, DHConvention.STANDARD)
+
+
+def _units(cells: Cells, report: Report) -> Units:
+    node = cells.get("units")
+    allowed = {kind.value: ", ".join(UNIT_SIZES[kind]) for kind in (Kind.LENGTH, Kind.ANGLE)}
+    meaning = f"length ({allowed['length']}) and angle ({allowed['angle']})"
+    if node is None:
+        hint = "for instance units: {length: mm, angle: deg}; there is no default"
+        report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
+        return SI
+    if not isinstance(node, Keys):
+        hint = "for instance units: {length: mm, angle: deg}"
+        report.fault(node.mark, "units", f"found {found(node)}; expected {meaning}", hint)
+        return SI
+    parts = Cells(node, "units", ("length", "angle"), report)
+    units = SI
+    for kind in (Kind.LENGTH, Kind.ANGLE):
+        cell = parts.get(kind.value)
+        unit = unit_name(cell.text) if isinstance(cell, Scalar) else ""
+        if unit in UNIT_SIZES[kind]:
+            units = units._replace(**{kind.value: unit})
+        else:
+            message = f"found {found(cell)}; " if cell is not None else "missing; "
+            message += f"allowed: {allowed[kind.value]}"
+            hint = did_you_mean(unit, UNIT_SIZES[kind]) if unit else ""
+            report.fault(parts.mark_of(kind.value), f"units.{kind.value}", message, hint)
+    return units
+
+
+def _rows(cells: Cells, context: Context) -> list[DHRow]:
+    node, report = cells.get("joints"), context.report
+    if not isinstance(node, Items) or not node.values:
+        message = f"found {found(node)}; " if node is not None else "missing; "
+        message += "expected a list of rows with theta, d, a and alpha"
+        report.fault(cells.mark_of("joints"), "joints", message)
+        return []
+    rows: list[DHRow] = []
+    seen: dict[str, str] = {}
+    joint = 1
+    for number, item in enumerate(node.values, 1):
+        path = f"joints[{number}]"
+        row = read_row(item, path, joint, context)
+        rows.append(row)
+        if not row.is_joint:
+            continue
+        name = row.name or f"joint_{joint}"
+        if name in seen:
+            message = f"{name!r} is the name of {seen[name]} too; joints need different names"
+            report.fault(item.mark, f"{path}.name", message)
+        seen[name] = path
+        joint += 1
+    if joint == 1:
+        report.fault(
+            node.mark, "joints", "no revolute or prismatic row; a table needs at least one"
+        )
+    return rows
+
+
+def _origin(cells: Cells, key: str, context: Context) -> Origin:
+    node = cells.get(key)
+    if node is None:
+        return Origin()
+    parts = Cells(node, key, ("xyz", "rpy"), context.report)
+    none = (0.0, 0.0, 0.0)
+    xyz, rpy = parts.get("xyz"), parts.get("rpy")
+    return Origin(
+        (context.numbers(xyz, f"{key}.xyz", Kind.LENGTH, 3, "x, y, z") if xyz else none) or none,  # type: ignore[arg-type]
+        (context.numbers(rpy, f"{key}.rpy", Kind.ANGLE, 3, "roll, pitch, yaw") if rpy else none)  # type: ignore[arg-type]
+        or none,
+    )

@@ -1,0 +1,122 @@
+"""What every table format is read into: keys, items and the text of each cell, with its place.
+
+Cells stay text until the checker knows what they are meant to be, so a number keeps all the
+digits that were typed, and a fault can show them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, NoReturn
+
+from dh2urdf.exceptions import TableFileError
+
+__all__ = ["Items", "Keys", "Mark", "Node", "Report", "Scalar"]
+
+MAX_DEPTH = 16
+"""Brackets within brackets; a table needs four."""
+
+MAX_NODES = 20_000
+"""Cells of a file; a table of a hundred rows with everything given has some 3000."""
+
+MAX_SHOWN = 25
+"""Faults listed one by one; a file with more has one cause that shows among the first."""
+
+SNIPPET_WIDTH = 96
+
+
+class Mark(NamedTuple):
+    """Line and column of a cell, counted from 1; line 0 where they are not known."""
+
+    line: int = 0
+    column: int = 0
+
+
+NOWHERE = Mark()
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """One cell. ``text`` is empty where there is none (``null``); ``unit`` is its column's."""
+
+    text: str
+    mark: Mark = NOWHERE
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Items:
+    """A list of nodes."""
+
+    values: tuple[Node, ...]
+    mark: Mark = NOWHERE
+
+
+@dataclass(frozen=True, slots=True)
+class Keys:
+    """Pairs of a key and its node, in the file's order, doubles included."""
+
+    pairs: tuple[tuple[Scalar, Node], ...]
+    mark: Mark = NOWHERE
+
+
+Node = Scalar | Items | Keys
+
+
+class Report:
+    """Faults and warnings of one file, collected so that all are told at once."""
+
+    def __init__(self, filename: str, text: str = "") -> None:
+        self.filename = filename
+        self.lines = text.split("\n")
+        self._faults: list[tuple[Mark, str]] = []
+        self._warnings: list[tuple[Mark, str]] = []
+
+    def fault(self, mark: Mark, path: str, message: str, hint: str = "") -> None:
+        """Note a fault of the cell ``path`` at ``mark``."""
+        text = f"{self._place(mark)}: {path}{': ' if path else ''}{message}"
+        text += self._snippet(mark)
+        if hint:
+            text += f"\n  hint: {hint}"
+        self._faults.append((mark, text))
+
+    def warn(self, mark: Mark, path: str, message: str) -> None:
+        """Note something that is allowed and probably not meant."""
+        self._warnings.append((mark, f"{self._place(mark)}: {path}: {message}"))
+
+    def stop(self, mark: Mark, message: str, hint: str = "") -> NoReturn:
+        """Note a fault that makes reading on pointless, and raise."""
+        self.fault(mark, "", message, hint)
+        self.raise_faults()
+        raise AssertionError("unreachable")
+
+    def raise_faults(self) -> None:
+        """Raise one error with all faults noted so far, in the file's order."""
+        if not self._faults:
+            return
+        texts = list(dict.fromkeys(text for _, text in sorted(self._faults, key=lambda f: f[0])))
+        if len(texts) > MAX_SHOWN:
+            more = len(texts) - MAX_SHOWN
+            texts = [*texts[:MAX_SHOWN], f"{self.filename}: and {more} more"]
+        raise TableFileError(texts)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The warnings in the file's order."""
+        return tuple(dict.fromkeys(text for _, text in sorted(self._warnings, key=lambda w: w[0])))
+
+    def _place(self, mark: Mark) -> str:
+        if not mark.line:
+            return self.filename
+        return f"{self.filename}:{mark.line}:{mark.column}"
+
+    def _snippet(self, mark: Mark) -> str:
+        """Line of the file and a caret under the column."""
+        if not 1 <= mark.line <= len(self.lines):
+            return ""
+        line = self.lines[mark.line - 1].rstrip().replace("\t", " ")
+        start = max(0, min(mark.column - 1 - SNIPPET_WIDTH // 2, len(line) - SNIPPET_WIDTH))
+        shown = "".join(c if c.isprintable() else "?" for c in line[start : start + SNIPPET_WIDTH])
+        number = f"{mark.line:>5}"
+        caret = " " * (mark.column - 1 - start) + "^"
+        return f"\n{number} | {shown}\n{' ' * len(number)} | {caret}"

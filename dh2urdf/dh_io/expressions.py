@@ -1,0 +1,370 @@
+"""The arithmetic of a cell: numbers, units, pi, a few functions, constants, the joint's variable.
+
+A grammar of its own, bounded in length, depth and exponent; nothing is ever evaluated by
+Python::
+
+    sum      = product (("+" | "-") product)*
+    product  = signed (("*" | "/") signed)*
+    signed   = ("+" | "-") signed | power
+    power    = atom (("^" | "**") signed)?
+    atom     = NUMBER UNIT? | NUMBER "pi" | "pi" | function "(" sum ("," sum)* ")"
+             | NAME | "(" sum ")"
+
+Two rules settle what a number means. **A bare number is in the file's unit**; a number with a
+unit (``90deg``, ``100mm``) is what it says. **pi is half a turn**, whatever the file's unit:
+in a file in degrees ``pi/2`` is 90 and ``pi/2 - 10`` is 80. (In a length or plain number pi is
+3.14159...) Lengths and angles do not mix.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from decimal import Decimal, DecimalException
+
+from dh2urdf.dh_io.units import EXACT, PI, SI, UNIT_SIZES, Kind, Units, to_si, unit_kind, unit_name
+from dh2urdf.exceptions import TableError
+
+__all__ = ["FUNCTIONS", "ExpressionError", "Value", "evaluate", "parse_cell"]
+
+MAX_LENGTH = 200
+MAX_DEPTH = 24
+MAX_EXPONENT = 10
+
+FUNCTIONS = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "abs")
+PI_NAMES = ("pi", "PI", "Pi", "π")
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
+    r"|(?P<name>[^\W\d]\w*|°|º)|(?P<mark>\*\*|[-+*/^(),]))",
+)
+_NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
+
+
+class ExpressionError(TableError):
+    """A cell that is no number; ``hint`` says what to write instead."""
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        self.hint = hint
+        super().__init__(message)
+
+    def __reduce__(self) -> tuple[type[ExpressionError], tuple[str, str]]:  # type: ignore[override]
+        """Pickle by message and hint."""
+        return type(self), (str(self), self.hint)
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """``number + coefficient * variable``, in [m], [rad] or plain as ``kind`` says."""
+
+    number: Decimal
+    kind: Kind = Kind.NUMBER
+    variable: str = ""
+    coefficient: Decimal = Decimal(0)
+
+
+Lookup = Callable[[str], Value]
+
+
+def _no_names(name: str) -> Value:
+    raise ExpressionError(f"{name!r} is not a number")
+
+
+def parse_cell(text: str, kind: Kind | str = Kind.NUMBER, units: Units = SI) -> float:
+    """Value of a number or expression without variables, a float in [m], [rad] or plain.
+
+    Parameters
+    ----------
+    text : str
+        ``"-90"``, ``"pi/2"``, ``"90deg"``, ``"100 mm"``, ...
+    kind : Kind
+        ``length``, ``angle`` or ``number``.
+    units : Units
+        Unit of bare numbers.
+
+    Raises
+    ------
+    TableError
+        The text is not a finite number.
+    """
+    return to_float(evaluate(text, Kind(kind), units, _no_names).number)
+
+
+def to_float(number: Decimal) -> float:
+    """Nearest float, which has to be finite."""
+    value = float(number)
+    if not math.isfinite(value):
+        raise ExpressionError("the number is too large")
+    return value
+
+
+def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool = False) -> Value:
+    """Value of a cell.
+
+    Parameters
+    ----------
+    text : str
+    kind : Kind
+        What the cell measures.
+    units : Units
+        Unit of bare numbers.
+    lookup : callable
+        Value of a name; raises `ExpressionError` for unknown ones.
+    free : bool
+        The value may be of any kind, and a bare number stays bare (``constants:``).
+
+    Raises
+    ------
+    ExpressionError
+    """
+    if len(text) > MAX_LENGTH:
+        raise ExpressionError(f"the cell has {len(text)} characters; at most {MAX_LENGTH}")
+    if _NOT_FINITE.fullmatch(text.strip()):
+        raise ExpressionError("not a finite number", "leave an unknown cell out")
+    parser = _Parser(_tokens(plain_text(text)), Kind.ANGLE if free else kind, units, lookup)
+    try:
+        value = parser.whole()
+    except DecimalException as error:
+        raise ExpressionError(_arithmetic(error)) from None
+    return value if free else parser.convert(value, kind)
+
+
+_LATEX = (
+    (re.compile(r"\^\s*(?:\\circ\b|\{\s*(?:\\circ|o|°)\s*\}|o\b)"), "deg"),
+    (re.compile(r"\\ell\b"), "l"),
+    (re.compile(r"\\(theta|pi|alpha|cdot|times)(?![a-z])"), r" \1"),
+    (re.compile(r"_\{(\w+)\}"), r"_\1"),
+    (re.compile(r"\\[,;! ]|\$"), " "),
+)
+_TYPED = str.maketrans("−–×·⋅∗÷", "--****/")
+
+
+def plain_text(text: str) -> str:
+    """Strip an expression of typeset signs: ``θ_3 + 90^{o}`` is ``θ_3 + 90deg``."""
+    text = text.translate(_TYPED)
+    if "\\" in text or "$" in text or "^" in text or "{" in text:
+        for pattern, plain in _LATEX:
+            text = pattern.sub(plain, text)
+        text = re.sub(r" (?:cdot|times)\b", "*", text)
+    return text.strip()
+
+
+def _arithmetic(error: DecimalException) -> str:
+    return {
+        "DivisionByZero": "division by zero",
+        "DivisionUndefined": "division by zero",
+        "Overflow": "the number is too large",
+    }.get(type(error).__name__, "has no real value")
+
+
+def _tokens(text: str) -> list[tuple[str, str]]:
+    out, at = [], 0
+    while at < len(text):
+        match = _TOKEN.match(text, at)
+        if match is None:
+            raise ExpressionError(f"{text[at:].strip()[0]!r} has no place in a number")
+        out.append((str(match.lastgroup), match[str(match.lastgroup)]))
+        at = match.end()
+    if len(out) > 1 and out[-1] == ("mark", "*") and out[-2][0] == "name":
+        out.pop()  # theta1*: textbooks mark the variable by a star
+    return out
+
+
+class _Parser:
+    """Recursive descent over the tokens of one cell."""
+
+    def __init__(
+        self, tokens: list[tuple[str, str]], kind: Kind, units: Units, lookup: Lookup
+    ) -> None:
+        self.tokens, self.kind, self.units, self.lookup = tokens, kind, units, lookup
+        self.at = self.depth = 0
+
+    def peek(self) -> tuple[str, str]:
+        return self.tokens[self.at] if self.at < len(self.tokens) else ("end", "")
+
+    def accept(self, *marks: str) -> str:
+        kind, text = self.peek()
+        if kind == "mark" and text in marks:
+            self.at += 1
+            return text
+        return ""
+
+    def whole(self) -> Value:
+        value = self.sum()
+        if self.at < len(self.tokens):
+            _, text = self.peek()
+            hint = "write * between factors" if text not in (")", ",") else ""
+            if text == "," and len(self.tokens) == 3:
+                hint = f"a decimal point: {self.tokens[0][1]}.{self.tokens[2][1]}"
+            raise ExpressionError(f"{text!r} is not expected here", hint)
+        return value
+
+    def sum(self) -> Value:
+        value = self.product()
+        while sign := self.accept("+", "-"):
+            other = self.product()
+            value = self.add(value, other if sign == "+" else _scale(other, Decimal(-1)))
+        return value
+
+    def product(self) -> Value:
+        value = self.signed()
+        while sign := self.accept("*", "/"):
+            other = self.signed()
+            value = _times(value, other) if sign == "*" else _over(value, other)
+        return value
+
+    def signed(self) -> Value:
+        self.depth += 1
+        if self.depth > MAX_DEPTH:
+            raise ExpressionError(f"nested deeper than {MAX_DEPTH} levels")
+        if sign := self.accept("+", "-"):
+            value = self.signed()
+            value = value if sign == "+" else _scale(value, Decimal(-1))
+        else:
+            value = self.atom()
+            if self.accept("^", "**"):
+                value = _power(value, self.signed())
+        self.depth -= 1
+        return value
+
+    def atom(self) -> Value:
+        kind, text = self.peek()
+        self.at += 1
+        if kind == "number":
+            return self.number(Decimal(text))
+        if kind == "name":
+            if self.accept("("):
+                return self.function(text)
+            if text in PI_NAMES:
+                return self.pi(Decimal(1))
+            return self.lookup(text)
+        if text == "(":
+            value = self.sum()
+            if not self.accept(")"):
+                raise ExpressionError("a bracket is not closed")
+            return value
+        raise ExpressionError(
+            "the expression is not complete" if not text else f"unexpected {text!r}"
+        )
+
+    def number(self, number: Decimal) -> Value:
+        """Literal with the unit or the pi that follows it."""
+        kind, text = self.peek()
+        if kind != "name":
+            return Value(number)
+        if text in PI_NAMES:
+            self.at += 1
+            return self.pi(number)
+        unit = unit_name(text)
+        measured = unit_kind(unit)
+        if measured is None:
+            return Value(number)
+        self.at += 1
+        return Value(to_si(number, unit), measured)
+
+    def pi(self, factor: Decimal) -> Value:
+        kind = Kind.ANGLE if self.kind is Kind.ANGLE else Kind.NUMBER
+        return Value(EXACT.multiply(PI, factor), kind)
+
+    def function(self, name: str) -> Value:
+        if name not in FUNCTIONS:
+            raise ExpressionError(
+                f"{name}() is not a function here", "one of " + ", ".join(FUNCTIONS)
+            )
+        outer, trigonometric = self.kind, name in ("sin", "cos", "tan")
+        self.kind = Kind.ANGLE if trigonometric else outer
+        values = [self.sum()]
+        while self.accept(","):
+            values.append(self.sum())
+        if not self.accept(")"):
+            raise ExpressionError("a bracket is not closed")
+        if trigonometric:
+            values = [self.convert(v, Kind.ANGLE) for v in values]
+        self.kind = outer
+        return _call(name, values)
+
+    def add(self, x: Value, y: Value) -> Value:
+        """Sum; a bare number takes the unit of its partner's kind."""
+        if x.kind is not y.kind:
+            kind = y.kind if x.kind is Kind.NUMBER else x.kind
+            x, y = self.convert(x, kind), self.convert(y, kind)
+        if x.variable and y.variable and x.variable != y.variable:
+            raise ExpressionError("more than one joint variable")
+        return Value(
+            EXACT.add(x.number, y.number),
+            x.kind,
+            x.variable or y.variable,
+            EXACT.add(x.coefficient, y.coefficient),
+        )
+
+    def convert(self, value: Value, kind: Kind) -> Value:
+        """Value as the kind asked for; bare numbers are in the file's unit."""
+        if value.kind is kind:
+            return value
+        if value.kind is Kind.NUMBER:
+            return replace(value, number=to_si(value.number, self.units.of(kind)), kind=kind)
+        units = " or ".join(UNIT_SIZES[kind]) if kind is not Kind.NUMBER else ""
+        what = f"{_A[kind]} is expected" + (f" (a number, or with {units})" if units else "")
+        raise ExpressionError(f"{_A[value.kind]} where {what}")
+
+
+_A = {Kind.ANGLE: "an angle", Kind.LENGTH: "a length", Kind.NUMBER: "a plain number"}
+
+
+def _scale(x: Value, factor: Decimal) -> Value:
+    number = x.number.copy_negate() if factor == -1 else EXACT.multiply(x.number, factor)
+    return replace(x, number=number, coefficient=EXACT.multiply(x.coefficient, factor))
+
+
+def _times(x: Value, y: Value) -> Value:
+    if y.kind is Kind.NUMBER and not y.variable:
+        return _scale(x, y.number)
+    if x.kind is Kind.NUMBER and not x.variable:
+        return _scale(y, x.number)
+    raise ExpressionError(f"{_A[x.kind]} times {_A[y.kind]} is neither a length nor an angle")
+
+
+def _over(x: Value, y: Value) -> Value:
+    if y.kind is not Kind.NUMBER or y.variable:
+        raise ExpressionError("a division is by a plain number only")
+    return replace(
+        x,
+        number=EXACT.divide(x.number, y.number),
+        coefficient=EXACT.divide(x.coefficient, y.number),
+    )
+
+
+def _power(x: Value, y: Value) -> Value:
+    if any(v.kind is not Kind.NUMBER or v.variable for v in (x, y)):
+        raise ExpressionError("a power takes plain numbers only")
+    if abs(y.number) > MAX_EXPONENT:
+        raise ExpressionError(f"an exponent of at most {MAX_EXPONENT} is allowed")
+    return Value(EXACT.power(x.number, y.number))
+
+
+def _call(name: str, values: list[Value]) -> Value:
+    """Value of a function; lengths and angles pass through where that makes sense."""
+    wanted = 2 if name in ("atan2", "hypot") else 1
+    if len(values) != wanted:
+        raise ExpressionError(
+            f"{name}() takes {wanted} value{'s' * (wanted > 1)}, got {len(values)}"
+        )
+    if any(v.variable for v in values):
+        raise ExpressionError("a joint variable enters with the factor +1 or -1 only")
+    first, kinds = values[0], {v.kind for v in values}
+    if name == "abs":
+        return replace(first, number=EXACT.abs(first.number))
+    if len(kinds) > 1:
+        raise ExpressionError(f"{name}() takes two values of one kind")
+    if name not in ("sin", "cos", "tan", "atan2", "hypot") and first.kind is not Kind.NUMBER:
+        raise ExpressionError(f"{name}() takes a plain number")
+    if name == "sqrt":
+        return Value(EXACT.sqrt(first.number))
+    try:
+        result = getattr(math, name)(*(float(v.number) for v in values))
+    except ValueError:
+        raise ExpressionError(f"{name}() has no value there") from None
+    kind = {"hypot": first.kind, "sin": Kind.NUMBER, "cos": Kind.NUMBER, "tan": Kind.NUMBER}
+    return Value(Decimal(repr(result)), kind.get(name, Kind.ANGLE))

@@ -1,0 +1,284 @@
+"""One row of a table file to a `DHRow`, with every fault of the row noted."""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from typing import Any
+
+from dh2urdf.dh import DHRow, JointType, Origin
+from dh2urdf.dh_io.cells import Cells, Context, found
+from dh2urdf.dh_io.document import Node, Scalar
+from dh2urdf.dh_io.expressions import ExpressionError, Lookup, Value, to_float
+from dh2urdf.dh_io.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
+from dh2urdf.dh_io.units import Kind
+from dh2urdf.exceptions import TableError
+
+__all__ = ["read_row"]
+
+_VARIABLE = re.compile(
+    r"(?:(?P<angle>theta|Theta|th|t|θ|ϑ)|(?P<length>d|l|s|ℓ)|(?P<either>q))_?(?P<index>\d+|i)?"
+)
+_PARAMETERS = ("theta", "d", "a", "alpha")
+_ORIGIN = ("xyz", "rpy")
+
+
+def read_row(node: Node, path: str, joint: int, context: Context) -> DHRow:
+    """Read one row.
+
+    Parameters
+    ----------
+    node : Node
+    path : str
+        ``joints[3]``
+    joint : int
+        Number of the joint, from 1, that this row is if it moves: 3 allows ``theta3``.
+    context : Context
+
+    Returns
+    -------
+    DHRow
+        Where a cell is at fault it holds a stand-in, so that the other cells are checked too.
+    """
+    return _Row(Cells(node, path, ROW_KEYS, context.report), joint, context).read()
+
+
+class _Row:
+    def __init__(self, cells: Cells, joint: int, context: Context) -> None:
+        self.cells, self.joint, self.context = cells, joint, context
+        self.bad: set[str] = set()
+        self.type = JointType.REVOLUTE
+
+    def fault(self, key: str, message: str, hint: str = "") -> None:
+        """Note a fault of one cell, with what stands there."""
+        cell = self.cells.get(key)
+        if cell is not None:
+            message = f"found {found(cell)}; {message}"
+        self.bad.add(key)
+        self.context.report.fault(self.cells.mark_of(key), self.cells.at(key), message, hint)
+
+    def read(self) -> DHRow:
+        declared = self.declared_type()
+        parts = {key: self.parameter(key) for key in _PARAMETERS}
+        self.type = declared or self.inferred_type(parts)
+        fields: dict[str, Any] = {k: to_float(v.number) for k, v in parts.items() if v is not None}
+        fields["sign"] = self.sign(parts)
+        self.check_variables(parts)
+        self.check_missing()
+        kind = Kind.LENGTH if self.type is JointType.PRISMATIC else Kind.ANGLE
+        for key in ("lower", "upper", "velocity"):
+            fields[key] = self.number(key, kind)
+        for key in ("effort", "damping", "friction", "mass"):
+            fields[key] = self.number(key, Kind.NUMBER)
+        fields["com"] = self.vector("com", "x, y, z")
+        fields["inertia"] = self.inertia(fields["mass"], fields["com"])
+        fields["origin"] = self.origin()
+        name = self.cells.get("name")
+        fields["name"] = self.context.text(name, self.cells.at("name")) if name else ""
+        self.check_limits(fields)
+        return self.build(fields)
+
+    def declared_type(self) -> JointType | None:
+        cell = self.cells.get("type")
+        if cell is None:
+            return None
+        word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
+        if word in JOINT_TYPES:
+            return JOINT_TYPES[word]
+        hint = did_you_mean(word, JOINT_TYPES)
+        if word == "continuous":
+            hint = "a revolute joint without lower and upper turns without end"
+        self.fault("type", "allowed: revolute (R), prismatic (P), fixed", hint)
+        return None
+
+    def inferred_type(self, parts: dict[str, Value | None]) -> JointType:
+        """By the variable that stands in theta or d; a row with xyz or rpy is fixed."""
+        d = parts["d"]
+        if d is not None and d.variable:
+            return JointType.PRISMATIC
+        fixed = any(self.cells.get(k) for k in _ORIGIN) and not any(
+            map(self.cells.get, _PARAMETERS)
+        )
+        return JointType.FIXED if fixed and "type" not in self.bad else JointType.REVOLUTE
+
+    def parameter(self, key: str) -> Value | None:
+        cell = self.cells.get(key)
+        if cell is None:
+            return None
+        value = self.context.value(cell, self.cells.at(key), ROW_KINDS[key], self.lookup(key))
+        if value is None:
+            self.bad.add(key)
+        elif value.variable and abs(value.coefficient) != 1:
+            text = f"{value.variable} enters with the factor {value.coefficient.normalize()}"
+            self.fault(key, f"{text}; only +1 and -1 are a DH row")
+        return value
+
+    def lookup(self, key: str) -> Lookup:
+        """Names of one cell: constants, then the joint's own variable in theta and d."""
+        kind = ROW_KINDS[key]
+        own = f"theta{self.joint}" if kind is Kind.ANGLE else f"d{self.joint}"
+
+        def look(name: str) -> Value:
+            if name in self.context.constants:
+                return self.context.constants[name]
+            label = self.cells.get("name")
+            match = _VARIABLE.fullmatch(name)
+            mine = isinstance(label, Scalar) and label.text == name
+            if not match and not mine:
+                raise self.context.unknown(name, own)
+            if key not in ("theta", "d"):
+                raise ExpressionError(f"{key} is constant; a joint variable stands in theta or d")
+            if match and not mine:
+                self.check_name(name, match, kind, own)
+            return Value(Decimal(0), kind, own, Decimal(1))
+
+        return look
+
+    def check_name(self, name: str, match: re.Match[str], kind: Kind, own: str) -> None:
+        """Refuse the variable of another joint, or an angle's name in d."""
+        index = match["index"]
+        wrong_kind = match["length"] if kind is Kind.ANGLE else match["angle"]
+        if wrong_kind or (index not in (None, "i") and int(index) != self.joint):
+            message = f"{name!r} is not the variable of this row (joint {self.joint})"
+            hint = f"the row's own variable is {own}; for a constant give {name} under constants:"
+            raise ExpressionError(message, hint)
+
+    def sign(self, parts: dict[str, Value | None]) -> int:
+        """Sign given, or the one of the variable in its cell."""
+        key = "d" if self.type is JointType.PRISMATIC else "theta"
+        part = parts[key]
+        shown = int(part.coefficient) if part is not None and part.variable else 0
+        cell = self.cells.get("sign")
+        if cell is None:
+            return shown if shown in (1, -1) else 1
+        number = self.number("sign", Kind.NUMBER)
+        if number is None:
+            return 1
+        if number not in (1, -1):
+            self.fault("sign", "allowed: 1 and -1")
+            return 1
+        if shown and shown != number:
+            self.fault("sign", f"but {key} shows the variable with the sign {shown:+d}")
+        if self.type is JointType.FIXED:
+            self.fault("sign", "a fixed row has no variable")
+        return int(number)
+
+    def check_variables(self, parts: dict[str, Value | None]) -> None:
+        """One variable a row, in the cell that belongs to the type."""
+        shown = [k for k in ("theta", "d") if (v := parts[k]) is not None and v.variable]
+        if len(shown) == 2:
+            hint = "a joint that turns and slides takes two rows, one revolute, one prismatic"
+            self.fault("d", "theta and d both hold a joint variable", hint)
+            return
+        moving = {JointType.REVOLUTE: "theta", JointType.PRISMATIC: "d"}.get(self.type)
+        for key in shown:
+            if key != moving:
+                kind = JointType.REVOLUTE if key == "theta" else JointType.PRISMATIC
+                message = f"a joint variable here makes the row {kind}, but type says {self.type}"
+                self.fault(key, message)
+
+    def check_missing(self) -> None:
+        """All four parameters, save the one that the joint moves; a fixed row has some step."""
+        if self.type is JointType.FIXED:
+            if not any(map(self.cells.get, (*_PARAMETERS, *_ORIGIN))):
+                self.fault("type", "a fixed row needs xyz and rpy, or theta, d, a, alpha")
+            return
+        moving = "d" if self.type is JointType.PRISMATIC else "theta"
+        for key in _PARAMETERS:
+            if key != moving and self.cells.get(key) is None and key not in self.bad:
+                self.fault(key, "missing", f"write {key}: 0 if there is none")
+
+    def number(self, key: str, kind: Kind) -> float | None:
+        cell = self.cells.get(key)
+        if cell is None:
+            return None
+        value = self.context.number(cell, self.cells.at(key), kind)
+        if value is None:
+            self.bad.add(key)
+        return value
+
+    def vector(self, key: str, names: str) -> tuple[float, ...] | None:
+        cell = self.cells.get(key)
+        if cell is None:
+            return None
+        kind, size = ROW_KINDS.get(key, Kind.NUMBER), names.count(",") + 1
+        values = self.context.numbers(cell, self.cells.at(key), kind, size, names)
+        if values is None:
+            self.bad.add(key)
+        return values
+
+    def inertia(
+        self, mass: float | None, com: tuple[float, ...] | None
+    ) -> tuple[float, ...] | None:
+        """Tensor about the centre of mass."""
+        values = self.vector("inertia", "ixx, ixy, ixz, iyy, iyz, izz")
+        frame = self.cells.get("inertia_frame")
+        if frame is None:
+            return values
+        word = frame.text.strip() if isinstance(frame, Scalar) else ""
+        if word not in ("com", "link"):
+            self.fault("inertia_frame", "allowed: com, link", did_you_mean(word, ("com", "link")))
+        elif self.cells.get("inertia") is None:
+            self.fault("inertia_frame", "but there is no inertia")
+        elif word == "link" and values:
+            if self.cells.get("com") is None:
+                self.fault("inertia_frame", "needs com, to move the tensor there")
+            elif mass and com:
+                return to_centre_of_mass(values, mass, com)
+        return values
+
+    def origin(self) -> Origin | None:
+        given = [k for k in _ORIGIN if self.cells.get(k) is not None]
+        if not given:
+            return None
+        if self.type is not JointType.FIXED:
+            self.fault(given[0], f"only a fixed row has {given[0]}; this one is {self.type}")
+            return None
+        if both := [k for k in _PARAMETERS if self.cells.get(k) is not None]:
+            self.fault(
+                given[0], f"a fixed row has either xyz and rpy or DH parameters, not {both[0]}"
+            )
+            return None
+        xyz, rpy = self.vector("xyz", "x, y, z"), self.vector("rpy", "roll, pitch, yaw")
+        return Origin(xyz or (0.0, 0.0, 0.0), rpy or (0.0, 0.0, 0.0))  # type: ignore[arg-type]
+
+    def check_limits(self, fields: dict[str, Any]) -> None:
+        lower, upper = fields["lower"], fields["upper"]
+        if lower is not None and upper is not None and lower > upper:
+            above = found(self.cells.cells["upper"])
+            self.fault("lower", f"lies above upper, {above}")
+            fields["lower"] = None
+
+    def build(self, fields: dict[str, Any]) -> DHRow:
+        """Build the row; what `DHRow` refuses is noted at the cell it names."""
+        if "mass" in self.bad:
+            fields["mass"] = 1.0
+        try:
+            return DHRow(joint_type=self.type, **fields)
+        except TableError as error:
+            for problem in error.problems:
+                key, _, message = problem.partition(": ")
+                if key not in self.bad:
+                    self.fault(key, message)
+        return DHRow(joint_type=self.type)
+
+
+def to_centre_of_mass(
+    inertia: tuple[float, ...], mass: float, com: tuple[float, ...]
+) -> tuple[float, ...]:
+    """Tensor about the centre of mass from the one about the frame's origin, axes unchanged.
+
+    Parallel axis theorem: ``I_com = I_origin - m (c.c 1 - c c^T)``.
+
+    Parameters
+    ----------
+    inertia : tuple
+        ixx, ixy, ixz, iyy, iyz, izz [kg m^2].
+    mass : float
+        [kg]
+    com : tuple
+        x, y, z [m].
+    """
+    x, y, z = com
+    shift = (y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y)
+    return tuple(i - mass * s for i, s in zip(inertia, shift, strict=True))
