@@ -1,0 +1,315 @@
+"""Trigonometric equations that the closed forms end in.
+
+Angles travel as cosine and sine until a configuration is written. Every equation that has two
+roots is clamped at its rim: a square root of a number that rounding made negative is 0, and the
+residual of the chain decides later whether the merged root is a solution.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from numba import njit
+
+__all__ = ["atan2_array", "circle_pair", "linear_trig", "real_quadratic", "trig_roots"]
+
+TINY = 1e-13
+"""Size, relative to the largest coefficient, at which a coefficient is rounding."""
+
+ON_CIRCLE = 0.05
+"""Distance from the unit circle at which a complex root is still handed on as a real one."""
+
+SWEEPS = 60
+"""Most iterations of Aberth's method; simple roots take six to ten."""
+
+TAN_EIGHTH = 0.4142135623730950
+A0, A1, A2, A3 = -0.3333333333333333, 0.19999999999999804, -0.14285714285659828, 0.11111111105155447
+A4, A5, A6, A7 = (
+    -0.09090908753500877,
+    0.07692296375032143,
+    -0.06666424885738255,
+    0.05878928997834775,
+)
+A8, A9, A10, A11 = (
+    -0.05230454270650244,
+    0.04551593220626549,
+    -0.034570561981427744,
+    0.016285756855221028,
+)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def linear_trig(a, b, d, slack):
+    """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
+
+    Parameters
+    ----------
+    a, b, d : float
+    slack : float
+        Relative excess of ``|d|`` over the amplitude that is clamped.
+
+    Returns
+    -------
+    count : int
+        2; 1 where both roots merge; 0 out of reach; -1 where the amplitude is 0 and every x
+        solves it as well as any other.
+    c1, s1, c2, s2 : float
+        Cosines and sines; the second root repeats the first where there is one.
+    """
+    square = a * a + b * b
+    if square < 1e-300:
+        return -1, 1.0, 0.0, 1.0, 0.0
+    amplitude = math.sqrt(square)
+    gap = amplitude - abs(d)
+    if gap <= 0.0:
+        if -gap > slack * amplitude:
+            return 0, 1.0, 0.0, 1.0, 0.0
+        side = math.copysign(1.0, d) / amplitude
+        return 1, side * a, side * b, side * a, side * b
+    root = math.sqrt(gap * (amplitude + abs(d)))
+    return (
+        2,
+        (a * d - b * root) / square,
+        (b * d + a * root) / square,
+        (a * d + b * root) / square,
+        (b * d - a * root) / square,
+    )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def real_quadratic(a, b, c, slack):
+    """Solve ``a x^2 + 2 b x + c = 0``, a > 0, without cancellation; clamped at its rim.
+
+    Returns the count (0, 1 or 2) and the roots.
+    """
+    discriminant = b * b - a * c
+    scale = b * b + abs(a * c)
+    if discriminant <= 0.0:
+        if -discriminant > slack * scale:
+            return 0, 0.0, 0.0
+        return 1, -b / a, -b / a
+    root = -b - math.copysign(math.sqrt(discriminant), b)
+    if root == 0.0:
+        return 1, 0.0, 0.0
+    return 2, root / a, c / root
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def trig_roots(series, degree, cosines, sines):
+    """Find the real roots of a trigonometric polynomial of low degree.
+
+    ``f(x) = series[0] + sum_m series[2 m - 1] cos(m x) + series[2 m] sin(m x)``, m up to
+    ``degree``. With ``z = exp(i x)``, ``z^degree f`` is a polynomial whose roots on the unit
+    circle are the real ones; Aberth's method finds all of them at once (Aberth 1973). A root
+    within ``ON_CIRCLE`` of the circle is handed on, for the caller to polish or drop.
+
+    Parameters
+    ----------
+    series : array, shape (2 degree + 1,)
+    degree : int
+        At most 4; lowered here where the leading coefficients vanish.
+    cosines, sines : array, shape (2 degree,)
+        Output.
+
+    Returns
+    -------
+    int
+        Number of roots written; -1 where f vanishes identically.
+    """
+    largest = 0.0
+    for k in range(2 * degree + 1):
+        largest = max(largest, abs(series[k]))
+    if largest < 1e-300:
+        return -1
+    while degree > 0 and abs(series[2 * degree - 1]) + abs(series[2 * degree]) < TINY * largest:
+        degree -= 1
+    if degree == 0:
+        return 0
+    if degree == 1:
+        found, c1, s1, c2, s2 = linear_trig(series[1], series[2], -series[0], ON_CIRCLE)
+        cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
+        return found
+    size = 2 * degree
+    start = cmath.exp(0.4j)
+    turn = cmath.exp(complex(0.0, 2.0 * math.pi / size))
+    for k in range(size):
+        cosines[k], sines[k] = start.real, start.imag
+        start *= turn
+    for _ in range(SWEEPS):
+        if _aberth_sweep(series, degree, cosines, sines) < 1e-15:
+            break
+    found = 0
+    for k in range(size):
+        radius = math.hypot(cosines[k], sines[k])
+        if abs(radius - 1.0) < ON_CIRCLE:
+            cosines[found], sines[found] = cosines[k] / radius, sines[k] / radius
+            found += 1
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _aberth_sweep(series, degree, real, imaginary):
+    """Move each root by one step of Aberth's method; returns the longest relative step."""
+    longest = 0.0
+    size = 2 * degree
+    for k in range(size):
+        z = complex(real[k], imaginary[k])
+        value, slope = 0.0j, 0.0j
+        for j in range(size + 1):
+            m = degree - j
+            if m == 0:
+                term = complex(series[0], 0.0)
+            elif m > 0:
+                term = complex(0.5 * series[2 * m - 1], -0.5 * series[2 * m])
+            else:
+                term = complex(0.5 * series[-2 * m - 1], 0.5 * series[-2 * m])
+            slope = slope * z + value
+            value = value * z + term
+        if abs(value) < 1e-300:
+            continue
+        denominator = slope / value
+        for j in range(size):
+            if j != k:
+                gap = z - complex(real[j], imaginary[j])
+                if abs(gap) > 1e-300:
+                    denominator -= 1.0 / gap
+        if abs(denominator) < 1e-300:
+            continue
+        step = 1.0 / denominator
+        real[k] -= step.real
+        imaginary[k] -= step.imag
+        longest = max(longest, abs(step) / max(abs(z), 1e-6))
+    return longest
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def circle_pair(M, N, d, slack, scratch, out):
+    """Solve ``M (cos x, sin x) + N (cos y, sin y) = d``, two equations: subproblem 6.
+
+    The general case is a quartic (two ellipses meet); where a combination of the two equations
+    is free of one angle, it is solved first, and the other follows: that is where neighbouring
+    axes of an arm meet or are parallel.
+
+    Parameters
+    ----------
+    M, N : array, shape (2, 2)
+    d : array, shape (2,)
+    slack : float
+        See :func:`linear_trig`.
+    scratch : array, shape (3, 5)
+    out : array, shape (4, 4)
+        Rows of cos x, sin x, cos y, sin y.
+
+    Returns
+    -------
+    int
+        Number of rows, at most 4; -1 where one angle is free.
+    """
+    largest = 0.0
+    for i in range(2):
+        for j in range(2):
+            largest = max(largest, abs(M[i, j]), abs(N[i, j]))
+    det_m = M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
+    det_n = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]
+    threshold = TINY * largest * largest
+    if abs(det_n) <= threshold:
+        return _one_by_one(M, N, d, slack, False, out)
+    if abs(det_m) <= threshold:
+        return _one_by_one(N, M, d, slack, True, out)
+    if abs(det_m) >= abs(det_n):
+        return _two_ellipses(M, N, d, det_m, False, scratch, out)
+    return _two_ellipses(N, M, d, det_n, True, scratch, out)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _one_by_one(M, N, d, slack, swapped, out):
+    """Solve :func:`circle_pair` where N has rank 1 or 0: first x, then y."""
+    first = N[0, 0] * N[0, 0] + N[0, 1] * N[0, 1]
+    second = N[1, 0] * N[1, 0] + N[1, 1] * N[1, 1]
+    keep = 0 if first >= second else 1
+    drop = 1 - keep
+    largest = max(first, second)
+    ratio = 0.0
+    if largest > 0.0:
+        ratio = (N[keep, 0] * N[drop, 0] + N[keep, 1] * N[drop, 1]) / largest
+    count, c1, s1, c2, s2 = linear_trig(
+        M[drop, 0] - ratio * M[keep, 0],
+        M[drop, 1] - ratio * M[keep, 1],
+        d[drop] - ratio * d[keep],
+        slack,
+    )
+    if count < 0:
+        return -1
+    rows = 0
+    for k in range(count):
+        c, s = (c1, s1) if k == 0 else (c2, s2)
+        rest = d[keep] - M[keep, 0] * c - M[keep, 1] * s
+        found, e1, f1, e2, f2 = linear_trig(N[keep, 0], N[keep, 1], rest, slack)
+        if found < 0:
+            return -1
+        for j in range(found):
+            e, f = (e1, f1) if j == 0 else (e2, f2)
+            out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = c, s, e, f
+            if swapped:
+                out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = e, f, c, s
+            rows += 1
+    return rows
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _two_ellipses(M, N, d, det, swapped, scratch, out):
+    """Solve :func:`circle_pair` where M is regular: ``|M^-1 (d - N (c, s))| = 1`` in y."""
+    u0 = (M[1, 1] * d[0] - M[0, 1] * d[1]) / det
+    u1 = (M[0, 0] * d[1] - M[1, 0] * d[0]) / det
+    v0 = -(M[1, 1] * N[0, 0] - M[0, 1] * N[1, 0]) / det
+    v1 = -(M[0, 0] * N[1, 0] - M[1, 0] * N[0, 0]) / det
+    w0 = -(M[1, 1] * N[0, 1] - M[0, 1] * N[1, 1]) / det
+    w1 = -(M[0, 0] * N[1, 1] - M[1, 0] * N[0, 1]) / det
+    series, cosines, sines = scratch[0], scratch[1], scratch[2]
+    series[0] = u0 * u0 + u1 * u1 + 0.5 * (v0 * v0 + v1 * v1 + w0 * w0 + w1 * w1) - 1.0
+    series[1] = 2.0 * (u0 * v0 + u1 * v1)
+    series[2] = 2.0 * (u0 * w0 + u1 * w1)
+    series[3] = 0.5 * (v0 * v0 + v1 * v1 - w0 * w0 - w1 * w1)
+    series[4] = v0 * w0 + v1 * w1
+    count = trig_roots(series, 2, cosines, sines)
+    for k in range(count):
+        e, f = cosines[k], sines[k]
+        c, s = u0 + v0 * e + w0 * f, u1 + v1 * e + w1 * f
+        radius = math.hypot(c, s)
+        if radius > 0.0:
+            c, s = c / radius, s / radius
+        else:
+            c, s = 1.0, 0.0
+        out[k, 0], out[k, 1], out[k, 2], out[k, 3] = c, s, e, f
+        if swapped:
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = e, f, c, s
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+def atan2_array(y, x, out, n):
+    """``out[i] = atan2(y[i], x[i])`` for i < n, as vector code, within 5e-16.
+
+    The quotient is brought below ``tan(pi / 8)`` by ``atan(t) = pi/4 + atan((t-1) / (t+1))``
+    with one division; then the least maximum polynomial of degree 25. (0, 0) gives 0.
+    """
+    for i in range(n):
+        ax, ay = abs(x[i]), abs(y[i])
+        big, small = max(ax, ay), min(ax, ay)
+        far = small > TAN_EIGHTH * big
+        top = small - big if far else small
+        bottom = small + big if far else big
+        bottom = bottom if bottom > 0.0 else 1.0
+        t = top / bottom
+        z = t * t
+        z2 = z * z
+        z4 = z2 * z2
+        p = (A8 + A9 * z) + (A10 + A11 * z) * z2
+        p = ((A4 + A5 * z) + (A6 + A7 * z) * z2) + z4 * p
+        p = ((A0 + A1 * z) + (A2 + A3 * z) * z2) + z4 * p
+        r = t + t * z * p
+        r = r + 0.25 * math.pi if far else r
+        r = 0.5 * math.pi - r if ay > ax else r
+        r = math.pi - r if x[i] < 0.0 else r
+        out[i] = math.copysign(r, y[i])
