@@ -182,7 +182,7 @@ class DHRow:
     origin: Origin | None = None
 
     def __post_init__(self) -> None:
-        problems = []
+        problems: list[str] = []
         put = object.__setattr__
         try:
             put(self, "joint_type", JointType(self.joint_type))
@@ -195,25 +195,26 @@ class DHRow:
             problems += _floats(self, key, required=False)
         for key, size in (("com", 3), ("inertia", 6)):
             problems += _tuples(self, key, size)
-        problems += problems or self._range_problems()
+        bad = {problem.partition(":")[0] for problem in problems}
+        problems += [p for p in self._range_problems(bad) if p.partition(":")[0] not in bad]
         if problems:
-            raise TableError(dict.fromkeys(problems))
+            raise TableError(problems)
         put(self, "sign", int(self.sign))
 
-    def _range_problems(self) -> list[str]:
+    def _range_problems(self, bad: set[str]) -> list[str]:
+        """Faults of the fields that are of the right kind; ``bad`` names those that are not."""
         out = []
         if self.sign not in (1, -1):
             out.append(f"sign: {self.sign!r} is not allowed; +1 or -1")
-        if self.lower is not None and self.upper is not None and self.lower > self.upper:
-            out.append(f"lower: {self.lower!r} lies above upper {self.upper!r}")
-        for key in ("mass", "velocity"):
-            value = getattr(self, key)
-            if value is not None and value <= 0:
-                out.append(f"{key}: {value!r} must be greater than 0")
-        for key in ("damping", "friction", "effort"):
+        if not {"lower", "upper"} & bad and None not in (self.lower, self.upper):
+            if self.lower > self.upper:  # type: ignore[operator]
+                out.append(f"lower: {self.lower!r} lies above upper {self.upper!r}")
+        for key in {"mass", "velocity", "damping", "friction", "effort"} - bad:
             value = getattr(self, key)
             if value is not None and value < 0:
                 out.append(f"{key}: {value!r} must not be negative")
+            elif value == 0 and key in {"mass", "velocity"}:
+                out.append(f"{key}: {value!r} must be greater than 0")
         if self.mass is None and (self.com is not None or self.inertia is not None):
             out.append("mass: missing, but com or inertia is given")
         if self.joint_type is JointType.FIXED:
@@ -359,6 +360,24 @@ class DHTable:
     def renamed(self, name: str) -> DHTable:
         """The same table under another name."""
         return replace(self, name=name)
+
+    def to_markdown(self) -> str:
+        """The table as a Markdown pipe table, angles in degrees."""
+        from dh2urdf.dh_print import table_markdown
+
+        return table_markdown(self)
+
+    def to_csv(self) -> str:
+        """The table as comma-separated values as shown, angles in degrees."""
+        from dh2urdf.dh_print import table_csv
+
+        return table_csv(self)
+
+    def to_latex(self) -> str:
+        """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
+        from dh2urdf.dh_print import table_latex
+
+        return table_latex(self)
 
     def _config(self, q: ArrayLike) -> Array:
         config = np.asarray(q, float)

@@ -222,9 +222,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
         )
     det = np.linalg.det(R)
     if (det < 0).any():
-        raise PoseError(
-            f"{what}{_where(det < 0)}: rotation part is a reflection (determinant -1)"
-        )
+        raise PoseError(f"{what}{_where(det < 0)}: rotation part is a reflection (determinant -1)")
     last = np.abs(m[..., 3, :] - np.array([0.0, 0, 0, 1])).max(axis=-1)
     if (last > 1e-12).any():
         raise PoseError(f"{what}{_where(last > 1e-12)}: last row must be 0 0 0 1")

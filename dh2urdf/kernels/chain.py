@@ -14,18 +14,45 @@ __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_b
 
 
 @njit(cache=True, nogil=True, inline="always")
-def _joint_times_link(r, slides, q, link):
-    """``R Z(q) link`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
+def _times_joint(r, slides, q):
+    """``R Z(q)`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
     r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
     if slides:
-        r03 += r02 * q
-        r13 += r12 * q
-        r23 += r22 * q
-    else:
-        c, s = math.cos(q), math.sin(q)
-        r00, r01 = r00 * c + r01 * s, r01 * c - r00 * s
-        r10, r11 = r10 * c + r11 * s, r11 * c - r10 * s
-        r20, r21 = r20 * c + r21 * s, r21 * c - r20 * s
+        return (
+            r00,
+            r01,
+            r02,
+            r03 + r02 * q,
+            r10,
+            r11,
+            r12,
+            r13 + r12 * q,
+            r20,
+            r21,
+            r22,
+            r23 + r22 * q,
+        )
+    c, s = math.cos(q), math.sin(q)
+    return (
+        r00 * c + r01 * s,
+        r01 * c - r00 * s,
+        r02,
+        r03,
+        r10 * c + r11 * s,
+        r11 * c - r10 * s,
+        r12,
+        r13,
+        r20 * c + r21 * s,
+        r21 * c - r20 * s,
+        r22,
+        r23,
+    )
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _times_link(r, link):
+    """``R link`` of a pose held in twelve scalars."""
+    r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
     a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
     a10, a11, a12, a13 = link[1, 0], link[1, 1], link[1, 2], link[1, 3]
     a20, a21, a22, a23 = link[2, 0], link[2, 1], link[2, 2], link[2, 3]
@@ -43,6 +70,12 @@ def _joint_times_link(r, slides, q, link):
         r20 * a02 + r21 * a12 + r22 * a22,
         r20 * a03 + r21 * a13 + r22 * a23 + r23,
     )
+
+
+@njit(cache=True, nogil=True, inline="always")
+def _joint_times_link(r, slides, q, link):
+    """``R Z(q) link`` of a pose held in twelve scalars."""
+    return _times_link(_times_joint(r, slides, q), link)
 
 
 @njit(cache=True, nogil=True, inline="always")
@@ -90,17 +123,18 @@ def chain_fk_batch(links, prismatic, q, T):
 
 
 @njit(cache=True, nogil=True)
-def chain_frames_batch(links, prismatic, q, T):
-    """Pose after each link of configurations q (m, n), written to T (m, n + 1, 4, 4).
+def chain_frames_batch(links, prismatic, frames, q, T):
+    """Frames carried by the joints of configurations q (m, n), written to T (m, n + 1, 4, 4).
 
-    ``T[:, 0] = links[0]``, ``T[:, i] = T[:, i - 1] Z_i(q_i) links[i]``.
+    ``T[:, 0] = frames[0]`` in base; ``T[:, i] = (pose after Z_i) frames[i]``.
     """
     for k in range(q.shape[0]):
+        _store(_load(frames[0]), T[k, 0])
         r = _load(links[0])
-        _store(r, T[k, 0])
         for i in range(q.shape[1]):
-            r = _joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
-            _store(r, T[k, i + 1])
+            r = _times_joint(r, prismatic[i], q[k, i])
+            _store(_times_link(r, frames[i + 1]), T[k, i + 1])
+            r = _times_link(r, links[i + 1])
 
 
 @njit(cache=True, nogil=True)

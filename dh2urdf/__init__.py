@@ -1,0 +1,81 @@
+"""From a Denavit-Hartenberg table to a verified URDF and every inverse-kinematics solution.
+
+>>> import dh2urdf
+>>> table = dh2urdf.load_table("denso_vs6556")
+>>> robot = dh2urdf.Robot.from_dh(table)
+>>> robot.fk([0, 0, 0, 0, 0, 0]).shape
+(4, 4)
+
+Importing this package loads NumPy only; Pinocchio comes with the first model, Numba with the
+first array of configurations or the first inverse kinematics.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from dh2urdf import exceptions, transforms
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
+from dh2urdf.exceptions import Dh2UrdfError
+
+if TYPE_CHECKING:
+    from dh2urdf.chain import SerialChain
+    from dh2urdf.conversions.convention import to_convention
+    from dh2urdf.conversions.dh_to_urdf import UrdfOptions
+    from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
+    from dh2urdf.dh_io import write_table as save_table
+    from dh2urdf.robot import Robot
+    from dh2urdf.robots import list_tables, load_table
+
+__version__ = "0.1.0"
+
+_LATE = {
+    "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
+    "Robot": ("dh2urdf.robot", "Robot"),
+    "SerialChain": ("dh2urdf.chain", "SerialChain"),
+    "UrdfOptions": ("dh2urdf.conversions.dh_to_urdf", "UrdfOptions"),
+    "list_tables": ("dh2urdf.robots", "list_tables"),
+    "load_table": ("dh2urdf.robots", "load_table"),
+    "save_table": ("dh2urdf.dh_io", "write_table"),
+    "to_convention": ("dh2urdf.conversions.convention", "to_convention"),
+    "urdf_text": ("dh2urdf.conversions.write_urdf", "urdf_text"),
+    "write_urdf": ("dh2urdf.conversions.write_urdf", "write_urdf"),
+}
+"""Public names whose modules are imported when they are first asked for."""
+
+__all__ = [
+    "ConversionReport",
+    "DHConvention",
+    "DHRow",
+    "DHTable",
+    "Dh2UrdfError",
+    "JointType",
+    "Origin",
+    "Robot",
+    "SerialChain",
+    "UrdfOptions",
+    "dh_factors",
+    "dh_transform",
+    "exceptions",
+    "list_tables",
+    "load_table",
+    "save_table",
+    "to_convention",
+    "transforms",
+    "urdf_text",
+    "write_urdf",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATE:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, attribute = _LATE[name]
+    value = getattr(import_module(module), attribute)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LATE})

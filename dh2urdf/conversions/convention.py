@@ -1,0 +1,122 @@
+"""Between the standard and the modified convention, without loss."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from dh2urdf import transforms as tf
+from dh2urdf.conversions.inertia import Inertial, tensor
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.transforms import Array
+
+__all__ = ["to_convention"]
+
+
+def to_convention(table: DHTable, convention: DHConvention | str) -> DHTable:
+    """The same arm in the other convention; FK from base to tool is equal for every q.
+
+    ``Rot_z(theta) Trans_z(d)`` stays in its row. The tail ``Trans_x(a) Rot_x(alpha)`` of a
+    standard row moves to the head of the next modified row and back; what is left at the ends
+    goes into the tool (to modified) or the base (to standard). Where a fixed row stands between,
+    the tail joins it. Centres of mass and tensors move with the frames.
+    """
+    target = DHConvention(convention)
+    if target is table.convention:
+        return table
+    if target is DHConvention.MODIFIED:
+        return _to_modified(table)
+    return _to_standard(table)
+
+
+def _tail(row: DHRow) -> Array:
+    """``Trans_x(a) Rot_x(alpha)`` of a row, shape (4, 4)."""
+    return tf.trans(row.a, 0, 0) @ tf.rot_x(row.alpha)
+
+
+def _groups(table: DHTable) -> tuple[Array, list[tuple[DHRow, Array | None]]]:
+    """Base frame, and each joint's row with the product of the fixed rows below it."""
+    groups: list[tuple[DHRow, Array | None]] = []
+    for row in table.rows:
+        if row.is_joint:
+            groups.append((row, None))
+        elif groups:
+            joint, step = groups[-1]
+            T = row.transform(0.0, table.convention)
+            groups[-1] = (joint, T if step is None else step @ T)
+    return table.base_frame, groups
+
+
+def _to_modified(table: DHTable) -> DHTable:
+    base, groups = _groups(table)
+    rows: list[DHRow] = []
+    a = alpha = 0.0
+    for k, (row, step) in enumerate(groups):
+        T_new_old = _tail(row) if step is None else _tail(row) @ step
+        last = k == len(groups) - 1
+        moves = last or step is not None
+        inertial_step = np.eye(4) if step is not None and not last else T_new_old
+        rows.append(_with_inertial(replace(row, a=a, alpha=alpha), inertial_step))
+        a, alpha = (0.0, 0.0) if moves else (row.a, row.alpha)
+        if step is not None and not last:
+            rows.append(DHRow(joint_type=JointType.FIXED, origin=Origin.from_matrix(T_new_old)))
+    row, step = groups[-1]
+    tail = _tail(row) if step is None else _tail(row) @ step
+    return replace(
+        table,
+        convention=DHConvention.MODIFIED,
+        rows=tuple(rows),
+        base=table.base if table.rows[0].is_joint else Origin.from_matrix(base),
+        tool=_compose(tail, row if step is None else None, table.tool),
+    )
+
+
+def _to_standard(table: DHTable) -> DHTable:
+    base, groups = _groups(table)
+    first = groups[0][0]
+    rows: list[DHRow] = []
+    for k, (row, step) in enumerate(groups):
+        following = groups[k + 1][0] if k + 1 < len(groups) else None
+        a, alpha = (following.a, following.alpha) if following and step is None else (0.0, 0.0)
+        new = replace(row, a=a, alpha=alpha)
+        if step is not None:
+            T = step @ (_tail(following) if following else np.eye(4))
+            T_new_old = tf.inverse(T) @ step
+            rows.append(_with_inertial(new, T_new_old))
+            rows.append(DHRow(joint_type=JointType.FIXED, origin=Origin.from_matrix(T)))
+        else:
+            rows.append(_with_inertial(new, tf.inverse(_tail(new))))
+    untouched = table.rows[0].is_joint and not (first.a or first.alpha)
+    return replace(
+        table,
+        convention=DHConvention.STANDARD,
+        rows=tuple(rows),
+        base=table.base if untouched else Origin.from_matrix(base @ _tail(first)),
+    )
+
+
+def _compose(tail: Array, row: DHRow | None, tool: Origin) -> Origin:
+    """``tail @ tool``, in exact digits where the tool or the tail is none."""
+    if row is not None and tool.is_identity:
+        return Origin((row.a, 0.0, 0.0), (row.alpha, 0.0, 0.0))
+    if row is not None and not (row.a or row.alpha):
+        return tool
+    return Origin.from_matrix(tail @ tool.matrix)
+
+
+def _with_inertial(row: DHRow, T_new_old: Array) -> DHRow:
+    """The row with its centre of mass and tensor moved from the old DH frame to the new."""
+    if row.com is None and row.inertia is None:
+        return row
+    com = np.zeros(3) if row.com is None else np.array(row.com)
+    inertia = np.zeros((3, 3)) if row.inertia is None else tensor(row.inertia)
+    moved = Inertial(row.mass or 0.0, com, inertia).moved(T_new_old)
+    x, y, z = (float(v) for v in moved.com)
+    m = moved.inertia
+    six = (m[0, 0], m[0, 1], m[0, 2], m[1, 1], m[1, 2], m[2, 2])
+    return replace(
+        row,
+        com=None if row.com is None else (x, y, z),
+        inertia=None if row.inertia is None else tuple(float(v) for v in six),  # type: ignore[arg-type]
+    )

@@ -1,0 +1,78 @@
+"""Joints of a chain that mimic one another: fewer values in q than joints in the chain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.transforms import Array
+
+if TYPE_CHECKING:
+    from dh2urdf.conversions.urdf_to_model import Mimic
+
+__all__ = ["Coupling", "couple"]
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling:
+    """``q_chain = matrix @ q + offset``.
+
+    Parameters
+    ----------
+    matrix : array, shape (chain.n, n)
+    offset : array, shape (chain.n,)
+    names : tuple of n str
+        The leading joints.
+    lower, upper : array, shape (n,)
+        Bounds within which every follower stays in its own.
+    first : tuple of n int
+        For each value, the first joint of the chain that it moves.
+    """
+
+    matrix: Array
+    offset: Array
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    first: tuple[int, ...]
+
+
+def couple(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
+    """The coupling of a chain; None where no joint of it mimics another.
+
+    A leader that is not on the chain itself is still a value of q, since it moves the tip.
+    """
+    if not any(name in mimics for name in chain.names):
+        return None
+    terms = [_resolve(name, mimics) for name in chain.names]
+    names = tuple(dict.fromkeys(leader for leader, _, _ in terms))
+    matrix = np.zeros((chain.n, len(names)))
+    offset = np.array([constant for _, _, constant in terms])
+    lower, upper = np.full(len(names), -np.inf), np.full(len(names), np.inf)
+    first = [chain.n] * len(names)
+    for k, (leader, factor, constant) in enumerate(terms):
+        v = names.index(leader)
+        matrix[k, v] = factor
+        first[v] = min(first[v], k)
+        if factor:
+            ends = sorted(
+                ((bound - constant) / factor) for bound in (chain.lower[k], chain.upper[k])
+            )
+            lower[v], upper[v] = max(lower[v], ends[0]), min(upper[v], ends[1])
+    return Coupling(matrix, offset, names, lower, upper, tuple(first))
+
+
+def _resolve(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:
+    """Leader, factor and constant of a joint, through chains of mimics."""
+    factor, constant, seen = 1.0, 0.0, {name}
+    while name in mimics and mimics[name].leader not in seen:
+        mimic = mimics[name]
+        constant += factor * mimic.offset
+        factor *= mimic.multiplier
+        name = mimic.leader
+        seen.add(name)
+    return name, factor, constant

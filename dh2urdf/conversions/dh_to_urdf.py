@@ -1,0 +1,289 @@
+"""From a DH table to the text of a URDF; every rule here has a consumer that breaks without it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from lxml import etree
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.bodies import Body, LinkFrames, draw_bodies, link_frames
+from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.inertia import Inertial, balanced, tensor, triangle_excess
+from dh2urdf.dh import DHRow, DHTable, JointType
+from dh2urdf.exceptions import TableError
+from dh2urdf.transforms import Array, matrix_to_rpy
+
+__all__ = ["UrdfOptions", "default_limits", "urdf_text_and_warnings"]
+
+MATERIALS = {
+    "base": "0.24 0.30 0.40 1.0",
+    "joint": "0.33 0.40 0.52 1.0",
+    "link": "0.84 0.86 0.89 1.0",
+    "rail": "0.62 0.66 0.72 1.0",
+}
+
+DEFAULT_EFFORT = 1000.0
+"""Effort limit written where the table has none [N m or N]; URDF requires the attribute."""
+
+DEFAULT_VELOCITY = 10.0
+"""Velocity limit written where the table has none [rad/s or m/s]; URDF requires it."""
+
+XML_FORBIDDEN = {chr(c) for c in range(32)} - {"\t", "\n", "\r"}
+
+
+@dataclass(frozen=True)
+class UrdfOptions:
+    """What may be chosen about the file.
+
+    Parameters
+    ----------
+    dh_frames : bool
+        Write the DH frames as fixed links ``dh_0 ... dh_n``.
+    collision : bool
+        Write the drawn bodies as collision geometry too.
+    density : float
+        Density [kg/m^3] of the drawn bodies where a row has no mass; aluminium.
+    balance_inertia : bool
+        Raise the small moments of published tensors that no body could have, so that every
+        consumer accepts them (with a warning); off keeps them as published.
+    digits : int or None
+        Round to so many decimals, for IKFast users; None writes the floats whole.
+    embed_table : bool
+        Keep the table itself in a ``<dh2urdf>`` element.
+    """
+
+    dh_frames: bool = True
+    collision: bool = False
+    density: float = 2700.0
+    balance_inertia: bool = True
+    digits: int | None = None
+    embed_table: bool = True
+
+
+def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, tuple[str, ...]]:
+    """The URDF of a table, and what had to be assumed to write it.
+
+    Raises
+    ------
+    TableError
+        Names that XML or the file's own frames forbid.
+    """
+    _check_names(table)
+    return _Writer(table, options).write()
+
+
+def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
+    """Lower and upper bound of q [rad] or [m] where the row has none.
+
+    Revolute: +-2 pi. Prismatic: as far as the table's own lengths sum to, at least 1 m.
+    """
+    far = 2.0 * math.pi if row.joint_type is JointType.REVOLUTE else table.length or 1.0
+    return (
+        -far if row.lower is None else row.lower,
+        far if row.upper is None else row.upper,
+    )
+
+
+def _check_names(table: DHTable) -> None:
+    reserved = {"tool0_fixed", "base_link_inertia_fixed"}
+    reserved |= {f"dh_{i}_fixed" for i in range(table.n + 1)}
+    problems = [
+        f"name: {name!r} holds a character that XML forbids"
+        for name in (table.name, *table.joint_names)
+        if XML_FORBIDDEN & set(name)
+    ]
+    problems += [
+        f"name: {name!r} is taken by a fixed joint of the written file"
+        for name in table.joint_names
+        if name in reserved
+    ]
+    if problems:
+        raise TableError(problems)
+
+
+class _Writer:
+    """One table on its way to XML: the element tree and the warnings so far."""
+
+    def __init__(self, table: DHTable, options: UrdfOptions) -> None:
+        self.table, self.options = table, options
+        self.chain: SerialChain = dh_to_chain(table)
+        self.frames: LinkFrames = link_frames(table)
+        self.bodies = draw_bodies(table, self.chain)
+        self.warnings: list[str] = []
+        self.robot = etree.Element("robot", name=table.name)
+
+    def write(self) -> tuple[str, tuple[str, ...]]:
+        self._preamble()
+        self._base()
+        parent = "base_link"
+        for i, row in enumerate(self.table.joints, 1):
+            link = f"link_{i}"
+            self._link(link, self._inertial(i, row), self.bodies[i])
+            self._joint(self.table.joint_names[i - 1], row, parent, link, i)
+            self._dh_frame(i, link)
+            parent = link
+        self._fixed_link("tool0", parent, self.frames.tool, massless=True)
+        self._limit_warnings()
+        etree.indent(self.robot, space="  ")
+        text = etree.tostring(self.robot, encoding="unicode")
+        return f'<?xml version="1.0"?>\n{text}\n', tuple(self.warnings)
+
+    def _preamble(self) -> None:
+        mujoco = etree.SubElement(self.robot, "mujoco")
+        etree.SubElement(mujoco, "compiler", fusestatic="false", discardvisual="false")
+        if self.options.embed_table:
+            embedded = etree.SubElement(self.robot, "dh2urdf", schema="1")
+            from dh2urdf.dh_io import table_to_text
+
+            embedded.text = table_to_text(self.table, "json")
+        for name, rgba in MATERIALS.items():
+            if any(b.material == name for bodies in self.bodies for b in bodies):
+                material = etree.SubElement(self.robot, "material", name=name)
+                etree.SubElement(material, "color", rgba=rgba)
+
+    def _base(self) -> None:
+        etree.SubElement(self.robot, "link", name="base_link")
+        solid = Inertial.total(b.inertial(self.options.density) for b in self.bodies[0])
+        self._link("base_link_inertia", solid, self.bodies[0])
+        self._fixed_joint("base_link_inertia", "base_link", np.eye(4))
+        self._dh_frame(0, "base_link")
+
+    def _dh_frame(self, i: int, parent: str) -> None:
+        if self.options.dh_frames:
+            self._fixed_link(f"dh_{i}", parent, self.frames.dh[i], massless=i > 0)
+
+    def _fixed_link(self, name: str, parent: str, T: Array, *, massless: bool) -> None:
+        link = etree.SubElement(self.robot, "link", name=name)
+        if massless:
+            self._inertial_element(link, Inertial(0.0, np.zeros(3), np.zeros((3, 3))))
+        self._fixed_joint(name, parent, T)
+
+    def _fixed_joint(self, child: str, parent: str, T: Array) -> None:
+        joint = etree.SubElement(self.robot, "joint", name=f"{child}_fixed", type="fixed")
+        self._origin(joint, T)
+        etree.SubElement(joint, "parent", link=parent)
+        etree.SubElement(joint, "child", link=child)
+
+    def _joint(self, name: str, row: DHRow, parent: str, child: str, i: int) -> None:
+        joint = etree.SubElement(self.robot, "joint", name=name, type=str(row.joint_type))
+        self._origin(joint, self.frames.origins[i - 1])
+        etree.SubElement(joint, "parent", link=parent)
+        etree.SubElement(joint, "child", link=child)
+        etree.SubElement(joint, "axis", xyz="0 0 1" if row.sign > 0 else "0 0 -1")
+        lower, upper = default_limits(row, self.table)
+        effort = DEFAULT_EFFORT if row.effort is None else row.effort
+        velocity = DEFAULT_VELOCITY if row.velocity is None else row.velocity
+        etree.SubElement(
+            joint,
+            "limit",
+            lower=self._number(lower),
+            upper=self._number(upper),
+            effort=self._number(effort),
+            velocity=self._number(velocity),
+        )
+        if row.damping is not None or row.friction is not None:
+            etree.SubElement(
+                joint,
+                "dynamics",
+                damping=self._number(row.damping or 0.0),
+                friction=self._number(row.friction or 0.0),
+            )
+
+    def _link(self, name: str, inertial: Inertial, bodies: list[Body]) -> None:
+        link = etree.SubElement(self.robot, "link", name=name)
+        self._inertial_element(link, inertial)
+        for tag in ("visual", "collision") if self.options.collision else ("visual",):
+            for body in bodies:
+                self._body(link, tag, body)
+
+    def _body(self, link: etree._Element, tag: str, body: Body) -> None:
+        element = etree.SubElement(link, tag)
+        self._origin(element, body.pose)
+        geometry = etree.SubElement(element, "geometry")
+        if body.shape == "box":
+            etree.SubElement(geometry, "box", size=self._numbers(body.size))
+        elif body.shape == "sphere":
+            etree.SubElement(geometry, "sphere", radius=self._number(body.size[0]))
+        else:
+            radius, length = map(self._number, body.size)
+            etree.SubElement(geometry, "cylinder", radius=radius, length=length)
+        if tag == "visual":
+            etree.SubElement(element, "material", name=body.material)
+
+    def _inertial(self, i: int, row: DHRow) -> Inertial:
+        """Mass properties of link i in its URDF frame: as given, or of the drawn bodies."""
+        drawn = Inertial.total(b.inertial(self.options.density) for b in self.bodies[i])
+        if row.mass is None:
+            return drawn
+        T_link_dh = self.frames.dh[i]
+        shape = drawn.scaled(row.mass)
+        com = shape.com
+        if row.com is not None:
+            com = (T_link_dh @ np.array([*row.com, 1.0]))[:3]
+        if row.inertia is None:
+            return Inertial(row.mass, com, shape.inertia)
+        R = T_link_dh[:3, :3]
+        given = R @ self._possible(i, tensor(row.inertia), shape.inertia) @ R.T
+        return Inertial(row.mass, com, 0.5 * (given + given.T))
+
+    def _possible(self, i: int, inertia: Array, drawn: Array) -> Array:
+        """The given tensor, or the nearest that a body could have."""
+        excess = triangle_excess(inertia)
+        low, _, high = np.linalg.eigvalsh(inertia)
+        if excess <= 0 and low > 0:
+            return inertia
+        name = self.table.joint_names[i - 1]
+        if not self.options.balance_inertia:
+            self.warnings.append(
+                f"{name}: no body has this inertia tensor (largest moment exceeds the sum of the "
+                f"others by {excess:.1%} of it); kept as given, MuJoCo will refuse it"
+            )
+            return inertia
+        if high <= 0:
+            self.warnings.append(f"{name}: inertia is zero; that of the drawn body is written")
+            return drawn
+        self.warnings.append(
+            f"{name}: no body has this inertia tensor (largest moment exceeds the sum of the "
+            f"others by {excess:.1%} of it); its smaller moments were raised"
+        )
+        return balanced(inertia)
+
+    def _limit_warnings(self) -> None:
+        names = [
+            name
+            for name, row in zip(self.table.joint_names, self.table.joints, strict=True)
+            if row.lower is None or row.upper is None
+        ]
+        if names:
+            self.warnings.append(
+                f"{', '.join(names)}: no limits in the table; written: +-2 pi for revolute, "
+                f"+-{self.table.length or 1.0:.6g} m for prismatic joints"
+            )
+
+    def _inertial_element(self, link: etree._Element, body: Inertial) -> None:
+        inertial = etree.SubElement(link, "inertial")
+        xyz = self._numbers(body.com)
+        etree.SubElement(inertial, "origin", xyz=xyz, rpy="0.0 0.0 0.0")
+        etree.SubElement(inertial, "mass", value=self._number(body.mass))
+        six = {
+            f"i{'xyz'[r]}{'xyz'[c]}": repr(float(body.inertia[r, c]) + 0.0)
+            for r in range(3)
+            for c in range(r, 3)
+        }
+        etree.SubElement(inertial, "inertia", **six)
+
+    def _origin(self, parent: etree._Element, T: Array) -> None:
+        rpy = self._numbers(matrix_to_rpy(T))
+        etree.SubElement(parent, "origin", xyz=self._numbers(T[:3, 3]), rpy=rpy)
+
+    def _numbers(self, values: Array | tuple[float, ...]) -> str:
+        return " ".join(self._number(v) for v in values)
+
+    def _number(self, value: float) -> str:
+        number = float(value)
+        if self.options.digits is not None:
+            number = round(number, self.options.digits)
+        return repr(number + 0.0)

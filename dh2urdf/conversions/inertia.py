@@ -1,0 +1,80 @@
+"""Mass properties: of solid primitives, moved between frames, and made physically possible."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.transforms import Array
+
+__all__ = ["Inertial", "balanced", "tensor", "triangle_excess"]
+
+TRIANGLE_MARGIN = 1e-6
+"""Relative margin by which a balanced tensor satisfies the triangle inequality: a consumer
+that reads seven digits must still accept it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Inertial:
+    """Mass [kg], centre of mass [m] and tensor about it [kg m^2], all in one frame."""
+
+    mass: float
+    com: Array
+    inertia: Array
+
+    def moved(self, T_new_old: Array) -> Inertial:
+        """The same body seen from another frame."""
+        R = T_new_old[:3, :3]
+        return Inertial(self.mass, R @ self.com + T_new_old[:3, 3], R @ self.inertia @ R.T)
+
+    def scaled(self, mass: float) -> Inertial:
+        """The same shape at another mass."""
+        return Inertial(mass, self.com, self.inertia * (mass / self.mass))
+
+    @staticmethod
+    def total(parts: Iterable[Inertial]) -> Inertial:
+        """Several bodies of one frame as one (parallel axis theorem)."""
+        bodies = list(parts)
+        mass = math.fsum(b.mass for b in bodies)
+        com = np.sum([b.mass * b.com for b in bodies], axis=0) / mass
+        inertia = np.zeros((3, 3))
+        for b in bodies:
+            r = b.com - com
+            inertia += b.inertia + b.mass * ((r @ r) * np.eye(3) - np.outer(r, r))
+        return Inertial(mass, com, inertia)
+
+
+def tensor(six: ArrayLike) -> Array:
+    """Symmetric tensor of ``(ixx, ixy, ixz, iyy, iyz, izz)``, shape (3, 3)."""
+    ixx, ixy, ixz, iyy, iyz, izz = np.asarray(six, float)
+    return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+
+
+def triangle_excess(inertia: Array) -> float:
+    """How far the largest principal moment exceeds the sum of the others, relative to it.
+
+    Positive where no distribution of mass has this tensor; 0 or less where one has.
+    """
+    low, mid, high = np.linalg.eigvalsh(inertia)
+    if high <= 0:
+        return math.inf
+    return float(max((high - low - mid) / high, -low / high))
+
+
+def balanced(inertia: Array) -> Array:
+    """The tensor with its two smaller principal moments raised until a body could have it.
+
+    The largest moment and all principal axes stay; the two smaller ones get the same increase.
+    """
+    moments, axes = np.linalg.eigh(inertia)
+    low, mid, high = moments
+    missing = max(high * (1.0 + TRIANGLE_MARGIN) - low - mid, 0.0)
+    low, mid = low + 0.5 * missing, mid + 0.5 * missing
+    if low <= 0:
+        low, mid = high * TRIANGLE_MARGIN, max(mid, high)
+    out: Array = axes @ np.diag([low, mid, high]) @ axes.T
+    return 0.5 * (out + out.T)

@@ -1,0 +1,183 @@
+"""From a Pinocchio model to the serial chain between two of its frames."""
+
+from __future__ import annotations
+
+import difflib
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.dh import JointType
+from dh2urdf.exceptions import NameNotFoundError, UrdfError
+from dh2urdf.transforms import Array
+
+__all__ = ["ChainPath", "chain_path", "frame_id", "frame_names", "model_to_chain", "tip_names"]
+
+CONTINUOUS = ("JointModelRUB", "JointModelRevoluteUnboundedUnaligned")
+
+
+@dataclass(frozen=True)
+class ChainPath:
+    """Joints between two frames: up from the base to their common ancestor, then down to the tip.
+
+    ``ids`` are Pinocchio joint indices in the order from base to tip; ``up`` of them are passed
+    against their direction.
+    """
+
+    base: int
+    tip: int
+    ids: tuple[int, ...]
+    up: int
+
+
+def frame_names(model: pin.Model) -> list[str]:
+    """Names of the model's links, in its own order."""
+    return [f.name for f in model.frames if f.type == pin.FrameType.BODY]
+
+
+def tip_names(model: pin.Model) -> list[str]:
+    """Links that no other link hangs on."""
+    parents = {f.parentFrame for f in model.frames}
+    links = {i for i, f in enumerate(model.frames) if f.type == pin.FrameType.BODY}
+    inner = {model.frames[p].parentFrame for p in parents} | parents
+    return [model.frames[i].name for i in sorted(links - inner)]
+
+
+def frame_id(model: pin.Model, name: str) -> int:
+    """Index of a link, or else of any frame, by name.
+
+    Raises
+    ------
+    NameNotFoundError
+        No such frame; the message lists the links.
+    """
+    for kind in (pin.FrameType.BODY, pin.FrameType.FIXED_JOINT, pin.FrameType.OP_FRAME):
+        if model.existFrame(name, kind):
+            return int(model.getFrameId(name, kind))
+    names = frame_names(model)
+    close = difflib.get_close_matches(name, names, 1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise NameNotFoundError(f"no frame named {name!r}; the model has {', '.join(names)}{hint}")
+
+
+def chain_path(model: pin.Model, base: int, tip: int) -> ChainPath:
+    """The joints between frames base and tip (indices).
+
+    Raises
+    ------
+    UrdfError
+        No joint between them, or one with more than one degree of freedom.
+    """
+    up = list(model.supports[model.frames[base].parentJoint])
+    down = list(model.supports[model.frames[tip].parentJoint])
+    while up and down and up[0] == down[0]:
+        up.pop(0)
+        down.pop(0)
+    ids = tuple(int(i) for i in (*reversed(up), *down))
+    names = f"{model.frames[base].name!r} and {model.frames[tip].name!r}"
+    if not ids:
+        raise UrdfError(f"no joint moves between {names}; tips: {', '.join(tip_names(model))}")
+    for i in ids:
+        if model.joints[i].nv != 1 or "Helical" in model.joints[i].shortname():
+            raise UrdfError(
+                f"joint {model.names[i]!r} between {names} is a {model.joints[i].shortname()}; "
+                "a serial chain takes revolute, continuous and prismatic joints"
+            )
+    return ChainPath(base, tip, ids, len(up))
+
+
+def model_to_chain(model: pin.Model, path: ChainPath) -> SerialChain:
+    """The chain of a path, all joints off the path held at neutral.
+
+    q of the chain is the model's joint value, an angle where Pinocchio keeps cosine and sine.
+    """
+    data = model.createData()
+    neutral = pin.neutral(model)
+    pin.computeJointJacobians(model, data, neutral)
+    pin.updateFramePlacements(model, data)
+    frames: list[Array] = [data.oMf[path.base].homogeneous]
+    types: list[JointType] = []
+    for k, i in enumerate(path.ids):
+        S = np.asarray(data.joints[i].S, float).reshape(6)
+        slides = bool(np.abs(S[:3]).max() > np.abs(S[3:]).max())
+        axis = S[:3] if slides else S[3:]
+        types.append(JointType.PRISMATIC if slides else JointType.REVOLUTE)
+        turn = np.eye(4)
+        turn[:3, :3] = frame_with_z(-axis if k < path.up else axis)
+        frames.append(data.oMi[i].homogeneous @ turn)
+    frames.append(data.oMf[path.tip].homogeneous)
+    links = [_relative(a, b) for a, b in zip(frames, frames[1:], strict=False)]
+    lower, upper = zip(*(_limits(model, i) for i in path.ids), strict=True)
+    return SerialChain(
+        links=np.stack(links),
+        joint_types=tuple(types),
+        names=tuple(model.names[i] for i in path.ids),
+        lower=np.array(lower),
+        upper=np.array(upper),
+    )
+
+
+def is_continuous(model: pin.Model, i: int) -> bool:
+    """True for a joint that Pinocchio keeps as cosine and sine."""
+    return bool(model.joints[i].shortname().startswith(CONTINUOUS))
+
+
+def _limits(model: pin.Model, i: int) -> tuple[float, float]:
+    if is_continuous(model, i):
+        return -np.inf, np.inf
+    k = model.joints[i].idx_q
+    return float(model.lowerPositionLimit[k]), float(model.upperPositionLimit[k])
+
+
+def _relative(T_world_a: Array, T_world_b: Array) -> Array:
+    """``T_a_b``, with the rotation's rounding noise below 1e-16 cleared."""
+    T_a_b: Array = pin.SE3(T_world_a).inverse().homogeneous @ T_world_b
+    T_a_b[np.abs(T_a_b) < 1e-16] = 0.0
+    return T_a_b
+
+
+def frame_with_z(axis: Array) -> Array:
+    """A rotation whose z is the unit axis, exact where the axis is a coordinate axis."""
+    z = np.asarray(axis, float)
+    k = int(np.argmax(np.abs(z)))
+    if abs(z[k]) == 1.0:
+        x = np.eye(3)[(k + 1) % 3]
+    else:
+        x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
+        x /= np.linalg.norm(x)
+    return np.stack([x, np.cross(z, x), z], axis=1)
+
+
+TIP_NAMES = ("tool0", "tcp", "tool", "flange", "ee_link", "end_effector")
+"""Names by which URDFs call the end of an arm, tried in this order among equal chains."""
+
+
+def default_tip(model: pin.Model, base: int) -> int:
+    """The tip with the most joints from the base.
+
+    Among tips on the same last joint a usual name wins, then the last in the file.
+
+    Raises
+    ------
+    UrdfError
+        Tips of different branches with equally many joints; the message lists them.
+    """
+    found: dict[tuple[int, ...], list[int]] = {}
+    for name in tip_names(model):
+        tip = frame_id(model, name)
+        try:
+            found.setdefault(chain_path(model, base, tip).ids, []).append(tip)
+        except UrdfError:
+            continue
+    if not found:
+        raise UrdfError("the model has no chain of revolute and prismatic joints")
+    most = max(map(len, found))
+    longest = [tips for ids, tips in found.items() if len(ids) == most]
+    if len(longest) > 1:
+        names = ", ".join(model.frames[t].name for tips in longest for t in tips)
+        raise UrdfError(f"several chains of {most} joints; name the tip, one of: {names}")
+    tips = {model.frames[t].name: t for t in longest[0]}
+    usual = [tips[name] for name in TIP_NAMES if name in tips]
+    return usual[0] if usual else longest[0][-1]

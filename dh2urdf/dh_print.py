@@ -1,0 +1,144 @@
+"""How a DH table prints: text, HTML, Markdown, LaTeX; angles in degrees, lengths in metres."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from dh2urdf import grids
+from dh2urdf.grids import number
+
+if TYPE_CHECKING:
+    from dh2urdf.dh import DHRow, DHTable, Origin
+
+__all__ = ["table_grid", "table_html", "table_latex", "table_markdown", "table_text"]
+
+KEYS = ("i", "name", "theta", "d", "a", "alpha", "limits", "step")
+HEADER = ("i", "joint", "θ [deg]", "d [m]", "a [m]", "α [deg]", "limits of q", "fixed step")
+
+
+def degrees(value: float) -> str:
+    """Degrees of an angle [rad], as few digits as read back to the same angle."""
+    exact = math.degrees(value)
+    for digits in range(1, 17):
+        short = float(f"{exact:.{digits}g}")
+        if math.radians(short) == value:
+            return number(short)
+    return number(exact)
+
+
+def plus(variable: str, offset: str) -> str:
+    """``variable + offset`` with zero left out and a minus sign folded in."""
+    if offset == "0":
+        return variable
+    minus = "\N{MINUS SIGN}"
+    if offset.startswith(minus):
+        return f"{variable} {minus} {offset.removeprefix(minus)}"
+    return f"{variable} + {offset}"
+
+
+def table_grid(table: DHTable) -> tuple[list[str], list[str], list[list[str]]]:
+    """Keys, header and cells of a table; columns that say nothing are left out."""
+    rows, joint = [], 0
+    for row in table.rows:
+        joint += row.is_joint
+        rows.append(_cells(row, joint, table.joint_names[joint - 1] if row.is_joint else ""))
+    kept = [
+        k for k, key in enumerate(KEYS) if key not in {"limits", "step"} or any(r[k] for r in rows)
+    ]
+    return (
+        [KEYS[k] for k in kept],
+        [HEADER[k] for k in kept],
+        [[r[k] for k in kept] for r in rows],
+    )
+
+
+def _cells(row: DHRow, i: int, name: str) -> list[str]:
+    theta, d = degrees(row.theta), number(row.d)
+    if not row.is_joint:
+        if row.origin is not None:
+            return ["", "fixed", "", "", "", "", "", step(row.origin)]
+        return ["", "fixed", theta, d, number(row.a), degrees(row.alpha), "", ""]
+    sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
+    slides = row.joint_type == "prismatic"
+    if slides:
+        d = plus(f"{sign}q{i}", d)
+    else:
+        theta = plus(f"{sign}q{i}", theta)
+    show = number if slides else degrees
+    low = "" if row.lower is None else show(row.lower)
+    high = "" if row.upper is None else show(row.upper)
+    unit = " m" if slides else "°"
+    limits = f"{low or '…'} to {high or '…'}{unit}" if low or high else ""
+    return [str(i), name, theta, d, number(row.a), degrees(row.alpha), limits, ""]
+
+
+def step(origin: Origin) -> str:
+    """A rigid step in words: ``xyz (0, 1.5, 0) m, rpy (0, 0, 90) deg``."""
+    xyz = ", ".join(number(v) for v in origin.xyz)
+    rpy = ", ".join(degrees(v) for v in origin.rpy)
+    return f"xyz ({xyz}) m" + (f", rpy ({rpy}) deg" if any(origin.rpy) else "")
+
+
+def title(table: DHTable) -> str:
+    """Name and convention, and the base and tool where there are any."""
+    lines = [f"{table.name}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"]
+    if not table.base.is_identity:
+        lines.append(f"base: {step(table.base)}")
+    if not table.tool.is_identity:
+        lines.append(f"tool: {step(table.tool)}")
+    return "\n".join(lines)
+
+
+def table_text(table: DHTable) -> str:
+    """The table for a terminal."""
+    _, header, rows = table_grid(table)
+    return f"{title(table)}\n\n{grids.grid_text(header, rows)}"
+
+
+def table_markdown(table: DHTable) -> str:
+    """The table as a Markdown pipe table."""
+    _, header, rows = table_grid(table)
+    return grids.grid_markdown(header, rows)
+
+
+def table_html(table: DHTable) -> str:
+    """The table for a notebook."""
+    keys, header, rows = table_grid(table)
+    return grids.grid_html(header, rows, keys=keys, caption=title(table))
+
+
+def table_csv(table: DHTable) -> str:
+    """The cells as shown, comma-separated."""
+    _, header, rows = table_grid(table)
+    return grids.grid_csv(header, rows)
+
+
+LATEX = {
+    "i": "$i$",
+    "name": "joint",
+    "theta": r"$\theta_i$ [deg]",
+    "d": r"$d_i$ [m]",
+    "a": r"$a_i$ [m]",
+    "alpha": r"$\alpha_i$ [deg]",
+    "limits": "limits of $q_i$",
+    "step": "fixed step",
+}
+
+
+def table_latex(table: DHTable) -> str:
+    """The table as a LaTeX ``tabular`` (package booktabs)."""
+    keys, _, rows = table_grid(table)
+    cells = [[_latex_cell(key, text) for key, text in zip(keys, row, strict=True)] for row in rows]
+    return grids.grid_latex([LATEX[key] for key in keys], cells)
+
+
+def _latex_cell(key: str, text: str) -> str:
+    plain = text.replace("\N{MINUS SIGN}", "-").replace("…", r"\ldots{}")
+    if key in {"theta", "d", "a", "alpha"} and plain:
+        head, mark, index = plain.partition("q")
+        if mark:
+            digits = index[: len(index) - len(index.lstrip("0123456789"))]
+            return f"${head}q_{{{digits}}}{index[len(digits) :]}$"
+        return f"${plain}$"
+    return plain.replace("_", r"\_").replace("°", r"$^\circ$")

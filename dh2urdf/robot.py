@@ -1,0 +1,311 @@
+"""A robot: a Pinocchio model, the serial chain between two of its frames, and their agreement."""
+
+from __future__ import annotations
+
+import os
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.bodies import link_frames
+from dh2urdf.conversions.coupling import Coupling, couple
+from dh2urdf.conversions.dh_to_chain import FLIP, dh_to_chain
+from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.model_to_chain import (
+    chain_path,
+    default_tip,
+    frame_id,
+    frame_names,
+    is_continuous,
+    model_to_chain,
+)
+from dh2urdf.conversions.urdf_to_model import Mimic, load_model
+from dh2urdf.dh import DHTable
+from dh2urdf.exceptions import ConfigurationError, VerificationError
+from dh2urdf.robots import load_table
+from dh2urdf.transforms import Array, pose_error
+
+__all__ = ["Robot"]
+
+AGREEMENT = 1e-12
+"""Largest difference between Pinocchio and the chain when a robot is built, relative to the
+arm's size: both are products of the same few rigid transforms."""
+
+
+class Robot:
+    """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
+
+    Made by :meth:`from_dh` or :meth:`from_urdf`. The object owns one ``pin.Data``; use a copy
+    (it pickles) per thread for single configurations. Arrays of configurations go through
+    jitted kernels that share nothing.
+
+    Attributes
+    ----------
+    model : pin.Model
+        The joints of the chain; all other joints of the file are locked at neutral.
+    chain : SerialChain
+        The same chain as constant links between z axes.
+    table : DHTable or None
+        The table the robot was made from.
+    base, tip : str
+        Names of the two frames; ``T_base_tip`` is what ``fk`` and ``ik`` speak of.
+    """
+
+    def __init__(
+        self,
+        model: pin.Model,
+        base: str,
+        tip: str,
+        *,
+        table: DHTable | None = None,
+        mimics: dict[str, Mimic] | None = None,
+    ) -> None:
+        self.table = table
+        base_id, tip_id = frame_id(model, base), frame_id(model, tip)
+        path = chain_path(model, base_id, tip_id)
+        others = [i for i in range(1, model.njoints) if i not in path.ids]
+        if others:
+            model = pin.buildReducedModel(model, others, pin.neutral(model))
+            path = chain_path(model, frame_id(model, base), frame_id(model, tip))
+        self.model, self.base, self.tip = model, base, tip
+        self._path = path
+        self.chain = dh_to_chain(table) if table else model_to_chain(model, path)
+        self._coupling: Coupling | None = couple(self.chain, mimics or {})
+        self._bounds()
+        self._prepare()
+        self._check_agreement()
+
+    @classmethod
+    def from_dh(cls, table: DHTable | str | os.PathLike[str]) -> Robot:
+        """A robot of a DH table, a table file, or the name of a table that ships.
+
+        Raises
+        ------
+        TableFileError, NameNotFoundError
+        """
+        given = table if isinstance(table, DHTable) else load_table(table)
+        text, _ = urdf_text_and_warnings(given, UrdfOptions(embed_table=False))
+        return cls(pin.buildModelFromXML(text), "base_link", "tool0", table=given)
+
+    @classmethod
+    def from_urdf(
+        cls, path: str | os.PathLike[str], base: str | None = None, tip: str | None = None
+    ) -> Robot:
+        """A robot of a URDF (``.xacro`` with the extra, MJCF) between two of its links.
+
+        Parameters
+        ----------
+        path : path
+        base, tip : str, optional
+            Links anywhere in the tree. Without them: the root, and the tip with most joints.
+
+        Raises
+        ------
+        UrdfError, NameNotFoundError
+        """
+        model, mimics = load_model(path)
+        root = base or frame_names(model)[0]
+        if tip is None:
+            tip = model.frames[default_tip(model, frame_id(model, root))].name
+        return cls(model, root, tip, mimics=mimics)
+
+    @property
+    def n(self) -> int:
+        """Number of joint values in q."""
+        return len(self.joint_names)
+
+    def fk(self, q: ArrayLike) -> Array:
+        """Pose of the tip in the base, ``T_base_tip``.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,) or (..., n)
+            Configuration [rad] or [m]. One configuration is placed by Pinocchio, a stack by a
+            jitted kernel.
+
+        Returns
+        -------
+        array, shape (4, 4) or (..., 4, 4)
+
+        Raises
+        ------
+        ConfigurationError
+            Last axis is not n long.
+        """
+        config = np.asarray(q, dtype=np.float64)
+        if config.shape == (self.n,) and self._direct:
+            model, data = self.model, self._data
+            pin.forwardKinematics(model, data, config)
+            oMt = pin.updateFramePlacement(model, data, self._path.tip)
+            if self._M_base_world is not None:
+                oMt = self._M_base_world * oMt
+            T_base_tip: Array = oMt.homogeneous
+            return T_base_tip
+        from dh2urdf.kernels.chain import chain_fk_batch
+
+        flat, shape = self._flat(config)
+        T = np.empty((len(flat), 4, 4))
+        chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T)
+        return T.reshape(*shape, 4, 4)
+
+    def frames(self, q: ArrayLike) -> Array:
+        """DH frames 0 ... n in the base, or the base and the joint frames of a URDF.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,) or (..., n)
+
+        Returns
+        -------
+        array, shape (..., n + 1, 4, 4)
+            For a robot made from a URDF: entry 0 is the base itself, entry i the frame of
+            joint i as Pinocchio places it, after its motion.
+        """
+        from dh2urdf.kernels.chain import chain_frames_batch
+
+        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        T = np.empty((len(flat), self.chain.n + 1, 4, 4))
+        chain_frames_batch(self.chain.links, self.chain.prismatic, self._carried, flat, T)
+        return T.reshape(*shape, self.chain.n + 1, 4, 4)
+
+    def jacobian(self, q: ArrayLike) -> Array:
+        """Geometric Jacobian at the tip, linear over angular, in base axes.
+
+        Pinocchio's ``LOCAL_WORLD_ALIGNED`` with the base as world.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,) or (..., n)
+
+        Returns
+        -------
+        array, shape (6, n) or (..., 6, n)
+        """
+        config = np.asarray(q, dtype=np.float64)
+        if config.shape == (self.n,) and self._direct and self._M_base_world is None:
+            J: Array = pin.computeFrameJacobian(
+                self.model, self._data, config, self._path.tip, pin.LOCAL_WORLD_ALIGNED
+            )
+            return J
+        from dh2urdf.kernels.chain import chain_jacobian_batch
+
+        flat, shape = self._flat(config)
+        out = np.empty((len(flat), 6, self.chain.n))
+        chain_jacobian_batch(self.chain.links, self.chain.prismatic, flat, out)
+        if self._coupling is not None:
+            out = out @ self._coupling.matrix
+        return out.reshape(*shape, 6, self.n)
+
+    def model_configuration(self, q: ArrayLike) -> Array:
+        """The same configuration as Pinocchio's model wants it, shape (..., model.nq).
+
+        Continuous joints become cosine and sine, mimicking joints are filled in.
+        """
+        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        out = np.zeros((len(flat), self.model.nq))
+        for k, i in enumerate(self._path.ids):
+            at = self.model.joints[i].idx_q
+            if is_continuous(self.model, i):
+                out[:, at], out[:, at + 1] = np.cos(flat[:, k]), np.sin(flat[:, k])
+            else:
+                out[:, at] = flat[:, k]
+        return out.reshape(*shape, self.model.nq)
+
+    def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
+        """A configuration within the limits, one turn where there are none, shape (n,)."""
+        far = np.where(self._slides, 1.0, np.pi)
+        low = np.where(np.isfinite(self.lower), self.lower, -far)
+        high = np.where(np.isfinite(self.upper), self.upper, far)
+        return np.random.default_rng(rng).uniform(low, high)
+
+    @cached_property
+    def _slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        index = range(self.n) if self._coupling is None else self._coupling.first
+        return self.chain.prismatic[list(index)]
+
+    def _flat(self, config: Array) -> tuple[Array, tuple[int, ...]]:
+        """Chain configurations (m, chain.n), contiguous, and the leading shape."""
+        if config.ndim == 0 or config.shape[-1] != self.n:
+            raise ConfigurationError(
+                f"q: expected {self.n} values ({', '.join(self.joint_names)}) on the last axis, "
+                f"got shape {config.shape}"
+            )
+        flat = config.reshape(-1, self.n)
+        if self._coupling is not None:
+            flat = flat @ self._coupling.matrix.T + self._coupling.offset
+        return np.ascontiguousarray(flat), config.shape[:-1]
+
+    def _bounds(self) -> None:
+        coupling, chain = self._coupling, self.chain
+        self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names
+        self.lower: Array = coupling.lower if coupling else chain.lower
+        self.upper: Array = coupling.upper if coupling else chain.upper
+
+    def _prepare(self) -> None:
+        """What a call needs: Pinocchio's data, the constant base, the frames carried along."""
+        model, path = self.model, self._path
+        self._data = model.createData()
+        joints = [model.joints[i] for i in path.ids]
+        self._direct = (
+            path.up == 0
+            and self._coupling is None
+            and model.frames[path.base].parentJoint == 0
+            and all(j.nq == 1 and j.idx_q == k for k, j in enumerate(joints))
+        )
+        placement = model.frames[path.base].placement
+        identity = model.frames[path.base].parentJoint == 0 and placement.isIdentity(0.0)
+        self._M_base_world = None if identity else placement.inverse()
+        self._carried = self._dh_frames() if self.table else self._joint_frames()
+
+    def _dh_frames(self) -> Array:
+        """DH frames as seen from the chain's joints, shape (n + 1, 4, 4)."""
+        assert self.table is not None
+        frames = np.stack([*link_frames(self.table).dh])
+        for i, row in enumerate(self.table.joints, 1):
+            if row.sign < 0:
+                frames[i] = FLIP @ frames[i]
+        frames[0] = self.table.base_frame
+        return frames
+
+    def _joint_frames(self) -> Array:
+        """Pinocchio's joint frames as seen from the chain's joints, shape (n + 1, 4, 4)."""
+        frames = np.tile(np.eye(4), (self.chain.n + 1, 1, 1))
+        data = self.model.createData()
+        pin.framesForwardKinematics(self.model, data, pin.neutral(self.model))
+        M_base_world = data.oMf[self._path.base].inverse()
+        for k, i in enumerate(self._path.ids):
+            T_base_joint = (M_base_world * data.oMi[i]).homogeneous
+            frames[k + 1] = np.linalg.inv(self.chain.joint_frames[k]) @ T_base_joint
+        return frames
+
+    def _check_agreement(self) -> None:
+        """Compare the chain's product with Pinocchio's frame placement."""
+        rng = np.random.default_rng(0)
+        worst = 0.0
+        for _ in range(3):
+            q = self.random_configuration(rng)
+            pin.framesForwardKinematics(self.model, self._data, self.model_configuration(q))
+            M = self._data.oMf[self._path.base].inverse() * self._data.oMf[self._path.tip]
+            worst = max(worst, pose_error(self.chain.fk(self._flat(q)[0][0]), M.homogeneous))
+        allowed = AGREEMENT * max(1.0, float(np.abs(self.chain.links[:, :3, 3]).max()))
+        if worst > allowed:
+            raise VerificationError(
+                f"the chain from {self.base} to {self.tip} differs from Pinocchio by {worst:.3g} "
+                f"(allowed {allowed:.2g})"
+            )
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = self.__dict__.copy()
+        del state["_data"]
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._data = self.model.createData()
+
+    def __repr__(self) -> str:
+        return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"
