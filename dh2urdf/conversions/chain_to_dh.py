@@ -1,0 +1,129 @@
+"""From a serial chain to a DH table."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.dh_to_chain import FLIP
+from dh2urdf.conversions.frame_assignment import Assignment, XRule, assign_frames, references
+from dh2urdf.conversions.prismatic_axes import place_prismatic_axes
+from dh2urdf.conversions.rounding import tidy_angle, tidy_length, tidy_origin
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.transforms import Array
+
+__all__ = ["AssignedTable", "chain_to_dh", "turned_round"]
+
+
+@dataclass(frozen=True)
+class AssignedTable:
+    """A table and the frame assignment behind it.
+
+    ``links`` are those of the chain with the axes of sliding joints where the table has them.
+    """
+
+    table: DHTable
+    assignment: Assignment
+    links: Array
+
+
+def chain_to_dh(
+    chain: SerialChain,
+    convention: DHConvention | str = DHConvention.STANDARD,
+    *,
+    name: str = "robot",
+    x_rule: XRule | str = XRule.AUTO,
+    compact: bool = True,
+    signs: Sequence[int] | None = None,
+) -> AssignedTable:
+    """Assign DH frames to a chain (lecture notes section 4) and write down the table.
+
+    Parameters
+    ----------
+    convention : DHConvention
+    name : str
+        Name of the table.
+    x_rule : XRule
+        Which way x points along a common normal.
+    compact : bool
+        Give pairs of axes whose common normal is far away an extra fixed step instead.
+    signs : sequence of n ints, optional
+        -1 where z is to point against the joint's positive direction; the row's sign makes up
+        for it, so q stays what it was.
+
+    Returns
+    -------
+    AssignedTable
+        FK of the table equals FK of the chain, up to rounding.
+    """
+    convention = DHConvention(convention)
+    rule = XRule(x_rule)
+    signs = tuple(signs) if signs is not None else (1,) * chain.n
+    links = turned_round(chain.links, signs)
+    slides: list[bool] = chain.prismatic.tolist()
+    size = references(links).size
+
+    def assign(trial: Array) -> Assignment:
+        return assign_frames(
+            trial, convention, prismatic=slides, x_rule=rule, compact=compact, size=size
+        )
+
+    links = place_prismatic_axes(links, slides, lambda trial: assign(trial).lengths, size)
+    assignment = assign(links)
+    rows = _rows(assignment, chain, signs)
+    table = DHTable(
+        rows,
+        convention,
+        name,
+        base=tidy_origin(assignment.base, size),
+        tool=tidy_origin(assignment.end.tool, size),
+    )
+    return AssignedTable(table, assignment, links)
+
+
+def turned_round(links: Array, signs: Sequence[int]) -> Array:
+    """Links of the chain whose joint frames have z turned round where the sign is -1."""
+    out = links.copy()
+    for i, sign in enumerate(signs):
+        if sign < 0:
+            out[i] = out[i] @ FLIP
+            out[i + 1] = FLIP @ out[i + 1]
+    return out
+
+
+def _rows(found: Assignment, chain: SerialChain, signs: Sequence[int]) -> tuple[DHRow, ...]:
+    """One row a joint, and a fixed row after each that needs one."""
+    standard = found.convention is DHConvention.STANDARD
+    between = [(n.a, n.alpha) for n in found.normals]
+    crossings = (
+        [*between, (found.end.a, found.end.alpha)]
+        if standard
+        else [(found.start.a, found.start.alpha), *between]
+    )
+    rows = []
+    for i, (a, alpha) in enumerate(crossings):
+        row = DHRow(
+            theta=tidy_angle(found.theta[i]),
+            d=tidy_length(found.d[i], found.size),
+            a=tidy_length(a, found.size),
+            alpha=tidy_angle(alpha),
+            joint_type=chain.joint_types[i],
+            sign=signs[i],
+            name=chain.names[i],
+        )
+        rows.append(_bounded(row, float(chain.lower[i]), float(chain.upper[i])))
+        beta = found.normals[i].beta if i < found.n - 1 else 0.0
+        if beta != 0:
+            step = Origin(rpy=(0.0, beta, 0.0))
+            rows.append(DHRow(joint_type=JointType.FIXED, origin=step))
+    return tuple(rows)
+
+
+def _bounded(row: DHRow, lower: float, upper: float) -> DHRow:
+    return replace(
+        row,
+        lower=lower if math.isfinite(lower) else None,
+        upper=upper if math.isfinite(upper) else None,
+    )

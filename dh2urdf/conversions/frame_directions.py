@@ -1,0 +1,152 @@
+"""Which way each x axis points: the one choice that frame assignment leaves between equals.
+
+Along a common normal x points away from the axis before it. Where two axes intersect it may
+point either way, and a choice made at one joint is felt at the next, so the choices are made
+together: of all combinations the one with the fewest non-zero theta at q = 0, then the
+smallest ones, then zeros as early as can be. Two states a pair make that a shortest path.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+from dh2urdf import transforms as tf
+from dh2urdf.conversions.axis_pairs import AxisPair, Normal, flipped, wrap
+from dh2urdf.conversions.frame_ends import End
+
+__all__ = ["HALF_TURN", "Directions", "choose_directions"]
+
+HALF_TURN = 1e-3
+"""Angle [rad] that a theta may be off 0 or a half turn and still count as one.
+
+Wide enough for angles written with three digits; a choice is made by it, no number changed.
+"""
+
+Cost = tuple[int, int, tuple[int, ...]]
+Ends = Callable[[float], tuple[End, ...]]
+
+
+class Directions(NamedTuple):
+    """A complete choice: theta of every joint [rad], the factorisations as turned, the end."""
+
+    theta: tuple[float, ...]
+    normals: tuple[Normal, ...]
+    end: End
+
+
+class _Path(NamedTuple):
+    """Choices up to one axis; phi is the turn left over about it [rad].
+
+    ``open`` means that the theta of this axis will be 0, whatever comes.
+    """
+
+    theta: tuple[float, ...]
+    normals: tuple[Normal, ...]
+    phi: float | None
+    open: bool
+
+
+def choose_directions(
+    phi: float | None,
+    pairs: Sequence[AxisPair],
+    normals: Sequence[Normal],
+    ends: Ends,
+    prismatic: Sequence[bool],
+    strict: bool,
+) -> Directions:
+    """Turn the factorisations of all pairs so that the table gets simplest.
+
+    Parameters
+    ----------
+    phi : float or None
+        Turn about axis 1 that the base leaves [rad]; None where frame 0 is free to turn.
+    ends : callable
+        The choices of frame n for a given turn left over about the last axis.
+    strict : bool
+        Keep x away from the axis before it even where that costs theta a half turn.
+    """
+    paths = [_Path((), (), phi, phi is None)]
+    for i, (pair, normal) in enumerate(zip(pairs, normals, strict=True)):
+        slide_first = prismatic[i] and not prismatic[i + 1]
+        steps = [
+            _step(path, turned, pair.any_direction and slide_first)
+            for path in paths
+            for turned in _ways(path, pair, normal, strict)
+        ]
+        paths = _best_by_end(steps)
+    best: tuple[Cost, Directions] | None = None
+    for path in paths:
+        for end in ends(path.phi or 0.0):
+            last = _settle(path, end.phi1)
+            leftover = sum(abs(angle) > HALF_TURN for angle in tf.matrix_to_rpy(end.tool))
+            cost = _cost(last.theta, leftover)
+            if best is None or cost < best[0]:
+                best = cost, Directions(last.theta, last.normals, end)
+    assert best is not None
+    return best[1]
+
+
+def _ways(path: _Path, pair: AxisPair, normal: Normal, strict: bool) -> Iterator[Normal]:
+    """The directions of x that one pair allows after the choices before it."""
+    if pair.any_direction:
+        swing = -(path.phi or 0.0) - normal.phi1
+        yield _swung(normal, swing, pair.opposed)
+        return
+    other = flipped(normal)
+    if normal.a == 0:
+        yield from (normal, other) if normal.alpha > 0 else (other, normal)
+        return
+    away, back = (normal, other) if normal.a > 0 else (other, normal)
+    half = not path.open and abs(wrap((path.phi or 0.0) + away.phi1)) > math.pi - HALF_TURN
+    yield back if half and not strict else away
+
+
+def _step(path: _Path, normal: Normal, leave_open: bool) -> _Path:
+    """Extend a path by one pair."""
+    settled = _settle(path, normal.phi1)
+    return settled._replace(normals=(*settled.normals, normal), phi=normal.phi2, open=leave_open)
+
+
+def _settle(path: _Path, phi1: float) -> _Path:
+    """Add the theta of the axis that the path ended on."""
+    normals, theta = path.normals, path.theta
+    value = wrap((path.phi or 0.0) + phi1)
+    if path.open and normals:
+        opposed = abs(normals[-1].alpha) > 1.0
+        swing = -value if opposed else value
+        normals = (*normals[:-1], _swung(normals[-1], swing, opposed))
+        theta = (*theta[:-1], wrap(theta[-1] + swing))
+    settled = 0.0 if path.open and normals else value
+    return _Path((*theta, settled), normals, path.phi, path.open)
+
+
+def _swung(normal: Normal, swing: float, opposed: bool) -> Normal:
+    """x turned by ``swing`` about an axis that the next one shares."""
+    back = swing if opposed else -swing
+    return normal._replace(phi1=normal.phi1 + swing, phi2=normal.phi2 + back)
+
+
+def _best_by_end(paths: Sequence[_Path]) -> list[_Path]:
+    """Of the paths that leave the same turn, the cheapest."""
+    best: list[_Path] = []
+    for path in paths:
+        for k, other in enumerate(best):
+            if path.open == other.open and _same(path.phi, other.phi):
+                if _cost(path.theta) < _cost(other.theta):
+                    best[k] = path
+                break
+        else:
+            best.append(path)
+    return best
+
+
+def _same(one: float | None, two: float | None) -> bool:
+    return abs(wrap((one or 0.0) - (two or 0.0))) < HALF_TURN
+
+
+def _cost(theta: Sequence[float], leftover: int = 0) -> Cost:
+    """What a choice costs: how many theta are not 0, how large, how early."""
+    steps = tuple(round(abs(value) / HALF_TURN) for value in theta)
+    return sum(step > 0 for step in steps) + leftover, sum(steps), steps
