@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import cache
 from importlib.metadata import distribution
 
 import numpy as np
@@ -78,8 +79,12 @@ def configurations(n: int, seed: int = 7):
     return np.random.default_rng(seed).uniform(-math.pi, math.pi, (TRIALS, n))
 
 
+load_table = cache(dh2urdf.load_table)
+
+
 def tool(name: str, q) -> np.ndarray:
-    return dh_frames(dh2urdf.load_table(name), q)[-1]
+    """Pose of tool0 in base_link, by the DH product of this module."""
+    return dh_frames(load_table(name), q)[-1]
 
 
 class PackagedArm:
@@ -164,7 +169,7 @@ def test_every_table_has_a_referee_here():
 @pytest.mark.parametrize("name", NAMES)
 def test_table_says_source_check_and_limits(name):
     """Every table carries its name, source, a check with a figure, and limits of every joint."""
-    table = dh2urdf.load_table(name)
+    table = load_table(name)
     assert table.name == name
     assert table.source
     assert re.search(r"\d", table.checked)
@@ -188,7 +193,7 @@ def test_panda_links_are_its_dh_frames():
     arm = PackagedArm(*PACKAGED["franka_fer"][:3])
     links = [f"panda_link{i}" for i in range(9)]
     for q in configurations(7):
-        ours = dh_frames(dh2urdf.load_table("franka_fer"), q)
+        ours = dh_frames(load_table("franka_fer"), q)
         np.testing.assert_allclose(ours, arm.poses(q, *links), rtol=0, atol=1e-13)
 
 
@@ -199,7 +204,7 @@ def test_ur5_links_stand_still_in_their_dh_frames():
     links = [f"{link}_link" for link in links]
     offsets = []
     for q in configurations(6):
-        ours = dh_frames(dh2urdf.load_table("ur5"), q)[1:7]
+        ours = dh_frames(load_table("ur5"), q)[1:7]
         theirs = arm.poses(q, *links)
         offsets.append([np.linalg.solve(a, b) for a, b in zip(ours, theirs, strict=True)])
     assert np.ptp(offsets, axis=0).max() < 1e-10
@@ -209,7 +214,7 @@ def test_ur5_links_stand_still_in_their_dh_frames():
 def test_table_equals_makers_joint_origins(name):
     """The DH product and the maker's chain of joint origins agree to the source's rounding."""
     chain, bound = CHAINS[name]
-    for q in configurations(dh2urdf.load_table(name).n):
+    for q in configurations(load_table(name).n):
         np.testing.assert_allclose(tool(name, q), chain_fk(chain, q), rtol=0, atol=bound)
 
 
@@ -217,7 +222,7 @@ def test_table_equals_makers_joint_origins(name):
 def test_table_equals_closed_form(name):
     """The end point or wrist centre is where the closed form puts it."""
     behind, point = CLOSED_FORMS[name]
-    for q in configurations(dh2urdf.load_table(name).n):
+    for q in configurations(load_table(name).n):
         T = tool(name, q)
         np.testing.assert_allclose(T[:3, 3] - behind * T[:3, 2], point(q), rtol=0, atol=1e-14)
 
@@ -256,13 +261,13 @@ def test_rpr_remedies_share_a_point_and_differ_by_a_quarter_turn():
 
 def test_ur5_base_height_is_the_makers():
     """d1 of the UR5 is 0.089159 m, not the 0.089459 that circulates."""
-    assert dh2urdf.load_table("ur5").rows[0].d == 0.089159
+    assert load_table("ur5").rows[0].d == 0.089159
 
 
 @pytest.mark.parametrize("name", ["puma560", "puma560_modified"])
 def test_published_inertias_are_those_of_rigid_bodies(name):
     """Every tensor carried is positive and keeps the triangle inequality."""
-    carried = [row for row in dh2urdf.load_table(name).joints if row.inertia is not None]
+    carried = [row for row in load_table(name).joints if row.inertia is not None]
     assert len(carried) == 4
     for row in carried:
         ixx, ixy, ixz, iyy, iyz, izz = row.inertia
