@@ -10,7 +10,6 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.bodies import link_frames
 from dh2urdf.conversions.coupling import Coupling, couple
 from dh2urdf.conversions.dh_to_chain import FLIP, dh_to_chain
@@ -26,6 +25,7 @@ from dh2urdf.conversions.model_to_chain import (
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import ConfigurationError, VerificationError
+from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robots import load_table
 from dh2urdf.transforms import Array, pose_error
 
@@ -36,7 +36,7 @@ AGREEMENT = 1e-12
 arm's size: both are products of the same few rigid transforms."""
 
 
-class Robot:
+class Robot(RobotIK):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. The object owns one ``pin.Data``; use a copy
@@ -282,15 +282,23 @@ class Robot:
             frames[k + 1] = np.linalg.inv(self.chain.joint_frames[k]) @ T_base_joint
         return frames
 
+    def _placements(self, q: Array) -> Array:
+        """``T_base_tip`` of configurations (k, n) by Pinocchio, shape (k, 4, 4)."""
+        T = np.empty((len(q), 4, 4))
+        for k, config in enumerate(self.model_configuration(q)):
+            pin.framesForwardKinematics(self.model, self._data, config)
+            M_world_base = self._data.oMf[self._path.base]
+            T[k] = (M_world_base.inverse() * self._data.oMf[self._path.tip]).homogeneous
+        return T
+
     def _check_agreement(self) -> None:
         """Compare the chain's product with Pinocchio's frame placement."""
         rng = np.random.default_rng(0)
         worst = 0.0
         for _ in range(3):
             q = self.random_configuration(rng)
-            pin.framesForwardKinematics(self.model, self._data, self.model_configuration(q))
-            M = self._data.oMf[self._path.base].inverse() * self._data.oMf[self._path.tip]
-            worst = max(worst, pose_error(self.chain.fk(self._flat(q)[0][0]), M.homogeneous))
+            T_base_tip = self._placements(q[None])[0]
+            worst = max(worst, pose_error(self.chain.fk(self._flat(q)[0][0]), T_base_tip))
         allowed = AGREEMENT * max(1.0, float(np.abs(self.chain.links[:, :3, 3]).max()))
         if worst > allowed:
             raise VerificationError(

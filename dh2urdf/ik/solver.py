@@ -35,8 +35,9 @@ class Task(StrEnum):
 class Solver(Protocol):
     """All solutions of many poses of one chain."""
 
-    name: ClassVar[str]
-    """Short name of the family: ``spherical wrist``, ``general 6R``, ..."""
+    @property
+    def name(self) -> str:
+        """Short name of the family: ``spherical wrist``, ``general 6R``, ..."""
 
     chain: SerialChain
     """The exact chain that every solution is certified on."""

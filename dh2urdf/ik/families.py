@@ -1,0 +1,156 @@
+"""Singular families: from one representative to the member that the user wants.
+
+Where joints are free, the solutions form a curve (seldom a surface) in joint space. A member is
+moved along the null space of the Jacobian of the free joints and put back on the curve by
+Newton's method on the exact chain.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik import limits
+from dh2urdf.ik.solver import Task
+from dh2urdf.ik.tolerances import ACCEPT, FAMILY_RANK, FAMILY_STEP
+from dh2urdf.transforms import Array
+
+__all__ = ["Family", "task_error"]
+
+MOST_STEPS = 100
+"""Steps along a family before the search for its nearest member is given up."""
+
+
+def task_error(T_found: Array, T: Array, task: Task) -> Array:
+    """Error vectors of poses (k, 4, 4) against a target (4, 4), shape (k, 3 or 6).
+
+    Position difference [m], then the rotation vector, as long as its sine, from the found to
+    the target orientation; for ``position+axis`` that between the two z axes.
+    """
+    position = T[:3, 3] - T_found[:, :3, 3]
+    if task is Task.POSITION:
+        return position
+    if task is Task.POSITION_AXIS:
+        turn = np.cross(T_found[:, :3, 2], T[:3, 2])
+        behind = T_found[:, :3, 2] @ T[:3, 2] < 0.0
+    else:
+        turn = 0.5 * np.cross(T_found[:, :3, :3], T[None, :3, :3], axisa=1, axisb=1).sum(axis=1)
+        behind = np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) < 1.0
+    turn[behind] = np.pi, 0.0, 0.0
+    return np.concatenate([position, turn], axis=1)
+
+
+class Family:
+    """The solutions of one pose that a representative can slide to.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    task : Task
+    T : array, shape (4, 4)
+        Target.
+    free : tuple of int
+        Indices of the joints that move along the family.
+    """
+
+    def __init__(self, chain: SerialChain, task: Task, T: Array, free: tuple[int, ...]) -> None:
+        self.chain, self.task, self.T = chain, task, T
+        self.free = list(free)
+
+    def nearest(self, q: Array, seed: Array, within_limits: bool) -> Array | None:
+        """The member of the family through q (n,) with the least motion from the seed.
+
+        Returns
+        -------
+        array, shape (n,), or None
+            None where no member keeps the limits and ``within_limits`` is asked for.
+        """
+        starts = [limits.turned_to(self.chain, q, seed)]
+        for i in self.free:
+            if not self.chain.prismatic[i]:
+                starts += [starts[0] + s * limits.TWO_PI * np.eye(self.chain.n)[i] for s in (1, -1)]
+        members = [self._slide(start, seed) for start in starts]
+        if within_limits:
+            inside = [m for m in members if bool(limits.inside(self.chain, m))]
+            members = inside or self._inside_members(q, seed)
+        if not members:
+            return None
+        return min(members, key=lambda m: float(np.linalg.norm(m - seed)))
+
+    def _slide(self, q: Array, seed: Array) -> Array:
+        """Go along the family while that brings q nearer to the seed."""
+        for _ in range(MOST_STEPS):
+            tangent = self._tangent(q)
+            step = tangent @ (tangent.T @ (seed - q)[self.free])
+            longest = float(np.abs(step).max(initial=0.0))
+            if longest < 1e-12:
+                break
+            moved = self._moved(q, step)
+            if moved is None:
+                moved = self._moved(q, step * min(1.0, FAMILY_STEP / longest))
+            if moved is None or np.linalg.norm(moved - seed) >= np.linalg.norm(q - seed):
+                break
+            q = moved
+        return q
+
+    def _inside_members(self, q: Array, seed: Array) -> list[Array]:
+        """Samples of the family that keep the limits, by walking it both ways."""
+        found = []
+        for sign in (1.0, -1.0):
+            member, heading = q, None
+            for _ in range(2 * MOST_STEPS):
+                tangent = self._tangent(member)
+                if tangent.shape[1] == 0:
+                    break
+                along = tangent[:, 0] if heading is None else tangent @ (tangent.T @ heading)
+                along = along * (sign if heading is None else 1.0) / np.linalg.norm(along)
+                moved = self._moved(member, FAMILY_STEP * along)
+                if moved is None:
+                    break
+                member, heading = moved, along
+                turned = limits.turned_to(self.chain, member, seed)
+                if bool(limits.inside(self.chain, turned)):
+                    found.append(turned)
+        return found
+
+    def _moved(self, q: Array, step: Array) -> Array | None:
+        """Q with its free joints moved by step and put back on the family; None if that fails."""
+        out = q.copy()
+        out[self.free] += step
+        for _ in range(4):
+            error = self._error(out)
+            size = float(np.abs(error).max())
+            if size <= 1e-14:
+                return out
+            if size > 0.5 * FAMILY_STEP * self.chain.size:
+                return None
+            J = self._jacobian(out)
+            out[self.free] += np.linalg.pinv(J, rcond=FAMILY_RANK) @ error
+        return out if float(np.abs(self._error(out)).max()) <= ACCEPT else None
+
+    def _error(self, q: Array) -> Array:
+        """Task error of q (n,)."""
+        row: Array = task_error(self.chain.fk(q)[None], self.T, self.task)[0]
+        return row
+
+    def _jacobian(self, q: Array) -> Array:
+        """Rows of the task, columns of the free joints: derivative of the pose."""
+        from dh2urdf.kernels.chain import chain_jacobian_batch
+
+        J = np.empty((1, 6, self.chain.n))
+        chain_jacobian_batch(self.chain.links, self.chain.prismatic, q[None], J)
+        columns: Array = J[0][:, self.free]
+        if self.task is Task.POSITION:
+            return columns[:3]
+        if self.task is Task.POSITION_AXIS:
+            z = self.T[:3, 2]
+            columns[3:] -= np.outer(z, z @ columns[3:])
+        return columns
+
+    def _tangent(self, q: Array) -> Array:
+        """Orthonormal directions of the free joints that leave the task alone, shape (f, d)."""
+        J = self._jacobian(q)
+        _, sigma, Vt = np.linalg.svd(J)
+        rank = int((sigma > FAMILY_RANK * max(float(sigma[0]), 1e-9)).sum())
+        null: Array = Vt[rank:].T
+        return null

@@ -1,0 +1,88 @@
+"""Chains with joints held at a value, and solvers that give whole configurations back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
+from dh2urdf.transforms import Array, rot_z, trans
+
+__all__ = ["HeldJoints", "hold"]
+
+
+def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
+    """The chain without the held joints: ``links[i] Z_i(value) links[i + 1]`` become one link."""
+    links = [chain.links[0]]
+    for i in range(chain.n):
+        if i in held:
+            Z = trans(0.0, 0.0, held[i]) if chain.prismatic[i] else rot_z(held[i])
+            links[-1] = links[-1] @ Z @ chain.links[i + 1]
+        else:
+            links.append(chain.links[i + 1])
+    moving = [i for i in range(chain.n) if i not in held]
+    return SerialChain(
+        np.stack(links),
+        tuple(chain.joint_types[i] for i in moving),
+        tuple(chain.names[i] for i in moving),
+        chain.lower[moving],
+        chain.upper[moving],
+    )
+
+
+class HeldJoints:
+    """Solver of a chain some of whose joints are held: the solver of the rest, columns put back.
+
+    Parameters
+    ----------
+    chain : SerialChain
+        The whole chain.
+    held : mapping of int to float
+        Value of each held joint [rad] or [m].
+    task : Task
+    """
+
+    def __init__(self, chain: SerialChain, held: Mapping[int, float], task: Task) -> None:
+        if len(held) == chain.n:
+            raise ConfigurationError(f"locked: all {chain.n} joints are held, none is left to move")
+        self.chain, self.held = chain, dict(held)
+        self.inner: Solver = select_solver(hold(chain, held), task)
+        self.moving = np.array([i for i in range(chain.n) if i not in held])
+        self.kmax = self.inner.kmax
+
+    @property
+    def name(self) -> str:
+        """Name of the solver of the joints that move."""
+        return self.inner.name
+
+    def explain(self) -> str:
+        """Name the held joints, then what the solver of the others says."""
+        held = ", ".join(f"{self.chain.names[i]} at {v:g}" for i, v in self.held.items())
+        return f"held: {held}\n{self.inner.explain()}"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve for the moving joints and write the held values between them."""
+        q = np.empty((len(Ts), self.kmax, len(self.moving)))
+        self.inner.solve_batch(Ts, within_limits, q, residual_out, count_out, branch_out, free_out)
+        q_out[:, :, self.moving] = q
+        for i, value in self.held.items():
+            q_out[:, :, i] = value
+        free = free_out.copy()
+        free_out[:] = 0
+        for bit, i in enumerate(self.moving):
+            free_out |= (free >> bit & 1) << int(i)
+
+    def __str__(self) -> str:
+        return self.name

@@ -1,0 +1,70 @@
+"""Joint limits and full turns: which of the angles q + 2 pi k is meant."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.tolerances import LIMIT_SLACK
+from dh2urdf.transforms import Array
+
+__all__ = ["all_turns", "inside", "middle", "turned_to"]
+
+TWO_PI = 2.0 * math.pi
+
+
+def inside(chain: SerialChain, q: Array) -> NDArray[np.bool_]:
+    """Whether configurations q (..., n) keep all limits, shape (...)."""
+    out: NDArray[np.bool_] = np.all(
+        (q >= chain.lower - LIMIT_SLACK) & (q <= chain.upper + LIMIT_SLACK), axis=-1
+    )
+    return out
+
+
+def middle(chain: SerialChain) -> Array:
+    """Middle of each range; where a bound is infinite, the allowed value nearest to zero."""
+    both = np.isfinite(chain.lower) & np.isfinite(chain.upper)
+    nearest = np.clip(0.0, chain.lower, chain.upper)
+    lower, upper = np.where(both, chain.lower, 0.0), np.where(both, chain.upper, 0.0)
+    return np.where(both, 0.5 * (lower + upper), nearest)
+
+
+def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
+    """Configurations q (..., n) with each angle in the turn nearest to the reference.
+
+    A turn inside the limits goes before a nearer one outside; where no turn is inside, the
+    nearest one is kept.
+    """
+    turns = np.round((reference - q) / TWO_PI)
+    most = np.floor((chain.upper + LIMIT_SLACK - q) / TWO_PI)
+    least = np.ceil((chain.lower - LIMIT_SLACK - q) / TWO_PI)
+    turns = np.where(least <= most, np.clip(turns, least, most), turns)
+    return _trimmed(chain, np.where(chain.prismatic, q, q + TWO_PI * turns))
+
+
+def _trimmed(chain: SerialChain, q: Array) -> Array:
+    """Put what rounding took over a limit onto it."""
+    on = np.clip(q, chain.lower, chain.upper)
+    return np.where(np.abs(on - q) <= LIMIT_SLACK, on, q)
+
+
+def all_turns(chain: SerialChain, q: Array) -> Array:
+    """Every turn of one configuration q (n,) inside the limits, shape (k, n).
+
+    A joint without both bounds has infinitely many turns; it keeps the one it has.
+    """
+    choices: list[list[float]] = []
+    for value, slides, lower, upper in zip(
+        q, chain.prismatic, chain.lower, chain.upper, strict=True
+    ):
+        if slides or not math.isfinite(lower) or not math.isfinite(upper):
+            choices.append([float(value)])
+            continue
+        least = math.ceil((lower - LIMIT_SLACK - value) / TWO_PI)
+        most = math.floor((upper + LIMIT_SLACK - value) / TWO_PI)
+        choices.append([float(value) + TWO_PI * k for k in range(least, most + 1)])
+    return _trimmed(chain, np.array(list(itertools.product(*choices)), float).reshape(-1, chain.n))

@@ -1,0 +1,204 @@
+"""A continuous joint path through a sequence of poses.
+
+Dynamic programming over all solutions of all poses (Bellman's principle): of all ways through
+the branches, the one with the fewest breaks and, among those, the least joint motion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.ik import limits
+from dh2urdf.ik.families import Family
+from dh2urdf.ik.problem import Problem
+from dh2urdf.ik.solutions import IKBatch, IKSolutions, as_configuration
+from dh2urdf.ik.tolerances import PATH_JUMP
+from dh2urdf.transforms import Array
+
+__all__ = ["IKPath", "find_path"]
+
+MOST_STATES = 512
+"""Configurations (solutions times turns) followed side by side."""
+
+BREAK = 1e9
+"""Cost of one break [rad or m]: more than any motion without one."""
+
+
+@dataclass(frozen=True, eq=False)
+class IKPath:
+    """A joint path, and where it cannot be continuous.
+
+    Attributes
+    ----------
+    q : array, shape (m, n)
+        Configuration at each pose [rad] or [m]; NaN where the pose is out of reach.
+    breaks : tuple of int
+        Indices i where a joint has to jump on the way from the pose before to pose i.
+    unreachable : tuple of int
+        Indices of poses without a solution.
+    joint_names : tuple of str
+    max_jump : float
+        Motion of a joint between two poses that counts as a jump [rad or m].
+    """
+
+    q: Array
+    breaks: tuple[int, ...]
+    unreachable: tuple[int, ...]
+    joint_names: tuple[str, ...]
+    max_jump: float
+
+    @property
+    def continuous(self) -> bool:
+        """Whether every pose is reached and no joint jumps."""
+        return not self.breaks and not self.unreachable
+
+    @property
+    def motion(self) -> float:
+        """Length of the path in joint space [rad or m], jumps included."""
+        reached = self.q[np.isfinite(self.q[:, :1]).all(axis=1)]
+        return float(np.linalg.norm(np.diff(reached, axis=0), axis=1).sum())
+
+    def __len__(self) -> int:
+        return len(self.q)
+
+    def __str__(self) -> str:
+        lines = [f"{len(self)} poses, joint motion {self.motion:.4g}"]
+        lines += [f"pose {i} is out of reach" for i in self.unreachable]
+        for i in self.breaks:
+            before = i - 1
+            while before in self.unreachable:
+                before -= 1
+            step = self.q[i] - self.q[before]
+            j = int(np.abs(step).argmax())
+            lines.append(
+                f"break between poses {before} and {i}: {self.joint_names[j]} "
+                f"would have to move by {step[j]:.4g}"
+            )
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class _Stage:
+    """The configurations considered at one pose, their cost so far and their predecessors."""
+
+    pose: int
+    q: Array
+    cost: Array
+    parent: np.ndarray[tuple[int], np.dtype[np.int64]]
+
+
+def find_path(
+    problem: Problem,
+    batch: IKBatch,
+    start: ArrayLike | None,
+    within_limits: bool,
+    max_jump: float | None,
+) -> IKPath:
+    """The path of least joint motion through the solutions of a batch of poses.
+
+    Parameters
+    ----------
+    problem : Problem
+    batch : IKBatch
+        All solutions of the poses, in the order of the path.
+    start : array_like, shape (n,), optional
+        Configuration before the first pose; the way from there counts as motion.
+    within_limits : bool
+    max_jump : float, optional
+        Motion of a joint between neighbours that counts as a break [rad or m].
+    """
+    jump = PATH_JUMP if max_jump is None else float(max_jump)
+    if not jump > 0.0:
+        raise ConfigurationError(f"max_jump: a positive number, not {max_jump!r}")
+    origin = None if start is None else as_configuration(start, problem.chain.n, "start")
+    stages: list[_Stage] = []
+    unreachable = []
+    for i in range(len(batch)):
+        found = batch.solutions(i)
+        if not found:
+            unreachable.append(i)
+        elif not stages:
+            stages.append(_first_stage(problem, i, found, origin, within_limits))
+        else:
+            ahead = batch.solutions(i + 1) if i + 1 < len(batch) else None
+            stages.append(_next_stage(problem, stages[-1], i, found, ahead, within_limits, jump))
+    q = np.full((len(batch), problem.chain.n), np.nan)
+    breaks = _trace(stages, q, jump)
+    return IKPath(q, breaks, tuple(unreachable), problem.chain.names, jump)
+
+
+def _first_stage(
+    problem: Problem, pose: int, found: IKSolutions, origin: Array | None, within_limits: bool
+) -> _Stage:
+    """Where the path may begin: near the start, or at any solution in any turn."""
+    if origin is not None:
+        q = problem.arranged(found, origin, within_limits).q
+        return _Stage(pose, q, np.linalg.norm(q - origin, axis=1), np.zeros(len(q), np.int64))
+    q = problem.with_all_turns(found).q
+    if not 0 < len(q) <= MOST_STATES:
+        q = found.q
+    return _Stage(pose, q, np.zeros(len(q)), np.zeros(len(q), np.int64))
+
+
+def _next_stage(
+    problem: Problem,
+    last: _Stage,
+    pose: int,
+    found: IKSolutions,
+    ahead: IKSolutions | None,
+    within_limits: bool,
+    jump: float,
+) -> _Stage:
+    """Every way on from the last stage; for each configuration the cheapest."""
+    targets = _with_members(problem, last, found, ahead, within_limits)
+    q = limits.turned_to(problem.chain, targets[None], last.q[:, None])
+    step = q - last.q[:, None]
+    cost = last.cost[:, None] + np.linalg.norm(step, axis=2)
+    cost = cost + BREAK * (np.abs(step).max(axis=2) > jump)
+    parent = np.repeat(np.arange(len(last.q)), len(targets))
+    flat_q, flat_cost = q.reshape(-1, q.shape[2]), cost.ravel()
+    order = np.argsort(flat_cost, kind="stable")
+    _, first = np.unique(np.round(flat_q[order], 9), axis=0, return_index=True)
+    keep = order[np.sort(first)[:MOST_STATES]]
+    return _Stage(pose, flat_q[keep], flat_cost[keep], parent[keep])
+
+
+def _with_members(
+    problem: Problem,
+    last: _Stage,
+    found: IKSolutions,
+    ahead: IKSolutions | None,
+    within_limits: bool,
+) -> Array:
+    """Solutions (k, n), singular families by their members nearest to where the path is or goes."""
+    rows = [found.q]
+    for q, free in zip(found.q, found.free_joints, strict=True):
+        if not free:
+            continue
+        family = Family(problem.chain, problem.task, found.T, free)
+        best = last.q[np.argsort(last.cost, kind="stable")[:8]]
+        goals = [*best, *(ahead.q if ahead is not None else ())]
+        members = (family.nearest(q, goal, within_limits) for goal in goals)
+        rows += [member[None] for member in members if member is not None]
+    return np.concatenate(rows)
+
+
+def _trace(stages: list[_Stage], q: Array, jump: float) -> tuple[int, ...]:
+    """Follow the cheapest end back to the beginning, into q (m, n); the breaks on the way."""
+    if not stages:
+        return ()
+    state = int(stages[-1].cost.argmin())
+    breaks = []
+    for stage, before in zip(stages[::-1], [*stages[-2::-1], None], strict=True):
+        q[stage.pose] = stage.q[state]
+        if before is None:
+            break
+        parent = int(stage.parent[state])
+        if np.abs(stage.q[state] - before.q[parent]).max() > jump:
+            breaks.append(stage.pose)
+        state = parent
+    return tuple(breaks[::-1])

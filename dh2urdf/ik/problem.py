@@ -1,0 +1,209 @@
+"""One problem of inverse kinematics: a chain, a task, the joints that are held, a solver."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik import limits
+from dh2urdf.ik.families import Family, task_error
+from dh2urdf.ik.solutions import (
+    BRANCH_WORDS,
+    IKBatch,
+    IKSolutions,
+    as_configuration,
+    joints_of_mask,
+)
+from dh2urdf.ik.solver import Solver, Task
+from dh2urdf.transforms import Array
+
+__all__ = ["ForwardKinematics", "Problem", "Progress"]
+
+ForwardKinematics = Callable[[Array], Array]
+"""Configurations (k, n) to poses ``T_base_tool`` (k, 4, 4)."""
+
+Progress = Callable[[int, int], None]
+"""Called with the number of poses done and their total."""
+
+CHUNK = 4096
+"""Most poses of one call into a kernel: a few ms, so that progress and Ctrl-C are prompt."""
+
+SMALL = 256
+"""Poses below which a thread costs more than it saves."""
+
+
+class Problem:
+    """Solves poses; arranges, turns and measures what was found.
+
+    Parameters
+    ----------
+    chain : SerialChain
+        The whole chain, held joints included.
+    solver : Solver
+    task : Task
+    moving : tuple of int
+        Indices of the joints that are not held.
+    referee : callable
+        Forward kinematics that is independent of the kernels.
+    """
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        solver: Solver,
+        task: Task,
+        moving: tuple[int, ...],
+        referee: ForwardKinematics,
+    ) -> None:
+        self.chain, self.solver, self.task = chain, solver, task
+        self.moving, self.referee = moving, referee
+        self.branch_words = getattr(solver, "branch_words", BRANCH_WORDS)
+        self._shape = (1, solver.kmax, chain.n)
+        self._solve = solver.solve_batch
+        from dh2urdf.kernels.poses import first_bad_pose
+
+        self.first_bad_pose: Callable[[Array], int] = first_bad_pose
+
+    def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
+        """All solutions of one checked pose Ts (1, 4, 4)."""
+        shape = self._shape
+        q, residual = np.empty(shape), np.empty(shape[:2])
+        codes = np.zeros((2, 1, shape[1]), np.int64)
+        count = np.empty(1, np.int64)
+        branch, free = codes[0], codes[1]
+        self._solve(Ts, within_limits, q, residual, count, branch, free)
+        k = int(count[0])
+        found = IKSolutions(self, Ts[0], q[0, :k], residual[0, :k], branch[0, :k], free[0, :k])
+        if any(free[0].tolist()):
+            return self._families_inside(found, within_limits)
+        return found
+
+    def solve_many(
+        self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None
+    ) -> IKBatch:
+        """All solutions of checked poses Ts (m, 4, 4), in chunks on a pool of threads."""
+        m, (_, kmax, n) = len(Ts), self._shape
+        batch = IKBatch(
+            self,
+            Ts,
+            np.empty((m, kmax, n)),
+            np.empty((m, kmax)),
+            np.zeros(m, np.int64),
+            np.zeros((m, kmax), np.int64),
+            np.zeros((m, kmax), np.int64),
+        )
+        workers = max(1, threads if threads is not None else os.cpu_count() or 1)
+        step = max(SMALL, min(CHUNK, -(-m // workers)))
+        chunks = [batch[i : i + step] for i in range(0, m, step)]
+        _run(lambda part: self._solve_chunk(part, within_limits), chunks, workers, progress, m)
+        return batch
+
+    def _solve_chunk(self, part: IKBatch, within_limits: bool) -> int:
+        """Fill the arrays of a part of a batch; the number of its poses."""
+        from dh2urdf.kernels.poses import pad_solutions
+
+        arrays = (part.q, part.residual, part.count, part.branch_code, part.free_mask)
+        self._solve(part.targets, within_limits, *arrays)
+        singular = pad_solutions(*arrays, np.nan)
+        for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular else ():
+            found = self._families_inside(part.solutions(int(i)), within_limits)
+            k = len(found)
+            part.count[i] = k
+            part.q[i, :k], part.residual[i, :k] = found.q, found.residual
+            part.branch_code[i, :k], part.free_mask[i, :k] = found.codes
+            pad_solutions(*(a[i : i + 1] for a in arrays), np.nan)
+        return len(part)
+
+    def _families_inside(self, found: IKSolutions, within_limits: bool) -> IKSolutions:
+        """Bring the representatives of singular families into the limits, or drop them."""
+        if not within_limits:
+            return found
+        q, keep = found.q.copy(), np.ones(len(found), np.bool_)
+        middle = limits.middle(self.chain)
+        for k in np.flatnonzero(~limits.inside(self.chain, q)):
+            family = Family(self.chain, self.task, found.T, found.free_joints[k])
+            member = family.nearest(q[k], middle, within_limits=True)
+            keep[k] = member is not None
+            q[k] = q[k] if member is None else member
+        return self._measured(found, q).select(keep)
+
+    def arranged(
+        self, found: IKSolutions, seed: ArrayLike, within_limits: bool = True
+    ) -> IKSolutions:
+        """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
+        goal = as_configuration(seed, self.chain.n, "seed")
+        q = limits.turned_to(self.chain, found.q, goal)
+        for k, mask in enumerate(found.codes[1].tolist()):
+            if mask:
+                family = Family(self.chain, self.task, found.T, joints_of_mask(mask))
+                member = family.nearest(q[k], goal, within_limits)
+                q[k] = q[k] if member is None else member
+        order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
+        return self._measured(found, q).select(order)
+
+    def with_all_turns(self, found: IKSolutions, seed: ArrayLike | None = None) -> IKSolutions:
+        """Each solution in every turn that the limits allow, sorted by distance from a seed."""
+        turns = [limits.all_turns(self.chain, q) for q in found.q]
+        rows = np.repeat(np.arange(len(found)), [len(t) for t in turns])
+        if not len(rows):
+            return found
+        q = np.concatenate(turns)
+        all_of_them = self._measured(found.select(rows), q)
+        if seed is None:
+            return all_of_them
+        goal = as_configuration(seed, self.chain.n, "seed")
+        order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
+        return all_of_them.select(order)
+
+    def _measured(self, found: IKSolutions, q: Array) -> IKSolutions:
+        """The solutions at other members or turns q, with the residuals there."""
+        from dh2urdf.kernels.chain import chain_fk_batch
+
+        poses = np.empty((len(q), 4, 4))
+        chain_fk_batch(self.chain.links, self.chain.prismatic, q, poses)
+        residual = residual_of_poses(poses, found.T, self.task)
+        return IKSolutions(self, found.T, q, residual, *found.codes)
+
+    def measure(self, q: Array, T: Array) -> Array:
+        """Residuals of configurations q (k, n) by the independent forward kinematics."""
+        return residual_of_poses(self.referee(q), T, self.task)
+
+
+def residual_of_poses(poses: Array, T: Array, task: Task) -> Array:
+    """Larger of position [m] and orientation error [rad] of poses (k, 4, 4), shape (k,)."""
+    error = task_error(poses, T, task)
+    parts: Array = np.linalg.norm(error.reshape(len(poses), -1, 3), axis=2).max(axis=1, initial=0.0)
+    return parts
+
+
+def _run(
+    work: Callable[[IKBatch], int],
+    chunks: list[IKBatch],
+    workers: int,
+    progress: Progress | None,
+    total: int,
+) -> None:
+    """Work on all chunks, in this thread or on a pool, and say how far it has come."""
+    done = 0
+    if workers == 1 or len(chunks) < 2:
+        for chunk in chunks:
+            done += work(chunk)
+            if progress:
+                progress(done, total)
+        return
+    with ThreadPoolExecutor(min(workers, len(chunks))) as pool:
+        pending: set[Future[int]] = {pool.submit(work, chunk) for chunk in chunks}
+        try:
+            while pending:
+                finished, pending = wait(pending, return_when=FIRST_COMPLETED)
+                done += sum(future.result() for future in finished)
+                if progress:
+                    progress(done, total)
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise

@@ -1,0 +1,243 @@
+"""The public face: checked input in, solutions out.
+
+:class:`InverseKinematics` belongs to one chain and keeps a solver for each task and set of held
+joints that was asked for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
+from dh2urdf.ik import path
+from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.notice import notice_if_slow
+from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
+from dh2urdf.ik.solutions import IKBatch, IKSolutions
+from dh2urdf.ik.solver import Solver, Task, select_solver
+from dh2urdf.transforms import Array, check_pose
+
+__all__ = ["InverseKinematics", "Locked"]
+
+Locked = Mapping[int | str, float]
+"""Joints held at a value [rad] or [m], by index or name."""
+
+KEPT_PROBLEMS = 32
+"""Problems (task and held values) kept ready, the latest ones."""
+
+
+class InverseKinematics:
+    """Inverse kinematics of one chain.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    referee : callable
+        Configurations (k, n) to poses (k, 4, 4), independent of the kernels; ``verify`` uses it.
+    """
+
+    def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
+        self.chain, self.referee = chain, referee
+        self._problems: dict[tuple[Any, ...], Problem] = {}
+        self._plain: Problem | None = None
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_problems": {}, "_plain": None}
+
+    @property
+    def solver(self) -> Solver:
+        """The solver of the full pose with no joint held."""
+        return self.problem().solver
+
+    def solve(
+        self,
+        T: ArrayLike,
+        *,
+        seed: ArrayLike | None = None,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = Task.POSE,
+        turns: str = "nearest",
+    ) -> IKSolutions:
+        """All configurations that put the tool at a pose.
+
+        Parameters
+        ----------
+        T : array_like, shape (4, 4), or pinocchio.SE3
+            ``T_base_tool``, lengths in [m]; for task ``position`` a point (3,) will do.
+        seed : array_like, shape (n,), optional
+            Configuration to be near to: solutions are sorted by their distance from it, full
+            turns and singular families are resolved towards it.
+        within_limits : bool
+            Leave out solutions outside the joint limits.
+        locked : mapping of index or name to float, optional
+            Joints held at a value.
+        task : {"pose", "position", "position+axis"}
+            What of the pose has to be reached; axis is the tool's z.
+        turns : {"nearest", "all"}
+            For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
+            without one), or all of them as separate solutions.
+
+        Returns
+        -------
+        IKSolutions
+            Empty where the pose is out of reach.
+
+        Raises
+        ------
+        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
+        """
+        problem = self._plain
+        if problem is None or locked is not None or task != "pose":
+            problem = self.problem(task, locked, within_limits)
+        found = problem.solve_one(_one_pose(T, problem), within_limits)
+        if seed is not None:
+            found = problem.arranged(found, seed, within_limits)
+        if turns != "nearest":
+            if turns != "all":
+                raise ConfigurationError(f"turns: 'nearest' or 'all', not {turns!r}")
+            found = problem.with_all_turns(found, seed)
+        return found
+
+    def solve_batch(
+        self,
+        Ts: ArrayLike,
+        *,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = Task.POSE,
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> IKBatch:
+        """All configurations of many poses.
+
+        Parameters
+        ----------
+        Ts : array_like, shape (m, 4, 4)
+        within_limits, locked, task
+            As for a single pose.
+        threads : int, optional
+            Threads to use; by default one per processor.
+        progress : callable, optional
+            Called with the number of poses done and their total.
+        """
+        if threads is not None and threads < 1:
+            raise ConfigurationError(f"threads: at least 1, not {threads}")
+        problem = self.problem(task, locked, within_limits)
+        return problem.solve_many(_poses(Ts, problem), within_limits, threads, progress)
+
+    def solve_path(
+        self,
+        Ts: ArrayLike,
+        *,
+        start: ArrayLike | None = None,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = Task.POSE,
+        max_jump: float | None = None,
+    ) -> path.IKPath:
+        """A continuous joint path through a sequence of poses, see :func:`path.find_path`."""
+        problem = self.problem(task, locked, within_limits)
+        batch = problem.solve_many(_poses(Ts, problem), within_limits, None, None)
+        return path.find_path(problem, batch, start, within_limits, max_jump)
+
+    def problem(
+        self,
+        task: Task | str = Task.POSE,
+        locked: Locked | None = None,
+        within_limits: bool = False,
+    ) -> Problem:
+        """The problem of a task and held joints, built when first asked for."""
+        held = self._held(locked or {}, within_limits)
+        try:
+            wanted = Task(task)
+        except ValueError:
+            allowed = ", ".join(repr(t.value) for t in Task)
+            raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
+        key = (wanted, *sorted(held.items()))
+        problem = self._problems.pop(key, None) or self._build(wanted, held)
+        self._problems[key] = problem
+        if len(self._problems) > KEPT_PROBLEMS:
+            del self._problems[next(iter(self._problems))]
+        if not held and wanted is Task.POSE:
+            self._plain = problem
+        return problem
+
+    def _build(self, task: Task, held: dict[int, float]) -> Problem:
+        """Select a solver and run it once, so that its kernels are compiled."""
+        with notice_if_slow():
+            solver = HeldJoints(self.chain, held, task) if held else select_solver(self.chain, task)
+            moving = tuple(i for i in range(self.chain.n) if i not in held)
+            problem = Problem(self.chain, solver, task, moving, self.referee)
+            problem.solve_many(self.chain.tool[None], False, 1, None)
+        return problem
+
+    def _held(self, locked: Locked, within_limits: bool) -> dict[int, float]:
+        """Check held joints: index to value."""
+        held: dict[int, float] = {}
+        for key, value in locked.items():
+            i = self._joint_index(key)
+            if i in held:
+                raise ConfigurationError(f"locked: joint {self.chain.names[i]!r} is held twice")
+            if not isinstance(value, (int, float, np.number)) or not math.isfinite(value):
+                raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r}")
+            lower, upper = self.chain.lower[i], self.chain.upper[i]
+            if within_limits and not lower <= value <= upper:
+                raise ConfigurationError(
+                    f"locked[{key!r}]: {value:g} is outside the limits {lower:g} to {upper:g} "
+                    "of the joint; within_limits=False allows it"
+                )
+            held[i] = float(value)
+        return held
+
+    def _joint_index(self, key: int | str) -> int:
+        """Index of a joint given by index or name."""
+        names = self.chain.names
+        if isinstance(key, str):
+            if key in names:
+                return names.index(key)
+            raise NameNotFoundError(f"no joint named {key!r}; there are {', '.join(names)}")
+        if isinstance(key, (int, np.integer)) and 0 <= key < self.chain.n:
+            return int(key)
+        raise ConfigurationError(
+            f"locked: no joint {key!r}; indices go from 0 to {self.chain.n - 1}"
+        )
+
+
+def _one_pose(T: ArrayLike, problem: Problem) -> Array:
+    """A checked copy of one pose, shape (1, 4, 4)."""
+    try:
+        m = np.array(getattr(T, "homogeneous", T), np.float64, order="C", ndmin=3)
+    except (TypeError, ValueError):
+        m = check_pose(T)
+    if m.shape == (1, 4, 4):
+        if problem.first_bad_pose(m) >= 0:
+            check_pose(m[0])
+        return m
+    if problem.task is Task.POSITION and m.shape == (1, 1, 3):
+        pose = np.eye(4)
+        pose[:3, 3] = m[0, 0]
+        return _one_pose(pose, problem)
+    checked = check_pose(T)
+    raise PoseError(f"pose: expected shape (4, 4), got {checked.shape}; ik_batch takes many")
+
+
+def _poses(Ts: ArrayLike, problem: Problem) -> Array:
+    """Checked poses, shape (m, 4, 4), C-contiguous."""
+    try:
+        m = np.ascontiguousarray(getattr(Ts, "homogeneous", Ts), np.float64)
+    except (TypeError, ValueError):
+        m = check_pose(Ts, what="poses")
+    if m.shape == (4, 4):
+        m = m[None]
+    if m.ndim != 3 or m.shape[1:] != (4, 4):
+        raise PoseError(f"poses: expected shape (m, 4, 4), got {m.shape}")
+    if problem.first_bad_pose(m) >= 0:
+        check_pose(m, what="poses")
+    return m

@@ -1,0 +1,157 @@
+"""The inverse kinematics of a robot: solver and referee meet here.
+
+Solutions come from jitted kernels on the serial chain; ``verify`` measures them again with the
+frame placements of Pinocchio.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import NoSolverError
+from dh2urdf.transforms import Array
+
+if TYPE_CHECKING:
+    from dh2urdf.ik.path import IKPath
+    from dh2urdf.ik.problem import Progress
+    from dh2urdf.ik.solutions import IKBatch, IKSolutions
+    from dh2urdf.ik.solve import InverseKinematics, Locked
+    from dh2urdf.ik.solver import Solver, Task
+
+__all__ = ["RobotIK"]
+
+
+class RobotIK:
+    """What :class:`dh2urdf.Robot` knows of inverse kinematics."""
+
+    chain: SerialChain
+    joint_names: tuple[str, ...]
+
+    @property
+    def solver(self) -> Solver:
+        """The solver of the full pose; prints as its name, ``explain()`` says why it was chosen."""
+        return self._ik.solver
+
+    def ik(
+        self,
+        T: ArrayLike,
+        *,
+        seed: ArrayLike | None = None,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+        turns: str = "nearest",
+    ) -> IKSolutions:
+        """All configurations that put the tip at a pose.
+
+        Parameters
+        ----------
+        T : array_like, shape (4, 4), or pinocchio.SE3
+            ``T_base_tip``, lengths in [m]; for task ``position`` a point (3,) will do.
+        seed : array_like, shape (n,), optional
+            Configuration to be near to: solutions are sorted by their distance from it, full
+            turns and singular families are resolved towards it.
+        within_limits : bool
+            Leave out solutions outside the joint limits.
+        locked : mapping of index or name to float, optional
+            Joints held at a value [rad] or [m].
+        task : {"pose", "position", "position+axis"}
+            What of the pose has to be reached; axis is the tip's z.
+        turns : {"nearest", "all"}
+            For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
+            without one), or all of them as separate solutions.
+
+        Returns
+        -------
+        IKSolutions
+            Empty where the pose is out of reach.
+
+        Raises
+        ------
+        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
+        """
+        return self._ik.solve(
+            T, seed=seed, within_limits=within_limits, locked=locked, task=task, turns=turns
+        )
+
+    def ik_batch(
+        self,
+        Ts: ArrayLike,
+        *,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> IKBatch:
+        """All configurations for many poses, in a few arrays.
+
+        Parameters
+        ----------
+        Ts : array_like, shape (m, 4, 4)
+        within_limits, locked, task
+            As for :meth:`ik`.
+        threads : int, optional
+            Threads to use; by default one per processor.
+        progress : callable, optional
+            Called with the number of poses done and their total.
+        """
+        return self._ik.solve_batch(
+            Ts,
+            within_limits=within_limits,
+            locked=locked,
+            task=task,
+            threads=threads,
+            progress=progress,
+        )
+
+    def ik_path(
+        self,
+        Ts: ArrayLike,
+        *,
+        start: ArrayLike | None = None,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+        max_jump: float | None = None,
+    ) -> IKPath:
+        """A joint path through a sequence of poses: fewest breaks, then least joint motion.
+
+        Parameters
+        ----------
+        Ts : array_like, shape (m, 4, 4)
+        start : array_like, shape (n,), optional
+            Configuration before the first pose.
+        within_limits, locked, task
+            As for :meth:`ik`.
+        max_jump : float, optional
+            Motion of a joint between neighbouring poses that counts as a break [rad or m];
+            0.5 without it.
+        """
+        return self._ik.solve_path(
+            Ts,
+            start=start,
+            within_limits=within_limits,
+            locked=locked,
+            task=task,
+            max_jump=max_jump,
+        )
+
+    @cached_property
+    def _ik(self) -> InverseKinematics:
+        from dh2urdf.ik.solve import InverseKinematics
+
+        if len(self.joint_names) != self.chain.n:
+            raise NoSolverError(
+                f"{self.chain.n} joints move by {len(self.joint_names)} values (mimic joints); "
+                "inverse kinematics needs joints that move independently"
+            )
+        return InverseKinematics(self.chain, self._placements)
+
+    def _placements(self, q: Array) -> Array:
+        """Poses of the tip in the base by Pinocchio, for configurations (k, n)."""
+        raise NotImplementedError
