@@ -213,17 +213,21 @@ def circle_pair(M, N, d, slack, scratch, out):
     det_m = M[0, 0] * M[1, 1] - M[0, 1] * M[1, 0]
     det_n = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]
     threshold = TINY * largest * largest
-    if abs(det_n) <= threshold:
-        return _one_by_one(M, N, d, slack, False, out)
-    if abs(det_m) <= threshold:
-        return _one_by_one(N, M, d, slack, True, out)
-    if abs(det_m) >= abs(det_n):
-        return _two_ellipses(M, N, d, det_m, False, scratch, out)
-    return _two_ellipses(N, M, d, det_n, True, scratch, out)
+    singular = abs(det_n) <= threshold or abs(det_m) <= threshold
+    swapped = abs(det_n) > threshold and (abs(det_m) <= threshold or abs(det_m) < abs(det_n))
+    first, second, det = (N, M, det_n) if swapped else (M, N, det_m)
+    if singular:
+        rows = _one_by_one(first, second, d, slack, out)
+    else:
+        rows = _two_ellipses(first, second, d, det, scratch, out)
+    if swapped:
+        for k in range(rows):
+            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = out[k, 2], out[k, 3], out[k, 0], out[k, 1]
+    return rows
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _one_by_one(M, N, d, slack, swapped, out):
+def _one_by_one(M, N, d, slack, out):
     """Solve :func:`circle_pair` where N has rank 1 or 0: first x, then y."""
     first = N[0, 0] * N[0, 0] + N[0, 1] * N[0, 1]
     second = N[1, 0] * N[1, 0] + N[1, 1] * N[1, 1]
@@ -251,14 +255,12 @@ def _one_by_one(M, N, d, slack, swapped, out):
         for j in range(found):
             e, f = (e1, f1) if j == 0 else (e2, f2)
             out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = c, s, e, f
-            if swapped:
-                out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = e, f, c, s
             rows += 1
     return rows
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _two_ellipses(M, N, d, det, swapped, scratch, out):
+def _two_ellipses(M, N, d, det, scratch, out):
     """Solve :func:`circle_pair` where M is regular: ``|M^-1 (d - N (c, s))| = 1`` in y."""
     u0 = (M[1, 1] * d[0] - M[0, 1] * d[1]) / det
     u1 = (M[0, 0] * d[1] - M[1, 0] * d[0]) / det
@@ -282,8 +284,6 @@ def _two_ellipses(M, N, d, det, swapped, scratch, out):
         else:
             c, s = 1.0, 0.0
         out[k, 0], out[k, 1], out[k, 2], out[k, 3] = c, s, e, f
-        if swapped:
-            out[k, 0], out[k, 1], out[k, 2], out[k, 3] = e, f, c, s
     return count
 
 
