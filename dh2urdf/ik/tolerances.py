@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-__all__ = ["ACCEPT", "FAMILY_RANK", "FAMILY_STEP", "LIMIT_SLACK", "PATH_JUMP"]
+__all__ = ["ACCEPT", "EXACT", "FAMILY_RANK", "FAMILY_STEP", "FORM_ERROR", "LIMIT_SLACK"]
+__all__ += ["PATH_JUMP", "SLACK", "SNAP"]
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certify.py``."""
@@ -20,3 +21,19 @@ FAMILY_STEP = 0.1
 PATH_JUMP = 0.5
 """Motion of a joint [rad or m] between neighbouring poses of a path that counts as a break,
 when the caller gives no other: some 30 degrees."""
+
+SNAP = 1e-9
+"""Angle [rad], or length relative to ``chain.size``, below which two axes count as parallel,
+perpendicular or intersecting. A table's own rounding is 1e-16; 1e-9 is what a residual may be."""
+
+FORM_ERROR = 1e-13
+"""Largest difference [m and rad], relative to ``chain.size`` where that is over 1 m, of the snapped
+chain and the exact one at which a residual measured on the snapped chain is one of the exact
+chain."""
+
+EXACT = 1e-12
+"""Cosine below which an angle between axes is a right angle up to rounding."""
+
+SLACK = 1e-6
+"""Relative amount by which an equation may miss its rim before the branch is given up. The residual
+decides at 1e-9; this only has to be larger."""

@@ -263,7 +263,8 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     T : array, shape (4, 4)
         Target ``T_base_tool``.
     within_limits : bool
-        Drop what no full turn brings into the limits.
+        Drop what no full turn brings into the limits; a representative of a singular family
+        stays, for another member may be inside.
     q : array, shape (kmax, n)
         Candidates in the first ``count`` rows, any turn.
     residual : array, shape (kmax,)
@@ -303,7 +304,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     solutions = 0
     for k in range(kept):
         certified = _into_limits(links, joints, T, q[k], residual[k])
-        if certified < 0.0 and within_limits:
+        if certified < 0.0 and within_limits and free[k] == 0:
             continue
         if certified >= 0.0:
             residual[k] = certified
