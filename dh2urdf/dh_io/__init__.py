@@ -8,6 +8,7 @@ from dh2urdf.dh_io.atomic import atomic_write
 from dh2urdf.dh_io.expressions import parse_cell
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
 from dh2urdf.dh_io.units import SI, Kind, Units
+from dh2urdf.dh_io.write import table_to_text, write_table
 
 __all__ = [
     "FORMATS",
@@ -20,4 +21,6 @@ __all__ = [
     "parse_cell",
     "parse_table",
     "read_table",
+    "table_to_text",
+    "write_table",
 ]

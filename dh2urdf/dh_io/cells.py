@@ -17,7 +17,7 @@ from dh2urdf.dh_io.expressions import (
     plain_text,
     to_float,
 )
-from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean
+from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
 from dh2urdf.dh_io.units import SI, Kind, Units, unit_kind, unit_name
 
 __all__ = ["Cells", "Context", "found"]
@@ -29,7 +29,8 @@ _PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 def found(node: Node) -> str:
     """Text of a cell as messages show it."""
     if isinstance(node, Scalar):
-        return repr(node.text) if len(node.text) <= 60 else repr(node.text[:57] + "...")
+        text = node.text if len(node.text) <= 60 else node.text[:57] + "..."
+        return text if _PLAIN_NUMBER.fullmatch(text) else repr(text)
     return "a list" if isinstance(node, Items) else "keys and values"
 
 
@@ -50,12 +51,16 @@ class Context:
                 cell.mark, path, f"found {found(cell)}; expected one {self._one(kind)}"
             )
             return None
+        if cell.unit and unit_kind(cell.unit) not in (None, kind):
+            message = f"found {found(cell)} in a column in {cell.unit}; expected {self._one(kind)}"
+            self.report.fault(cell.mark, path, message)
+            return None
         try:
             value = evaluate(cell.text, kind, self._units(cell), lookup or self.lookup, free=free)
             to_float(value.number)
         except ExpressionError as error:
             message = f"found {found(cell)}; {error}"
-            hint = error.hint or _slip(cell.text) or f"expected {self._one(kind)}"
+            hint = _slip(cell.text) or error.hint or f"expected {self._one(kind)}"
             self.report.fault(cell.mark, path, message, hint)
             return None
         return value
@@ -154,7 +159,7 @@ class Cells:
     def __init__(self, node: Node, path: str, allowed: tuple[str, ...], report: Report) -> None:
         self.mark: Mark = node.mark
         self.path, self.cells = path, dict[str, Node]()
-        self.keys = dict[str, Scalar]()
+        self.keys, self.meant = dict[str, Scalar](), set[str]()
         if not isinstance(node, Keys):
             keys = ", ".join(allowed)
             report.fault(node.mark, path, f"found {found(node)}; expected the keys {keys}")
@@ -163,7 +168,9 @@ class Cells:
             name = canonical(key.text)
             where = self.at(key.text[:40])
             if name not in allowed:
-                hint = MISUSED_KEYS.get(name) or did_you_mean(name, allowed)
+                meant = nearest(name, allowed)
+                self.meant.add(meant)
+                hint = MISUSED_KEYS.get(name) or (f"did you mean {meant}?" if meant else "")
                 message = f"unknown key {found(key)}; allowed: {', '.join(allowed)}"
                 report.fault(key.mark, where, message, hint)
             elif name in self.keys:
@@ -182,6 +189,10 @@ class Cells:
     def get(self, key: str) -> Node | None:
         """Cell of a key, None where there is none or it is empty."""
         return self.cells.get(key)
+
+    def is_missing(self, key: str) -> bool:
+        """Tell whether a cell is absent, and not merely under a misspelt key (a fault already)."""
+        return key not in self.cells and key not in self.meant
 
     def mark_of(self, key: str) -> Mark:
         """Place of a cell; of its key, or of the mapping, where it is missing."""

@@ -57,6 +57,8 @@ def check_document(root: Node, report: Report, name: str) -> DHTable:
 def _convention(cells: Cells, report: Report) -> DHConvention:
     cell = cells.get("convention")
     meaning = "standard (distal: Paul, Spong) or modified (proximal: Craig, Khalil)"
+    if cell is None and not cells.is_missing("convention"):
+        return DHConvention.STANDARD
     if cell is None:
         hint = "there is no default: the two look alike and describe different arms"
         report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
@@ -72,6 +74,8 @@ def _units(cells: Cells, report: Report) -> Units:
     node = cells.get("units")
     allowed = {kind.value: ", ".join(UNIT_SIZES[kind]) for kind in (Kind.LENGTH, Kind.ANGLE)}
     meaning = f"length ({allowed['length']}) and angle ({allowed['angle']})"
+    if node is None and not cells.is_missing("units"):
+        return SI
     if node is None:
         hint = "for instance units: {length: mm, angle: deg}; there is no default"
         report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
@@ -97,6 +101,8 @@ def _units(cells: Cells, report: Report) -> Units:
 
 def _rows(cells: Cells, context: Context) -> list[DHRow]:
     node, report = cells.get("joints"), context.report
+    if node is None and not cells.is_missing("joints"):
+        return []
     if not isinstance(node, Items) or not node.values:
         message = f"found {found(node)}; " if node is not None else "missing; "
         message += "expected a list of rows with theta, d, a and alpha"

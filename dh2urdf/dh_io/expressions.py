@@ -24,7 +24,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import Decimal, DecimalException
 
-from dh2urdf.dh_io.units import EXACT, PI, SI, UNIT_SIZES, Kind, Units, to_si, unit_kind, unit_name
+from dh2urdf.dh_io.units import EXACT, PI, SI, Kind, Units, to_si, unit_kind, unit_name
 from dh2urdf.exceptions import TableError
 
 __all__ = ["FUNCTIONS", "ExpressionError", "Value", "evaluate", "parse_cell"]
@@ -305,9 +305,7 @@ class _Parser:
             return value
         if value.kind is Kind.NUMBER:
             return replace(value, number=to_si(value.number, self.units.of(kind)), kind=kind)
-        units = " or ".join(UNIT_SIZES[kind]) if kind is not Kind.NUMBER else ""
-        what = f"{_A[kind]} is expected" + (f" (a number, or with {units})" if units else "")
-        raise ExpressionError(f"{_A[value.kind]} where {what}")
+        raise ExpressionError(f"{_A[value.kind]} where {_A[kind]} is expected")
 
 
 _A = {Kind.ANGLE: "an angle", Kind.LENGTH: "a length", Kind.NUMBER: "a plain number"}

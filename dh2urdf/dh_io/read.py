@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.document import Mark, Node, Report
+from dh2urdf.dh_io.read_csv import read_csv
+from dh2urdf.dh_io.read_json import read_json
+from dh2urdf.dh_io.read_markdown import read_markdown
+from dh2urdf.dh_io.read_toml import read_toml
 from dh2urdf.exceptions import TableFileError
 
 __all__ = ["FORMATS", "TableFile", "format_of", "parse_table", "read_table"]
@@ -27,6 +32,13 @@ FORMATS = {
 """Format of a file by its suffix."""
 
 MAX_BYTES = 1_000_000
+
+_READERS: dict[str, Callable[[str, Report], Node]] = {
+    "toml": read_toml,
+    "json": read_json,
+    "csv": read_csv,
+    "markdown": read_markdown,
+}
 
 
 class TableFile(NamedTuple):
@@ -100,6 +112,8 @@ def _document(text: str, format: str, report: Report) -> Node:
         from dh2urdf.dh_io.read_yaml import read_yaml
 
         return read_yaml(text, report)
+    if format in _READERS:
+        return _READERS[format](text, report)
     formats = ", ".join(dict.fromkeys(FORMATS.values()))
     raise TableFileError(f"format: {format!r} is not known; allowed: {formats}")
 

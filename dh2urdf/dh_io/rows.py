@@ -19,6 +19,7 @@ __all__ = ["read_row"]
 _VARIABLE = re.compile(
     r"(?:(?P<angle>theta|Theta|th|t|θ|ϑ)|(?P<length>d|l|s|ℓ)|(?P<either>q))_?(?P<index>\d+|i)?"
 )
+_LEADING_NUMBER = re.compile(r"^-?[\d.e+-]+ (?=must)")
 _PARAMETERS = ("theta", "d", "a", "alpha")
 _ORIGIN = ("xyz", "rpy")
 
@@ -185,7 +186,7 @@ class _Row:
             return
         moving = "d" if self.type is JointType.PRISMATIC else "theta"
         for key in _PARAMETERS:
-            if key != moving and self.cells.get(key) is None and key not in self.bad:
+            if key != moving and self.cells.is_missing(key):
                 self.fault(key, "missing", f"write {key}: 0 if there is none")
 
     def number(self, key: str, kind: Kind) -> float | None:
@@ -246,7 +247,7 @@ class _Row:
         lower, upper = fields["lower"], fields["upper"]
         if lower is not None and upper is not None and lower > upper:
             above = found(self.cells.cells["upper"])
-            self.fault("lower", f"lies above upper, {above}")
+            self.fault("lower", f"it lies above upper ({above})")
             fields["lower"] = None
 
     def build(self, fields: dict[str, Any]) -> DHRow:
@@ -259,7 +260,7 @@ class _Row:
             for problem in error.problems:
                 key, _, message = problem.partition(": ")
                 if key not in self.bad:
-                    self.fault(key, message)
+                    self.fault(key, _LEADING_NUMBER.sub("it ", message))
         return DHRow(joint_type=self.type)
 
 

@@ -18,6 +18,8 @@ __all__ = [
     "TABLE_KEYS",
     "canonical",
     "did_you_mean",
+    "nearest",
+    "of_previous_link",
 ]
 
 TABLE_KEYS = (
@@ -105,5 +107,10 @@ def of_previous_link(text: str) -> bool:
 
 def did_you_mean(word: str, allowed: Iterable[str] | Mapping[str, object]) -> str:
     """Hint with the nearest allowed word, empty where none is near."""
-    near = difflib.get_close_matches(word.casefold(), list(allowed), n=1, cutoff=0.6)
-    return f"did you mean {near[0]}?" if near else ""
+    near = nearest(word, allowed)
+    return f"did you mean {near}?" if near else ""
+
+
+def nearest(word: str, allowed: Iterable[str] | Mapping[str, object]) -> str:
+    """Nearest allowed word, empty where none is near."""
+    return next(iter(difflib.get_close_matches(word.casefold(), list(allowed), n=1)), "")

@@ -92,14 +92,11 @@ def decimal_text(value: float, unit: str = "") -> str:
     unit : str
     """
     kind = unit_kind(unit)
-    if kind is None or UNIT_SIZES[kind][unit] == 1:
+    if value == 0 or kind is None or UNIT_SIZES[kind][unit] == 1:
         return repr(value).removesuffix(".0")
     exact = EXACT.divide(Decimal(repr(value)), UNIT_SIZES[kind][unit])
     for digits in range(15, 25):
-        text = f"{exact:.{digits}g}"
-        if float(to_si(Decimal(text), unit)) == value:
+        short = Context(prec=digits).plus(exact).normalize(EXACT)
+        if float(to_si(short, unit)) == value:
             break
-    mantissa, _, exponent = text.partition("e")
-    if "." in mantissa:
-        mantissa = mantissa.rstrip("0").removesuffix(".")
-    return f"{mantissa}e{exponent}" if exponent else mantissa
+    return f"{short:f}" if -7 < short.adjusted() < 16 else f"{short:e}"

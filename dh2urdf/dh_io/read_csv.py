@@ -1,0 +1,56 @@
+"""Comma, semicolon or tab separated values to a document."""
+
+from __future__ import annotations
+
+import csv
+
+from dh2urdf.dh_io.document import MAX_NODES, Keys, Mark, Report, Scalar
+from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata
+
+__all__ = ["read_csv"]
+
+
+def read_csv(text: str, report: Report) -> Keys:
+    """Read a CSV file: ``# key: value`` lines, a header row, one line a row."""
+    grid = Grid([], [], [])
+    delimiter, count = "", 0
+    for number, line in enumerate(text.split("\n"), 1):
+        if not line.strip():
+            continue
+        if line.lstrip().startswith("#") and not (delimiter == "" and _looks_like_header(line)):
+            if entry := metadata(line, number, report):
+                grid.meta.append(entry)
+            continue
+        delimiter = delimiter or max(",;\t", key=line.count)
+        cells = _cells(line, number, delimiter, report)
+        count += len(cells)
+        if count > MAX_NODES:
+            report.stop(Mark(number, 1), f"more than {MAX_NODES} cells; a DH table is smaller")
+        if grid.header:
+            grid.rows.append(cells)
+        elif is_header(cells):
+            grid.header.extend(cells)
+        else:
+            hint = "the first row names the columns, in any order: name,type,theta,d,a,alpha"
+            report.stop(Mark(number, 1), "no header row with theta, d, a and alpha", hint)
+    return grid_document(grid, report)
+
+
+def _looks_like_header(line: str) -> bool:
+    """Tell ``#,theta,d,a,alpha`` from a comment."""
+    return any(line.lstrip().startswith("#" + mark) for mark in ",;\t")
+
+
+def _cells(line: str, number: int, delimiter: str, report: Report) -> list[Scalar]:
+    """Cells of one line, each with the column where its text begins."""
+    reader = csv.reader([line], delimiter=delimiter, skipinitialspace=True, strict=True)
+    try:
+        texts = next(reader)
+    except csv.Error as error:
+        report.stop(Mark(number, 1), f"not CSV: {error}")
+    out, at = [], 0
+    for text in texts:
+        start = max(line.find(text.strip()[:1], at), at) if text.strip() else at
+        out.append(Scalar(text.strip(), Mark(number, start + 1)))
+        at = min(start + len(text.strip()) + 1, len(line))
+    return out

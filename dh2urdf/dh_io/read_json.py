@@ -1,0 +1,130 @@
+"""JSON to a document: strict, with the place of each cell, and bounded in depth."""
+
+from __future__ import annotations
+
+import re
+from json import JSONDecodeError, JSONDecoder
+
+from dh2urdf.dh_io.document import MAX_DEPTH, MAX_NODES, Items, Keys, Mark, Node, Report, Scalar
+
+__all__ = ["read_json"]
+
+_SPACE = re.compile(r"[ \t\n\r]*")
+_NUMBER = re.compile(r"-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][-+]?\d+)?")
+_WORD = re.compile(r"-?\w+")
+_DECODER = JSONDecoder()
+_LITERALS = {"null": "", "true": "true", "false": "false"}
+
+
+def read_json(text: str, report: Report) -> Node:
+    """Read one JSON value."""
+    return _Reader(text, report).document()
+
+
+class _Reader:
+    """Recursive descent (RFC 8259); numbers keep their text."""
+
+    def __init__(self, text: str, report: Report) -> None:
+        self.text, self.report, self.at, self.count = text, report, 0, 0
+
+    def document(self) -> Node:
+        node = self.node(0)
+        if self.peek():
+            self.stop("more text after the end of the table")
+        return node
+
+    def peek(self) -> str:
+        """Next character after spaces, empty at the end."""
+        match = _SPACE.match(self.text, self.at)
+        self.at = match.end() if match else self.at
+        return self.text[self.at : self.at + 1]
+
+    def mark(self) -> Mark:
+        before = self.text[: self.at]
+        return Mark(before.count("\n") + 1, self.at - before.rfind("\n"))
+
+    def stop(self, message: str) -> None:
+        self.report.stop(self.mark(), f"not JSON: {message}")
+
+    def node(self, depth: int) -> Node:
+        self.count += 1
+        character, mark = self.peek(), self.mark()
+        if depth > MAX_DEPTH:
+            self.stop(f"nested deeper than {MAX_DEPTH} levels")
+        if self.count > MAX_NODES:
+            self.stop(f"more than {MAX_NODES} cells; a DH table is smaller")
+        if character == "{":
+            return Keys(tuple(self.pairs(depth)), mark)
+        if character == "[":
+            return Items(tuple(self.items(depth)), mark)
+        if character == '"':
+            return Scalar(self.string(), mark)
+        return Scalar(self.literal(character), mark)
+
+    def literal(self, character: str) -> str:
+        """Number as typed, or true, false, null."""
+        match = _WORD.match(self.text, self.at)
+        if match and match[0] in ("NaN", "Infinity", "-Infinity"):
+            self.at = match.end()
+            return match[0]  # refused by the cell, which knows its own name
+        if match and match[0] in _LITERALS:
+            self.at = match.end()
+            return _LITERALS[match[0]]
+        number = _NUMBER.match(self.text, self.at)
+        if number is None:
+            what = f"unexpected {character!r}" if character else "the text ends too early"
+            self.stop(what + ("; a text takes double quotes" if character == "'" else ""))
+            return ""
+        self.at = number.end()
+        return number[0]
+
+    def string(self) -> str:
+        try:
+            text, self.at = _DECODER.raw_decode(self.text, self.at)
+        except JSONDecodeError as error:
+            self.at = min(error.pos, len(self.text))
+            self.stop(error.msg.lower())
+            return ""
+        return str(text)
+
+    def items(self, depth: int) -> list[Node]:
+        out: list[Node] = []
+        self.at += 1
+        if self.peek() != "]":
+            out.append(self.node(depth + 1))
+            while self.separator("]"):
+                out.append(self.node(depth + 1))
+        self.at += 1
+        return out
+
+    def pairs(self, depth: int) -> list[tuple[Scalar, Node]]:
+        out: list[tuple[Scalar, Node]] = []
+        self.at += 1
+        if self.peek() != "}":
+            out.append(self.pair(depth))
+            while self.separator("}"):
+                out.append(self.pair(depth))
+        self.at += 1
+        return out
+
+    def pair(self, depth: int) -> tuple[Scalar, Node]:
+        if self.peek() != '"':
+            self.stop("a key in double quotes is expected")
+        mark = self.mark()
+        key = Scalar(self.string(), mark)
+        if self.peek() != ":":
+            self.stop("a colon is expected after a key")
+        self.at += 1
+        return key, self.node(depth + 1)
+
+    def separator(self, end: str) -> bool:
+        """Step over a comma; False before the closing bracket."""
+        character = self.peek()
+        if character == end:
+            return False
+        if character != ",":
+            self.stop(f"a comma or {end} is expected" if character else "the text ends too early")
+        self.at += 1
+        if self.peek() == end:
+            self.stop("a comma after the last value")
+        return True

@@ -1,0 +1,247 @@
+"""A table to a text: every number by its shortest decimal that reads back as the same float."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from dh2urdf.dh import DHRow, DHTable, JointType, Origin
+from dh2urdf.dh_io.atomic import atomic_write
+from dh2urdf.dh_io.read import format_of
+from dh2urdf.dh_io.schema import ROW_KEYS
+from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
+from dh2urdf.exceptions import TableError
+from dh2urdf.grids import grid_csv, grid_markdown
+
+__all__ = ["table_to_text", "write_table"]
+
+Field = tuple[str, str | list[str]]
+"""Key of a cell, and its text (already quoted where it is a word) or a list of numbers."""
+
+Quote = Callable[[str], str]
+Widths = dict[str, int]
+
+_PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
+_PLAIN_LINE = re.compile(r"[A-Za-z][^:#|\\\"*`]*")
+_WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}
+
+
+def write_table(
+    table: DHTable,
+    path: str | os.PathLike[str],
+    *,
+    format: str | None = None,
+    units: Units = SI,
+) -> Path:
+    """Write a table to a YAML, TOML, JSON, CSV or Markdown file, whole or not at all.
+
+    Parameters
+    ----------
+    table : DHTable
+    path : path
+    format : str, optional
+        ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``; by the suffix where not given.
+    units : Units
+        Units of the file. In any of them every number reads back as the same float.
+
+    Raises
+    ------
+    TableError
+        A format or unit that is not known.
+    OutputError
+        The file cannot be written; an older one stays as it was.
+    """
+    return atomic_write(path, table_to_text(table, format or format_of(path), units))
+
+
+def table_to_text(table: DHTable, format: str, units: Units = SI) -> str:
+    """Text of a table in one of the formats.
+
+    Parameters
+    ----------
+    table : DHTable
+    format : str
+        ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``.
+    units : Units
+    """
+    units = Units(*units)
+    for kind in (Kind.LENGTH, Kind.ANGLE):
+        if units.of(kind) not in UNIT_SIZES[kind]:
+            allowed = ", ".join(UNIT_SIZES[kind])
+            raise TableError(f"units: {units.of(kind)!r} is no {kind}; allowed: {allowed}")
+    if format not in _WRITERS:
+        raise TableError(f"format: {format!r} is not known; allowed: {', '.join(_WRITERS)}")
+    return _WRITERS[format](table, units)
+
+
+def _words(table: DHTable) -> list[tuple[str, str]]:
+    """Texts of the table itself, the empty ones left out."""
+    keys = ("name", "source", "checked")
+    pairs = [(k, str(getattr(table, k))) for k in keys if getattr(table, k)]
+    return [*pairs, ("convention", str(table.convention))]
+
+
+def _origins(table: DHTable, units: Units) -> list[tuple[str, list[Field]]]:
+    pairs = (("base", table.base), ("tool", table.tool))
+    return [(key, _origin(origin, units)) for key, origin in pairs if not origin.is_identity]
+
+
+def _origin(origin: Origin, units: Units) -> list[Field]:
+    return [
+        ("xyz", [decimal_text(v, units.length) for v in origin.xyz]),
+        ("rpy", [decimal_text(v, units.angle) for v in origin.rpy]),
+    ]
+
+
+def _row(row: DHRow, units: Units, quote: Quote) -> list[Field]:
+    """Cells of a row in the order of the keys, those left out that say nothing."""
+    out: list[Field] = [("name", quote(row.name))] if row.name else []
+    out.append(("type", quote(str(row.joint_type))))
+    if row.origin is not None:
+        return out + _origin(row.origin, units)
+    moved = units.length if row.joint_type is JointType.PRISMATIC else units.angle
+    out += [
+        ("theta", decimal_text(row.theta, units.angle)),
+        ("d", decimal_text(row.d, units.length)),
+        ("a", decimal_text(row.a, units.length)),
+        ("alpha", decimal_text(row.alpha, units.angle)),
+    ]
+    if row.sign != 1:
+        out.append(("sign", str(row.sign)))
+    in_units = dict.fromkeys(("lower", "upper", "velocity"), moved)
+    for key in (*in_units, "effort", "damping", "friction", "mass"):
+        if (value := getattr(row, key)) is not None:
+            out.append((key, decimal_text(value, in_units.get(key, ""))))
+    if row.com is not None:
+        out.append(("com", [decimal_text(v, units.length) for v in row.com]))
+    if row.inertia is not None:
+        out.append(("inertia", [decimal_text(v) for v in row.inertia]))
+    return out
+
+
+def _escaped(text: str) -> str:
+    """Text in double quotes as YAML and TOML read it."""
+    out = []
+    for character in text:
+        code = ord(character)
+        if character in '"\\':
+            out.append("\\" + character)
+        elif character.isprintable():
+            out.append(character)
+        else:
+            out.append(f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}")
+    return '"' + "".join(out) + '"'
+
+
+def _yaml_word(text: str) -> str:
+    plain = _PLAIN.fullmatch(text) and text.casefold() not in _WORDS
+    return text if plain else _escaped(text)
+
+
+def _is_plain_line(text: str) -> bool:
+    """Tell whether a text can stand after ``key:`` as it is, on a line of its own."""
+    if not _PLAIN_LINE.fullmatch(text) or text.casefold() in _WORDS:
+        return False
+    return text.isprintable() and text == text.strip()
+
+
+def _json_word(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False)
+
+
+def _line_word(text: str) -> str:
+    """Text for one line of a CSV or Markdown file."""
+    return text if _is_plain_line(text) else json.dumps(text).replace("|", "\\u007c")
+
+
+def _inline(fields: Sequence[Field], equals: str, key: Quote, widths: Widths | None = None) -> str:
+    """``{key: value, ...}`` on one line, numbers to the right and words to the left."""
+    text = ""
+    for k, v in fields:
+        value = v if isinstance(v, str) else f"[{', '.join(v)}]"
+        pad = " " * ((widths or {}).get(k, 0) - len(value))
+        word = k in ("name", "type")
+        text += f"{key(k)}{equals}" + (f"{value}, {pad}" if word else f"{pad}{value}, ")
+    return "{" + text.rstrip(" ,") + "}"
+
+
+def _widths(rows: list[list[Field]]) -> Widths:
+    """Widest cell of each key, so that columns show."""
+    widths: Widths = {}
+    for row in rows:
+        for key, text in row:
+            if isinstance(text, str):
+                widths[key] = max(widths.get(key, 0), len(text))
+    return widths
+
+
+def _yaml(table: DHTable, units: Units) -> str:
+    lines = [
+        f"{key}: {text if _is_plain_line(text) else _escaped(text)}" for key, text in _words(table)
+    ]
+    lines.append(f"units: {{length: {units.length}, angle: {units.angle}}}")
+    lines += [f"{key}: {_inline(fields, ': ', str)}" for key, fields in _origins(table, units)]
+    rows = [_row(row, units, _yaml_word) for row in table.rows]
+    widths = _widths(rows)
+    lines += ["joints:", *(f"  - {_inline(row, ': ', str, widths)}" for row in rows)]
+    return "\n".join(lines) + "\n"
+
+
+def _toml(table: DHTable, units: Units) -> str:
+    lines = [f"{key} = {_escaped(text)}" for key, text in _words(table)]
+    lines.append(f'units = {{length = "{units.length}", angle = "{units.angle}"}}')
+    lines += [f"{key} = {_inline(fields, ' = ', str)}" for key, fields in _origins(table, units)]
+    rows = [_row(row, units, _escaped) for row in table.rows]
+    widths = _widths(rows)
+    lines += ["joints = [", *(f"  {_inline(row, ' = ', str, widths)}," for row in rows), "]"]
+    return "\n".join(lines) + "\n"
+
+
+def _json(table: DHTable, units: Units) -> str:
+    lines = [f'  "{key}": {_json_word(text)}' for key, text in _words(table)]
+    lines.append(f'  "units": {{"length": "{units.length}", "angle": "{units.angle}"}}')
+    for key, fields in _origins(table, units):
+        lines.append(f'  "{key}": {_inline(fields, ": ", _json_word)}')
+    rows = [_row(row, units, _json_word) for row in table.rows]
+    widths = _widths(rows)
+    body = ",\n".join(f"    {_inline(row, ': ', _json_word, widths)}" for row in rows)
+    return "{\n" + ",\n".join([*lines, f'  "joints": [\n{body}\n  ]']) + "\n}\n"
+
+
+def _lines(table: DHTable, units: Units) -> list[str]:
+    """The table's own keys as ``key: value`` lines."""
+    lines = [f"{key}: {_line_word(text)}" for key, text in _words(table)]
+    lines.append(f"units: {units.length}, {units.angle}")
+    for key, fields in _origins(table, units):
+        lines += [f"{key}.{part}: {' '.join(values)}" for part, values in fields]
+    return lines
+
+
+def _grid(table: DHTable, units: Units) -> tuple[list[str], list[list[str]]]:
+    """Header and cells; a column that no row fills is left out, save the four parameters."""
+    rows = [dict(_row(row, units, _line_word)) for row in table.rows]
+    header = [k for k in ROW_KEYS if k in ("theta", "d", "a", "alpha") or any(k in r for r in rows)]
+    cells = [[r.get(k, "") for k in header] for r in rows]
+    return header, [[c if isinstance(c, str) else " ".join(c) for c in row] for row in cells]
+
+
+def _csv(table: DHTable, units: Units) -> str:
+    head = "".join(f"# {line}\n" for line in _lines(table, units))
+    return head + grid_csv(*_grid(table, units))
+
+
+def _markdown(table: DHTable, units: Units) -> str:
+    head = "\n".join(["---", *_lines(table, units), "---", "", ""])
+    return head + grid_markdown(*_grid(table, units)) + "\n"
+
+
+_WRITERS: dict[str, Callable[[DHTable, Units], str]] = {
+    "yaml": _yaml,
+    "toml": _toml,
+    "json": _json,
+    "csv": _csv,
+    "markdown": _markdown,
+}
