@@ -1,0 +1,146 @@
+"""From a tree of links and joints to the serial chain between two of its links."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf import transforms as tf
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.dh_to_chain import FLIP
+from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, Step, find_path, rigid_part
+from dh2urdf.conversions.model_to_chain import frame_with_z
+from dh2urdf.dh import JointType
+from dh2urdf.transforms import Array
+
+__all__ = ["Actuation", "ChainSource", "tree_to_chain"]
+
+
+@dataclass(frozen=True)
+class Actuation:
+    """What a joint's drive can do, as far as the file says."""
+
+    velocity: float | None = None
+    effort: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class ChainSource:
+    """A chain and what else a DH table can carry of its source.
+
+    Parameters
+    ----------
+    bodies : tuple of n Inertial or None
+        All that moves with joint i, in the chain's frame of joint i.
+    drives : tuple of n Actuation
+    warnings : tuple of str
+    """
+
+    chain: SerialChain
+    name: str
+    base: str
+    tip: str
+    bodies: tuple[Inertial | None, ...]
+    drives: tuple[Actuation, ...]
+    warnings: tuple[str, ...] = ()
+
+
+def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
+    """The chain from base to tip, either anywhere in the tree.
+
+    A joint passed from child to parent turns the other way round: its axis is reversed and its
+    q stays the file's. Joints off the way are held at 0, and what hangs on them is part of the
+    body that carries them. The product of each link is made on its own, from the file's numbers
+    alone, so that no rounding of the rest of the tree is in it.
+
+    Raises
+    ------
+    NameNotFoundError, UrdfError
+    """
+    steps = find_path(tree, base, tip)
+    moving = [step for step in steps if step.joint.kind in MOVING]
+    links, T = [], np.eye(4)
+    for step in steps:
+        before, after = _halves(step)
+        if step.joint.kind in MOVING:
+            links.append(T @ before)
+            T = after
+        else:
+            T = T @ before @ after
+    links.append(T)
+    joints = [step.joint for step in moving]
+    chain = SerialChain(
+        links=np.stack(links),
+        joint_types=tuple(
+            JointType.PRISMATIC if j.kind == "prismatic" else JointType.REVOLUTE for j in joints
+        ),
+        names=tuple(j.name for j in joints),
+        lower=np.array([-math.inf if j.lower is None else j.lower for j in joints]),
+        upper=np.array([math.inf if j.upper is None else j.upper for j in joints]),
+    )
+    cut = frozenset(j.name for j in joints)
+    return ChainSource(
+        chain,
+        tree.name,
+        base,
+        tip,
+        bodies=tuple(_body(tree, step, cut) for step in moving),
+        drives=tuple(Actuation(j.velocity, j.effort, j.damping, j.friction) for j in joints),
+        warnings=(*tree.warnings, *_remarks(tree, moving, cut)),
+    )
+
+
+def _halves(step: Step) -> tuple[Array, Array]:
+    """A step at q as ``before Z(q) after``; the product is the step at q = 0."""
+    joint = step.joint
+    turn = np.eye(4)
+    if joint.kind in MOVING:
+        turn[:3, :3] = frame_with_z(joint.axis)
+    if step.forward:
+        return joint.origin @ turn, turn.T
+    # (origin turn Z(q) turn^-1)^-1 = turn FLIP Z(q) FLIP turn^-1 origin^-1
+    return turn @ FLIP, FLIP @ turn.T @ tf.inverse(joint.origin)
+
+
+def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | None:
+    """All that is fixed to the link after a joint, in the chain's frame of that joint."""
+    _, T_joint_link = _halves(step)
+    parts = []
+    for way in rigid_part(tree, step.link, cut):
+        inertial = tree.links[way[-1].link if way else step.link].inertial
+        if inertial is not None:
+            T_joint_part = T_joint_link
+            for part in way:
+                before, after = _halves(part)
+                T_joint_part = T_joint_part @ before @ after
+            parts.append(inertial.moved(T_joint_part))
+    return Inertial.total(parts) if parts else None
+
+
+def _remarks(tree: KinematicTree, moving: Sequence[Step], cut: frozenset[str]) -> list[str]:
+    """What a user should know of the chain and cannot see from it."""
+    remarks = [
+        f"{step.joint.where}: follows joint {step.joint.mimic!r} in the file; "
+        "in the table it is a joint of its own"
+        for step in moving
+        if step.joint.mimic
+    ]
+    held = [
+        part.joint.name
+        for step in moving
+        for way in rigid_part(tree, step.link, cut)
+        for part in way[-1:]
+        if part.joint.kind != "fixed"
+    ]
+    if held:
+        remarks.append(
+            f"{tree.where}: joints off the chain are held at 0 and what hangs on them counts as "
+            f"part of its links: {', '.join(dict.fromkeys(held))}"
+        )
+    return remarks
