@@ -95,21 +95,22 @@ class SerialChain:
 
     @cached_property
     def size(self) -> float:
-        """Sum of the distances between consecutive axes and to the tool [m]; at least 1e-9.
+        """Size of the arm [m], the length that tolerances and drawings are relative to.
 
-        The length that tolerances are relative to. Distances are between the axes as lines, so
-        that frames far out along parallel axes (calibrated arms) do not count.
+        Distances from axis to axis and to the tool, measured between the axes as lines, so that
+        frames far out along parallel axes (calibrated arms) do not count; plus the travel of
+        prismatic joints where they have limits. 1 m for an arm without any length.
         """
-        total, last = 0.0, None
-        for point, axis in zip(self.points, self.axes, strict=True):
-            if last is None:
-                last = point
-                continue
+        total, last = 0.0, self.points[0]
+        for point, axis in zip(self.points[1:], self.axes[1:], strict=True):
             foot = point + axis * float(axis @ (last - point))
             total += math.dist(foot, last)
             last = foot
-        total += math.dist(self.tool[:3, 3], last) if last is not None else 0.0
-        return max(total, 1e-9)
+        total += math.dist(self.tool[:3, 3], last)
+        for slides, low, high in zip(self.prismatic, self.lower, self.upper, strict=True):
+            if slides and math.isfinite(low) and math.isfinite(high):
+                total += max(abs(low), abs(high), high - low)
+        return total if total > 1e-9 else 1.0
 
     def fk(self, q: Array) -> Array:
         """``T_base_tool`` at q (n,) by the defining product, shape (4, 4)."""

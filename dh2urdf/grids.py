@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import html
 import io
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 __all__ = ["grid_csv", "grid_html", "grid_latex", "grid_markdown", "grid_text", "number"]
 
@@ -24,11 +24,20 @@ def number(value: float, *, minus: str = "\N{MINUS SIGN}") -> str:
     return text.replace("-", minus)
 
 
-def grid_text(header: Sequence[str], rows: Grid) -> str:
-    """Columns padded to their widest cell, numbers to the right, a rule under the header."""
+def grid_text(header: Sequence[str], rows: Grid, *, left: Collection[int] = ()) -> str:
+    """Columns padded to their widest cell, a rule under the header.
+
+    Cells stand to the right, in the columns ``left`` to the left.
+    """
     table = [list(header), *[list(r) for r in rows]]
     widths = [max(len(r[k]) for r in table) for k in range(len(header))]
-    lines = ["  ".join(c.rjust(w) for c, w in zip(r, widths, strict=True)) for r in table]
+    lines = [
+        "  ".join(
+            c.ljust(w) if k in left else c.rjust(w)
+            for k, (c, w) in enumerate(zip(r, widths, strict=True))
+        )
+        for r in table
+    ]
     lines.insert(1, "─" * len(lines[0]))
     return "\n".join(line.rstrip() for line in lines)
 

@@ -217,13 +217,14 @@ class Robot(RobotIK):
 
     def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
         """A configuration within the limits, one turn where there are none, shape (n,)."""
-        far = np.where(self._slides, 1.0, np.pi)
+        far = np.where(self.slides, 1.0, np.pi)
         low = np.where(np.isfinite(self.lower), self.lower, -far)
         high = np.where(np.isfinite(self.upper), self.upper, far)
         return np.random.default_rng(rng).uniform(low, high)
 
     @cached_property
-    def _slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """True where a value of q is a length, shape (n,)."""
         index = range(self.n) if self._coupling is None else self._coupling.first
         return self.chain.prismatic[list(index)]
 

@@ -153,7 +153,7 @@ class _Writer:
 
     def _dh_frame(self, i: int, parent: str) -> None:
         if self.options.dh_frames:
-            self._fixed_link(f"dh_{i}", parent, self.frames.dh[i], massless=i > 0)
+            self._fixed_link(f"dh_{i}", parent, self.frames.dh[i], massless=True)
 
     def _fixed_link(self, name: str, parent: str, T: Array, *, massless: bool) -> None:
         link = etree.SubElement(self.robot, "link", name=name)

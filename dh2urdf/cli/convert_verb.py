@@ -1,0 +1,163 @@
+"""``dh2urdf convert``: tables to verified URDF files."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, note, read_source
+from dh2urdf.conversions.dh_to_urdf import UrdfOptions
+from dh2urdf.exceptions import Dh2UrdfError
+
+__all__ = ["convert_"]
+
+
+def convert_(
+    tables: list[str],
+    /,
+    *,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    out_dir: Path | None = None,
+    force: bool = False,
+    collision: bool = False,
+    dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
+    digits: int | None = None,
+    balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
+    json: bool = False,
+) -> int:
+    """Turn DH tables into URDF files that Pinocchio has checked.
+
+    Each file is loaded back and compared with the DH product, frame by frame; one that differs
+    is not written.
+
+    Parameters
+    ----------
+    tables
+        Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, or - for YAML on
+        stdin.
+    output
+        The URDF to write; - for stdout. Default: the table's name beside you.
+    out_dir
+        Folder for the files of several tables.
+    force
+        Replace files that dh2urdf did not write.
+    collision
+        Write the drawn bodies as collision geometry too.
+    dh_frames
+        Write the DH frames as fixed links dh_0 ... dh_n.
+    digits
+        Round all numbers to so many decimals (IKFast); default: every digit.
+    balance_inertia
+        Make inertia tensors that no body could have acceptable to every consumer.
+    json
+        One JSON object instead of text.
+    """
+    options = UrdfOptions(
+        dh_frames=dh_frames, collision=collision, digits=digits, balance_inertia=balance_inertia
+    )
+    if not tables:
+        raise Dh2UrdfError("convert: name at least one table; `dh2urdf list` shows those that ship")
+    if output is not None and len(tables) > 1:
+        raise Dh2UrdfError("convert: -o names one file; for several tables use --out-dir")
+    if len(tables) == 1:
+        result = _convert(tables[0], _target(tables[0], output, out_dir), options, force)
+        _show_one(result, json=json)
+        return 0
+    return _convert_many(tables, out_dir or Path(), options, force=force, json=json)
+
+
+def _target(source: str, output: Path | None, out_dir: Path | None) -> Path | None:
+    """Path to write; None is named after the table once it is read."""
+    if output is not None:
+        return output
+    if source == "-" and out_dir is None:
+        return Path("-")
+    stem = "robot" if source == "-" else Path(source).stem
+    return (out_dir or Path()) / f"{stem}.urdf"
+
+
+def _convert(
+    source: str, target: Path | None, options: UrdfOptions, force: bool
+) -> dict[str, object]:
+    from dh2urdf.conversions.write_urdf import verified_urdf, write_urdf
+
+    table, warnings = read_source(source)
+    assert target is not None
+    if str(target) == "-":
+        text, max_error, more = verified_urdf(table, options)
+        return {
+            "source": source,
+            "path": "-",
+            "text": text,
+            "max_error": max_error,
+            "warnings": [*warnings, *more],
+        }
+    report = write_urdf(table, target, options=options, force=force)
+    return {
+        "source": source,
+        "path": report.path,
+        "max_error": report.max_error,
+        "warnings": [*warnings, *report.warnings],
+    }
+
+
+def _show_one(result: dict[str, object], *, json: bool) -> None:
+    if json:
+        emit_json("convert", files=[result])
+        return
+    for warning in result["warnings"]:  # type: ignore[attr-defined]
+        note(f"warning: {warning}")
+    if result["path"] == "-":
+        emit(str(result["text"]))
+        note(_checked(result))
+        return
+    emit(f"{result['path']}  {_checked(result)}")
+
+
+def _checked(result: dict[str, object]) -> str:
+    return f"largest difference between Pinocchio and the DH product {result['max_error']:.1e}"
+
+
+def _convert_many(
+    tables: list[str], out_dir: Path, options: UrdfOptions, *, force: bool, json: bool
+) -> int:
+    """Convert one after another; a bad file is reported and does not stop the rest."""
+    from dh2urdf.cli.progress import track
+
+    done, failed = [], []
+    try:
+        out_dir.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Dh2UrdfError(f"{out_dir}: {error.strerror}") from None
+    targets: dict[Path, str] = {}
+    for source in track(tables, "converting"):
+        target = _target(source, None, out_dir)
+        assert target is not None
+        try:
+            if target in targets:
+                raise Dh2UrdfError(f"{source}: {target} was already written from {targets[target]}")
+            done.append(_convert(source, target, options, force))
+            targets[target] = source
+        except Dh2UrdfError as error:
+            failed.append({"source": source, "error": str(error)})
+    if json:
+        emit_json("convert", files=done, failed=failed)
+    else:
+        _summary(done, failed, out_dir)
+    return 2 if failed else 0
+
+
+def _summary(done: list[dict[str, object]], failed: list[dict[str, str]], out_dir: Path) -> None:
+    for item in done:
+        for warning in item["warnings"]:  # type: ignore[attr-defined]
+            note(f"warning: {item['source']}: {warning}")
+    for bad in failed:
+        note(f"dh2urdf: {bad['error']}")
+    if done:
+        worst = max(done, key=lambda item: float(item["max_error"]))  # type: ignore[arg-type]
+        emit(f"{len(done)} files written to {out_dir}; {_checked(worst)} ({worst['source']})")
+    if failed:
+        sys.stderr.write(f"{len(failed)} of {len(done) + len(failed)} tables were not converted\n")

@@ -1,0 +1,78 @@
+"""``dh2urdf fk``: where the tip is."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, matrix_text, note, parse_configuration, robot_of
+from dh2urdf.grids import number
+from dh2urdf.transforms import matrix_to_rpy
+
+__all__ = ["fk_"]
+
+
+def fk_(
+    robot: str,
+    values: Annotated[list[str], Parameter(allow_leading_hyphen=True)] | None = None,
+    /,
+    *,
+    q: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
+    deg: bool = False,
+    base: str | None = None,
+    tip: str | None = None,
+    json: bool = False,
+) -> int:
+    """Place the tip: forward kinematics of a table or a URDF.
+
+    Parameters
+    ----------
+    robot
+        A table file, the name of a table that ships, or a URDF.
+    values
+        Joint values: radians (degrees with --deg) and metres; 90deg, 120mm, -pi/2 also do.
+    q
+        The same as an option: --q=0,-pi/2,90deg.
+    deg
+        Bare angles are degrees, and the orientation is shown in degrees.
+    base, tip
+        Links of a URDF to measure between.
+    json
+        One JSON object instead of text.
+    """
+    arm = robot_of(robot, base, tip)
+    config = parse_configuration([*(values or []), *(q or [])], arm, deg=deg)
+    T = arm.fk(config)
+    rpy = matrix_to_rpy(T)
+    outside = [
+        name
+        for name, v, low, high in zip(arm.joint_names, config, arm.lower, arm.upper, strict=True)
+        if not low <= v <= high
+    ]
+    if json:
+        emit_json(
+            "fk",
+            base=arm.base,
+            tip=arm.tip,
+            q=config,
+            T_base_tip=T,
+            xyz=T[:3, 3],
+            rpy=rpy,
+            outside_limits=outside,
+        )
+        return 0
+    if outside:
+        note(f"warning: outside the joint limits: {', '.join(outside)}")
+    angles = [math.degrees(a) for a in rpy] if deg else list(rpy)
+    emit(f"{arm.tip} in {arm.base}:\n{matrix_text(T)}")
+    emit(f"xyz [m]: {_row(T[:3, 3])}\nrpy [{'deg' if deg else 'rad'}]: {_row(angles)}")
+    return 0
+
+
+def _row(values: object) -> str:
+    return "  ".join(
+        number(0.0 if abs(v) < 1e-15 else float(f"{v:.10g}"))
+        for v in values  # type: ignore[attr-defined]
+    )

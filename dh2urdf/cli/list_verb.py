@@ -1,0 +1,48 @@
+"""``dh2urdf list``: the tables that ship."""
+
+from __future__ import annotations
+
+from dh2urdf.cli.output import emit, emit_json
+from dh2urdf.grids import grid_text
+from dh2urdf.robots import list_tables, load_table
+
+__all__ = ["list_"]
+
+
+def list_(*, json: bool = False) -> int:
+    """List the tables that ship with the package.
+
+    Parameters
+    ----------
+    json
+        One JSON object instead of text.
+    """
+    tables = [load_table(name) for name in list_tables()]
+    if json:
+        emit_json(
+            "list",
+            tables=[
+                {
+                    "name": t.name,
+                    "joints": [str(row.joint_type) for row in t.joints],
+                    "convention": str(t.convention),
+                    "source": t.source,
+                    "checked": t.checked,
+                }
+                for t in tables
+            ],
+        )
+        return 0
+    rows = [[t.name, joint_letters(t.joints), str(t.convention), _short(t.source)] for t in tables]
+    emit(grid_text(["name", "joints", "convention", "source"], rows, left=(0, 1, 2, 3)))
+    return 0
+
+
+def joint_letters(joints: tuple[object, ...]) -> str:
+    """``RRP``: one letter a joint."""
+    return "".join("P" if getattr(row, "joint_type", "") == "prismatic" else "R" for row in joints)
+
+
+def _short(source: str, width: int = 60) -> str:
+    line = " ".join(source.split())
+    return line if len(line) <= width else line[: width - 1] + "…"

@@ -1,0 +1,124 @@
+"""What the verbs share: printing, JSON, angles, robots by path or name."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io import Kind, TableFile, Units, parse_cell
+from dh2urdf.exceptions import ConfigurationError, TableError
+from dh2urdf.grids import number
+from dh2urdf.transforms import Array
+
+if TYPE_CHECKING:
+    from dh2urdf.robot import Robot
+
+__all__ = [
+    "SCHEMA",
+    "emit",
+    "emit_json",
+    "matrix_text",
+    "note",
+    "parse_configuration",
+    "read_source",
+    "robot_of",
+    "table_of",
+]
+
+SCHEMA = 1
+"""Number of the layout of ``--json`` objects; it grows when a key changes its meaning."""
+
+ROBOT_SUFFIXES = {".urdf", ".xacro", ".xml", ".mjcf"}
+
+
+def emit(text: str) -> None:
+    """Result for people, on stdout."""
+    sys.stdout.write(text.rstrip("\n") + "\n")
+
+
+def emit_json(verb: str, **values: Any) -> None:
+    """One JSON object on stdout: full precision, metres and radians."""
+    data = {"schema": SCHEMA, "verb": verb, **values}
+    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=False, indent=2) + "\n")
+
+
+def note(text: str) -> None:
+    """Anything that is not the result, on stderr."""
+    sys.stderr.write(text.rstrip("\n") + "\n")
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"not serialisable: {type(value)}")
+
+
+def read_source(source: str) -> TableFile:
+    """A table by path, by name, or from stdin (``-``, YAML)."""
+    from dh2urdf.dh_io import parse_table
+    from dh2urdf.robots import load_table_file
+
+    if source == "-":
+        return parse_table(sys.stdin.read(), "yaml", "<stdin>")
+    return load_table_file(source)
+
+
+def table_of(source: str) -> DHTable:
+    """The table of a source, its oddities noted on stderr."""
+    table, warnings = read_source(source)
+    for warning in warnings:
+        note(f"warning: {warning}")
+    return table
+
+
+def robot_of(source: str, base: str | None = None, tip: str | None = None) -> Robot:
+    """The robot of a table or of a robot description, by suffix."""
+    from dh2urdf.robot import Robot
+
+    if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
+        return Robot.from_urdf(source, base, tip)
+    return Robot.from_dh(table_of(source))
+
+
+def parse_configuration(values: Iterable[str], robot: Robot, *, deg: bool) -> Array:
+    """q from the command line, in [rad] and [m].
+
+    Bare numbers are radians (degrees with ``deg``) and metres. Each value may carry its unit
+    (``90deg``, ``120mm``) or be an expression (``-pi/2``); spaces or commas part them.
+
+    Raises
+    ------
+    ConfigurationError
+    """
+    cells = [cell for value in values for cell in value.split(",") if cell.strip()]
+    if len(cells) != robot.n:
+        raise ConfigurationError(
+            f"q: {robot.n} values are needed ({', '.join(robot.joint_names)}), got {len(cells)}"
+        )
+    units = Units("m", "deg" if deg else "rad")
+    q = np.empty(robot.n)
+    for i, (cell, slides) in enumerate(zip(cells, robot.slides, strict=True)):
+        try:
+            q[i] = parse_cell(cell, Kind.LENGTH if slides else Kind.ANGLE, units)
+        except TableError as error:
+            raise ConfigurationError(f"{robot.joint_names[i]}: {cell!r}: {error}") from None
+    return q
+
+
+def matrix_text(T: Array, indent: str = "  ") -> str:
+    """A (4, 4) matrix in aligned columns, rounding noise below 1e-15 shown as 0."""
+    cells = [[number(0.0 if abs(v) < 1e-15 else float(f"{v:.10g}")) for v in row] for row in T]
+    widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
+    return "\n".join(
+        indent + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
+    )

@@ -1,0 +1,39 @@
+"""A progress bar on a terminal, after half a second; nothing elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from typing import TypeVar
+
+__all__ = ["track"]
+
+T = TypeVar("T")
+
+PATIENCE = 0.5
+"""Seconds before the bar appears."""
+
+
+def track(items: Sequence[T], what: str) -> Iterator[T]:
+    """Yield the items, with a bar on stderr where that is a terminal and the work is long."""
+    if not sys.stderr.isatty():
+        yield from items
+        return
+    start = time.monotonic()
+    for k, item in enumerate(items):
+        if time.monotonic() - start > PATIENCE:
+            yield from _with_bar(items, k, what)
+            return
+        yield item
+
+
+def _with_bar(items: Sequence[T], done: int, what: str) -> Iterator[T]:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what, total=len(items), completed=done)
+        for item in items[done:]:
+            yield item
+            progress.advance(task)
