@@ -41,6 +41,7 @@ class Context:
     report: Report
     units: Units = SI
     constants: dict[str, Value] = field(default_factory=dict)
+    places: dict[str, Scalar] = field(default_factory=dict)
 
     def value(
         self, cell: Node, path: str, kind: Kind, lookup: Lookup | None = None, *, free: bool = False
@@ -51,6 +52,7 @@ class Context:
                 cell.mark, path, f"found {found(cell)}; expected one {self._one(kind)}"
             )
             return None
+        self.places[path] = cell
         if cell.unit and unit_kind(cell.unit) not in (None, kind):
             message = f"found {found(cell)} in a column in {cell.unit}; expected {self._one(kind)}"
             self.report.fault(cell.mark, path, message)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
 from dh2urdf.dh_io.cells import Cells, Context, found
-from dh2urdf.dh_io.document import Items, Keys, Node, Report, Scalar
+from dh2urdf.dh_io.document import NOWHERE, Items, Keys, Node, Report, Scalar
+from dh2urdf.dh_io.near_misses import near_misses
 from dh2urdf.dh_io.rows import read_row
 from dh2urdf.dh_io.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
 from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, unit_name
@@ -45,13 +46,29 @@ def check_document(root: Node, report: Report, name: str) -> DHTable:
     }
     base, tool = _origin(cells, "base", context), _origin(cells, "tool", context)
     report.raise_faults()
+    words = {"name": name, **texts}
     try:
-        return DHTable(tuple(rows), convention, base=base, tool=tool, **{"name": name, **texts})
+        table = DHTable(tuple(rows), convention, base=base, tool=tool, **words)
     except TableError as error:
         for problem in error.problems:
             report.fault(cells.mark_of("joints"), "", problem)
         report.raise_faults()
         raise
+    _warn(table, context)
+    return table
+
+
+def _warn(table: DHTable, context: Context) -> None:
+    """Note the near misses at their cells."""
+    texts = {
+        path: cell.text.strip()
+        for path, cell in context.places.items()
+        if not cell.unit or cell.unit in context.units
+    }
+    for path, message in near_misses(table, context.units, texts):
+        place = context.places.get(path)
+        inside = (cell.mark for key, cell in context.places.items() if key.startswith(path))
+        context.report.warn(place.mark if place else next(inside, NOWHERE), path, message)
 
 
 def _convention(cells: Cells, report: Report) -> DHConvention:

@@ -133,8 +133,8 @@ def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool 
 
 _LATEX = (
     (re.compile(r"\^\s*(?:\\circ\b|\{\s*(?:\\circ|o|°)\s*\}|o\b)"), "deg"),
-    (re.compile(r"\\ell\b"), "l"),
-    (re.compile(r"\\(theta|pi|alpha|cdot|times)(?![a-z])"), r" \1"),
+    (re.compile(r"\\ell(?![a-zA-Z])"), " l"),
+    (re.compile(r"\\(theta|pi|alpha|cdot|times)(?![a-zA-Z])"), r" \1"),
     (re.compile(r"_\{(\w+)\}"), r"_\1"),
     (re.compile(r"\\[,;! ]|\$"), " "),
 )

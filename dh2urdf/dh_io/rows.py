@@ -17,7 +17,8 @@ from dh2urdf.exceptions import TableError
 __all__ = ["read_row"]
 
 _VARIABLE = re.compile(
-    r"(?:(?P<angle>theta|Theta|th|t|θ|ϑ)|(?P<length>d|l|s|ℓ)|(?P<either>q))_?(?P<index>\d+|i)?"
+    r"(?:(?P<angle>theta|Theta|th|θ|ϑ|t(?=_?\d))|(?P<length>d|[lsℓ](?=_?[\di]))|(?P<either>q))"
+    r"_?(?P<index>\d+|i)?"
 )
 _LEADING_NUMBER = re.compile(r"^-?[\d.e+-]+ (?=must)")
 _PARAMETERS = ("theta", "d", "a", "alpha")
@@ -168,8 +169,8 @@ class _Row:
         """One variable a row, in the cell that belongs to the type."""
         shown = [k for k in ("theta", "d") if (v := parts[k]) is not None and v.variable]
         if len(shown) == 2:
-            hint = "a joint that turns and slides takes two rows, one revolute, one prismatic"
-            self.fault("d", "theta and d both hold a joint variable", hint)
+            hint = "give the one that is constant a value under constants:"
+            self.fault("d", "theta and d both hold a joint variable; a joint has one", hint)
             return
         moving = {JointType.REVOLUTE: "theta", JointType.PRISMATIC: "d"}.get(self.type)
         for key in shown:
