@@ -7,18 +7,10 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
-from dh2urdf.dh_io.expressions import (
-    FUNCTIONS,
-    PI_NAMES,
-    ExpressionError,
-    Lookup,
-    Value,
-    evaluate,
-    plain_text,
-    to_float,
-)
+from dh2urdf.dh_io.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
 from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
 from dh2urdf.dh_io.units import SI, Kind, Units, unit_kind, unit_name
+from dh2urdf.dh_io.values import FUNCTIONS, ExpressionError, Value
 
 __all__ = ["Cells", "Context", "found"]
 
@@ -103,6 +95,8 @@ class Context:
 
     def unknown(self, name: str, variable: str = "") -> ExpressionError:
         """Error for a name without a value."""
+        if name.casefold() in ("true", "false", "yes", "no", "none", "null"):
+            return ExpressionError(f"{name!r} is not a number")
         names = [*self.constants, *FUNCTIONS, "pi", *([variable] if variable else [])]
         if self.constants:
             known = f"constants: has {', '.join(sorted(self.constants)[:12])}"

@@ -30,14 +30,16 @@ def check_document(root: Node, report: Report, name: str) -> DHTable:
     TableFileError
         All faults of the file.
     """
+    if isinstance(root, Scalar) and not root.text:
+        report.stop(NOWHERE, "the file is empty")
     if not isinstance(root, Keys):
         hint = "a table file opens with keys: convention, units, joints"
         report.stop(root.mark, f"no table: found {found(root)}", hint)
     cells = Cells(root, "", TABLE_KEYS, report)
+    convention = _convention(cells, report)
     context = Context(report, _units(cells, report))
     if (constants := cells.get("constants")) is not None:
         context.define(constants)
-    convention = _convention(cells, report)
     rows = _rows(cells, context)
     texts = {
         key: context.text(cell, key)
@@ -82,7 +84,7 @@ def _convention(cells: Cells, report: Report) -> DHConvention:
         return DHConvention.STANDARD
     word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
     if word not in CONVENTIONS:
-        hint = did_you_mean(word, CONVENTIONS)
+        hint = did_you_mean(word, CONVENTIONS) if word != "dh" else "dh alone does not say which"
         report.fault(cell.mark, "convention", f"found {found(cell)}; allowed: {meaning}", hint)
     return CONVENTIONS.get(word, DHConvention.STANDARD)
 

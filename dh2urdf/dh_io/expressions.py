@@ -21,19 +21,28 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal, DecimalException
 
 from dh2urdf.dh_io.units import EXACT, PI, SI, Kind, Units, to_si, unit_kind, unit_name
-from dh2urdf.exceptions import TableError
+from dh2urdf.dh_io.values import (
+    FUNCTIONS,
+    NOUNS,
+    ExpressionError,
+    Value,
+    call,
+    failure,
+    over,
+    power,
+    scale,
+    times,
+)
 
-__all__ = ["FUNCTIONS", "ExpressionError", "Value", "evaluate", "parse_cell"]
+__all__ = ["PI_NAMES", "Lookup", "evaluate", "parse_cell", "plain_text", "to_float"]
 
 MAX_LENGTH = 200
 MAX_DEPTH = 24
-MAX_EXPONENT = 10
 
-FUNCTIONS = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "abs")
 PI_NAMES = ("pi", "PI", "Pi", "π")
 
 _TOKEN = re.compile(
@@ -41,28 +50,6 @@ _TOKEN = re.compile(
     r"|(?P<name>[^\W\d]\w*|°|º)|(?P<mark>\*\*|[-+*/^(),]))",
 )
 _NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
-
-
-class ExpressionError(TableError):
-    """A cell that is no number; ``hint`` says what to write instead."""
-
-    def __init__(self, message: str, hint: str = "") -> None:
-        self.hint = hint
-        super().__init__(message)
-
-    def __reduce__(self) -> tuple[type[ExpressionError], tuple[str, str]]:  # type: ignore[override]
-        """Pickle by message and hint."""
-        return type(self), (str(self), self.hint)
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """``number + coefficient * variable``, in [m], [rad] or plain as ``kind`` says."""
-
-    number: Decimal
-    kind: Kind = Kind.NUMBER
-    variable: str = ""
-    coefficient: Decimal = Decimal(0)
 
 
 Lookup = Callable[[str], Value]
@@ -127,7 +114,7 @@ def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool 
     try:
         value = parser.whole()
     except DecimalException as error:
-        raise ExpressionError(_arithmetic(error)) from None
+        raise ExpressionError(failure(error)) from None
     return value if free else parser.convert(value, kind)
 
 
@@ -149,14 +136,6 @@ def plain_text(text: str) -> str:
             text = pattern.sub(plain, text)
         text = re.sub(r" (?:cdot|times)\b", "*", text)
     return text.strip()
-
-
-def _arithmetic(error: DecimalException) -> str:
-    return {
-        "DivisionByZero": "division by zero",
-        "DivisionUndefined": "division by zero",
-        "Overflow": "the number is too large",
-    }.get(type(error).__name__, "has no real value")
 
 
 def _tokens(text: str) -> list[tuple[str, str]]:
@@ -205,14 +184,14 @@ class _Parser:
         value = self.product()
         while sign := self.accept("+", "-"):
             other = self.product()
-            value = self.add(value, other if sign == "+" else _scale(other, Decimal(-1)))
+            value = self.add(value, other if sign == "+" else scale(other, Decimal(-1)))
         return value
 
     def product(self) -> Value:
         value = self.signed()
         while sign := self.accept("*", "/"):
             other = self.signed()
-            value = _times(value, other) if sign == "*" else _over(value, other)
+            value = times(value, other) if sign == "*" else over(value, other)
         return value
 
     def signed(self) -> Value:
@@ -221,11 +200,11 @@ class _Parser:
             raise ExpressionError(f"nested deeper than {MAX_DEPTH} levels")
         if sign := self.accept("+", "-"):
             value = self.signed()
-            value = value if sign == "+" else _scale(value, Decimal(-1))
+            value = value if sign == "+" else scale(value, Decimal(-1))
         else:
             value = self.atom()
             if self.accept("^", "**"):
-                value = _power(value, self.signed())
+                value = power(value, self.signed())
         self.depth -= 1
         return value
 
@@ -283,7 +262,7 @@ class _Parser:
         if trigonometric:
             values = [self.convert(v, Kind.ANGLE) for v in values]
         self.kind = outer
-        return _call(name, values)
+        return call(name, values)
 
     def add(self, x: Value, y: Value) -> Value:
         """Sum; a bare number takes the unit of its partner's kind."""
@@ -305,64 +284,4 @@ class _Parser:
             return value
         if value.kind is Kind.NUMBER:
             return replace(value, number=to_si(value.number, self.units.of(kind)), kind=kind)
-        raise ExpressionError(f"{_A[value.kind]} where {_A[kind]} is expected")
-
-
-_A = {Kind.ANGLE: "an angle", Kind.LENGTH: "a length", Kind.NUMBER: "a plain number"}
-
-
-def _scale(x: Value, factor: Decimal) -> Value:
-    number = x.number.copy_negate() if factor == -1 else EXACT.multiply(x.number, factor)
-    return replace(x, number=number, coefficient=EXACT.multiply(x.coefficient, factor))
-
-
-def _times(x: Value, y: Value) -> Value:
-    if y.kind is Kind.NUMBER and not y.variable:
-        return _scale(x, y.number)
-    if x.kind is Kind.NUMBER and not x.variable:
-        return _scale(y, x.number)
-    raise ExpressionError(f"{_A[x.kind]} times {_A[y.kind]} is neither a length nor an angle")
-
-
-def _over(x: Value, y: Value) -> Value:
-    if y.kind is not Kind.NUMBER or y.variable:
-        raise ExpressionError("a division is by a plain number only")
-    return replace(
-        x,
-        number=EXACT.divide(x.number, y.number),
-        coefficient=EXACT.divide(x.coefficient, y.number),
-    )
-
-
-def _power(x: Value, y: Value) -> Value:
-    if any(v.kind is not Kind.NUMBER or v.variable for v in (x, y)):
-        raise ExpressionError("a power takes plain numbers only")
-    if abs(y.number) > MAX_EXPONENT:
-        raise ExpressionError(f"an exponent of at most {MAX_EXPONENT} is allowed")
-    return Value(EXACT.power(x.number, y.number))
-
-
-def _call(name: str, values: list[Value]) -> Value:
-    """Value of a function; lengths and angles pass through where that makes sense."""
-    wanted = 2 if name in ("atan2", "hypot") else 1
-    if len(values) != wanted:
-        raise ExpressionError(
-            f"{name}() takes {wanted} value{'s' * (wanted > 1)}, got {len(values)}"
-        )
-    if any(v.variable for v in values):
-        raise ExpressionError("a joint variable enters with the factor +1 or -1 only")
-    first, kinds = values[0], {v.kind for v in values}
-    if name == "abs":
-        return replace(first, number=EXACT.abs(first.number))
-    if len(kinds) > 1:
-        raise ExpressionError(f"{name}() takes two values of one kind")
-    if name not in ("sin", "cos", "tan", "atan2", "hypot") and first.kind is not Kind.NUMBER:
-        raise ExpressionError(f"{name}() takes a plain number")
-    if name == "sqrt":
-        return Value(EXACT.sqrt(first.number))
-    try:
-        result = getattr(math, name)(*(float(v.number) for v in values))
-    except ValueError:
-        raise ExpressionError(f"{name}() has no value there") from None
-    kind = {"hypot": first.kind, "sin": Kind.NUMBER, "cos": Kind.NUMBER, "tan": Kind.NUMBER}
-    return Value(Decimal(repr(result)), kind.get(name, Kind.ANGLE))
+        raise ExpressionError(f"{NOUNS[value.kind]} where {NOUNS[kind]} is expected")

@@ -96,6 +96,7 @@ def grid_document(grid: Grid, report: Report) -> Keys:
             message = f"found {len(cells)} cells; the header has {len(grid.header)}"
             hint = "a decimal comma? numbers take a point" if len(cells) > len(grid.header) else ""
             report.fault(mark, f"joints[{len(rows) + 1}]", message, hint)
+            rows.append(Keys(tuple((Scalar(k), Scalar("0")) for k in _PARAMETERS), mark))
             continue
         pairs: list[tuple[Scalar, Node]] = []
         for (key, unit), head, cell in zip(columns, grid.header, cells, strict=True):

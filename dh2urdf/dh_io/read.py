@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -32,6 +33,8 @@ FORMATS = {
 """Format of a file by its suffix."""
 
 MAX_BYTES = 1_000_000
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 _READERS: dict[str, Callable[[str, Report], Node]] = {
     "toml": read_toml,
@@ -101,6 +104,10 @@ def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
         report.stop(Mark(), f"larger than {MAX_BYTES // 1000} kB; a DH table is smaller")
     if "\0" in text:
         report.stop(Mark(), "not a text file: it holds binary data")
+    if control := _CONTROL.search(text):
+        line, column = text.count("\n", 0, control.start()), text.rfind("\n", 0, control.start())
+        mark = Mark(line + 1, control.start() - column)
+        report.stop(mark, f"control character U+{ord(control[0]):04X}")
     if not text.strip():
         report.stop(Mark(), "the file is empty")
     table = check_document(_document(text, format, report), report, Path(filename).stem or "robot")

@@ -47,7 +47,8 @@ def _cells(line: str, number: int, delimiter: str, report: Report) -> list[Scala
     try:
         texts = next(reader)
     except csv.Error as error:
-        report.stop(Mark(number, 1), f"not CSV: {error}")
+        report.fault(Mark(number, 1), "", f"not CSV: {error}", "a quote that does not end?")
+        texts = line.split(delimiter)
     out, at = [], 0
     for text in texts:
         start = max(line.find(text.strip()[:1], at), at) if text.strip() else at

@@ -83,7 +83,7 @@ class _Reader:
             text, self.at = _DECODER.raw_decode(self.text, self.at)
         except JSONDecodeError as error:
             self.at = min(error.pos, len(self.text))
-            self.stop(error.msg.lower())
+            self.stop(error.msg.lower().removesuffix(" at").removesuffix(" starting"))
             return ""
         return str(text)
 

@@ -129,4 +129,8 @@ def _node(value: Any, path: Path, places: _Places) -> Node:
         return Keys(tuple(pairs), mark)
     if isinstance(value, list):
         return Items(tuple(_node(v, (*path, i), places) for i, v in enumerate(value)), mark)
-    return Scalar(str(value).lower() if isinstance(value, bool) else str(value), mark)
+    if isinstance(value, bool):
+        return Scalar(str(value).lower(), mark)
+    if isinstance(value, str | int):
+        return Scalar(str(value), mark)
+    return Scalar(f"{type(value).__name__} {value}", mark)  # a date is not a subtraction

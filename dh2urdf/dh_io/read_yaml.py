@@ -26,8 +26,7 @@ def read_yaml(text: str, report: Report) -> Node:
         mark = Mark(where.line + 1, where.column + 1) if where else Mark()
         report.stop(mark, f"not YAML: {error.problem or error.context}", _hint(text, mark))
     except YAMLError as error:
-        reason = str(error).replace("\n", " ").strip()
-        report.stop(Mark(), f"not YAML: {reason:.200}")
+        report.stop(Mark(), f"not YAML: {str(error).splitlines()[0]:.200}")
 
 
 def _hint(text: str, mark: Mark) -> str:
@@ -74,7 +73,8 @@ class _Builder:
         if isinstance(event, ev.AliasEvent):
             self.report.stop(mark, f"alias *{event.anchor:.40}: not read; write the value out")
         if event.tag is not None:
-            self.report.stop(mark, f"tag {event.tag!s:.60}: not read; plain text and numbers only")
+            tag = str(event.tag).replace("tag:yaml.org,2002:", "!!")
+            self.report.stop(mark, f"tag {tag:.60}: not read; write plain text and numbers")
         if isinstance(event, ev.ScalarEvent):
             plain = event.implicit[0]
             return Scalar("" if plain and event.value in _NULLS else event.value, mark)

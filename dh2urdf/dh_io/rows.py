@@ -9,9 +9,10 @@ from typing import Any
 from dh2urdf.dh import DHRow, JointType, Origin
 from dh2urdf.dh_io.cells import Cells, Context, found
 from dh2urdf.dh_io.document import Node, Scalar
-from dh2urdf.dh_io.expressions import ExpressionError, Lookup, Value, to_float
+from dh2urdf.dh_io.expressions import Lookup, to_float
 from dh2urdf.dh_io.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
 from dh2urdf.dh_io.units import Kind
+from dh2urdf.dh_io.values import ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 __all__ = ["read_row"]
