@@ -148,7 +148,14 @@ class SolverBase:
         return self.name
 
 
-SOLVERS: tuple[SolverRow, ...] = ()
+SOLVERS: tuple[SolverRow, ...] = (
+    SolverRow(
+        "spherical wrist",
+        "six joints, the last three revolute with axes through one point",
+        "dh2urdf.ik.spherical_wrist",
+        "SphericalWrist",
+    ),
+)
 """Families, best first; a chain gets the first that has no obstacle."""
 
 

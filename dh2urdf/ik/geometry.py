@@ -1,0 +1,280 @@
+"""What the axes of a chain do: parallel, intersecting, through one point; and the DH form.
+
+The joint axes at q = 0 are lines. Where two neighbours are parallel or meet within a tolerance
+they are snapped, and the Denavit-Hartenberg form of the snapped lines has exact zeros there,
+which is what the closed forms are written in. The residual is always measured on the exact chain.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.tolerances import EXACT, FORM_ERROR, SNAP
+from dh2urdf.transforms import Array, inverse, pose_error
+
+__all__ = ["AxisLines", "DHForm"]
+
+
+@dataclass(frozen=True, eq=False)
+class AxisLines:
+    """The joint axes at q = 0 in base, snapped to what they nearly are.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    tolerance : float
+        Angle [rad] and length relative to ``chain.size`` that is snapped.
+    """
+
+    chain: SerialChain
+    tolerance: float = SNAP
+
+    @cached_property
+    def length(self) -> float:
+        """Length that counts as zero [m]."""
+        return self.tolerance * self.chain.size
+
+    @cached_property
+    def signs(self) -> Array:
+        """-1 where a line points against its joint: parallel neighbours point one way, (n,)."""
+        return self._directions[1]
+
+    @cached_property
+    def axes(self) -> Array:
+        """Unit directions, shape (n, 3); parallel neighbours are equal."""
+        return self._directions[0]
+
+    @cached_property
+    def _directions(self) -> tuple[Array, Array]:
+        axes, signs = self.chain.axes.copy(), np.ones(self.chain.n)
+        for i in range(1, self.chain.n):
+            along = float(axes[i] @ axes[i - 1])
+            if np.linalg.norm(np.cross(axes[i], axes[i - 1])) <= self.tolerance:
+                signs[i] = math.copysign(1.0, along)
+                axes[i] = axes[i - 1]
+            elif abs(along) <= EXACT:
+                axes[i] -= along * axes[i - 1]
+                axes[i] /= np.linalg.norm(axes[i])
+        return axes, signs
+
+    @cached_property
+    def points(self) -> Array:
+        """A point on each line [m], shape (n, 3): the foot of the normal from the line before.
+
+        A sliding joint has a direction only: its line goes through the point before it.
+        """
+        chain, points = self.chain, self.chain.points.copy()
+        turning = [i for i in range(chain.n) if not chain.prismatic[i]]
+        for i in reversed(range(chain.n - 1)):
+            if chain.prismatic[i]:
+                points[i] = points[i + 1]
+        for i in range(1, chain.n):
+            if chain.prismatic[i]:
+                points[i] = points[i - 1]
+            elif i - 1 in turning and (meet := self._meeting(points, i - 1, i)) is not None:
+                points[i] = meet
+            else:
+                points[i] += self.axes[i] * (self.axes[i] @ (points[i - 1] - points[i]))
+        for i in range(chain.n - 2):
+            centre = self._centre(points, i)
+            if centre is not None and not chain.prismatic[i : i + 3].any():
+                points[i : i + 3] = centre
+        return points
+
+    def _meeting(self, points: Array, i: int, j: int) -> Array | None:
+        """Where lines i and j meet, the point of j nearest to i; None if they are apart."""
+        normal = np.cross(self.axes[i], self.axes[j])
+        square = float(normal @ normal)
+        gap = points[i] - points[j]
+        if square <= self.tolerance**2:
+            apart = gap - self.axes[j] * (self.axes[j] @ gap)
+            return points[i] if np.linalg.norm(apart) <= self.length else None
+        if abs(gap @ normal) > self.length * math.sqrt(square):
+            return None
+        point: Array = points[j] + self.axes[j] * (np.cross(self.axes[i], gap) @ normal / square)
+        return point + normal * (gap @ normal / square)
+
+    def _centre(self, points: Array, i: int) -> Array | None:
+        """Point within the tolerance of lines i, i + 1, i + 2, neighbours not parallel."""
+        if self.parallel(i) or self.parallel(i + 1):
+            return None
+        planes = [np.eye(3) - np.outer(a, a) for a in self.axes[i : i + 3]]
+        right = sum(P @ p for P, p in zip(planes, points[i : i + 3], strict=True))
+        centre: Array = np.linalg.solve(np.sum(planes, axis=0), right)
+        gaps = [
+            np.linalg.norm(P @ (centre - p)) for P, p in zip(planes, points[i : i + 3], strict=True)
+        ]
+        return centre if max(gaps) <= self.length else None
+
+    def parallel(self, i: int) -> bool:
+        """Whether lines i and i + 1 are parallel."""
+        return bool(np.array_equal(self.axes[i], self.axes[i + 1]))
+
+    def meet(self, i: int) -> bool:
+        """Whether lines i and i + 1 have exactly one point in common."""
+        return not self.parallel(i) and self._meeting(self.points, i, i + 1) is not None
+
+    def spherical(self, i: int) -> bool:
+        """Whether three revolute joints from i on have axes through one point."""
+        if self.chain.prismatic[i : i + 3].any():
+            return False
+        return self._centre(self.points, i) is not None
+
+    def three_parallel(self, i: int) -> bool:
+        """Whether three revolute joints from i on have parallel axes."""
+        if self.chain.prismatic[i : i + 3].any():
+            return False
+        return self.parallel(i) and self.parallel(i + 1)
+
+    def describe(self) -> str:
+        """Say in one line what neighbours do: ``1 meets 2, 2 || 3, ...`` (skew ones left out)."""
+        words = []
+        for i in range(self.chain.n - 1):
+            if self.parallel(i):
+                words.append(f"{i + 1} || {i + 2}")
+            elif self.meet(i):
+                words.append(f"{i + 1} meets {i + 2}")
+        return ", ".join(words) or "all neighbouring axes are skew"
+
+
+@dataclass(frozen=True, eq=False)
+class DHForm:
+    """Snapped lines as standard Denavit-Hartenberg rows between a base and a tool transform.
+
+    ``T_base_tool = base prod_i Rot_z(t_i) Trans_z(d_i) Trans_x(a_i) Rot_x(alpha_i) tool`` with
+    ``t_i = sign_i q_i + theta_i`` (revolute) or ``d_i = sign_i q_i + d_i`` (prismatic).
+    """
+
+    lines: AxisLines
+
+    @cached_property
+    def frames(self) -> Array:
+        """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
+        axes, points = self.lines.axes, self.lines.points
+        x, origin = _any_normal(axes, points), points[0]
+        frames = []
+        for i in range(len(axes)):
+            if i > 0:
+                x, origin = self._normal(i - 1, x, origin)
+            if i == 1:
+                frames[0] = _frame(x, axes[0], frames[0][:3, 3])
+            frames.append(_frame(x - axes[i] * (axes[i] @ x), axes[i], origin))
+        first = frames[0][:3, 3] + axes[0] * (axes[0] @ (frames[1][:3, 3] - frames[0][:3, 3]))
+        frames[0][:3, 3] = first if len(axes) > 1 else points[0]
+        return np.stack(frames)
+
+    def _normal(self, i: int, x: Array, origin: Array) -> tuple[Array, Array]:
+        """Direction of the common normal from line i to i + 1, and its foot on line i + 1."""
+        lines = self.lines
+        z, z_next, p_next = lines.axes[i], lines.axes[i + 1], lines.points[i + 1]
+        if lines.parallel(i):
+            foot = p_next + z_next * (z_next @ (origin - p_next))
+            gap = foot - origin
+            distance = np.linalg.norm(gap)
+            return (gap / distance, foot) if distance > lines.length else (x, origin)
+        normal = np.cross(z, z_next)
+        square = float(normal @ normal)
+        gap = lines.points[i] - p_next
+        foot = p_next + z_next * (np.cross(z, gap) @ normal / square)
+        normal /= math.sqrt(square)
+        if gap @ normal > lines.length:
+            normal = -normal
+        return normal, foot
+
+    @cached_property
+    def rows(self) -> Array:
+        """Rows of a, cos alpha, sin alpha, d, theta, sliding, sign; shape (n, 7)."""
+        lines, chain = self.lines, self.lines.chain
+        frames, n = self.frames, chain.n
+        rows = np.zeros((n, 7))
+        for i in range(n):
+            rows[i, 5], rows[i, 6] = chain.prismatic[i], lines.signs[i]
+            rows[i, 1] = 1.0
+            if i == n - 1:
+                break
+            step = inverse(frames[i]) @ frames[i + 1]
+            x = step[:3, 0]
+            rows[i, 4] = math.atan2(x[1], x[0])
+            rows[i, 3] = step[2, 3]
+            a = math.cos(rows[i, 4]) * step[0, 3] + math.sin(rows[i, 4]) * step[1, 3]
+            rows[i, 0] = a if abs(a) > lines.length else 0.0
+            rows[i, 1:3] = _unit(step[2, 2], step[2, 1])
+            if lines.parallel(i):
+                rows[i, 1:3] = 1.0, 0.0
+        rows[np.abs(rows[:, 3]) <= 1e-15 * chain.size, 3] = 0.0
+        return rows
+
+    @property
+    def base(self) -> Array:
+        """``T_base_dh0``, shape (4, 4)."""
+        base: Array = self.frames[0]
+        return base
+
+    @cached_property
+    def tool(self) -> Array:
+        """``T_dhn_tool``; frame n is frame n - 1 at q = 0, shape (4, 4)."""
+        T: Array = inverse(self.frames[-1]) @ self.lines.chain.tool
+        return T
+
+    @cached_property
+    def ends(self) -> Array:
+        """Inverse of base, inverse of tool, tool; shape (3, 4, 4): what the kernels need."""
+        return np.stack([inverse(self.base), inverse(self.tool), self.tool])
+
+    def fk(self, q: Array) -> Array:
+        """Forward kinematics of the snapped arm at q (n,), shape (4, 4)."""
+        T = self.base
+        for qi, (a, ca, sa, d, theta, slides, sign) in zip(q, self.rows, strict=True):
+            t, s = (theta, sign * qi + d) if slides else (sign * qi + theta, d)
+            ct, st = math.cos(t), math.sin(t)
+            T = T @ np.array(
+                [
+                    [ct, -st * ca, st * sa, a * ct],
+                    [st, ct * ca, -ct * sa, a * st],
+                    [0.0, sa, ca, s],
+                    [0.0, 0.0, 0.0, 1.0],
+                ]
+            )
+        return T @ self.tool
+
+    @cached_property
+    def error(self) -> float:
+        """Largest difference from the exact chain over a few configurations [m and rad]."""
+        chain = self.lines.chain
+        draws = np.random.default_rng(0).uniform(-3.0, 3.0, (8, chain.n))
+        return max(pose_error(self.fk(q), chain.fk(q)) for q in draws)
+
+    @property
+    def exact(self) -> bool:
+        """Whether the snapped arm is the exact one up to rounding."""
+        return self.error <= FORM_ERROR * max(1.0, self.lines.chain.size)
+
+
+def _unit(c: float, s: float) -> tuple[float, float]:
+    """Cosine and sine on the unit circle, right angles exact."""
+    if abs(c) <= EXACT:
+        return 0.0, math.copysign(1.0, s)
+    if abs(s) <= EXACT:
+        return math.copysign(1.0, c), 0.0
+    r = math.hypot(c, s)
+    return c / r, s / r
+
+
+def _any_normal(axes: Array, points: Array) -> Array:
+    """A unit vector normal to the first axis."""
+    seed = np.eye(3)[int(np.argmin(np.abs(axes[0])))]
+    x: Array = np.cross(axes[0], seed)
+    return x / np.linalg.norm(x)
+
+
+def _frame(x: Array, z: Array, origin: Array) -> Array:
+    """Frame with the given z, the direction of x, and origin, shape (4, 4)."""
+    T = np.eye(4)
+    x = x / np.linalg.norm(x)
+    T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, np.cross(z, x), z, origin
+    return T

@@ -1,0 +1,107 @@
+"""Six joints, the last three with axes through one point: lecture notes 8.3, any first three."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.geometry import AxisLines, DHForm
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.tolerances import SLACK
+from dh2urdf.transforms import Array
+
+__all__ = ["SphericalWrist"]
+
+
+class SphericalWrist(SolverBase):
+    """Closed form by kinematic decoupling, with the notes' frames found from the axes."""
+
+    name = "spherical wrist"
+    kmax = 8
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+        nominal: SerialChain | None = None,
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.lines = AxisLines(nominal or chain)
+        self.form = DHForm(self.lines)
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps decoupling from covering the chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n != 6:
+            return f"it needs 6 joints, the chain has {chain.n}"
+        lines = AxisLines(chain)
+        if not lines.spherical(3):
+            return "axes 4, 5 and 6 do not meet in one point"
+        if not _places_wrist(DHForm(lines)):
+            return "joints 1, 2 and 3 cannot move the wrist centre in all directions"
+        return None
+
+    def details(self) -> str:
+        """Name the subproblems of the position arm and of the wrist."""
+        return f"axes 4, 5, 6 meet ({self.lines.describe()})"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) in one jitted call."""
+        from dh2urdf.kernels.spherical_wrist import solve_turning_arm
+
+        solve_turning_arm(
+            self.links,
+            self.joints,
+            self.form.rows,
+            self.form.ends,
+            SLACK,
+            Ts,
+            within_limits,
+            q_out,
+            residual_out,
+            count_out,
+            branch_out,
+            free_out,
+        )
+
+
+def _places_wrist(form: DHForm) -> bool:
+    """Whether the first three joints move the wrist centre in three directions somewhere."""
+    frames, rows, chain = form.frames, form.rows, form.lines.chain
+    for q in np.random.default_rng(0).uniform(-3.0, 3.0, (4, 3)):
+        T, screws = np.eye(4), []
+        for i in range(3):
+            screws.append((T[:3, 2], T[:3, 3]))
+            a, ca, sa, d, theta, slides, sign = rows[i]
+            t, s = (theta, sign * q[i] + d) if slides else (sign * q[i] + theta, d)
+            c, n = np.cos(t), np.sin(t)
+            T = T @ np.array(
+                [
+                    [c, -n * ca, n * sa, a * c],
+                    [n, c * ca, -c * sa, a * n],
+                    [0, sa, ca, s],
+                    [0, 0, 0, 1],
+                ]
+            )
+        centre = T[:3, 3] + rows[3, 3] * T[:3, 2]
+        J = np.stack(
+            [
+                z if chain.prismatic[i] else np.cross(z, (centre - p) / chain.size)
+                for i, (z, p) in enumerate(screws)
+            ]
+        )
+        if abs(np.linalg.det(J)) > 1e-6:
+            return True
+    return len(frames) == 0

@@ -1,0 +1,148 @@
+"""Arms whose last three axes meet: position and orientation apart (lecture notes 8.3, Pieper 1968).
+
+The wrist centre fixes the first three joints; what is left of the orientation,
+``R_36 = Rz(t4) Rx(alpha4) Rz(t5) Rx(alpha5) Rz(t6)``, the wrist: ZYZ angles where alpha4 and
+alpha5 are right angles, and the same two steps (subproblem 4, then 1) where they are not.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
+
+__all__ = ["add_wrist", "solve_turning_arm"]
+
+WRIST_FREE = 0b101000
+"""Joints 4 and 6: axes 4 and 6 in line."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _orientation_left(form, D, values, R):
+    """``R_36 = R_03^T R_06`` from the values of the first three joints, written to R (3, 3)."""
+    for i in range(3):
+        for j in range(3):
+            R[i, j] = D[i, j]
+    for i in range(3):
+        angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
+        c, s, ca, sa = math.cos(angle), math.sin(angle), form[i, 1], form[i, 2]
+        for j in range(3):
+            x, y, z = R[0, j], R[1, j], R[2, j]
+            x, y = c * x + s * y, c * y - s * x
+            R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _middle_angle(form, R, slack):
+    """Cosine and sine (not negative) of t5, and how many signs of the sine there are.
+
+    ``R[2, 2] = cos a4 cos a5 - sin a4 sin a5 cos t5``. The sine comes from a product of two
+    differences, of which one that can vanish is taken from the other column entries.
+    """
+    ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
+    square = R[0, 2] * R[0, 2] + R[1, 2] * R[1, 2]
+    scale = sa4 * sa5
+    cosine = (ca4 * ca5 - R[2, 2]) / scale
+    if ca4 == 0.0 and ca5 == 0.0:
+        sine = math.sqrt(square)
+    else:
+        low = _above(R[2, 2], ca4 * ca5 - scale, square)
+        high = -_above(R[2, 2], ca4 * ca5 + scale, square)
+        sine2 = low * high / (scale * scale)
+        if sine2 < -slack:
+            return 0, 1.0, 0.0
+        sine = math.sqrt(max(sine2, 0.0))
+    length = math.hypot(cosine, sine)
+    return (1 if sine == 0.0 else 2), cosine / length, sine / length
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _above(z, level, square):
+    """``z - level`` for the z of a unit vector with ``x^2 + y^2 = square``; exact near +-1."""
+    if abs(level - 1.0) < 1e-12:
+        return -square / (1.0 + z) if z > 0.0 else z - 1.0
+    if abs(level + 1.0) < 1e-12:
+        return square / (1.0 - z) if z < 0.0 else z + 1.0
+    return z - level
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def add_wrist(form, D, values, R, slack, q, branch, free, count):
+    """Append the one or two wrists of a position solution; returns the new count.
+
+    Parameters
+    ----------
+    form : array, shape (6, 7)
+    D : array, shape (4, 4)
+        Frame 6 in frame 0.
+    values : array, shape (5,)
+        A row of ``arm``: joint values, branch code, mask of free joints.
+    R : array, shape (3, 3)
+        Scratch.
+    q, branch, free
+        Candidates, as in :func:`dh2urdf.kernels.certify.finish_pose`.
+    """
+    _orientation_left(form, D, values, R)
+    wrists, c5, s5 = _middle_angle(form, R, slack)
+    ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
+    wx, wy = R[0, 2], R[1, 2]
+    in_line = math.hypot(wx, wy)
+    mask = int(values[4])
+    if in_line <= FREE:
+        wrists = min(wrists, 1)
+        mask |= WRIST_FREE
+    for wrist in range(wrists):
+        a, b = s5 * sa5, -(c5 * sa5 * ca4 + sa4 * ca5)
+        if in_line <= NICE:
+            c4, s4 = math.cos(form[3, 4]), math.sin(form[3, 4])
+        else:
+            c4, s4 = a * wx + b * wy, a * wy - b * wx
+            r = math.hypot(c4, s4)
+            c4, s4 = c4 / r, s4 / r
+        c6, s6 = 0.0, 0.0
+        for j in range(2):
+            first = c4 * R[0, j] + s4 * R[1, j]
+            second = ca4 * (c4 * R[1, j] - s4 * R[0, j]) + sa4 * R[2, j]
+            if j == 0:
+                c6 = c5 * first + s5 * second
+            else:
+                s6 = -(c5 * first + s5 * second)
+        for i in range(3):
+            constant = form[i, 3] if form[i, 5] != 0.0 else form[i, 4]
+            q[count, i] = form[i, 6] * (values[i] - constant)
+        q[count, 3] = form[3, 6] * (math.atan2(s4, c4) - form[3, 4])
+        q[count, 4] = form[4, 6] * (math.atan2(s5, c5) - form[4, 4])
+        q[count, 5] = form[5, 6] * (math.atan2(s6, c6) - form[5, 4])
+        branch[count] = int(values[3]) + 4 * wrist if values[3] >= 0.0 else -1
+        free[count] = mask
+        s5 = -s5
+        count += 1
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_turning_arm(
+    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+):
+    """All solutions of poses Ts (m, 4, 4) of a 6R arm with a spherical wrist.
+
+    Constants: ``links`` and ``joints`` of the exact chain (:mod:`dh2urdf.kernels.certify`),
+    ``form`` and ``ends`` of its Denavit-Hartenberg form. Outputs: q (m, 8, 6), residual,
+    branch and free (m, 8), count (m,).
+    """
+    D, R, arm, work = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        found = 0
+        for k in range(rows):
+            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
+        for k in range(found):
+            residual[i, k] = -1.0
+        count[i] = finish_pose(
+            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        )
