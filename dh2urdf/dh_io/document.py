@@ -6,12 +6,14 @@ digits that were typed, and a fault can show them.
 
 from __future__ import annotations
 
+import bisect
+import re
 from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
 from dh2urdf.exceptions import TableFileError
 
-__all__ = ["Items", "Keys", "Mark", "Node", "Report", "Scalar"]
+__all__ = ["Items", "Keys", "LineStarts", "Mark", "Node", "Report", "Scalar"]
 
 MAX_DEPTH = 16
 """Brackets within brackets; a table needs four."""
@@ -33,6 +35,18 @@ class Mark(NamedTuple):
 
 
 NOWHERE = Mark()
+
+
+class LineStarts:
+    """Lines of a text, to turn an offset into a mark."""
+
+    def __init__(self, text: str) -> None:
+        self.starts = [0, *(match.end() for match in re.finditer("\n", text))]
+
+    def mark(self, offset: int) -> Mark:
+        """Line and column of a character."""
+        line = bisect.bisect_right(self.starts, offset)
+        return Mark(line, offset - self.starts[line - 1] + 1)
 
 
 @dataclass(frozen=True, slots=True)

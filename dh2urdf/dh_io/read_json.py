@@ -5,7 +5,17 @@ from __future__ import annotations
 import re
 from json import JSONDecodeError, JSONDecoder
 
-from dh2urdf.dh_io.document import MAX_DEPTH, MAX_NODES, Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.document import (
+    MAX_DEPTH,
+    MAX_NODES,
+    Items,
+    Keys,
+    LineStarts,
+    Mark,
+    Node,
+    Report,
+    Scalar,
+)
 
 __all__ = ["read_json"]
 
@@ -25,7 +35,8 @@ class _Reader:
     """Recursive descent (RFC 8259); numbers keep their text."""
 
     def __init__(self, text: str, report: Report) -> None:
-        self.text, self.report, self.at, self.count = text, report, 0, 0
+        self.text, self.report, self.lines = text, report, LineStarts(text)
+        self.at = self.count = 0
 
     def document(self) -> Node:
         node = self.node(0)
@@ -40,8 +51,7 @@ class _Reader:
         return self.text[self.at : self.at + 1]
 
     def mark(self) -> Mark:
-        before = self.text[: self.at]
-        return Mark(before.count("\n") + 1, self.at - before.rfind("\n"))
+        return self.lines.mark(self.at)
 
     def stop(self, message: str) -> None:
         self.report.stop(self.mark(), f"not JSON: {message}")

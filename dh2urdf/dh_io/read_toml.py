@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import bisect
 import re
 import tomllib
 from typing import Any
 
-from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
 __all__ = ["read_toml"]
 
@@ -48,7 +47,7 @@ class _Places:
     """Places of all values of a text that is known to be TOML."""
 
     def __init__(self, text: str) -> None:
-        self.starts = [0, *(m.end() for m in re.finditer("\n", text))]
+        self.lines = LineStarts(text)
         self.places: dict[Path, int] = {}
         self.table: Path = ()
         self.value: Path | None = None  # what the next value belongs to
@@ -69,10 +68,7 @@ class _Places:
         """Place of a value, or of what it stands in."""
         while path and path not in self.places:
             path = path[:-1]
-        if not path:
-            return Mark()
-        line = bisect.bisect_right(self.starts, self.places[path])
-        return Mark(line, self.places[path] - self.starts[line - 1] + 1)
+        return self.lines.mark(self.places[path]) if path else Mark()
 
     def header(self, match: re.Match[str] | None, at: int) -> int:
         """Open ``[table]`` or the next ``[[row]]``; where it ends."""
