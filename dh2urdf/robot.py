@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,7 @@ from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import ConfigurationError, VerificationError
 from dh2urdf.robot_ik import RobotIK
+from dh2urdf.robot_pictures import RobotPictures
 from dh2urdf.robots import load_table
 from dh2urdf.transforms import Array, pose_error
 
@@ -36,7 +38,7 @@ AGREEMENT = 1e-12
 arm's size: both are products of the same few rigid transforms."""
 
 
-class Robot(RobotIK):
+class Robot(RobotIK, RobotPictures):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. The object owns one ``pin.Data``; use a copy
@@ -53,7 +55,11 @@ class Robot(RobotIK):
         The table the robot was made from.
     base, tip : str
         Names of the two frames; ``T_base_tip`` is what ``fk`` and ``ik`` speak of.
+    source : Path or None
+        The robot description that the robot was made from.
     """
+
+    source: Path | None = None
 
     def __init__(
         self,
@@ -111,7 +117,9 @@ class Robot(RobotIK):
         root = base or frame_names(model)[0]
         if tip is None:
             tip = model.frames[default_tip(model, frame_id(model, root))].name
-        return cls(model, root, tip, mimics=mimics)
+        robot = cls(model, root, tip, mimics=mimics)
+        robot.source = Path(path)
+        return robot
 
     @property
     def n(self) -> int:
@@ -214,6 +222,11 @@ class Robot(RobotIK):
             else:
                 out[:, at] = flat[:, k]
         return out.reshape(*shape, self.model.nq)
+
+    def chain_configuration(self, q: ArrayLike) -> Array:
+        """The same configuration with every joint of the chain, followers too, (..., chain.n)."""
+        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        return flat.reshape(*shape, self.chain.n)
 
     def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
         """A configuration within the limits, one turn where there are none, shape (n,)."""

@@ -1,0 +1,99 @@
+"""An arm as it is drawn: its DH table, its bodies, and where they are at a configuration."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.bodies import Body, draw_bodies, link_frames
+from dh2urdf.conversions.chain_to_dh import chain_to_dh
+from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.dh import DHTable, JointType
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["DrawnArm", "drawn_arm", "load_robot", "table_of"]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnArm:
+    """A table with its bodies.
+
+    Parameters
+    ----------
+    table : DHTable
+    chain : SerialChain
+        The chain of the table.
+    bodies : list of n + 1 lists of Body
+        Of base_link and of links 1 ... n, each in its link's frame.
+    """
+
+    table: DHTable
+    chain: SerialChain
+    bodies: list[list[Body]]
+
+    def link_poses(self, q: Array) -> Array:
+        """``T_base_link`` of base_link and links 1 ... n at q (n,), shape (n + 1, 4, 4)."""
+        T_base_dh = self.table.frames(q)
+        T_link_dh = np.stack(link_frames(self.table).dh)
+        poses: Array = T_base_dh @ inverse(T_link_dh)
+        poses[0] = np.eye(4)
+        return poses
+
+    @property
+    def size(self) -> float:
+        """Size of the arm [m]."""
+        return max(self.chain.size, 1e-3)
+
+
+def drawn_arm(table: DHTable) -> DrawnArm:
+    """The bodies of a table."""
+    chain = dh_to_chain(table)
+    return DrawnArm(table, chain, draw_bodies(table, chain))
+
+
+def table_of(robot: Robot) -> DHTable:
+    """The robot's own table, or the one that frame assignment finds for its chain."""
+    if robot.table is not None:
+        return robot.table
+    return chain_to_dh(robot.chain, name=robot.model.name).table
+
+
+def load_robot(source: str | os.PathLike[str], base: str | None, tip: str | None) -> Robot:
+    """A robot of a table file, the name of a table that ships, a URDF, xacro or MJCF.
+
+    A URDF that carries its table is drawn by that table unless a base or tip is asked for.
+
+    Raises
+    ------
+    Dh2UrdfError
+        Whatever is wrong with the file or the names.
+    """
+    suffix = Path(source).suffix.lower()
+    if suffix not in {".urdf", ".xacro", ".xml"}:
+        if base or tip:
+            raise ConfigurationError("--base and --tip name links of a URDF; a table has its own")
+        return Robot.from_dh(source)
+    return Robot.from_urdf(source, base=base, tip=tip)
+
+
+def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:
+    """The configuration asked for, checked, or zero brought within the limits, shape (n,)."""
+    if q is None:
+        return np.clip(np.zeros(robot.n), robot.lower, robot.upper)
+    config = np.asarray(q, float)
+    if config.shape != (robot.n,) or not np.isfinite(config).all():
+        names = ", ".join(robot.joint_names)
+        raise ConfigurationError(f"q: expected {robot.n} finite numbers ({names}), got {q!r:.80}")
+    return config
+
+
+def slides(table: DHTable) -> tuple[bool, ...]:
+    """True for each joint of the table that slides."""
+    return tuple(row.joint_type is JointType.PRISMATIC for row in table.joints)

@@ -1,0 +1,219 @@
+"""One row of a DH table as geometry: what theta, d, a and alpha measure between two frames.
+
+Standard (lecture notes section 4, step 3): from o_{i-1} by d along z_{i-1} to the foot of the
+common normal, by a along x_i to o_i; theta turns x_{i-1} into x_i about z_{i-1}, alpha turns
+z_{i-1} into z_i about x_i. Modified (Craig, "Introduction to Robotics", section 3.4): a and
+alpha first, about x_{i-1}; then theta and d about z_i.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.conversions.axis_pairs import AxisCase, classify
+from dh2urdf.dh import DHConvention, DHRow, DHTable
+from dh2urdf.dh_print import degrees
+from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.grids import number
+from dh2urdf.transforms import Array, rotation
+
+__all__ = ["Arc", "DHRowPicture", "Measure", "row_picture", "row_words"]
+
+SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+@dataclass(frozen=True, eq=False)
+class Measure:
+    """A length of the row: its segment (2, 3) in base [m], its value [m]."""
+
+    key: str
+    segment: Array
+    value: float
+
+
+@dataclass(frozen=True, eq=False)
+class Arc:
+    """An angle of the row.
+
+    Parameters
+    ----------
+    key : str
+    centre, axis, start : array, shape (3,)
+        Of the turn, in base; ``start`` and ``axis`` are unit vectors.
+    value : float
+        Angle [rad].
+    """
+
+    key: str
+    centre: Array
+    axis: Array
+    start: Array
+    value: float
+
+    def points(self, radius: float) -> Array:
+        """Points along the arc, at most one turn, shape (m, 3)."""
+        angle = math.fmod(self.value, 2 * math.pi)
+        steps = np.linspace(0.0, angle, max(2, int(abs(angle) / 0.05) + 2))
+        return np.stack(
+            [self.centre + radius * (rotation(self.axis, t)[:3, :3] @ self.start) for t in steps]
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class DHRowPicture:
+    """Row i of a table at a configuration, in base.
+
+    Parameters
+    ----------
+    i : int
+        Joint number, from 1.
+    T_prev, T_next : array, shape (4, 4)
+        Frames i - 1 and i; ``T_reached`` is where the four motions lead, before fixed steps.
+    T_prev_next : array, shape (4, 4)
+        The row's matrix.
+    theta, alpha : Arc
+    d, a : Measure
+    case : AxisCase
+        How z_{i-1} and z_i lie.
+    """
+
+    i: int
+    T_prev: Array
+    T_reached: Array
+    T_next: Array
+    T_prev_next: Array
+    theta: Arc
+    d: Measure
+    a: Measure
+    alpha: Arc
+    case: AxisCase
+
+
+def row_picture(arm: DrawnArm, q: Array, i: int) -> DHRowPicture:
+    """The picture of row i (from 1) with the arm at q (n,)."""
+    table = arm.table
+    row, frames = table.joints[i - 1], table.frames(q)
+    T_prev, T_next = frames[i - 1], frames[i]
+    T_reached = T_prev @ row.transform(float(q[i - 1]), table.convention)
+    T_prev_next: Array = table.transforms(q)[i - 1]
+    theta, d = row.variables(float(q[i - 1]))
+    o_prev, o_reached = T_prev[:3, 3], T_reached[:3, 3]
+    x_prev, z_prev = T_prev[:3, 0], T_prev[:3, 2]
+    x_next, z_next = T_reached[:3, 0], T_reached[:3, 2]
+    if table.convention is DHConvention.STANDARD:
+        foot = o_prev + d * z_prev
+        measures = Measure("d", np.stack([o_prev, foot]), d), _length("a", foot, o_reached, row.a)
+        arcs = (
+            Arc("theta", foot, z_prev, x_prev, theta),
+            Arc("alpha", o_reached, x_next, z_prev, row.alpha),
+        )
+    else:
+        foot = o_prev + row.a * x_prev
+        measures = _length("d", foot, o_reached, d), Measure("a", np.stack([o_prev, foot]), row.a)
+        arcs = (
+            Arc("theta", o_reached, z_next, x_prev, theta),
+            Arc("alpha", foot, x_prev, z_prev, row.alpha),
+        )
+    case = classify(T_prev_next, arm.size).case
+    return DHRowPicture(
+        i, T_prev, T_reached, T_next, T_prev_next, arcs[0], *measures, arcs[1], case
+    )
+
+
+def _length(key: str, start: Array, end: Array, value: float) -> Measure:
+    return Measure(key, np.stack([start, end]), value)
+
+
+def subscript(name: str, i: int | str) -> str:
+    """A name with a subscript in plain text."""
+    return f"{name}{str(i).translate(SUBSCRIPTS)}"
+
+
+def length_index(table: DHTable, i: int) -> int:
+    """Subscript of a and alpha in row i: i, or Craig's i - 1 in modified tables."""
+    return i if table.convention is DHConvention.STANDARD else i - 1
+
+
+def rounded_degrees(angle: float) -> str:
+    """An angle [rad] in degrees: as typed where that is short, else to a hundredth."""
+    text = degrees(angle)
+    if len(text) > 7:
+        text = number(round(math.degrees(angle), 2))
+    return f"{text}°"
+
+
+def rounded_length(length: float) -> str:
+    """A length [m] as typed where that is short, else to a micrometre."""
+    text = number(length)
+    return f"{number(round(length, 6)) if len(text) > 9 else text} m"
+
+
+def values(table: DHTable, picture: DHRowPicture) -> dict[str, str]:
+    """``θ₄ = −50°`` and so on, by key, for the labels of a picture."""
+    i, j = picture.i, length_index(table, picture.i)
+    return {
+        "theta": f"{subscript('θ', i)} = {rounded_degrees(picture.theta.value)}",
+        "d": f"{subscript('d', i)} = {rounded_length(picture.d.value)}",
+        "a": f"{subscript('a', j)} = {rounded_length(picture.a.value)}",
+        "alpha": f"{subscript('α', j)} = {rounded_degrees(picture.alpha.value)}",
+    }
+
+
+def row_words(table: DHTable, picture: DHRowPicture) -> str:
+    """What the row says, in a few sentences."""
+    i, row = picture.i, table.joints[picture.i - 1]
+    modified = table.convention is DHConvention.MODIFIED
+    before, after = subscript("z", i - 1), subscript("z", i)
+    free_end = (i == 1) if modified else (i == table.n)
+    if free_end:
+        sentence = _end_words(i, modified)
+    else:
+        x = subscript("x", i - 1 if modified else i)
+        sentence = _case_words(picture, before, after, x)
+    moves = _variable_words(row, i)
+    step = ""
+    if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
+        step = f" A fixed step leads from there to frame {i}."
+    return f"{sentence} {moves}{step}"
+
+
+def _end_words(i: int, modified: bool) -> str:
+    if modified:
+        return "First frame: free (step 2), any frame 0 from which the four motions reach z₁."
+    return f"Last frame: free (step 4) as long as the four motions reach frame {i}."
+
+
+def _case_words(picture: DHRowPicture, before: str, after: str, x: str) -> str:
+    """The case of the notes' step 3."""
+    a = picture.a.value
+    if picture.case is AxisCase.SKEW:
+        way = "away from" if a > 0 else "towards"
+        return (
+            f"Case 1: {before} and {after} are skew. One common normal joins them, "
+            f"{rounded_length(abs(a))} long; {x} lies on it, pointing {way} {before}."
+        )
+    if picture.case is AxisCase.PARALLEL:
+        placed = "the one with d = 0" if picture.d.value == 0 else "one of them, fixed by d"
+        return (
+            f"Case 2: {before} and {after} are parallel, {rounded_length(abs(a))} apart. "
+            f"They have any number of common normals; {x} lies on {placed}."
+        )
+    if picture.case is AxisCase.INTERSECTING:
+        return (
+            f"Case 3: {before} and {after} intersect, so a = 0. "
+            f"{x} is perpendicular to both; which way it points is free."
+        )
+    return f"{before} and {after} are one line: a = 0, and {x} may point anywhere across it."
+
+
+def _variable_words(row: DHRow, i: int) -> str:
+    slides = row.joint_type == "prismatic"
+    symbol = subscript("d" if slides else "θ", i)
+    offset = row.d if slides else row.theta
+    shown = rounded_length(offset) if slides else rounded_degrees(offset)
+    sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
+    rest = f" + {shown}" if offset > 0 else f" \N{MINUS SIGN} {shown[1:]}" if offset < 0 else ""
+    return f"The joint moves {symbol} = {sign}{subscript('q', i)}{rest}."

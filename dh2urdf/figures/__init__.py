@@ -1,0 +1,9 @@
+"""Figures for print: the arm with its DH frames, and pictures of what it reaches.
+
+The only package that imports matplotlib (extra ``plot``).
+"""
+
+from dh2urdf.figures.arm import figure
+from dh2urdf.figures.save import picture_bytes, save_picture
+
+__all__ = ["figure", "picture_bytes", "save_picture"]

@@ -1,0 +1,179 @@
+"""The picture of an arm: bodies or a schematic, DH frames with labels, ghosts, the table."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.figures.canvas import Canvas, text_size
+from dh2urdf.figures.dh_marks import DHMarks
+from dh2urdf.figures.dh_panel import DHPanel, pose_sentence
+from dh2urdf.figures.projection import View, best_view
+from dh2urdf.figures.schematic import draw_schematic, schematic_points
+from dh2urdf.figures.solid_paint import BODY, ToPoints, ghost_paint, paint_floor, paint_parts
+from dh2urdf.figures.solids import Part, arm_parts
+from dh2urdf.figures.style import BRANCH_COLOURS, RC, Picture, mpl
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+
+__all__ = ["Style", "figure"]
+
+Style = Literal["bodies", "schematic"]
+
+HEIGHT = 420.0
+"""Height of the sheet [pt]."""
+
+NARROWEST, WIDEST = 250.0, 470.0
+"""Width of the arm's panel [pt], as its shape asks."""
+
+MARGIN = 34.0
+"""Free border around the arm [pt]; labels may stand in it."""
+
+ARROW = 0.13
+"""Length of an axis as a share of the picture's larger side."""
+
+
+def figure(
+    robot: Robot,
+    q: ArrayLike | None = None,
+    *,
+    style: Style = "bodies",
+    ghosts: Sequence[ArrayLike] = (),
+    ghost_names: Sequence[str] = (),
+    frames: bool = True,
+    table: bool = True,
+    view: tuple[float, float] | None = None,
+) -> Picture:
+    """Draw an arm with its DH frames and its table.
+
+    Parameters
+    ----------
+    robot : Robot
+        One made from a URDF is drawn by the DH table that frame assignment finds for it.
+    q : array_like, shape (n,), optional
+        Configuration [rad] or [m]; zero, or what the limits allow nearest to it.
+    style : {"bodies", "schematic"}
+        Solid links, or the lines, cylinders and boxes of textbooks.
+    ghosts : sequence of configurations, optional
+        Other configurations, drawn behind in colour: ``robot.ik(T)`` will do.
+    ghost_names : sequence of str, optional
+        Names of the ghosts for the key.
+    frames, table : bool
+        Draw the DH frames and lengths; draw the table beside the arm.
+    view : (azimuth, elevation), optional
+        Direction to the eye [deg]; without it, one that shows the arm well.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    if style not in ("bodies", "schematic"):
+        raise ConfigurationError(f"style: 'bodies' or 'schematic', not {style!r}")
+    with mpl.rc_context(RC):
+        return _ArmPicture(robot, q, style, ghosts, ghost_names, frames, table, view).draw()
+
+
+class _ArmPicture:
+    """One figure on its way: what to draw, the eye, the sheet."""
+
+    def __init__(
+        self,
+        robot: Robot,
+        q: ArrayLike | None,
+        style: Style,
+        ghosts: Sequence[ArrayLike],
+        ghost_names: Sequence[str],
+        frames: bool,
+        table: bool,
+        view: tuple[float, float] | None,
+    ) -> None:
+        self.arm: DrawnArm = drawn_arm(table_of(robot))
+        asked = zero_configuration(robot, q)
+        self.q = robot.chain_configuration(asked)
+        self.ghosts = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
+        self.style, self.show_frames, self.ghost_names = style, frames, list(ghost_names)
+        dh_frames = self.arm.table.frames(self.q)
+        self.view = View(*view) if view else best_view(dh_frames, self.arm.chain)
+        self.parts = self._parts(self.q)
+        self.ghost_parts = [self._parts(g) for g in self.ghosts]
+        note = pose_sentence(self.q, slides(self.arm.table))
+        self.panel = DHPanel(self.arm.table, [note]) if table else None
+        self._lay_out(dh_frames)
+
+    def _parts(self, q: Array) -> list[Part]:
+        return arm_parts(self.arm.bodies, self.arm.link_poses(q))
+
+    def _lay_out(self, dh_frames: Array) -> None:
+        """Choose scale and sheet so that the arm fills its panel."""
+        points = [self._extent(parts) for parts in [self.parts, *self.ghost_parts]]
+        if self.style == "schematic":
+            points = [schematic_points(self.arm, self.q, self.view)]
+        flat = np.concatenate(points)
+        side = float(np.ptp(flat, axis=0).max())
+        self.arrow = ARROW * side
+        if self.show_frames:
+            axes = dh_frames[:, :3, [0, 2]].transpose(0, 2, 1)
+            tips = dh_frames[:, None, :3, 3] + self.arrow * axes
+            flat = np.concatenate([flat, self.view.flat(tips.reshape(-1, 3))])
+        low, high = flat.min(axis=0), flat.max(axis=0)
+        span = np.maximum(high - low, 1e-3 * side)
+        height = max(HEIGHT, self.panel.height + 40.0 if self.panel else 0.0)
+        inner = height - 2 * MARGIN
+        width = float(np.clip(inner * span[0] / span[1] + 2 * MARGIN, NARROWEST, WIDEST))
+        self.scale = float(min(inner / span[1], (width - 2 * MARGIN) / span[0]))
+        self.middle = (low + high) / 2
+        self.centre = np.array([width / 2, height / 2])
+        self.bounds = np.array([[6.0, 6.0], [width - 6.0, height - 6.0]])
+        total = width + (self.panel.width + 44.0 if self.panel else 0.0)
+        self.canvas = Canvas(total, height)
+
+    @property
+    def to(self) -> ToPoints:
+        """From picture metres to points on the sheet."""
+        return lambda flat: (flat - self.middle) * self.scale + self.centre
+
+    def _extent(self, parts: list[Part]) -> Array:
+        corners = [f[0].polygon for part in parts for f in part.faces(self.view)]
+        return np.concatenate(corners)
+
+    def draw(self) -> Picture:
+        self._floor()
+        for k, parts in enumerate(self.ghost_parts):
+            colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
+            paint_parts(self.canvas, parts, self.view, self.to, ghost_paint(colour))
+        if self.style == "bodies":
+            paint_parts(self.canvas, self.parts, self.view, self.to, BODY)
+        else:
+            draw_schematic(self.canvas, self.view, self.to, self.arm, self.q, self.scale)
+        if self.show_frames:
+            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow)
+            marks.draw(self.bounds)
+        self._key()
+        if self.panel:
+            top = (self.canvas.height + self.panel.height) / 2
+            self.panel.draw(self.canvas, self.canvas.width - self.panel.width - 24.0, top)
+        return self.canvas.figure
+
+    def _floor(self) -> None:
+        """Shade under the base, where the eye looks down on it at a slant."""
+        if 2.0 < self.view.elevation < 80.0 and self.style == "bodies":
+            pedestal = [b for b in self.arm.bodies[0] if b.material == "base"]
+            if pedestal:
+                body = pedestal[0]
+                foot = body.pose[:3, 3] - body.pose[:3, 2] * body.size[1] / 2
+                paint_floor(self.canvas, self.view, self.to, foot, 2.6 * body.size[0])
+
+    def _key(self) -> None:
+        """Names of the ghosts, each with a square in its colour."""
+        y = 16.0
+        for k in range(len(self.ghost_names) - 1, -1, -1):
+            colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
+            square = np.array([[10, y - 4], [18, y - 4], [18, y + 4], [10, y + 4]], float)
+            self.canvas.polygon(square, colour)
+            self.canvas.text((24.0, y), self.ghost_names[k], 9.0, align="left", halo=True)
+            y += 14.0

@@ -1,0 +1,157 @@
+"""A sheet measured in points, and the few marks that figures are made of."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.figures.style import INK, Picture, mpl
+from dh2urdf.transforms import Array
+
+__all__ = ["Canvas", "text_size"]
+
+POINTS_PER_INCH = 72.0
+
+
+class Canvas:
+    """Axes over a whole figure whose unit is the point.
+
+    Parameters
+    ----------
+    width, height : float
+        Size [pt].
+    """
+
+    def __init__(self, width: float, height: float) -> None:
+        self.width, self.height = width, height
+        self.figure = Picture(figsize=(width / POINTS_PER_INCH, height / POINTS_PER_INCH))
+        self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
+        self.axes.set(xlim=(0, width), ylim=(0, height))
+        self.axes.set_axis_off()
+        self._level = 0.0
+
+    def polygon(
+        self, points: Array, face: str, edge: str = "none", width: float = 0.0, alpha: float = 1.0
+    ) -> None:
+        """Fill a polygon (m, 2); its outline has round corners."""
+        from matplotlib.patches import Polygon
+
+        patch = Polygon(
+            points,
+            closed=True,
+            facecolor=face,
+            edgecolor=edge,
+            linewidth=width,
+            alpha=alpha,
+            joinstyle="round",
+            zorder=self._next(),
+        )
+        self.axes.add_patch(patch)
+
+    def line(
+        self,
+        points: Array,
+        colour: str,
+        width: float,
+        *,
+        casing: float = 0.0,
+        dashes: tuple[float, ...] = (),
+        alpha: float = 1.0,
+        cap: str = "round",
+    ) -> None:
+        """Draw a polyline (m, 2) over a white casing so much wider on each side."""
+        style: dict[str, Any] = {"solid_capstyle": cap, "solid_joinstyle": "round"}
+        if casing:
+            self.axes.plot(
+                *points.T, color="white", lw=width + 2 * casing, zorder=self._next(), **style
+            )
+        if dashes:
+            style = {"dashes": dashes, "dash_capstyle": "butt"}
+        self.axes.plot(
+            *points.T, color=colour, lw=width, alpha=alpha, zorder=self._next(), **style
+        )
+
+    def arrow(self, start: Array, end: Array, colour: str, width: float) -> None:
+        """Draw an arrow with a filled head, on a white casing."""
+        way = end - start
+        length = float(np.linalg.norm(way))
+        along = way / length
+        across = np.array([-along[1], along[0]])
+        head = min(4.6 * width, 0.7 * length)
+        neck = end - head * along
+        wing = 0.42 * head * across
+        tip = np.stack([end, neck + wing, neck + 0.12 * head * along, neck - wing])
+        self.line(np.stack([start, neck]), "white", width + 2.0, cap="butt")
+        self.polygon(tip, "white", "white", 2.0)
+        self.line(np.stack([start, neck + 0.2 * head * along]), colour, width, cap="butt")
+        self.polygon(tip, colour, colour, 0.3)
+
+    def dot(self, at: Array, colour: str, radius: float, edge: str = "white") -> None:
+        """Draw a filled circle."""
+        from matplotlib.patches import Circle
+
+        circle = Circle(
+            (float(at[0]), float(at[1])),
+            radius,
+            facecolor=colour,
+            edgecolor=edge,
+            linewidth=0.8,
+            zorder=self._next(),
+        )
+        self.axes.add_patch(circle)
+
+    def axis_end(self, at: Array, colour: str, radius: float, *, toward_eye: bool) -> None:
+        """Draw an axis seen end on: a dot in a circle towards the eye, a cross away from it."""
+        self.dot(at, "white", radius + 1.2)
+        self.dot(at, "white", radius, colour)
+        if toward_eye:
+            self.dot(at, colour, 0.36 * radius, colour)
+            return
+        arm = radius * np.sqrt(0.5)
+        for way in (np.array([1.0, 1.0]), np.array([1.0, -1.0])):
+            self.line(np.stack([at - arm * way, at + arm * way]), colour, 1.0)
+
+    def text(
+        self,
+        at: Array | tuple[float, float],
+        text: str,
+        size: float,
+        colour: str = INK,
+        *,
+        halo: bool = False,
+        align: str = "center",
+        vertical: str = "center_baseline",
+        weight: str = "normal",
+    ) -> None:
+        """Write a text, over a white halo if asked; the text itself stays text in a file."""
+        style: dict[str, Any] = {
+            "fontsize": size,
+            "ha": align,
+            "va": vertical,
+            "fontweight": weight,
+        }
+        x, y = float(at[0]), float(at[1])
+        if halo:
+            from matplotlib.patheffects import Stroke
+
+            under = self.axes.text(x, y, text, color="white", zorder=self._next(), **style)
+            under.set_path_effects([Stroke(linewidth=2.6, foreground="white")])
+        self.axes.text(x, y, text, color=colour, zorder=self._next(), **style)
+
+    def _next(self) -> float:
+        """A level above everything drawn so far: painted in the order of calls."""
+        self._level += 1.0
+        return self._level
+
+
+@lru_cache(maxsize=4096)
+def text_size(text: str, size: float, weight: str = "normal") -> tuple[float, float]:
+    """Width and height of a text [pt]."""
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import TextPath
+
+    font = FontProperties(family=mpl.rcParams["font.sans-serif"], weight=weight)
+    box = TextPath((0, 0), text or " ", size=size, prop=font).get_extents()
+    return float(box.width), float(box.height)

@@ -1,0 +1,183 @@
+"""DH frames, the lengths d and a, and the joint axes, drawn over an arm with their labels."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.dh import DHConvention
+from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.drawing.row import DHRowPicture, length_index, row_picture
+from dh2urdf.figures.canvas import Canvas, text_size
+from dh2urdf.figures.labels import Label, Line, place_labels
+from dh2urdf.figures.projection import View
+from dh2urdf.figures.solid_paint import ToPoints
+from dh2urdf.figures.style import AXIS, QUANTITY, mix
+from dh2urdf.transforms import Array
+
+__all__ = ["DHMarks"]
+
+LABEL = 14.0
+"""Size of the labels [pt]."""
+
+END_ON = 0.22
+"""Share of its length below which an axis counts as seen end on."""
+
+SAME = 1e-6
+"""Arrows closer than this share of the arm's size are one arrow with two names."""
+
+
+@dataclass(eq=False)
+class Arrow:
+    """An axis of one or more frames: names such as ``x_3``, start [m], unit direction."""
+
+    names: list[str]
+    start: Array
+    direction: Array
+
+    @property
+    def letter(self) -> str:
+        """The axis: x, y or z."""
+        return self.names[0][0]
+
+
+class DHMarks:
+    """The marks of one arm at one configuration.
+
+    Parameters
+    ----------
+    canvas, view, to
+        The sheet, the eye, and the way from the picture's metres to the sheet's points.
+    arm : DrawnArm
+    q : array, shape (n,)
+    length : float
+        Length of the x and z arrows [m].
+    """
+
+    def __init__(
+        self, canvas: Canvas, view: View, to: ToPoints, arm: DrawnArm, q: Array, length: float
+    ) -> None:
+        self.canvas, self.view, self.to, self.length = canvas, view, to, length
+        self.arm, self.frames = arm, arm.table.frames(q)
+        self.rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
+        self.lines: list[Line] = []
+        self.labels: list[Label] = []
+        self.colours: list[str] = []
+
+    def draw(self, bounds: Array) -> None:
+        """Draw everything; labels stay within bounds (2, 2) [pt]."""
+        self._joint_axes()
+        self._measures()
+        self._arrows()
+        for frame in self.frames:
+            self.canvas.dot(self._at(frame[:3, 3]), "#000000", 2.3)
+        self._texts(bounds)
+
+    def _at(self, points: Array) -> Array:
+        return self.to(self.view.flat(points))
+
+    def _joint_axes(self) -> None:
+        """A dash-dotted line along each joint's axis, past what stands on it."""
+        standard = self.arm.table.convention is DHConvention.STANDARD
+        for row in self.rows:
+            frame = row.T_prev if standard else row.T_reached
+            z, d = frame[:3, 2], row.d.value if standard else -row.d.value
+            low, high = min(0.0, d) - 0.75 * self.length, max(0.0, d) + 0.75 * self.length
+            ends = frame[:3, 3] + np.array([[low], [high]]) * z
+            points = self._at(ends)
+            if float(np.linalg.norm(points[1] - points[0])) < 4.0:
+                continue
+            self.canvas.line(points, mix(AXIS["z"], 0.6), 0.9, dashes=(9.0, 3.0, 2.0, 3.0))
+            self.lines.append(Line(points, 0.25))
+
+    def _measures(self) -> None:
+        """Segments of d and a in their colours, and the fixed steps dotted in grey."""
+        for row in self.rows:
+            for measure, index in ((row.d, row.i), (row.a, length_index(self.arm.table, row.i))):
+                self._measure(measure.key, index, measure.segment)
+            self._step(row)
+
+    def _measure(self, key: str, index: int, segment: Array) -> None:
+        if float(np.linalg.norm(segment[1] - segment[0])) < SAME * self.arm.size:
+            return
+        points = self._at(segment)
+        way = points[1] - points[0]
+        if float(np.linalg.norm(way)) < 1.5:
+            return
+        self.canvas.line(points, QUANTITY[key], 3.0, casing=0.8)
+        self.lines.append(Line(points))
+        across = np.array([-way[1], way[0]])
+        self._label(f"${key}_{{{index}}}$", points.mean(axis=0), across, QUANTITY[key], True)
+
+    def _step(self, row: DHRowPicture) -> None:
+        points = self._at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
+        if float(np.linalg.norm(points[1] - points[0])) > 1.5:
+            self.canvas.line(points, "#6b7280", 1.6, dashes=(1.5, 1.5))
+            self.lines.append(Line(points))
+
+    def _arrows(self) -> None:
+        """All axes, far ones first; y short and thin, without a name."""
+        arrows = list(self._merged("y")) + list(self._merged("xz"))
+        nearness = [float(self.view.depth(a.start + self.length * a.direction)) for a in arrows]
+        order = sorted(range(len(arrows)), key=lambda k: (arrows[k].letter != "y", nearness[k]))
+        for k in order:
+            self._arrow(arrows[k])
+
+    def _arrow(self, arrow: Arrow) -> None:
+        thin = arrow.letter == "y"
+        colour, reach = AXIS[arrow.letter], self.length * (0.5 if thin else 1.0)
+        start, end = self._at(np.stack([arrow.start, arrow.start + reach * arrow.direction]))
+        shown = float(np.linalg.norm(self.view.flat(arrow.direction)))
+        name = "$" + r",\,".join(f"{n[0]}_{{{n[1:]}}}" for n in arrow.names) + "$"
+        if shown < END_ON:
+            if not thin:
+                toward = float(self.view.depth(arrow.direction)) > 0
+                self.canvas.axis_end(start, colour, 4.6, toward_eye=toward)
+                self._label(name, start, np.array([-1.0, -1.0]), colour)
+                self.lines.append(Line(np.stack([start - 4, start + 4])))
+            return
+        self.canvas.arrow(start, end, colour, 1.1 if thin else 2.3)
+        self.lines.append(Line(np.stack([start, end]), 0.6 if thin else 1.0))
+        if not thin:
+            self._label(name, end, end - start, colour)
+
+    def _merged(self, letters: str) -> Iterable[Arrow]:
+        """Axes of all frames; those that coincide are one arrow with several names."""
+        merged: list[Arrow] = []
+        for i, frame in enumerate(self.frames):
+            for letter in letters:
+                start, way = frame[:3, 3], frame[:3, "xyz".index(letter)]
+                for known in merged:
+                    near = np.abs(known.start - start).max() < SAME * self.arm.size
+                    if near and known.letter == letter and float(known.direction @ way) > 1 - 1e-9:
+                        known.names.append(f"{letter}{i}")
+                        break
+                else:
+                    merged.append(Arrow([f"{letter}{i}"], start, way))
+        return merged
+
+    def _label(
+        self, text: str, anchor: Array, toward: Array, colour: str, both_ways: bool = False
+    ) -> None:
+        width, height = text_size(text, LABEL)
+        size = np.array([width, max(height, 0.62 * LABEL)])
+        self.labels.append(Label(text, size, anchor, toward, both_ways))
+        self.colours.append(colour)
+
+    def _texts(self, bounds: Array) -> None:
+        centres = place_labels(self.labels, self.lines, bounds)
+        for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
+            gap = np.maximum(np.abs(centre - label.anchor) - label.size / 2, 0.0)
+            if float(np.hypot(*gap)) > LEADER:
+                edge = centre - np.clip(
+                    centre - label.anchor, -label.size / 2 - 1.0, label.size / 2 + 1.0
+                )
+                self.canvas.line(np.stack([edge, label.anchor]), mix(colour, 0.55), 0.7)
+        for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
+            self.canvas.text(centre, label.text, LABEL, colour, halo=True, vertical="center")
+
+
+LEADER = 13.0
+"""Gap [pt] between a label and its anchor from which a thin line joins them."""

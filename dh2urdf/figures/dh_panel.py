@@ -1,0 +1,172 @@
+"""The DH table beside the arm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh_print import degrees, plus, step
+from dh2urdf.figures.canvas import Canvas, text_size
+from dh2urdf.figures.style import FAINT, INK, MUTED, QUANTITY
+from dh2urdf.grids import number
+from dh2urdf.transforms import Array
+
+__all__ = ["DHPanel", "pose_sentence"]
+
+SIZE = 10.5
+ROW = 25.0
+GAP = 16.0
+WIDEST = 9
+"""Characters of a number from which it is rounded in the picture, with a note."""
+
+KEYS = ("i", "theta", "d", "a", "alpha")
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Text of a cell and its colour."""
+
+    text: str
+    colour: str = INK
+
+
+class DHPanel:
+    """Cells of the table, measured, and drawn where the figure has room for them."""
+
+    def __init__(self, table: DHTable, notes: list[str]) -> None:
+        self.table = table
+        self.rounded = False
+        self.rows = [self._row(row, i) for i, row in self._numbered()]
+        self.header = self._header()
+        self.title = f"{table.name}, {table.convention} DH"
+        self.notes = [*self._frame_notes(), *notes]
+        if self.rounded:
+            self.notes.append("Long values are rounded to six digits here.")
+        self.widths = [
+            max(text_size(row[k].text, SIZE)[0] for row in [self.header, *self.rows] if len(row) > 1)
+            + GAP
+            for k in range(len(KEYS))
+        ]
+        self.notes = [line for note in self.notes for line in wrapped(note, self.width, SIZE - 2)]
+
+    @property
+    def width(self) -> float:
+        """Width of the panel [pt]."""
+        title = text_size(self.title, SIZE + 1, "bold")[0]
+        return float(max(sum(self.widths), title, 190.0))
+
+    @property
+    def height(self) -> float:
+        """Height of the panel [pt]."""
+        return 28.0 + ROW * (len(self.rows) + 1) + 14.0 + 14.0 * len(self.notes)
+
+    def draw(self, canvas: Canvas, left: float, top: float) -> None:
+        """Draw the panel below and right of a corner [pt]."""
+        right = left + self.width
+        canvas.text((left, top - 8), self.title, SIZE + 1, align="left", weight="bold")
+        y = top - 28.0
+        _rule(canvas, left, right, y, 1.3)
+        self._line(canvas, self.header, left, right, y - ROW / 2)
+        _rule(canvas, left, right, y - ROW, 0.7)
+        for k, row in enumerate(self.rows, 1):
+            self._line(canvas, row, left, right, y - ROW * (k + 0.5))
+        y -= ROW * (len(self.rows) + 1)
+        _rule(canvas, left, right, y, 1.3)
+        for k, note in enumerate(self.notes):
+            canvas.text((left, y - 14.0 * (k + 1)), note, SIZE - 2, MUTED, align="left")
+
+    def _line(self, canvas: Canvas, row: list[Cell], left: float, right: float, y: float) -> None:
+        if len(row) == 1:
+            canvas.text((left, y), row[0].text, SIZE - 1, row[0].colour, align="left")
+            return
+        spare = (right - left - sum(self.widths)) / len(KEYS)
+        x = left
+        for k, (cell, width) in enumerate(zip(row, self.widths, strict=True)):
+            x += width + spare
+            if k == 0:
+                canvas.text((left + 8, y), cell.text, SIZE, cell.colour)
+            else:
+                size = SIZE + 1.5 if row is self.header else SIZE
+                canvas.text((x - 4, y), cell.text, size, cell.colour, align="right")
+
+    def _numbered(self) -> list[tuple[int, DHRow]]:
+        out, joint = [], 0
+        for row in self.table.rows:
+            joint += row.is_joint
+            out.append((joint, row))
+        return out
+
+    def _header(self) -> list[Cell]:
+        modified = self.table.convention is DHConvention.MODIFIED
+        j = "{i-1}" if modified else "i"
+        return [
+            Cell("$i$"),
+            Cell(r"$\theta_i$", QUANTITY["theta"]),
+            Cell(r"$d_i\,/\,\mathrm{m}$", QUANTITY["d"]),
+            Cell(rf"$a_{j}\,/\,\mathrm{{m}}$", QUANTITY["a"]),
+            Cell(rf"$\alpha_{j}$", QUANTITY["alpha"]),
+        ]
+
+    def _row(self, row: DHRow, i: int) -> list[Cell]:
+        if row.origin is not None:
+            return [Cell(f"fixed step: {step(row.origin)}", MUTED)]
+        theta, d = self._degrees(row.theta), self._number(row.d)
+        sign = "" if row.sign > 0 else "-"
+        if row.joint_type is JointType.REVOLUTE:
+            theta = plus(f"${sign}q_{{{i}}}$", "0" if row.theta == 0 else theta)
+        elif row.joint_type is JointType.PRISMATIC:
+            d = plus(f"${sign}q_{{{i}}}$", d)
+        a, alpha = self._number(row.a), self._degrees(row.alpha)
+        cells = [Cell(str(i) if row.is_joint else "fixed")]
+        for key, text in zip(KEYS[1:], (theta, d, a, alpha), strict=True):
+            cells.append(Cell(text, FAINT if text in {"0", "0°"} else QUANTITY[key]))
+        return cells
+
+    def _degrees(self, angle: float) -> str:
+        text = degrees(angle)
+        if len(text) > WIDEST:
+            self.rounded, text = True, number(float(f"{math.degrees(angle):.6g}"))
+        return f"{text}°"
+
+    def _number(self, value: float) -> str:
+        text = number(value)
+        if len(text) > WIDEST:
+            self.rounded, text = True, number(float(f"{value:.6g}"))
+        return text
+
+    def _frame_notes(self) -> list[str]:
+        table = self.table
+        return [
+            f"{what}: {step(origin)}"
+            for what, origin in (("frame 0 in base", table.base), ("tool in the last frame", table.tool))
+            if not origin.is_identity
+        ]
+
+
+def pose_sentence(q: Array, slides: tuple[bool, ...]) -> str:
+    """``pose drawn: q = (30°, 40°, 250 mm)``."""
+    cells = [
+        f"{number(round(v * 1000, 3))} mm" if s else f"{number(round(math.degrees(v), 3))}°"
+        for v, s in zip(q.tolist(), slides, strict=True)
+    ]
+    return f"pose drawn: $q$ = ({', '.join(cells)})"
+
+
+def wrapped(text: str, width: float, size: float) -> list[str]:
+    """A sentence cut into lines no wider than so many points."""
+    lines, line = [], ""
+    for word in text.split(" "):
+        longer = f"{line} {word}".strip()
+        if line and text_size(longer, size)[0] > width:
+            lines.append(line)
+            line = word
+        else:
+            line = longer
+    return [*lines, line]
+
+
+def _rule(canvas: Canvas, left: float, right: float, y: float, width: float) -> None:
+    import numpy as np
+
+    canvas.line(np.array([[left, y], [right, y]]), INK, width, cap="butt")

@@ -1,0 +1,137 @@
+"""Where labels go: a search over directions and distances around each anchor.
+
+The cost of a place counts what the label would cover: other labels, lines (by the length
+that runs under the label), the edge of the panel, and the way from the anchor.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.transforms import Array
+
+__all__ = ["Label", "Line", "place_labels"]
+
+RADII = (5.0, 8.0, 12.0, 17.0, 24.0, 32.0)
+"""Distances [pt] from the anchor to the near edge of the label."""
+
+DIRECTIONS = 24
+SWEEPS = 4
+PADDING = 1.2
+SPACING = 1.5
+"""Step [pt] at which lines are sampled."""
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """A text that wants a place.
+
+    Parameters
+    ----------
+    text : str
+    size : array, shape (2,)
+        Width and height [pt].
+    anchor : array, shape (2,)
+        What it names [pt].
+    toward : array, shape (2,)
+        Direction in which it would best stand; zero for none.
+    both_ways : bool
+        The opposite direction is as good.
+    """
+
+    text: str
+    size: Array
+    anchor: Array
+    toward: Array
+    both_ways: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A drawn segment (2, 2) [pt] and how much it minds being covered."""
+
+    points: Array
+    weight: float = 1.0
+
+
+def place_labels(labels: list[Label], lines: list[Line], bounds: Array) -> Array:
+    """Centres of the labels [pt], shape (m, 2).
+
+    Parameters
+    ----------
+    labels : list of Label
+    lines : list of Line
+    bounds : array, shape (2, 2)
+        Lower left and upper right corner of the panel [pt].
+    """
+    if not labels:
+        return np.zeros((0, 2))
+    samples, weights = _samples(lines)
+    places = [_candidates(label) for label in labels]
+    fixed = [
+        _fixed_cost(label, spots, samples, weights, bounds)
+        for label, spots in zip(labels, places, strict=True)
+    ]
+    chosen = [int(np.argmin(cost)) for cost in fixed]
+    half = np.stack([label.size for label in labels]) / 2 + PADDING
+    for _ in range(SWEEPS):
+        before = list(chosen)
+        for k, spots in enumerate(places):
+            others = np.array([places[m][chosen[m]] for m in range(len(labels)) if m != k])
+            halves = np.delete(half, k, axis=0)
+            cost = fixed[k] + _crowding(spots, half[k], others.reshape(-1, 2), halves)
+            chosen[k] = int(np.argmin(cost))
+        if chosen == before:
+            break
+    return np.stack([spots[k] for spots, k in zip(places, chosen, strict=True)])
+
+
+def _candidates(label: Label) -> Array:
+    """Centres to try, shape (len(RADII) * DIRECTIONS, 2)."""
+    angle = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
+    if float(np.abs(label.toward).max()) > 0:
+        angle = angle + np.arctan2(label.toward[1], label.toward[0])
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    reach = np.abs(way) @ (label.size / 2)
+    centres = [label.anchor + way * (reach + radius)[:, None] for radius in RADII]
+    return np.concatenate(centres)
+
+
+def _fixed_cost(
+    label: Label, spots: Array, samples: Array, weights: Array, bounds: Array
+) -> Array:
+    half = label.size / 2 + PADDING
+    away = np.abs(spots[:, None, :] - samples[None, :, :]) <= half
+    covered = away.all(axis=2) @ weights * SPACING
+    outside = np.maximum(bounds[0] - (spots - half), 0) + np.maximum(spots + half - bounds[1], 0)
+    way = spots - label.anchor
+    gap = np.maximum(np.abs(way) - label.size / 2, 0.0)
+    distance = np.hypot(gap[:, 0], gap[:, 1])
+    cost: Array = 1.1 * covered + 60.0 * outside.sum(axis=1) + 0.45 * distance
+    if float(np.abs(label.toward).max()) > 0:
+        unit = label.toward / np.linalg.norm(label.toward)
+        cosine = (way @ unit) / np.linalg.norm(way, axis=1)
+        cost = cost + 3.0 * (1.0 - (np.abs(cosine) if label.both_ways else cosine))
+    return cost
+
+
+def _crowding(spots: Array, half: Array, others: Array, halves: Array) -> Array:
+    """Cost of overlapping other labels: by area, and a lot for touching at all."""
+    room = half + halves
+    overlap = np.maximum(room - np.abs(spots[:, None, :] - others[None, :, :]), 0.0)
+    area = overlap.prod(axis=2)
+    cost: Array = (30.0 * (area > 0) + 2.0 * area).sum(axis=1)
+    return cost
+
+
+def _samples(lines: list[Line]) -> tuple[Array, Array]:
+    """Points along all lines and their weights."""
+    points, weights = [np.zeros((0, 2))], [np.zeros(0)]
+    for line in lines:
+        start, end = line.points
+        count = max(2, int(np.linalg.norm(end - start) / SPACING) + 1)
+        points.append(start + np.linspace(0, 1, count)[:, None] * (end - start))
+        weights.append(np.full(count, line.weight))
+    return np.concatenate(points), np.concatenate(weights)

@@ -1,0 +1,95 @@
+"""Paint of solids: pale bodies with a dark outline, ghosts in one colour, the floor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.figures.canvas import Canvas
+from dh2urdf.figures.projection import View
+from dh2urdf.figures.solids import Face, Part, painted_order
+from dh2urdf.figures.style import mix
+from dh2urdf.transforms import Array
+
+__all__ = ["BODY", "Paint", "ghost_paint", "paint_floor", "paint_parts"]
+
+ToPoints = Callable[[Array], Array]
+"""Picture coordinates (..., 2) in metres to points on the sheet."""
+
+
+@dataclass(frozen=True)
+class Paint:
+    """Darkest and lightest tone of each material, and the outline."""
+
+    tones: dict[str, tuple[str, str]]
+    edge: str
+    width: float = 0.8
+    alpha: float = 1.0
+
+    def tone(self, material: str, share: float) -> str:
+        """A tone between the darkest (0) and the lightest (1) of a material."""
+        dark, light = self.tones.get(material, self.tones["link"])
+        return mix(light, share, dark)
+
+
+BODY = Paint(
+    {
+        "base": ("#7d8798", "#a9b2c1"),
+        "joint": ("#8a95a9", "#c0c8d5"),
+        "link": ("#dde1e7", "#f1f3f6"),
+        "rail": ("#b3bbc8", "#d8dde5"),
+    },
+    "#414b5e",
+)
+"""The arm itself."""
+
+
+def ghost_paint(colour: str) -> Paint:
+    """One colour for a whole arm, paler on its links."""
+    pale, middle = mix(colour, 0.28), mix(colour, 0.45)
+    tones = {
+        "link": (pale, mix(colour, 0.16)),
+        "joint": (middle, pale),
+        "base": (middle, pale),
+        "rail": (pale, pale),
+    }
+    return Paint(tones, mix(colour, 0.8), 0.7, 0.75)
+
+
+def paint_parts(canvas: Canvas, parts: list[Part], view: View, to: ToPoints, paint: Paint) -> None:
+    """Paint parts from far to near."""
+    for k in painted_order(parts, view):
+        _paint_part(canvas, parts[k].material, parts[k].faces(view), to, paint)
+
+
+def _paint_part(
+    canvas: Canvas, material: str, solids: list[list[Face]], to: ToPoints, paint: Paint
+) -> None:
+    """All outlines first, then all fills: solids of one part share one outline."""
+    for faces in solids:
+        outline = to(faces[0].polygon)
+        canvas.polygon(outline, paint.edge, paint.edge, 2 * paint.width, paint.alpha)
+    for faces in solids:
+        canvas.polygon(to(faces[0].polygon), paint.tone(material, 0.0))
+    for faces in solids:
+        for face in faces[1:]:
+            is_cap = face.tone == 1.0 and len(solids) > 1
+            if is_cap:
+                continue
+            edge = paint.edge if len(solids) == 1 and face.tone != SHEEN else "none"
+            tone = paint.tone(material, face.tone)
+            canvas.polygon(to(face.polygon), tone, edge, 0.7 * paint.width)
+
+
+SHEEN = 0.45
+"""Tone of the band of light along a cylinder; it has no outline."""
+
+
+def paint_floor(canvas: Canvas, view: View, to: ToPoints, centre: Array, radius: float) -> None:
+    """Two discs of shade on the floor under the base."""
+    angle = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
+    rim = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
+    for share, colour in ((1.0, "#eef0f3"), (0.66, "#e2e6eb")):
+        canvas.polygon(to(view.flat(centre + share * radius * rim)), colour)

@@ -1,0 +1,80 @@
+"""Colours, type and strokes of all figures; the only door to matplotlib."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dh2urdf.exceptions import MissingExtraError
+from dh2urdf.grids import HTML_COLOURS
+
+try:
+    import matplotlib as mpl
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+except ImportError:
+    raise MissingExtraError("plot", "drawing a figure") from None
+
+__all__ = ["AXIS", "BRANCH_COLOURS", "QUANTITY", "RC", "Picture", "mix", "mpl"]
+
+AXIS = {"x": "#d62728", "y": "#2ca02c", "z": "#1f5fc8"}
+"""Colours of the frame axes."""
+
+QUANTITY = HTML_COLOURS
+"""Colours of theta, d, a and alpha."""
+
+BRANCH_COLOURS = (
+    "#e69f00",
+    "#56b4e9",
+    "#009e73",
+    "#d6c700",
+    "#0072b2",
+    "#d55e00",
+    "#cc79a7",
+    "#7f7f7f",
+)
+"""Colours of branches, told apart with any colour vision (Okabe and Ito)."""
+
+INK = "#1b2333"
+MUTED = "#5c6470"
+FAINT = "#b4b8be"
+
+RC: dict[str, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "mathtext.fontset": "stix",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "dh2urdf",
+    "pdf.fonttype": 42,
+    "axes.unicode_minus": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": INK,
+    "axes.linewidth": 0.9,
+    "text.color": INK,
+    "axes.labelcolor": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "font.size": 10.0,
+}
+"""Settings in force while a figure is made and saved; nobody else's figures see them."""
+
+
+class Picture(Figure):
+    """A matplotlib figure that shows itself in a notebook without pyplot."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        FigureCanvasAgg(self)
+
+    def _repr_png_(self) -> bytes:
+        from dh2urdf.figures.save import picture_bytes
+
+        return picture_bytes(self, "png", dpi=110)
+
+
+def mix(colour: str, share: float, other: str = "#ffffff") -> str:
+    """A colour blended with another one, ``share`` of the first."""
+    from matplotlib.colors import to_hex, to_rgb
+
+    pairs = zip(to_rgb(colour), to_rgb(other), strict=True)
+    return str(to_hex([share * a + (1 - share) * b for a, b in pairs]))

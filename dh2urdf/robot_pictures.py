@@ -1,0 +1,64 @@
+"""The pictures of a robot: what ``figure`` and ``view`` need lies above and is loaded when asked."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+if TYPE_CHECKING:
+    from dh2urdf.figures.style import Picture
+    from dh2urdf.viewer import ArmView
+
+__all__ = ["RobotPictures"]
+
+
+class RobotPictures:
+    """What :class:`dh2urdf.Robot` shows of itself."""
+
+    def figure(self, q: ArrayLike | None = None, **options: Any) -> Picture:
+        """Draw the arm with its DH frames and table (extra ``plot``).
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), optional
+            Configuration [rad] or [m]; zero where the limits allow it.
+        options
+            Those of :func:`dh2urdf.figures.figure`: style, ghosts, view, ...
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            It shows itself in a notebook; ``dh2urdf.figures.save_picture`` writes it.
+
+        Raises
+        ------
+        MissingExtraError
+            matplotlib is not installed.
+        """
+        picture: Picture = import_module("dh2urdf.figures").figure(self, q, **options)
+        return picture
+
+    def view(self, q: ArrayLike | None = None, **options: Any) -> ArmView:
+        """Show the arm in the browser (extra ``viewer``); the server runs beside the program.
+
+        Parameters
+        ----------
+        q : array_like, shape (n,), optional
+            Configuration to start from.
+        options
+            Those of :func:`dh2urdf.viewer.view`: host, port, ...
+
+        Returns
+        -------
+        ArmView
+            Has ``url`` and ``stop()``; set ``q`` to move the arm.
+
+        Raises
+        ------
+        MissingExtraError
+            viser is not installed.
+        """
+        shown: ArmView = import_module("dh2urdf.viewer").view(self, q, **options)
+        return shown
