@@ -1,0 +1,332 @@
+"""Real roots of a trigonometric polynomial of degree 8 that is known by samples.
+
+On an arc around q_0, ``(1 + t^2)^8 f`` with ``t = tan((q - q_0) / 2)`` is a polynomial of degree
+16. Its Bernstein coefficients change sign at least as often as it has roots there, and by an even
+number more (Descartes): none means no root, one means one. Arcs with more changes are halved
+until they are decided, so no root is overlooked.
+
+The coefficients come from 24 samples: all around the circle, for 24 arcs at once, or on one
+window, for roots that lie where f is small against its largest value. Degree 8 needs only 17
+samples; what the other seven contradict is the samples' own rounding noise, measured.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.lanes import LANES, vector_kernel
+
+__all__ = [
+    "ARCS_A_WINDOW",
+    "CIRCLE_COS",
+    "CIRCLE_SIN",
+    "STACK",
+    "TERMS",
+    "WINDOWS",
+    "WINDOW_COS",
+    "WINDOW_SIN",
+    "circle_arcs",
+    "roots_on_arc",
+    "window_arc",
+]
+
+DEGREE = 8
+TERMS = 2 * DEGREE + 1
+HARMONICS = 23
+ARC = 2.0 * math.pi / LANES
+WINDOWS = 8
+ARCS_A_WINDOW = LANES // WINDOWS
+ARC_TAN = math.tan(0.25 * ARC)
+WINDOW_TAN = math.tan(0.25 * ARC * ARCS_A_WINDOW)
+STACK = 40
+"""Rows that the halving needs at most."""
+
+NARROW = 0.06
+"""Length [rad] of an arc on which a pair of roots is looked for at an extremum of f."""
+
+NEAR_DOUBLE = 0.02
+"""Imaginary part [rad] below which a complex pair of roots is reported as a double one."""
+
+SHALLOW = 0.03
+"""An arc whose smallest coefficient is below this part of its largest may hold such a pair."""
+
+CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
+CIRCLE_COS = np.cos(CIRCLE_ANGLE)
+CIRCLE_SIN = np.sin(CIRCLE_ANGLE)
+NODE = WINDOW_TAN * np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
+WINDOW_ANGLE = 2.0 * np.arctan(NODE) + ARC * ARCS_A_WINDOW * np.arange(WINDOWS)[:, None]
+WINDOW_COS = np.cos(WINDOW_ANGLE)
+WINDOW_SIN = np.sin(WINDOW_ANGLE)
+
+
+def _circle_table():
+    """Weights of the 24 samples in a_0, a_1, b_1, ... b_11."""
+    rows = [np.full(LANES, 0.5)]
+    for m in range(1, 12):
+        rows += [np.cos(m * CIRCLE_ANGLE), np.sin(m * CIRCLE_ANGLE)]
+    return np.ascontiguousarray(np.array(rows).T * (2.0 / LANES))
+
+
+def _arc_table():
+    """Bernstein coefficients (17, 17) on one arc of 1, cos q, sin q, cos 2q, ...
+
+    From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
+    """
+    low, high = complex(1.0, -ARC_TAN), complex(1.0, ARC_TAN)
+    binomial = np.array([math.comb(2 * DEGREE, i) for i in range(TERMS)])
+    columns = []
+    for m in range(DEGREE + 1):
+        product = np.ones(1, dtype=complex)
+        for factor in range(2 * DEGREE):
+            pair = [low, high] if factor < DEGREE + m else [high, low]
+            product = np.convolve(product, pair)
+        product = product / binomial
+        columns += [product.real] if m == 0 else [product.real, product.imag]
+    return np.ascontiguousarray(np.array(columns).T)
+
+
+def _window_table():
+    """Weights (24, 24) of the samples on a window: 17 Bernstein coefficients, 7 contradictions."""
+    x = 0.5 * (1.0 + NODE / WINDOW_TAN)
+    basis = (
+        np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
+        / (1.0 + NODE[:, None] ** 2) ** DEGREE
+    )
+    u, s, vt = np.linalg.svd(basis)
+    rows = np.vstack([vt.T @ (u[:, :TERMS] / s).T, u[:, TERMS:].T])
+    return np.ascontiguousarray(rows.T)
+
+
+CIRCLE_TABLE = _circle_table()
+ARC_TABLE = _arc_table()
+WINDOW_TABLE = _window_table()
+
+
+@vector_kernel
+def circle_arcs(samples, series, turned, arcs):
+    """Bernstein coefficients of f on 24 arcs from 24 samples around the circle.
+
+    Parameters
+    ----------
+    samples : (24,)
+    series : (24,), scratch
+    turned : (17, 24), scratch
+    arcs : (24, 24), out
+        Column k: the 17 coefficients on the arc centred at ``k * ARC``.
+
+    Returns
+    -------
+    float, float
+        The largest Fourier coefficient that should vanish (the noise) and the largest of all.
+    """
+    for m in range(HARMONICS):
+        series[m] = 0.0
+    for k in range(LANES):
+        f = samples[k]
+        for m in range(HARMONICS):
+            series[m] += f * CIRCLE_TABLE[k, m]
+    largest, noise = 0.0, 0.0
+    for m in range(TERMS):
+        largest = max(largest, abs(series[m]))
+    for m in range(TERMS, HARMONICS):
+        noise = max(noise, abs(series[m]))
+    for k in range(LANES):
+        turned[0, k] = series[0]
+    for m in range(1, DEGREE + 1):
+        a, b = series[2 * m - 1], series[2 * m]
+        for k in range(LANES):
+            c, s = CIRCLE_COS[(m * k) % LANES], CIRCLE_SIN[(m * k) % LANES]
+            turned[2 * m - 1, k] = a * c + b * s
+            turned[2 * m, k] = b * c - a * s
+    for i in range(TERMS):
+        for k in range(LANES):
+            arcs[i, k] = 0.0
+        for m in range(TERMS):
+            w = ARC_TABLE[i, m]
+            for k in range(LANES):
+                arcs[i, k] += w * turned[m, k]
+    for k in range(LANES):
+        arcs[0, k] = arcs[TERMS - 1, k - 1]
+    return noise, largest
+
+
+@vector_kernel
+def window_arc(samples, series):
+    """Bernstein coefficients of f on one window from its 24 samples, to ``series`` (24,).
+
+    Returns
+    -------
+    float, float
+        The largest contradiction among the samples (the noise) and the largest coefficient.
+    """
+    for m in range(LANES):
+        series[m] = 0.0
+    for k in range(LANES):
+        f = samples[k]
+        for m in range(LANES):
+            series[m] += f * WINDOW_TABLE[k, m]
+    largest, noise = 0.0, 0.0
+    for m in range(TERMS):
+        largest = max(largest, abs(series[m]))
+    for m in range(TERMS, LANES):
+        noise = max(noise, abs(series[m]))
+    return noise, largest
+
+
+@vector_kernel
+def _evaluate(row, x, scratch):
+    """f, f' and f'' at x in [0, 1] of a row of Bernstein coefficients (de Casteljau)."""
+    y = 1.0 - x
+    for i in range(TERMS - 1):
+        scratch[i] = y * row[i] + x * row[i + 1]
+    for n in range(TERMS - 2, 2, -1):
+        for i in range(n):
+            scratch[i] = y * scratch[i] + x * scratch[i + 1]
+    a, b, c = scratch[0], scratch[1], scratch[2]
+    p, q = y * a + x * b, y * b + x * c
+    return y * p + x * q, 16.0 * (q - p), 240.0 * (a - 2.0 * b + c)
+
+
+@vector_kernel
+def _bracketed_root(row, low, high, x, rising, tolerance, scratch):
+    """The root between low and high, Newton from x kept in the bracket, and f' there."""
+    df = 0.0
+    for _ in range(60):
+        f, df, _ = _evaluate(row, x, scratch)
+        if (f > 0.0) == rising:
+            high = x
+        else:
+            low = x
+        step = -f / df if df != 0.0 else math.inf
+        if not low < x + step < high:
+            step = 0.5 * (low + high) - x
+        x += step
+        if abs(step) < tolerance:
+            break
+    return x, df
+
+
+@vector_kernel
+def _extremum(row, x, scratch):
+    """The place in [0, 1] where f' vanishes, Newton from x, with f, f', f'' there."""
+    f, df, ddf = _evaluate(row, x, scratch)
+    for _ in range(6):
+        step = -df / ddf if ddf != 0.0 else 0.0
+        x = min(max(x + step, 0.0), 1.0)
+        f, df, ddf = _evaluate(row, x, scratch)
+        if abs(step) < 1e-6:
+            break
+    return x, f, df, ddf
+
+
+@vector_kernel
+def _shape(row):
+    """Sign changes, first crossing, place of the smallest size and its part of the largest."""
+    positive = row[0] > 0.0
+    changes, crossing, place = 0, 0.5, 0
+    smallest, largest = abs(row[0]), abs(row[0])
+    for i in range(1, TERMS):
+        value = row[i]
+        if (value > 0.0) != positive:
+            positive = not positive
+            if changes == 0:
+                crossing = (i - 1 + row[i - 1] / (row[i - 1] - value)) / (TERMS - 1)
+            changes += 1
+        size = abs(value)
+        largest = max(largest, size)
+        if size < smallest:
+            smallest, place = size, i
+    return changes, crossing, place / (TERMS - 1), smallest < SHALLOW * largest
+
+
+@vector_kernel
+def _halve(stack, top):
+    """De Casteljau at the middle: row ``top`` keeps the right half, ``top + 1`` gets the left."""
+    for i in range(TERMS):
+        stack[top + 1, i] = stack[top, 0]
+        for j in range(TERMS - 1 - i):
+            stack[top, j] = 0.5 * (stack[top, j] + stack[top, j + 1])
+    middle = 0.5 * (stack[top, 17] + stack[top, 18])
+    stack[top + 1, 17], stack[top + 1, 18] = stack[top, 17], middle
+    stack[top, 17] = middle
+
+
+@vector_kernel
+def _angle(centre, row, x):
+    """The angle at x in [0, 1] of a row."""
+    return centre + 2.0 * math.atan(row[17] + x * (row[18] - row[17]))
+
+
+@vector_kernel
+def roots_on_arc(stack, centre, half_tan, noise, scratch, count, roots, slopes):
+    """Append the real roots on one arc.
+
+    Parameters
+    ----------
+    stack : (STACK, 19)
+        The arc's Bernstein coefficients in the first row; overwritten.
+    centre, half_tan : float
+        The arc: angle of its middle [rad] and tangent of a quarter of its length.
+    noise : float
+        Size below which f cannot be told from zero.
+    scratch : (24,)
+    count : int
+        Number of roots so far.
+    roots, slopes : (24,), out
+        Angles [rad] and |f'| there; the slope is 0 where two roots (nearly) fall together or a
+        complex pair is close to the real axis.
+
+    Returns
+    -------
+    int
+        Number of roots written.
+    """
+    stack[0, 17], stack[0, 18] = -half_tan, half_tan
+    top = 0
+    while top >= 0 and count < LANES - 1:
+        row = stack[top]
+        changes, crossing, place, shallow = _shape(row)
+        length = 2.0 * (row[18] - row[17])
+        if changes == 1:
+            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, 1e-8 / length, scratch)
+            roots[count] = _angle(centre, row, x)
+            slopes[count] = abs(df) / length + 1e-300
+            count += 1
+            top -= 1
+            continue
+        if (changes == 0 and shallow) or (changes == 2 and length < NARROW):
+            x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
+            positive = row[0] > 0.0
+            if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
+                near = NEAR_DOUBLE / length
+                if (f > 0.0) != positive:
+                    h = math.sqrt(abs(2.0 * f / ddf))
+                    for side in range(2):
+                        low, high = (0.0, x) if side == 0 else (x, 1.0)
+                        start = max(x - h, 0.0) if side == 0 else min(x + h, 1.0)
+                        z, df = _bracketed_root(
+                            row, low, high, start, positive == (side == 1), 1e-8 / length, scratch
+                        )
+                        roots[count] = _angle(centre, row, z)
+                        slopes[count] = abs(df) / length + 1e-300
+                        count += 1
+                elif 2.0 * abs(f) < near * near * abs(ddf) + noise:
+                    roots[count] = _angle(centre, row, x)
+                    slopes[count] = 0.0
+                    count += 1
+                top -= 1
+                continue
+        if changes == 0:
+            top -= 1
+            continue
+        if length < 1e-12 or top + 2 > STACK:
+            roots[count] = _angle(centre, row, 0.5)
+            slopes[count] = 0.0
+            count += 1
+            top -= 1
+            continue
+        _halve(stack, top)
+        top += 1
+    return count

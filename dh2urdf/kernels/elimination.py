@@ -1,0 +1,280 @@
+"""Six equations in three joints of a closed chain of six revolute joints.
+
+The loop ``Z_1 C_1 Z_2 C_2 ... Z_6 C_6 = 1`` is cut at joints 2 and 6 (Raghavan & Roth 1993):
+
+    Z_3 C_3 Z_4 C_4 Z_5 C_5 [e3 e4]  =  C_2^-1 Z_2^-1 C_1^-1 Z_1^-1 C_6^-1 [e3 e4]
+
+whose columns are the direction l of axis 6 and a point p on it. The fourteen functions
+``p, l, p.p, p.l, p x l, (p.p) l - 2 (p.l) p`` are trilinear in (1, cos, sin) of joints 3, 4, 5 on
+the left and bilinear in those of joints 1, 2 on the right. The left null space of the right
+side's eight non-constant columns leaves six equations in joints 3, 4, 5.
+
+Coefficients come from samples at 0 and +-120 degrees, which determine a function
+``a + b cos + c sin`` exactly.
+"""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.lanes import vector_kernel
+
+__all__ = [
+    "close_loop",
+    "left_coefficients",
+    "reduce_right",
+    "right_coefficients",
+    "six_equations",
+]
+
+HALF_SQRT3 = math.sqrt(0.75)
+INV_SQRT3 = math.sqrt(1.0 / 3.0)
+SQRT2 = math.sqrt(2.0)
+
+
+@vector_kernel
+def close_loop(chain, target, shift, reverse, loop):
+    """Write the loop of ``Z_1 C_1 ... C_5 Z_6 = target``, cut before joint ``shift``.
+
+    Parameters
+    ----------
+    chain : (5, 12)
+        The constant transforms C_1 ... C_5, rows of (3, 4) matrices.
+    target : (12,)
+        The pose of frame 6.
+    shift, reverse : int
+        Label i is joint ``(shift + i) % 6``; reversed, joint ``(5 - shift - i) % 6`` with the
+        opposite angle.
+    loop : (6, 12), out
+        The transform after each label.
+    """
+    for i in range(6):
+        if reverse == 0:
+            joint = (shift + i) % 6
+            if joint == 5:
+                _invert(target, loop[i])
+            else:
+                for e in range(12):
+                    loop[i, e] = chain[joint, e]
+        else:
+            joint = (10 - shift - i) % 6
+            if joint == 5:
+                for e in range(12):
+                    loop[i, e] = target[e]
+            else:
+                _invert(chain[joint], loop[i])
+
+
+@vector_kernel
+def _invert(a, out):
+    """Inverse of a rigid transform (12,)."""
+    for i in range(3):
+        for j in range(3):
+            out[4 * i + j] = a[4 * j + i]
+        out[4 * i + 3] = -(a[i] * a[3] + a[4 + i] * a[7] + a[8 + i] * a[11])
+
+
+@vector_kernel
+def _write_functions(lx, ly, lz, px, py, pz, out, column):
+    """The fourteen functions of the line through p along l, to a column of out (14, m)."""
+    pp = px * px + py * py + pz * pz
+    pl2 = 2.0 * (px * lx + py * ly + pz * lz)
+    out[0, column], out[1, column], out[2, column] = px, py, pz
+    out[3, column], out[4, column], out[5, column] = lx, ly, lz
+    out[6, column], out[7, column] = pp, 0.5 * pl2
+    out[8, column] = py * lz - pz * ly
+    out[9, column] = pz * lx - px * lz
+    out[10, column] = px * ly - py * lx
+    out[11, column] = pp * lx - pl2 * px
+    out[12, column] = pp * ly - pl2 * py
+    out[13, column] = pp * lz - pl2 * pz
+
+
+@vector_kernel
+def _move_line(a, line):
+    """``a (l, p)`` of a line held as six scalars, a (12,)."""
+    lx, ly, lz, px, py, pz = line
+    return (
+        a[0] * lx + a[1] * ly + a[2] * lz,
+        a[4] * lx + a[5] * ly + a[6] * lz,
+        a[8] * lx + a[9] * ly + a[10] * lz,
+        a[0] * px + a[1] * py + a[2] * pz + a[3],
+        a[4] * px + a[5] * py + a[6] * pz + a[7],
+        a[8] * px + a[9] * py + a[10] * pz + a[11],
+    )
+
+
+@vector_kernel
+def _move_line_back(a, line):
+    """``a^-1 (l, p)`` of a line held as six scalars, a (12,)."""
+    lx, ly, lz, px, py, pz = line
+    px, py, pz = px - a[3], py - a[7], pz - a[11]
+    return (
+        a[0] * lx + a[4] * ly + a[8] * lz,
+        a[1] * lx + a[5] * ly + a[9] * lz,
+        a[2] * lx + a[6] * ly + a[10] * lz,
+        a[0] * px + a[4] * py + a[8] * pz,
+        a[1] * px + a[5] * py + a[9] * pz,
+        a[2] * px + a[6] * py + a[10] * pz,
+    )
+
+
+@vector_kernel
+def _turn_line(sample, line):
+    """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
+    lx, ly, lz, px, py, pz = line
+    c, s = 1.0, 0.0
+    if sample == 1:
+        c, s = -0.5, HALF_SQRT3
+    elif sample == 2:
+        c, s = -0.5, -HALF_SQRT3
+    return c * lx - s * ly, s * lx + c * ly, lz, c * px - s * py, s * px + c * py, pz
+
+
+@vector_kernel
+def left_coefficients(loop, samples, left):
+    """Coefficients of the left side's fourteen functions.
+
+    Joint 3, the hidden one, stays as (1, cos, sin). Joints 4 and 5 are written in (1, x, x^2) and
+    (1, sqrt2 y, y^2) with x, y the tangents of half the angles, after a multiplication by
+    ``(1 + x^2)(1 + y^2)``.
+
+    Parameters
+    ----------
+    loop : (6, 12)
+        The closed loop.
+    samples : (14, 27)
+        Scratch.
+    left : (14, 27), out
+        Column ``9 m + 3 i + j`` for (1, cos, sin), the power of x and that of y.
+    """
+    start = (loop[4, 2], loop[4, 6], loop[4, 10], loop[4, 3], loop[4, 7], loop[4, 11])
+    for c in range(3):
+        line5 = _move_line(loop[3], _turn_line(c, start))
+        for b in range(3):
+            line4 = _move_line(loop[2], _turn_line(b, line5))
+            for a in range(3):
+                lx, ly, lz, px, py, pz = _turn_line(a, line4)
+                _write_functions(lx, ly, lz, px, py, pz, left, 9 * a + 3 * b + c)
+    for f in range(14):
+        for i in range(9):
+            y0, y1, y2 = left[f, i], left[f, i + 9], left[f, i + 18]
+            samples[f, i] = (y0 + y1 + y2) / 3.0
+            samples[f, i + 9] = (2.0 * y0 - y1 - y2) / 3.0
+            samples[f, i + 18] = (y1 - y2) * INV_SQRT3
+        for a in range(0, 27, 9):
+            for i in range(a, a + 3):
+                y0, y1, y2 = samples[f, i], samples[f, i + 3], samples[f, i + 6]
+                left[f, i] = y0
+                left[f, i + 3] = (y1 - y2) * (2.0 * INV_SQRT3)
+                left[f, i + 6] = (2.0 * (y1 + y2) - y0) / 3.0
+            for i in range(a, a + 9, 3):
+                y0, y1, y2 = left[f, i], left[f, i + 1], left[f, i + 2]
+                left[f, i] = y0
+                left[f, i + 1] = (y1 - y2) * (SQRT2 * INV_SQRT3)
+                left[f, i + 2] = (2.0 * (y1 + y2) - y0) / 3.0
+
+
+@vector_kernel
+def right_coefficients(loop, samples, right):
+    """Coefficients of the right side's fourteen functions of joints 1 and 2.
+
+    ``right`` (9, 14), out: rows c1c2, c1s2, s1c2, s1s2, c1, s1, c2, s2, 1.
+    """
+    start = _move_line_back(loop[5], (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+    for a in range(3):
+        line1 = _move_line_back(loop[0], _turn_line((3 - a) % 3, start))
+        for b in range(3):
+            line2 = _move_line_back(loop[1], _turn_line((3 - b) % 3, line1))
+            lx, ly, lz, px, py, pz = line2
+            _write_functions(lx, ly, lz, px, py, pz, samples, 3 * a + b)
+    for f in range(14):
+        for a in range(3):
+            i = 3 * a
+            y0, y1, y2 = samples[f, i], samples[f, i + 1], samples[f, i + 2]
+            samples[f, i] = (y0 + y1 + y2) / 3.0
+            samples[f, i + 1] = (2.0 * y0 - y1 - y2) / 3.0
+            samples[f, i + 2] = (y1 - y2) * INV_SQRT3
+        for b in range(3):
+            y0, y1, y2 = samples[f, b], samples[f, b + 3], samples[f, b + 6]
+            samples[f, b] = (y0 + y1 + y2) / 3.0
+            samples[f, b + 3] = (2.0 * y0 - y1 - y2) / 3.0
+            samples[f, b + 6] = (y1 - y2) * INV_SQRT3
+        right[0, f], right[1, f] = samples[f, 4], samples[f, 5]
+        right[2, f], right[3, f] = samples[f, 7], samples[f, 8]
+        right[4, f], right[5, f] = samples[f, 3], samples[f, 6]
+        right[6, f], right[7, f] = samples[f, 1], samples[f, 2]
+        right[8, f] = samples[f, 0]
+
+
+@vector_kernel
+def reduce_right(right, beta, basis):
+    """Householder QR of the eight non-constant columns of the right side.
+
+    Parameters
+    ----------
+    right : (9, 14), in and out
+        Row j is column j of the matrix; afterwards reflector j below its diagonal entry, R above.
+    beta : (16,), scratch
+        The reflectors' factors in the first eight, the diagonal of R in the last.
+    basis : (14, 14), out
+        Row i is column i of Q: rows 8 to 13 span the left null space.
+
+    Returns
+    -------
+    float
+        The smallest over the largest diagonal entry of R.
+    """
+    smallest, largest = math.inf, 0.0
+    for j in range(8):
+        square = 0.0
+        for i in range(j, 14):
+            square += right[j, i] * right[j, i]
+        pivot = right[j, j]
+        norm = math.sqrt(square)
+        value = -norm if pivot > 0.0 else norm
+        smallest, largest = min(smallest, norm), max(largest, norm)
+        beta[j] = -1.0 / (square - value * pivot + 1e-300)
+        beta[8 + j] = value
+        right[j, j] = pivot - value
+        for c in range(j + 1, 8):
+            d = 0.0
+            for i in range(j, 14):
+                d += right[j, i] * right[c, i]
+            d *= beta[j]
+            for i in range(j, 14):
+                right[c, i] += d * right[j, i]
+    for r in range(4, 14):
+        for i in range(14):
+            basis[r, i] = 0.0
+        basis[r, r] = 1.0
+        for j in range(7, -1, -1):
+            if j <= r:
+                d = 0.0
+                for i in range(j, 14):
+                    d += right[j, i] * basis[r, i]
+                d *= beta[j]
+                for i in range(j, 14):
+                    basis[r, i] += d * right[j, i]
+    return smallest / (largest + 1e-300)
+
+
+@vector_kernel
+def six_equations(right, basis, left, equations):
+    """Project the left side on the null space: ``equations`` (6, 27), columns as in left.
+
+    The constant of the right side is brought over, times ``(1 + x^2)(1 + y^2)``.
+    """
+    for r in range(6):
+        for m in range(27):
+            equations[r, m] = 0.0
+        constant = 0.0
+        for f in range(14):
+            w = basis[8 + r, f]
+            constant += w * right[8, f]
+            for m in range(27):
+                equations[r, m] += w * left[f, m]
+        equations[r, 0] -= constant
+        equations[r, 2] -= constant
+        equations[r, 6] -= constant
+        equations[r, 8] -= constant

@@ -1,0 +1,320 @@
+"""The passes of the general 6R solver: eliminate, find roots, seed, polish, collect.
+
+Each works on the arrays of `make_work_6r`, named at its head.
+"""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.arc_roots import (
+    ARCS_A_WINDOW,
+    CIRCLE_COS,
+    CIRCLE_SIN,
+    TERMS,
+    WINDOW_COS,
+    WINDOW_SIN,
+    WINDOWS,
+    circle_arcs,
+    roots_on_arc,
+    window_arc,
+)
+from dh2urdf.kernels.elimination import (
+    close_loop,
+    left_coefficients,
+    reduce_right,
+    right_coefficients,
+    six_equations,
+)
+from dh2urdf.kernels.general_6r_work import make_work_6r
+from dh2urdf.kernels.lanes import (
+    LANES,
+    MASK,
+    null_vectors,
+    second_null_vectors,
+    vector_kernel,
+)
+from dh2urdf.kernels.loop_angles import left_frames, other_joints
+from dh2urdf.kernels.newton_6r import chain_frames, newton_step, pose_error
+from dh2urdf.kernels.resultant import resultants, split_pairs, two_joints
+
+__all__ = [
+    "circle_roots",
+    "eliminate",
+    "follow",
+    "inner_target",
+    "rate_elimination",
+    "simple_roots",
+    "window_roots",
+]
+
+TOLERANCE = 1e-9
+"""Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
+
+CONVERGED = 2e-15
+"""Error at which a lane is not polished further, relative to the arm's size."""
+
+MOST_STEPS = 14
+SAME = 1e-6
+"""Solutions closer than this [rad] are one."""
+
+HOPELESS = 1e-2
+"""Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
+
+FLAT = 1e4
+"""An arc on which f is below this many times the noise is sampled again."""
+
+UNSURE = 1e-6
+"""A root whose place is uncertain by more than this [rad] is looked for again."""
+
+ARC = 2.0 * math.pi / LANES
+ARC_TAN = math.tan(0.25 * ARC)
+WINDOW_TAN = math.tan(0.25 * ARC * ARCS_A_WINDOW)
+
+
+@vector_kernel
+def inner_target(base_inverse, tool_inverse, size, T, target, inner):
+    """The target as (12,), and seen from the frame before joint 1 to that after joint 6."""
+    for i in range(3):
+        for j in range(4):
+            target[4 * i + j] = T[i, j]
+    for i in range(3):
+        b0, b1, b2 = base_inverse[i, 0], base_inverse[i, 1], base_inverse[i, 2]
+        x0 = b0 * T[0, 0] + b1 * T[1, 0] + b2 * T[2, 0]
+        x1 = b0 * T[0, 1] + b1 * T[1, 1] + b2 * T[2, 1]
+        x2 = b0 * T[0, 2] + b1 * T[1, 2] + b2 * T[2, 2]
+        x3 = b0 * T[0, 3] + b1 * T[1, 3] + b2 * T[2, 3] + base_inverse[i, 3]
+        for j in range(4):
+            t = x0 * tool_inverse[0, j] + x1 * tool_inverse[1, j] + x2 * tool_inverse[2, j]
+            inner[4 * i + j] = (t + x3) / size if j == 3 else t
+
+
+@vector_kernel
+def eliminate(chain, shift, reverse, left, work):
+    """The six equations of one elimination."""
+    inner, loop, samples, own_left = work[0], work[2], work[3], work[4]
+    right, basis, equations, factors = work[5], work[6], work[7], work[8]
+    close_loop(chain, inner, shift, reverse, loop)
+    right_coefficients(loop, samples, right)
+    reduce_right(right, factors, basis)
+    if 2 <= (5 - shift) % 6 <= 4:
+        left_coefficients(loop, samples, own_left)
+        six_equations(right, basis, own_left, equations)
+    else:
+        six_equations(right, basis, left, equations)
+
+
+@vector_kernel
+def circle_roots(work):
+    """Roots on the whole circle: their number, and the number of windows to sample again; or -1.
+
+    A window is marked in ``work[20]`` where the polynomial is too small to be trusted.
+    """
+    equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
+    series, turned, arcs, stack, scratch = work[14], work[15], work[16], work[17], work[18]
+    roots, slopes, suspect = work[19], work[21], work[20]
+    resultants(equations, CIRCLE_COS, CIRCLE_SIN, LANES, A, W, determinant, V, beta)
+    noise, largest = circle_arcs(determinant, series, turned, arcs)
+    if not noise < HOPELESS * largest:
+        return 0, -1
+    count = 0
+    for w in range(WINDOWS):
+        suspect[w] = 0.0
+    for k in range(LANES):
+        window = (k + 1) // ARCS_A_WINDOW % WINDOWS
+        height = 0.0
+        for i in range(TERMS):
+            stack[0, i] = arcs[i, k]
+            height = max(height, abs(arcs[i, k]))
+        if height < FLAT * noise:
+            suspect[window] = 1.0
+        first = count
+        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, count, roots, slopes)
+        for r in range(first, count):
+            if 0.0 < slopes[r] < noise / UNSURE:
+                suspect[window] = 1.0
+    again = 0
+    for w in range(WINDOWS):
+        if suspect[w] > 0.0:
+            again += 1
+    return count, again
+
+
+@vector_kernel
+def window_roots(work):
+    """Roots in the marked windows, each sampled on its own; returns their number."""
+    equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
+    series, stack, scratch = work[14], work[17], work[18]
+    roots, slopes, suspect = work[19], work[21], work[20]
+    count = 0
+    for w in range(WINDOWS):
+        if suspect[w] == 0.0:
+            continue
+        resultants(equations, WINDOW_COS[w], WINDOW_SIN[w], LANES, A, W, determinant, V, beta)
+        noise, _ = window_arc(determinant, series)
+        for i in range(TERMS):
+            stack[0, i] = series[i]
+        centre = w * ARC * ARCS_A_WINDOW
+        count = roots_on_arc(stack, centre, WINDOW_TAN, noise, scratch, count, roots, slopes)
+    return count
+
+
+@vector_kernel
+def _seeds(count, paired, shift, reverse, turns, work):
+    """All six joints at each root, in lanes; twice in neighbouring lanes if paired.
+
+    Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
+    """
+    loop, right, basis, equations, factors = work[2], work[5], work[6], work[7], work[8]
+    A, W, V, beta, determinant = work[9], work[10], work[11], work[12], work[13]
+    roots, b, second = work[19], work[22], work[23]
+    c, s, cosines, sines = work[24], work[25], work[26], work[27]
+    frames, functions, y = work[28], work[29], work[30]
+    hc, hs, c4, s4, c5, s5 = work[31], work[32], work[33], work[34], work[35], work[36]
+    lanes = min(2 * count, LANES) if paired else count
+    n = (lanes + 7) // 8 * 8
+    for k in range(n):
+        root = roots[min(k // 2 if paired else k, count - 1)]
+        hc[k], hs[k] = math.cos(root), math.sin(root)
+    resultants(equations, hc, hs, n, A, W, determinant, V, beta)
+    null_vectors(W, b, n, 2)
+    if paired:
+        second_null_vectors(W, b, n, 2, second)
+        split_pairs(b, second, n)
+    two_joints(b, n, c4, s4, c5, s5)
+    for k in range(n):
+        c[2 * LANES + k], s[2 * LANES + k] = hc[k], hs[k]
+        c[3 * LANES + k], s[3 * LANES + k] = c4[k], s4[k]
+        c[4 * LANES + k], s[4 * LANES + k] = c5[k], s5[k]
+    left_frames(loop, c, s, n, frames)
+    other_joints(loop, right, factors, basis, frames, n, c, s, functions, y)
+    for i in range(6):
+        joint = (shift + i) % 6 if reverse == 0 else (11 - shift - i) % 6
+        sign = 1.0 if reverse == 0 else -1.0
+        p = (i * LANES) & MASK
+        o = (joint * LANES) & MASK
+        tc, ts = turns[0, joint], turns[1, joint]
+        for k in range(n):
+            x, z = c[p + k], sign * s[p + k]
+            cosines[o + k] = x * tc - z * ts
+            sines[o + k] = z * tc + x * ts
+    return lanes
+
+
+@vector_kernel
+def _polish(links, size, lanes, work):
+    """Newton on the exact chain until every lane has converged or has ceased to."""
+    target, A, V, beta, scale = work[1], work[9], work[11], work[12], work[13]
+    cosines, sines, frames = work[26], work[27], work[28]
+    error, position, angle, before = work[37], work[38], work[39], work[40]
+    n = (lanes + 7) // 8 * 8
+    goal = CONVERGED * max(size, 1.0)
+    for k in range(lanes):
+        before[k] = math.inf
+    for step in range(MOST_STEPS + 1):
+        chain_frames(links, cosines, sines, n, frames)
+        pose_error(target, frames, n, error, position, angle)
+        open_lanes = 0
+        for k in range(lanes):
+            now = max(position[k], angle[k])
+            if now > goal and (step < 5 or now < 0.5 * before[k]):
+                open_lanes += 1
+            before[k] = now
+        if open_lanes == 0 or step == MOST_STEPS:
+            break
+        newton_step(frames, error, n, A, scale, V, beta, cosines, sines)
+
+
+@vector_kernel
+def _collect(size, lanes, paired, found, out_q, out_residual, work):
+    """Append the lanes that reached the target and are new; keep the roots that brought nothing.
+
+    Returns the number of solutions and the number of roots left at the front of the root list.
+    """
+    roots, slopes, cosines, sines = work[19], work[21], work[26], work[27]
+    position, angle, q = work[38], work[39], work[8]
+    short = min(size, 1.0)
+    left = 0
+    for k in range(lanes):
+        residual = max(position[k], angle[k])
+        new = False
+        if position[k] <= TOLERANCE * short and angle[k] <= TOLERANCE:
+            for i in range(6):
+                q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
+            new = True
+            near = max(SAME, 10.0 * math.sqrt(residual))
+            for f in range(found):
+                far = 0.0
+                for i in range(6):
+                    d = abs(q[i] - out_q[f, i])
+                    far = max(far, min(d, 2.0 * math.pi - d))
+                if far < near:
+                    new = False
+                    if residual < out_residual[f]:
+                        out_residual[f] = residual
+                        for i in range(6):
+                            out_q[f, i] = q[i]
+                    break
+            if new and found < out_q.shape[0]:
+                for i in range(6):
+                    out_q[found, i] = q[i]
+                out_residual[found] = residual
+                found += 1
+        if not paired and (not new or slopes[k] == 0.0):
+            roots[left] = roots[k]
+            left += 1
+    return found, left
+
+
+@vector_kernel
+def follow(links, size, count, found, shift, reverse, turns, out_q, out_residual, work):
+    """Solutions from a list of roots; those that bring nothing are taken for double roots."""
+    if count == 0:
+        return found
+    lanes = _seeds(count, False, shift, reverse, turns, work)
+    _polish(links, size, lanes, work)
+    found, left = _collect(size, lanes, False, found, out_q, out_residual, work)
+    if left > 0:
+        lanes = _seeds(min(left, LANES // 2), True, shift, reverse, turns, work)
+        _polish(links, size, lanes, work)
+        found, _ = _collect(size, lanes, True, found, out_q, out_residual, work)
+    return found
+
+
+@vector_kernel
+def rate_elimination(
+    links, chain, base_inverse, tool_inverse, size, turns, shift, reverse, left, Ts, rating
+):
+    """Decimal logarithm of the worst unpolished error of each pose's seeds; 0 where it fails.
+
+    Ts (m, 4, 4), reachable; rating (m,), out.
+    """
+    work = make_work_6r()
+    target, slopes = work[1], work[21]
+    cosines, sines, frames = work[26], work[27], work[28]
+    error, position, angle = work[37], work[38], work[39]
+    for m in range(Ts.shape[0]):
+        rating[m] = 0.0
+        inner_target(base_inverse, tool_inverse, size, Ts[m], target, work[0])
+        eliminate(chain, shift, reverse, left, work)
+        count, again = circle_roots(work)
+        if again < 0 or count == 0:
+            continue
+        lanes = _seeds(count, False, shift, reverse, turns, work)
+        chain_frames(links, cosines, sines, LANES, frames)
+        pose_error(target, frames, LANES, error, position, angle)
+        worst = 1e-16
+        for k in range(lanes):
+            if slopes[k] > 0.0:
+                worst = max(worst, position[k] / size, angle[k])
+        rating[m] = min(math.log10(worst), 0.0)
+
+
+@vector_kernel
+def simple_roots(count, slopes):
+    """How many of the roots are simple."""
+    simple = 0
+    for r in range(count):
+        if slopes[r] > 0.0:
+            simple += 1
+    return simple

@@ -1,0 +1,129 @@
+"""Newton's method on the exact chain of six revolute joints, many seeds side by side.
+
+The chain is ``L_0 Z_1 L_1 ... Z_6 L_6 = target``. Angles are held as cosines and sines and
+turned by the tangent of the step, so that no trigonometric function is called.
+"""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, reduce_columns, solve_upper, vector_kernel
+
+__all__ = ["chain_frames", "newton_step", "pose_error"]
+
+FRAME = 12 * LANES
+LARGEST_STEP = 0.5
+"""A Newton step [rad] is shortened to this."""
+
+
+@vector_kernel
+def chain_frames(steps, cosines, sines, n, frames):
+    """``F_0 = steps[0]``, ``F_i = F_(i-1) Z_i steps[i]`` for n lanes, to seven runs of twelve.
+
+    steps (7, 12); cosines, sines six runs of LANES.
+    """
+    for e in range(12):
+        value = steps[0, e]
+        f = (e * LANES) & MASK
+        for k in range(n):
+            frames[f + k] = value
+    for i in range(6):
+        a00, a01, a02, a03 = steps[i + 1, 0], steps[i + 1, 1], steps[i + 1, 2], steps[i + 1, 3]
+        a10, a11, a12, a13 = steps[i + 1, 4], steps[i + 1, 5], steps[i + 1, 6], steps[i + 1, 7]
+        a20, a21, a22, a23 = steps[i + 1, 8], steps[i + 1, 9], steps[i + 1, 10], steps[i + 1, 11]
+        q = i * LANES
+        for row in range(3):
+            f = (i * FRAME + 4 * row * LANES) & MASK
+            g = (f + FRAME) & MASK
+            for k in range(n):
+                u, v, z = frames[f + k], frames[f + LANES + k], frames[f + 2 * LANES + k]
+                p = frames[f + 3 * LANES + k]
+                c, s = cosines[q + k], sines[q + k]
+                x, y = u * c + v * s, v * c - u * s
+                frames[g + k] = x * a00 + y * a10 + z * a20
+                frames[g + LANES + k] = x * a01 + y * a11 + z * a21
+                frames[g + 2 * LANES + k] = x * a02 + y * a12 + z * a22
+                frames[g + 3 * LANES + k] = x * a03 + y * a13 + z * a23 + p
+
+
+@vector_kernel
+def pose_error(target, frames, n, error, position, angle):
+    """Twist from the last frame to the target (12,), in base axes.
+
+    ``error`` (6 runs of LANES): linear, angular. ``position`` [length] and ``angle`` [rad] are its
+    sizes; an angle beyond 90 degrees is reported as 3.
+    """
+    t00, t01, t02, t03 = target[0], target[1], target[2], target[3]
+    t10, t11, t12, t13 = target[4], target[5], target[6], target[7]
+    t20, t21, t22, t23 = target[8], target[9], target[10], target[11]
+    f = 6 * FRAME
+    for k in range(n):
+        r00, r01, r02 = frames[f + k], frames[f + 24 + k], frames[f + 48 + k]
+        r10, r11, r12 = frames[f + 96 + k], frames[f + 120 + k], frames[f + 144 + k]
+        r20, r21, r22 = frames[f + 192 + k], frames[f + 216 + k], frames[f + 240 + k]
+        x = t03 - frames[f + 72 + k]
+        y = t13 - frames[f + 168 + k]
+        z = t23 - frames[f + 264 + k]
+        u = 0.5 * (r10 * t20 - r20 * t10 + r11 * t21 - r21 * t11 + r12 * t22 - r22 * t12)
+        v = 0.5 * (r20 * t00 - r00 * t20 + r21 * t01 - r01 * t21 + r22 * t02 - r02 * t22)
+        w = 0.5 * (r00 * t10 - r10 * t00 + r01 * t11 - r11 * t01 + r02 * t12 - r12 * t02)
+        trace = r00 * t00 + r10 * t10 + r20 * t20 + r01 * t01 + r11 * t11 + r21 * t21
+        trace += r02 * t02 + r12 * t12 + r22 * t22
+        error[k], error[24 + k], error[48 + k] = x, y, z
+        error[72 + k], error[96 + k], error[120 + k] = u, v, w
+        position[k] = math.sqrt(x * x + y * y + z * z)
+        turn = math.sqrt(u * u + v * v + w * w)
+        angle[k] = turn if trace > 1.0 else 3.0
+
+
+@vector_kernel
+def _jacobian(frames, n, A):
+    """Geometric Jacobians at the tip in base axes, to the first six columns of A."""
+    e = 6 * FRAME
+    for i in range(6):
+        f = (i * FRAME) & MASK
+        a = (i * COLUMN) & MASK
+        for k in range(n):
+            zx, zy, zz = frames[f + 48 + k], frames[f + 144 + k], frames[f + 240 + k]
+            x = frames[e + 72 + k] - frames[f + 72 + k]
+            y = frames[e + 168 + k] - frames[f + 168 + k]
+            z = frames[e + 264 + k] - frames[f + 264 + k]
+            A[a + k] = zy * z - zz * y
+            A[a + 24 + k] = zz * x - zx * z
+            A[a + 48 + k] = zx * y - zy * x
+            A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
+
+
+@vector_kernel
+def newton_step(frames, error, n, A, scale, V, beta, cosines, sines):
+    """Turn the joints of n lanes by ``J^-1 error``, shortened to half a radian.
+
+    A (7 * 144,) scratch; error is overwritten with the step.
+    """
+    _jacobian(frames, n, A)
+    for i in range(6):
+        a = (6 * COLUMN + i * LANES) & MASK
+        e = (i * LANES) & MASK
+        for k in range(n):
+            A[a + k] = error[e + k]
+    reduce_columns(A, 6, 7, n, scale, V, beta)
+    for i in range(6):
+        a = (6 * COLUMN + i * LANES) & MASK
+        e = (i * LANES) & MASK
+        for k in range(n):
+            error[e + k] = A[a + k]
+    solve_upper(A, error, n)
+    for k in range(n):
+        largest = LARGEST_STEP
+        for i in range(6):
+            largest = max(largest, abs(error[i * LANES + k]))
+        beta[k] = LARGEST_STEP / largest
+    for i in range(6):
+        e = (i * LANES) & MASK
+        for k in range(n):
+            t = error[e + k] * beta[k]
+            c, s = cosines[e + k], sines[e + k]
+            h = 1.0 / math.sqrt(1.0 + t * t)
+            cosines[e + k] = (c - s * t) * h
+            sines[e + k] = (s + c * t) * h

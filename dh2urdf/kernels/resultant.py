@@ -1,0 +1,132 @@
+"""The 12 x 12 resultant of six equations in three joints, as a 6 x 6 determinant in lanes.
+
+At a value of the hidden joint the equations are ``(E0 + E1 x + E2 x^2) v = 0`` with E0, E1, E2
+(6, 3) and ``v = (1, sqrt2 y, y^2)``, x and y the half-angle tangents of the two other joints.
+Raghavan & Roth's square matrix takes the equations and x times the equations:
+
+    | E0 E1 E2  0 |  (v, x v, x^2 v, x^3 v) = 0
+    |  0 E0 E1 E2 |
+
+Its upper half is triangularised on the columns of E0, its lower half on those of E2; three rows
+of each are left, without v and x^3 v: a 6 x 6 matrix whose null vector is ``(v, x v)`` up to
+scale. The determinant of the whole is the product of all diagonal entries met.
+"""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, reduce_columns, vector_kernel
+
+__all__ = ["resultants", "split_pairs", "two_joints"]
+
+SQRT2 = math.sqrt(2.0)
+HALF = 3 * LANES
+
+
+@vector_kernel
+def _fill(equations, term, cosines, sines, n, A, column):
+    """One column of the six equations at the hidden joint's values."""
+    for r in range(6):
+        e0, e1, e2 = equations[r, term], equations[r, 9 + term], equations[r, 18 + term]
+        a = (column * COLUMN + r * LANES) & MASK
+        for k in range(n):
+            A[a + k] = e0 + e1 * cosines[k] + e2 * sines[k]
+
+
+@vector_kernel
+def _keep_lower_half(A, source, W, target, half):
+    """Copy rows 3 to 5 of a column of A to a half of a column of W."""
+    a = (source * COLUMN + HALF) & MASK
+    w = (target * COLUMN + half * HALF) & MASK
+    for k in range(HALF):
+        W[w + k] = A[a + k]
+
+
+@vector_kernel
+def resultants(equations, cosines, sines, n, A, W, determinant, V, beta):
+    """Determinants at n values of the hidden joint; W (6 x 6 lanes) is left triangular.
+
+    Parameters
+    ----------
+    equations : (6, 27)
+        Columns ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
+    cosines, sines : (24,)
+        Of the hidden joint.
+    A : (9 * 144,), scratch
+    W : (6 * 144,), out
+    determinant : (24,), out
+    V : (144,), scratch
+    beta : (24,), scratch
+    """
+    for k in range(LANES):
+        determinant[k] = 1.0
+    for half in range(2):
+        for term in range(9):
+            block, j = term // 3, term % 3
+            column = term if half == 0 else 3 * (2 - block) + j
+            _fill(equations, term, cosines, sines, n, A, column)
+        reduce_columns(A, 3, 9, n, determinant, V, beta)
+        for column in range(3, 9):
+            target = column - 3 if half == 0 else (column if column < 6 else column - 6)
+            _keep_lower_half(A, column, W, target, half)
+    reduce_columns(W, 5, 6, n, determinant, V, beta)
+    last = 5 * COLUMN + 5 * LANES
+    for k in range(n):
+        determinant[k] *= W[last + k]
+
+
+@vector_kernel
+def two_joints(b, n, cx, sx, cy, sy):
+    """Cosines and sines of the two joints from the rank-one vectors ``(v, x v)``."""
+    for k in range(n):
+        p0, p1, p2 = b[k], b[LANES + k], b[2 * LANES + k]
+        r0, r1, r2 = b[3 * LANES + k], b[4 * LANES + k], b[5 * LANES + k]
+        pp = p0 * p0 + p1 * p1 + p2 * p2
+        rr = r0 * r0 + r1 * r1 + r2 * r2
+        pr = p0 * r0 + p1 * r1 + p2 * r2
+        h = 1.0 / (math.sqrt((pp - rr) * (pp - rr) + 4.0 * pr * pr) + 1e-300)
+        c, s = (pp - rr) * h, 2.0 * pr * h
+        cx[k], sx[k] = c, s
+        wp = 1.0 + c if c > 0.0 else s
+        wr = s if c > 0.0 else 1.0 - c
+        v0, v1, v2 = wp * p0 + wr * r0, wp * p1 + wr * r1, wp * p2 + wr * r2
+        c = v0 - v2 if v0 + v2 > 0.0 else v2 - v0
+        s = SQRT2 * v1 if v0 + v2 > 0.0 else -SQRT2 * v1
+        h = 1.0 / (math.sqrt(c * c + s * s) + 1e-300)
+        cy[k], sy[k] = c * h, s * h
+
+
+@vector_kernel
+def split_pairs(b, second, n):
+    """Two rank-one vectors ``(v, x v)`` from a plane of null vectors, in lanes 2k and 2k + 1.
+
+    Lanes 2k and 2k + 1 hold the same plane, spanned by b and ``second``. Of its vectors
+    ``(N1 c, N2 c)`` those with ``N2 c = x N1 c`` are wanted: c is an eigenvector of the 2 x 2
+    matrix ``(N1^T N1)^-1 N1^T N2``. A complex pair gives its real part twice. b is overwritten.
+    """
+    for k in range(n):
+        g00, g01, g11, h00, h01, h10, h11 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+        for i in range(3):
+            p0, p1 = b[i * LANES + k], second[i * LANES + k]
+            q0, q1 = b[(i + 3) * LANES + k], second[(i + 3) * LANES + k]
+            g00 += p0 * p0
+            g01 += p0 * p1
+            g11 += p1 * p1
+            h00 += p0 * q0
+            h01 += p0 * q1
+            h10 += p1 * q0
+            h11 += p1 * q1
+        d = g00 * g11 - g01 * g01 + 1e-300
+        a00, a01 = (g11 * h00 - g01 * h10) / d, (g11 * h01 - g01 * h11) / d
+        a10, a11 = (g00 * h10 - g01 * h00) / d, (g00 * h11 - g01 * h01) / d
+        half = 0.5 * (a00 - a11)
+        root = math.sqrt(max(half * half + a01 * a10, 0.0))
+        x = 0.5 * (a00 + a11) + (root if k % 2 == 0 else -root)
+        if abs(a00 - x) > abs(a11 - x):
+            c0, c1 = a01, x - a00
+        else:
+            c0, c1 = x - a11, a10
+        h = 1.0 / (math.sqrt(c0 * c0 + c1 * c1) + 1e-300)
+        for i in range(6):
+            b[i * LANES + k] = (c0 * b[i * LANES + k] + c1 * second[i * LANES + k]) * h
