@@ -12,9 +12,10 @@ from dh2urdf.conversions.frame_assignment import Assignment, XRule, assign_frame
 from dh2urdf.conversions.prismatic_axes import place_prismatic_axes
 from dh2urdf.conversions.rounding import tidy_angle, tidy_length, tidy_origin
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.exceptions import NameNotFoundError
 from dh2urdf.transforms import Array
 
-__all__ = ["AssignedTable", "chain_to_dh", "turned_round"]
+__all__ = ["AssignedTable", "chain_to_dh", "flip_signs", "turned_round"]
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,21 @@ def turned_round(links: Array, signs: Sequence[int]) -> Array:
             out[i] = out[i] @ FLIP
             out[i + 1] = FLIP @ out[i + 1]
     return out
+
+
+def flip_signs(chain: SerialChain, flip: Sequence[str]) -> tuple[int, ...]:
+    """Signs of the rows, -1 for the joints named.
+
+    Raises
+    ------
+    NameNotFoundError
+    """
+    for name in flip:
+        if name not in chain.names:
+            raise NameNotFoundError(
+                f"flip: no joint named {name!r} in the chain; it has {', '.join(chain.names)}"
+            )
+    return tuple(-1 if name in flip else 1 for name in chain.names)
 
 
 def _rows(found: Assignment, chain: SerialChain, signs: Sequence[int]) -> tuple[DHRow, ...]:

@@ -139,8 +139,10 @@ def _remarks(tree: KinematicTree, moving: Sequence[Step], cut: frozenset[str]) -
         if part.joint.kind != "fixed"
     ]
     if held:
+        names = list(dict.fromkeys(held))
+        more = f" and {len(names) - 3} more" if len(names) > 3 else ""
         remarks.append(
-            f"{tree.where}: joints off the chain are held at 0 and what hangs on them counts as "
-            f"part of its links: {', '.join(dict.fromkeys(held))}"
+            f"{tree.where}: joints off the chain are held at 0, and what hangs on them counts as "
+            f"part of its links: {', '.join(names[:3])}{more}"
         )
     return remarks

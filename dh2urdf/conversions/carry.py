@@ -1,0 +1,48 @@
+"""What a source says of its drives and bodies, carried into a DH table."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.tree_to_chain import Actuation, ChainSource
+from dh2urdf.dh import DHRow, DHTable
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["carry"]
+
+
+def carry(table: DHTable, source: ChainSource) -> DHTable:
+    """The table with drives and inertial parameters of its source, moved into the DH frames."""
+    frames = table.frames(np.zeros(table.n))[1:]
+    parts = iter(zip(source.chain.joint_frames, frames, source.bodies, source.drives, strict=True))
+    return replace(
+        table,
+        rows=tuple(_carried(row, *next(parts)) if row.is_joint else row for row in table.rows),
+    )
+
+
+def _carried(
+    row: DHRow, T_base_joint: Array, T_base_dh: Array, body: Inertial | None, drive: Actuation
+) -> DHRow:
+    row = replace(
+        row,
+        velocity=drive.velocity,
+        effort=drive.effort,
+        damping=drive.damping,
+        friction=drive.friction,
+    )
+    return row if body is None else _with_body(row, body, inverse(T_base_dh) @ T_base_joint)
+
+
+def _with_body(row: DHRow, body: Inertial, T_dh_joint: Array) -> DHRow:
+    """The row with a body given in the chain's frame of its joint."""
+    moved = body.moved(T_dh_joint)
+    x, y, z = (float(v) + 0.0 for v in moved.com)
+    m = 0.5 * (moved.inertia + moved.inertia.T) + 0.0
+    ixx, ixy, ixz, iyy, iyz, izz = (
+        float(m[i, j]) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+    )
+    return replace(row, mass=body.mass, com=(x, y, z), inertia=(ixx, ixy, ixz, iyy, iyz, izz))

@@ -1,0 +1,95 @@
+"""A Pinocchio model as a source of a chain, with the inertias that move with each joint."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from dh2urdf import transforms as tf
+from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.model_to_chain import (
+    ChainPath,
+    chain_path,
+    default_tip,
+    frame_id,
+    frame_names,
+    model_to_chain,
+)
+from dh2urdf.conversions.tree_to_chain import Actuation, ChainSource
+from dh2urdf.exceptions import UrdfError
+from dh2urdf.transforms import Array
+
+__all__ = ["model_source"]
+
+
+def model_source(
+    model: pin.Model, base: str | None, tip: str | None
+) -> tuple[ChainSource, ChainPath]:
+    """The chain between two frames of a model; without names its root and its longest chain.
+
+    Raises
+    ------
+    NameNotFoundError, UrdfError
+    """
+    links = frame_names(model)
+    if not links:
+        raise UrdfError(f"{model.name}: the model has no links")
+    base_id = frame_id(model, base or links[0])
+    tip_id = default_tip(model, base_id) if tip is None else frame_id(model, tip)
+    path = chain_path(model, base_id, tip_id)
+    chain = model_to_chain(model, path)
+    T_world_base = _neutral_frames(model, base_id)
+    frames = [T_world_base @ T for T in chain.joint_frames]
+    source = ChainSource(
+        chain,
+        model.name or "robot",
+        model.frames[base_id].name,
+        model.frames[tip_id].name,
+        bodies=_bodies(model, path, frames),
+        drives=tuple(_drive(model, i) for i in path.ids),
+    )
+    return source, path
+
+
+def _neutral_frames(model: pin.Model, frame: int) -> Array:
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, pin.neutral(model))
+    T_world_frame: Array = data.oMf[frame].homogeneous
+    return T_world_frame
+
+
+def _bodies(model: pin.Model, path: ChainPath, frames: list[Array]) -> tuple[Inertial | None, ...]:
+    """All bodies that move with each joint of the path, other joints at neutral."""
+    data = model.createData()
+    pin.forwardKinematics(model, data, pin.neutral(model))
+    on_path = set(path.ids)
+    groups: dict[int, list[int]] = {}
+    for body in range(model.njoints):
+        carrier = body
+        while carrier != 0 and carrier not in on_path:
+            carrier = int(model.parents[carrier])
+        groups.setdefault(carrier, []).append(body)
+    out = []
+    for k, i in enumerate(path.ids):
+        # Passed upwards, a joint moves what lies above it: the next group, at last the root's.
+        carrier = i if k >= path.up else (path.ids[k + 1] if k + 1 < path.up else 0)
+        T_joint_world = tf.inverse(frames[k])
+        parts = [
+            Inertial(inertia.mass, np.array(inertia.lever), np.array(inertia.inertia)).moved(
+                T_joint_world @ data.oMi[body].homogeneous
+            )
+            for body in groups.get(carrier, [])
+            if (inertia := model.inertias[body]).mass > 0
+        ]
+        out.append(Inertial.total(parts) if parts else None)
+    return tuple(out)
+
+
+def _drive(model: pin.Model, i: int) -> Actuation:
+    """Velocity, effort, damping and friction of a joint, None where the model has no number."""
+    v = model.joints[i].idx_v
+    found = []
+    for values in (model.velocityLimit, model.effortLimit, model.damping, model.friction):
+        value = float(values[v])
+        found.append(value if np.isfinite(value) and 0 < value < 1e10 else None)
+    return Actuation(*found)

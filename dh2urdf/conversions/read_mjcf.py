@@ -1,0 +1,142 @@
+"""An MJCF's bodies and joints, as MuJoCo compiles them; the only importer of mujoco here."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from dh2urdf import transforms as tf
+from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
+from dh2urdf.exceptions import MissingExtraError, UrdfError
+from dh2urdf.transforms import Array
+
+__all__ = ["read_mjcf"]
+
+KINDS = ("free", "ball", "prismatic", "revolute")
+"""MuJoCo's joint types in its own order."""
+
+
+def read_mjcf(path: str | os.PathLike[str]) -> tuple[KinematicTree, dict[str, int]]:
+    """Bodies and sites of an MJCF as links, and the place of each joint in ``qpos``.
+
+    A body with several joints becomes a row of links; a joint off its body's origin or with a
+    reference value gets the steps that say so, so that q is MuJoCo's ``qpos``.
+
+    Raises
+    ------
+    MissingExtraError, UrdfError
+    """
+    try:
+        import mujoco
+    except ImportError:
+        raise MissingExtraError("mjcf", f"reading the MJCF {os.fspath(path)}") from None
+    try:
+        model = mujoco.MjModel.from_xml_path(os.fspath(path))
+    except ValueError as error:
+        raise UrdfError(f"{os.fspath(path)}: MuJoCo: {str(error).strip()}") from None
+    bodies = _Bodies(model, os.fspath(path))
+    return bodies.tree(), bodies.addresses
+
+
+class _Bodies:
+    """Walks a compiled model."""
+
+    def __init__(self, model: Any, where: str) -> None:
+        self.m, self.where = model, where
+        self.links: dict[str, TreeLink] = {}
+        self.joints: list[TreeJoint] = []
+        self.addresses: dict[str, int] = {}
+
+    def tree(self) -> KinematicTree:
+        m = self.m
+        root = self.link(m.body(0).name or "world", None)
+        names = {0: root}
+        for b in range(1, m.nbody):
+            names[b] = self.body(b, names[int(m.body_parentid[b])])
+        for s in range(m.nsite):
+            site = m.site(s).name
+            if site and site not in self.links:
+                pose = _pose(m.site_pos[s], m.site_quat[s])
+                self.fixed(names[int(m.site_bodyid[s])], self.link(site, None), pose)
+        if m.njnt == 0:
+            raise UrdfError(f"{self.where}: no joints")
+        name = os.path.splitext(os.path.basename(self.where))[0]
+        return KinematicTree(self.where, name, root, self.links, tuple(self.joints))
+
+    def body(self, b: int, parent: str) -> str:
+        """Links and joints from a body's parent to the body."""
+        m = self.m
+        name = m.body(b).name or f"body_{b}"
+        pose = _pose(m.body_pos[b], m.body_quat[b])
+        first, count = int(m.body_jntadr[b]), int(m.body_jntnum[b])
+        for j in range(first, first + count):
+            carrier = self.link(f"{name}/{m.joint(j).name or j}", None)
+            pose = self.moving(j, parent, carrier, pose)
+            parent = carrier
+        inertial = None
+        if m.body_mass[b] > 0:
+            principal = Inertial(float(m.body_mass[b]), np.zeros(3), np.diag(m.body_inertia[b]))
+            inertial = principal.moved(_pose(m.body_ipos[b], m.body_iquat[b]))
+        self.fixed(parent, self.link(name, inertial), pose)
+        return name
+
+    def moving(self, j: int, parent: str, child: str, pose: Array) -> Array:
+        """One joint; returns the body in the frame that it moves."""
+        m = self.m
+        kind = KINDS[int(m.jnt_type[j])]
+        anchor = tf.trans(*(float(v) for v in m.jnt_pos[j]))
+        axis = np.array(m.jnt_axis[j], float)
+        rest = np.eye(4)
+        if kind in ("revolute", "prismatic"):
+            reference = -float(m.qpos0[m.jnt_qposadr[j]])
+            if kind == "revolute":
+                rest[:3, :3] = tf.rotation(axis, reference)
+            else:
+                rest[:3, 3] = axis * reference
+        limited = bool(m.jnt_limited[j])
+        lower, upper = (float(v) for v in m.jnt_range[j]) if limited else (None, None)
+        name = m.joint(j).name or f"joint_{j}"
+        dof = int(m.jnt_dofadr[j])
+        self.addresses[name] = int(m.jnt_qposadr[j])
+        self.joints.append(
+            TreeJoint(
+                name,
+                kind,
+                parent,
+                child,
+                origin=pose @ anchor,
+                axis=axis,
+                where=f'{self.where}: <joint name="{name}">',
+                lower=lower,
+                upper=upper,
+                damping=float(m.dof_damping[dof]) or None,
+                friction=float(m.dof_frictionloss[dof]) or None,
+            )
+        )
+        out: Array = rest @ tf.inverse(anchor)
+        return out
+
+    def link(self, name: str, inertial: Inertial | None) -> str:
+        self.links[name] = TreeLink(name, f'{self.where}: <body name="{name}">', inertial)
+        return name
+
+    def fixed(self, parent: str, child: str, pose: Array) -> None:
+        axis = np.array([0.0, 0.0, 1.0])
+        where = self.links[child].where
+        self.joints.append(TreeJoint(f"{child}/fixed", "fixed", parent, child, pose, axis, where))
+
+
+def _pose(position: Array, wxyz: Array) -> Array:
+    """A pose from MuJoCo's position and quaternion (w first)."""
+    w, x, y, z = (float(v) for v in wxyz)
+    T = np.eye(4)
+    T[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+    ]
+    T[:3, 3] = position
+    return T

@@ -1,0 +1,150 @@
+"""Pinocchio's forward kinematics of a source, against which an extracted table is checked.
+
+A URDF is read a second time by Pinocchio's own parser, from the text of the file; a chain of
+typed axes goes through the exponentials of its screws. Neither shares a product with the
+extraction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+import pinocchio as pin
+from lxml import etree
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.kinematic_tree import MOVING
+from dh2urdf.dh import DHConvention, DHTable, JointType
+from dh2urdf.exceptions import UrdfError
+from dh2urdf.transforms import Array
+
+__all__ = [
+    "Referee",
+    "addressed_referee",
+    "configurations",
+    "model_referee",
+    "screw_referee",
+    "table_poses",
+    "urdf_model",
+]
+
+Referee = Callable[[Array], Array]
+"""From configurations (m, n) to ``T_base_tip`` (m, 4, 4)."""
+
+
+def urdf_model(root: etree._Element, where: str) -> pin.Model:
+    """Pinocchio's model of the bare kinematics of a URDF: links, joints and their numbers.
+
+    Raises
+    ------
+    UrdfError
+    """
+    robot = etree.Element("robot", name=root.get("name") or "robot")
+    for link in root.iterchildren("link"):
+        etree.SubElement(robot, "link", name=link.get("name"))
+    for joint in root.iterchildren("joint"):
+        kind = joint.get("type")
+        bare = etree.SubElement(robot, "joint", name=joint.get("name"), type=kind)
+        for tag in ("parent", "child", "origin", "axis"):
+            part = joint.find(tag)
+            if part is not None and (tag != "axis" or kind in MOVING):
+                etree.SubElement(bare, tag, dict(part.attrib))
+        if kind in ("revolute", "prismatic"):
+            etree.SubElement(bare, "limit", lower="-9", upper="9", effort="0", velocity="0")
+    try:
+        return pin.buildModelFromXML(etree.tostring(robot, encoding="unicode"))
+    except (ValueError, RuntimeError) as error:
+        raise UrdfError(f"{where}: Pinocchio does not load it: {error}") from None
+
+
+def model_referee(model: pin.Model, base: int, tip: int, names: Sequence[str]) -> Referee:
+    """FK between two frames of a model (indices), by the names of the joints in the chain."""
+    joints = [model.joints[model.getJointId(name)] for name in names]
+    circles = [k for k, joint in enumerate(joints) if joint.nq == 2]
+    return addressed_referee(model, base, tip, [joint.idx_q for joint in joints], circles)
+
+
+def addressed_referee(
+    model: pin.Model, base: int, tip: int, indices: Sequence[int], circles: Sequence[int] = ()
+) -> Referee:
+    """FK between two frames of a model, by the places of the chain's joints in its q.
+
+    Parameters
+    ----------
+    circles : sequence of int
+        Joints of the chain that the model keeps as cosine and sine.
+    """
+    data = model.createData()
+
+    def poses(qs: Array) -> Array:
+        out = np.empty((len(qs), 4, 4))
+        config = pin.neutral(model)
+        for k, q in enumerate(qs):
+            config[indices] = q
+            for i in circles:
+                config[indices[i] : indices[i] + 2] = math.cos(q[i]), math.sin(q[i])
+            pin.forwardKinematics(model, data, config)
+            oMb = pin.updateFramePlacement(model, data, base).copy()
+            out[k] = oMb.actInv(pin.updateFramePlacement(model, data, tip)).homogeneous
+        return out
+
+    return poses
+
+
+def screw_referee(chain: SerialChain) -> Referee:
+    """FK of a chain as a product of exponentials: ``exp(S_1 q_1) ... exp(S_n q_n) M``."""
+    screws = []
+    for axis, point, slides in zip(chain.axes, chain.points, chain.prismatic, strict=True):
+        linear = axis if slides else -np.cross(axis, point)
+        screws.append(np.concatenate([linear, np.zeros(3) if slides else axis]))
+    M = pin.SE3(np.array(chain.tool))
+
+    def poses(qs: Array) -> Array:
+        out = np.empty((len(qs), 4, 4))
+        for k, q in enumerate(qs):
+            T = pin.SE3.Identity()
+            for screw, value in zip(screws, q, strict=True):
+                T = T * pin.exp6(pin.Motion(screw * value))
+            out[k] = (T * M).homogeneous
+        return out
+
+    return poses
+
+
+def configurations(chain: SerialChain, count: int, size: float) -> Array:
+    """Configurations to compare at, shape (count, n): q = 0 and random ones.
+
+    Full turns whatever the limits; sliding joints within theirs, or an arm's length each way.
+    """
+    rng = np.random.default_rng(20170829)
+    reach = np.where(chain.prismatic, size, np.pi)
+    low = np.where(chain.prismatic & np.isfinite(chain.lower), chain.lower, -reach)
+    high = np.where(chain.prismatic & np.isfinite(chain.upper), chain.upper, reach)
+    qs = rng.uniform(low, np.maximum(low, high), size=(count, chain.n))
+    qs[0] = 0.0
+    return qs
+
+
+def table_poses(table: DHTable, qs: Array) -> Array:
+    """``T_base_tool`` of a table at many configurations: the DH product, shape (m, 4, 4)."""
+    T = np.broadcast_to(table.base.matrix, (len(qs), 4, 4))
+    columns = iter(np.asarray(qs, float).T)
+    for row in table.rows:
+        if not row.is_joint:
+            T = T @ row.transform(0.0, table.convention)
+            continue
+        q = row.sign * next(columns)
+        slides = row.joint_type is JointType.PRISMATIC
+        theta, d = (row.theta + 0 * q, row.d + q) if slides else (row.theta + q, row.d + 0 * q)
+        c, s, zero, one = np.cos(theta), np.sin(theta), 0 * q, 0 * q + 1
+        Z = np.array([[c, -s, zero, zero], [s, c, zero, zero], [zero, zero, one, d]])
+        motion = np.zeros((len(qs), 4, 4))
+        motion[:, :3] = np.moveaxis(Z, -1, 0)
+        motion[:, 3, 3] = 1.0
+        ca, sa = math.cos(row.alpha), math.sin(row.alpha)
+        X = np.array([[1, 0, 0, row.a], [0, ca, -sa, 0], [0, sa, ca, 0], [0, 0, 0, 1.0]])
+        T = T @ (motion @ X if table.convention is DHConvention.STANDARD else X @ motion)
+    poses: Array = T @ table.tool.matrix
+    return poses

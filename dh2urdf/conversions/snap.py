@@ -1,0 +1,220 @@
+"""Near misses set right on request, each with what it costs in forward kinematics.
+
+A file that says 1.5708 means pi / 2, but its arm is another arm by 3.7e-6 rad, and only the user
+can say which was meant. Snapping works on one link at a time, before frames are assigned, so
+that axes made parallel are treated as parallel; then on what is left in the table.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.axis_pairs import across, classify, common_normal, compose
+from dh2urdf.conversions.frame_assignment import references
+from dh2urdf.conversions.referee import table_poses
+from dh2urdf.conversions.rounding import near_angle
+from dh2urdf.dh import DHConvention, DHTable, Origin
+from dh2urdf.exceptions import UrdfError
+from dh2urdf.transforms import Array, pose_error
+
+__all__ = ["DEFAULT_SNAP", "Change", "chain_poses", "snap_chain", "snap_table", "snap_tolerance"]
+
+DEFAULT_SNAP = 2e-5
+"""Angle [rad] and length [m] within which numbers are set right when no tolerance is given.
+
+Takes multiples of pi / 4 written with four decimals, 4.7124 among them (off by 1.1e-5).
+"""
+
+PARTS = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
+
+DECIMALS = 6
+NANOMETRE = 1e-9
+"""A length that misses a whole micrometre by a nanometre [m] was computed from a rounded angle."""
+
+LARGEST_SNAP = 0.1
+"""Tolerance above which snapping would make another arm."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """A number set right: where, what it was, what it is, and the cost.
+
+    ``cost`` is the largest move of the tip [m or rad] over random configurations, measured with
+    this change alone added to the ones before it.
+    """
+
+    where: str
+    before: float
+    after: float
+    cost: float
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.before!r} -> {self.after!r} (moves the tip by {self.cost:.2g})"
+
+
+def snap_tolerance(snap: float | bool | None) -> float:
+    """The tolerance that an argument ``snap`` stands for; 0 for none.
+
+    Raises
+    ------
+    UrdfError
+        Not a number between 0 and 0.1.
+    """
+    if snap is None or snap is False:
+        return 0.0
+    if snap is True:
+        return DEFAULT_SNAP
+    try:
+        value = float(snap)
+    except (TypeError, ValueError):
+        value = math.nan
+    if not 0 <= value <= LARGEST_SNAP:
+        raise UrdfError(f"snap: {snap!r} is not a tolerance between 0 and {LARGEST_SNAP} rad and m")
+    return value
+
+
+def chain_poses(chain: SerialChain, qs: Array) -> Array:
+    """``T_base_tool`` of a chain at many configurations, shape (m, 4, 4)."""
+    T = np.broadcast_to(chain.links[0], (len(qs), 4, 4))
+    for q, slides, link in zip(qs.T, chain.prismatic, chain.links[1:], strict=True):
+        Z = np.zeros((len(qs), 4, 4))
+        Z[:] = np.eye(4)
+        if slides:
+            Z[:, 2, 3] = q
+        else:
+            Z[:, 0, 0] = Z[:, 1, 1] = np.cos(q)
+            Z[:, 1, 0] = np.sin(q)
+            Z[:, 0, 1] = -Z[:, 1, 0]
+        T = T @ Z @ link
+    poses: Array = T
+    return poses
+
+
+def snap_chain(chain: SerialChain, tolerance: float, qs: Array) -> tuple[SerialChain, list[Change]]:
+    """Set neighbouring axes right: parallel, at multiples of 15 degrees, intersecting.
+
+    Parameters
+    ----------
+    tolerance : float
+        For angles [rad] and lengths [m].
+    qs : array, shape (m, n)
+        Configurations at which costs are measured.
+    """
+    ref = references(chain.links)
+    names = ("base", *chain.names, "tip")
+    heights = (0.0, *ref.heights)
+    changes: list[Change] = []
+    poses = chain_poses(chain, qs)
+    for i, L in enumerate(chain.links):
+        found, fixed = _snap_link(L, heights[i], ref.size, tolerance)
+        noted = [
+            (f"{key} between {names[i]} and {names[i + 1]}", before, after)
+            for key, before, after in found
+        ]
+        if not noted:
+            continue
+        links = chain.links.copy()
+        links[i] = fixed
+        chain = replace(chain, links=links)
+        moved = chain_poses(chain, qs)
+        cost = pose_error(moved, poses)
+        changes += [Change(where, before, after, cost) for where, before, after in noted]
+        poses = moved
+    return chain, changes
+
+
+def _snap_link(
+    L: Array, height: float, size: float, tolerance: float
+) -> tuple[list[tuple[str, float, float]], Array]:
+    """What is set right between two axes, and the link with it."""
+    pair = classify(L, size)
+    standard = DHConvention.STANDARD
+    found: list[tuple[str, float, float]] = []
+    if pair.parallel or pair.tilt <= tolerance:
+        n = across(L, pair, height, 0.0, standard)
+        straight = math.pi if pair.opposed else 0.0
+        if pair.tilt > 0:
+            before = math.pi - pair.tilt if pair.opposed else pair.tilt
+            found.append(("angle", before, straight))
+        fixed = n._replace(alpha=straight, beta=0.0)
+    else:
+        n = common_normal(L, pair)
+        fixed = n._replace(alpha=near_angle(n.alpha, tolerance))
+        if fixed.alpha != n.alpha and abs(fixed.alpha - n.alpha) > 1e-14:
+            found.append(("angle", n.alpha, fixed.alpha))
+    if 0 < abs(n.a) <= tolerance:
+        found.append(("distance", n.a, 0.0))
+        fixed = fixed._replace(a=0.0)
+    return found, compose(fixed, standard) if found else L
+
+
+def snap_table(table: DHTable, tolerance: float, qs: Array) -> tuple[DHTable, list[Change]]:
+    """Round what is left: angles at multiples of 15 degrees, lengths at 0 or whole micrometres."""
+    changes: list[Change] = []
+    poses = table_poses(table, qs)
+    for where, before, after, put in _roundings(table, tolerance):
+        candidate = put(table)
+        moved = table_poses(candidate, qs)
+        changes.append(Change(where, before, after, pose_error(moved, poses)))
+        table, poses = candidate, moved
+    return table, changes
+
+
+Put = Callable[[DHTable], DHTable]
+"""Sets one number of a table, whatever the others are by then."""
+
+
+def _in_row(i: int, key: str, value: float) -> Put:
+    def put(table: DHTable) -> DHTable:
+        rows = list(table.rows)
+        change: dict[str, Any] = {key: value}
+        rows[i] = replace(rows[i], **change)
+        return replace(table, rows=tuple(rows))
+
+    return put
+
+
+def _in_origin(part: str, key: str, value: tuple[float, ...]) -> Put:
+    def put(table: DHTable) -> DHTable:
+        change: dict[str, Any] = {key: value}
+        whole: dict[str, Any] = {part: replace(getattr(table, part), **change)}
+        return replace(table, **whole)
+
+    return put
+
+
+def _roundings(table: DHTable, tolerance: float) -> Iterator[tuple[str, float, float, Put]]:
+    for i, row in enumerate(table.rows):
+        if not row.is_joint:
+            continue
+        for key in ("theta", "alpha", "d", "a"):
+            before = getattr(row, key)
+            after = _rounded(before, key in ("theta", "alpha"), tolerance)
+            if after != before:
+                yield f"{key} of {row.name}", before, after, _in_row(i, key, after)
+    for part in ("base", "tool"):
+        origin: Origin = getattr(table, part)
+        for key in ("xyz", "rpy"):
+            old: tuple[float, ...] = getattr(origin, key)
+            new = tuple(_rounded(v, key == "rpy", tolerance) for v in old)
+            for k, (before, after) in enumerate(zip(old, new, strict=True)):
+                if before != after:
+                    partly = (*new[: k + 1], *old[k + 1 :])
+                    where = f"{PARTS[key][k]} of {part}"
+                    yield where, before, after, _in_origin(part, key, partly)
+
+
+def _rounded(value: float, angle: bool, tolerance: float) -> float:
+    if angle:
+        near = near_angle(value, tolerance)
+        return near if abs(near - value) > 1e-15 else value
+    if abs(value) <= tolerance:
+        return 0.0
+    short = round(value, DECIMALS)
+    return short if abs(short - value) <= min(tolerance, NANOMETRE) else value

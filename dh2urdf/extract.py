@@ -1,0 +1,184 @@
+"""From a robot description back to its DH table: the entry point."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from dh2urdf.conversions.frame_assignment import XRule
+from dh2urdf.dh import DHConvention, DHTable, JointType
+from dh2urdf.exceptions import VerificationError
+from dh2urdf.transforms import pose_error
+
+if TYPE_CHECKING:
+    from dh2urdf.conversions.explain import FrameStep
+    from dh2urdf.conversions.snap import Change
+
+__all__ = ["Extraction", "extract_dh"]
+
+CONFIGURATIONS = 64
+"""Configurations at which a table is compared with its source."""
+
+LARGEST_ERROR = 1e-9
+"""Largest difference [rad, and m per m of arm] of an extraction that changed nothing."""
+
+
+@dataclass(frozen=True)
+class Extraction:
+    """A table found by frame assignment, and the proof that it is the same arm.
+
+    Parameters
+    ----------
+    table : DHTable
+        q of the source is q of the table.
+    base, tip : str
+        The two frames that the table spans.
+    max_error : float
+        Largest difference [m and rad] between the table's FK and Pinocchio's FK of the source,
+        over ``configurations`` configurations; what snapping cost is in it.
+    steps : tuple of FrameStep
+        The frames explained, 0 to n.
+    changes : tuple of Change
+        What snapping set right, each with its measured cost.
+    warnings : tuple of str
+    """
+
+    table: DHTable
+    base: str
+    tip: str
+    max_error: float
+    configurations: int
+    steps: tuple[FrameStep, ...] = field(repr=False)
+    changes: tuple[Change, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def explain(self) -> str:
+        """The assignment like a worked solution, a paragraph a frame, then the table."""
+        head = (
+            f"DH frames of {self.table.name} from {self.base} to {self.tip}, "
+            f"{self.table.convention} convention."
+        )
+        return "\n\n".join([head, *map(str, self.steps), str(self)])
+
+    def __str__(self) -> str:
+        lines = [str(self.table)]
+        lines += [f"set right: {change}" for change in self.changes]
+        lines.append(
+            f"{self.base} to {self.tip}: largest FK difference {self.max_error:.2g} m or rad over "
+            f"{self.configurations} configurations (Pinocchio)"
+        )
+        return "\n".join(lines)
+
+
+def extract_dh(
+    source: Any,
+    base: str | None = None,
+    tip: str | None = None,
+    convention: DHConvention | str = DHConvention.STANDARD,
+    snap: float | bool | None = None,
+    *,
+    x_axis: XRule | str = XRule.AUTO,
+    compact: bool = True,
+    flip: Sequence[str] = (),
+    embedded: bool = True,
+    joint_types: str | Sequence[JointType | str] | None = None,
+    tool: Any = None,
+    names: Sequence[str] | None = None,
+) -> Extraction:
+    """The DH table of a chain, by the frame assignment of lecture notes section 4.
+
+    Parameters
+    ----------
+    source : path, pinocchio.Model, SerialChain or array_like
+        A URDF, xacro (with the extra) or MJCF file, the text of a URDF, a model, or joint axes
+        typed by hand: (n, 6) screw axes, (n, 2, 3) directions and points, (n, 4, 4) joint
+        frames, all in base at q = 0.
+    base, tip : str, optional
+        Links anywhere in the tree. Without them the root and the end of the longest chain.
+    convention : DHConvention
+    snap : float or True, optional
+        Set angles [rad] and lengths [m] right that miss a multiple of 15 degrees or zero by no
+        more than this; True for 2e-5. Nothing is changed without it.
+    x_axis : {"auto", "away"}
+        ``away`` keeps every x pointing away from the axis before it (a >= 0), as the notes do;
+        ``auto`` turns it round where that spares theta a half turn, as data sheets do.
+    compact : bool
+        Give axes that are nearly parallel a fixed step in place of a common normal that lies
+        more than twenty arm's lengths away.
+    flip : sequence of str
+        Joints whose z is to point against their positive direction; their rows get sign -1.
+    embedded : bool
+        Return the table that a URDF of this package carries, where it still fits its joints and
+        is in the convention asked for; there are no steps then.
+    joint_types, tool, names
+        For typed axes only: ``"RRPR"``, ``T_base_tool`` at q = 0, joint names.
+
+    Returns
+    -------
+    Extraction
+
+    Raises
+    ------
+    UrdfError, NameNotFoundError
+        The source cannot be read, or has no such chain.
+    VerificationError
+        The table differs from the source by more than rounding (only with ``compact=False``,
+        where a common normal is too far away for sixteen digits).
+    """
+    from dh2urdf.conversions import snap as snapping
+    from dh2urdf.conversions.carry import carry
+    from dh2urdf.conversions.chain_to_dh import chain_to_dh, flip_signs
+    from dh2urdf.conversions.explain import explain_frames
+    from dh2urdf.conversions.extract_source import read_source
+    from dh2urdf.conversions.frame_assignment import references
+    from dh2urdf.conversions.near_misses import near_misses
+    from dh2urdf.conversions.referee import configurations, table_poses
+
+    tolerance = snapping.snap_tolerance(snap)
+    given = read_source(source, base, tip, joint_types=joint_types, tool=tool, names=names)
+    found, chain = given.found, given.found.chain
+    size = references(chain.links).size
+    qs = configurations(chain, CONFIGURATIONS, size)
+    truth = given.referee(qs)
+    allowed = LARGEST_ERROR * max(1.0, size)
+    warnings = list(found.warnings)
+    written = given.embedded if embedded and tolerance == 0 and not flip else None
+    if written is not None and written.convention == DHConvention(convention):
+        error = pose_error(table_poses(written, qs), truth)
+        if error <= allowed:
+            return Extraction(written, found.base, found.tip, error, len(qs), ())
+        warnings.append(
+            f"the table that the file carries differs from its joints by {error:.2g}; frames are "
+            "assigned anew"
+        )
+    signs = flip_signs(chain, flip)
+    changes: list[Change] = []
+    if tolerance > 0:
+        chain, changes = snapping.snap_chain(chain, tolerance, qs)
+    assigned = chain_to_dh(
+        chain, convention, name=found.name, x_rule=x_axis, compact=compact, signs=signs
+    )
+    if tolerance > 0:
+        table, rounded = snapping.snap_table(assigned.table, tolerance, qs)
+        changes += rounded
+        assigned = replace(assigned, table=table)
+    else:
+        warnings += near_misses(assigned, chain, qs)
+    table = carry(assigned.table, found)
+    max_error = pose_error(table_poses(table, qs), truth)
+    if tolerance == 0 and not max_error <= allowed:
+        raise VerificationError(
+            f"{found.name}: the table differs from its source by {max_error:.3g} (allowed "
+            f"{allowed:.1g}); leave compact on, or snap"
+        )
+    return Extraction(
+        table=table,
+        base=found.base,
+        tip=found.tip,
+        max_error=max_error,
+        configurations=len(qs),
+        steps=explain_frames(assigned, chain),
+        changes=tuple(changes),
+        warnings=tuple(warnings),
+    )
