@@ -14,10 +14,10 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.tolerances import EXACT, FORM_ERROR, SNAP
-from dh2urdf.transforms import Array, inverse, pose_error
+from dh2urdf.ik.tolerances import EXACT, FORM_ERROR, REGULAR, SNAP
+from dh2urdf.transforms import Array, inverse, pose_error, rot_z, trans
 
-__all__ = ["AxisLines", "DHForm"]
+__all__ = ["AxisLines", "DHForm", "moves_freely"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -278,3 +278,16 @@ def _frame(x: Array, z: Array, origin: Array) -> Array:
     x = x / np.linalg.norm(x)
     T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, np.cross(z, x), z, origin
     return T
+
+
+def moves_freely(chain: SerialChain) -> bool:
+    """Whether the Jacobian of a chain of six joints is regular somewhere."""
+    for q in np.random.default_rng(0).uniform(-3.0, 3.0, (4, chain.n)):
+        T, columns, tip = chain.links[0], [], chain.fk(q)[:3, 3]
+        for qi, slides, link in zip(q, chain.prismatic, chain.links[1:], strict=True):
+            z, arm = T[:3, 2], (tip - T[:3, 3]) / chain.size
+            columns.append(np.r_[z, np.zeros(3)] if slides else np.r_[np.cross(z, arm), z])
+            T = T @ (trans(0.0, 0.0, qi) if slides else rot_z(qi)) @ link
+        if np.linalg.svd(np.array(columns), compute_uv=False)[-1] > REGULAR:
+            return True
+    return False

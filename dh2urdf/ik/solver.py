@@ -155,6 +155,24 @@ SOLVERS: tuple[SolverRow, ...] = (
         "dh2urdf.ik.spherical_wrist",
         "SphericalWrist",
     ),
+    SolverRow(
+        "three parallel axes",
+        "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel",
+        "dh2urdf.ik.three_parallel",
+        "ThreeParallel",
+    ),
+    SolverRow(
+        "spherical shoulder",
+        "six joints, the first three revolute with axes through one point",
+        "dh2urdf.ik.reversed_chain",
+        "SphericalShoulder",
+    ),
+    SolverRow(
+        "three parallel axes, from the tool",
+        "six revolute joints, axes 3, 4, 5 or 4, 5, 6 parallel",
+        "dh2urdf.ik.reversed_chain",
+        "ThreeParallelReversed",
+    ),
 )
 """Families, best first; a chain gets the first that has no obstacle."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 __all__ = ["ACCEPT", "EXACT", "FAMILY_RANK", "FAMILY_STEP", "FORM_ERROR", "LIMIT_SLACK"]
-__all__ += ["PATH_JUMP", "SLACK", "SNAP"]
+__all__ += ["PATH_JUMP", "REGULAR", "SLACK", "SNAP"]
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certify.py``."""
@@ -21,6 +21,10 @@ FAMILY_STEP = 0.1
 PATH_JUMP = 0.5
 """Motion of a joint [rad or m] between neighbouring poses of a path that counts as a break,
 when the caller gives no other: some 30 degrees."""
+
+REGULAR = 1e-6
+"""Smallest singular value of a Jacobian, lengths relative to ``chain.size``, of an arm that can
+move in every direction; one that cannot has rounding there at every configuration."""
 
 SNAP = 1e-9
 """Angle [rad], or length relative to ``chain.size``, below which two axes count as parallel,

@@ -15,7 +15,7 @@ from numba import njit
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 
-__all__ = ["add_wrist", "solve_turning_arm"]
+__all__ = ["add_wrist", "middle_angle", "solve_turning_arm"]
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -37,21 +37,22 @@ def _orientation_left(form, D, values, R):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _middle_angle(form, R, slack):
-    """Cosine and sine (not negative) of t5, and how many signs of the sine there are.
+def middle_angle(form, x, y, z, slack):
+    """How many signs the sine of t5 has, its cosine, and its sine, not negative.
 
-    ``R[2, 2] = cos a4 cos a5 - sin a4 sin a5 cos t5``. The sine comes from a product of two
-    differences, of which one that can vanish is taken from the other column entries.
+    ``z = cos alpha4 cos alpha5 - sin alpha4 sin alpha5 cos t5`` for a unit vector (x, y, z): an
+    outer axis of the wrist seen from the other. The sine comes from a product of two
+    differences, of which one that can vanish is taken from x and y.
     """
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
-    square = R[0, 2] * R[0, 2] + R[1, 2] * R[1, 2]
+    square = x * x + y * y
     scale = sa4 * sa5
-    cosine = (ca4 * ca5 - R[2, 2]) / scale
+    cosine = (ca4 * ca5 - z) / scale
     if ca4 == 0.0 and ca5 == 0.0:
         sine = math.sqrt(square)
     else:
-        low = _above(R[2, 2], ca4 * ca5 - scale, square)
-        high = -_above(R[2, 2], ca4 * ca5 + scale, square)
+        low = _above(z, ca4 * ca5 - scale, square)
+        high = -_above(z, ca4 * ca5 + scale, square)
         sine2 = low * high / (scale * scale)
         if sine2 < -slack:
             return 0, 1.0, 0.0
@@ -87,7 +88,7 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
         Candidates, as in :func:`dh2urdf.kernels.certify.finish_pose`.
     """
     _orientation_left(form, D, values, R)
-    wrists, c5, s5 = _middle_angle(form, R, slack)
+    wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
     in_line = math.hypot(wx, wy)

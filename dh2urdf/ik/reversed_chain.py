@@ -1,0 +1,79 @@
+"""Mirrored families: an arm seen from its tool.
+
+Reversed, the chain ``T_tool_base`` has the same joints in the opposite order, and a spherical
+shoulder becomes a spherical wrist.
+"""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.spherical_wrist import SphericalWrist
+from dh2urdf.ik.three_parallel import ThreeParallel
+from dh2urdf.transforms import Array
+
+__all__ = ["SphericalShoulder", "ThreeParallelReversed"]
+
+
+class ReversedSolver(SolverBase):
+    """A family applied to the reversed chain."""
+
+    inner_class: ClassVar[type[SolverBase]]
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.inner = self.inner_class(chain.reversed(), task)
+        self.kmax = self.inner.kmax
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the family from the reversed chain, joints numbered from the tool."""
+        reason = cls.inner_class.obstacle(chain.reversed(), task)
+        return None if reason is None else f"seen from the tool, {reason}"
+
+    def details(self) -> str:
+        """Name the axes as the reversed chain has them."""
+        return f"the arm seen from its tool, joint 1 the last: {self.inner.details()}"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve the inverse poses, and turn the solutions back."""
+        from dh2urdf.kernels.reverse import invert_poses, turn_back
+
+        inverse_poses = np.empty_like(Ts)
+        invert_poses(Ts, inverse_poses)
+        outputs = (q_out, residual_out, count_out, branch_out, free_out)
+        self.inner.solve_batch(inverse_poses, False, *outputs)
+        branch_out[:] = -1
+        turn_back(self.links, self.joints, Ts, within_limits, *outputs)
+
+
+class SphericalShoulder(ReversedSolver):
+    """The first three axes meet in one point."""
+
+    name = "spherical shoulder"
+    inner_class = SphericalWrist
+
+
+class ThreeParallelReversed(ReversedSolver):
+    """Axes 3, 4, 5 or 4, 5, 6 are parallel."""
+
+    name = "three parallel axes, from the tool"
+    inner_class = ThreeParallel

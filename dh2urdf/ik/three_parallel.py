@@ -1,0 +1,83 @@
+"""Six revolute joints with three neighbouring parallel axes, 1, 2, 3 or 2, 3, 4: UR and its kin."""
+
+from __future__ import annotations
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.tolerances import SLACK
+from dh2urdf.transforms import Array
+
+__all__ = ["ThreeParallel"]
+
+
+class ThreeParallel(SolverBase):
+    """Closed form in the plane of the three axes."""
+
+    name = "three parallel axes"
+    kmax = 8
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+        nominal: SerialChain | None = None,
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.lines = AxisLines(nominal or chain)
+        self.form = DHForm(self.lines)
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the family from covering the chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n != 6 or chain.prismatic.any():
+            return "it needs 6 revolute joints"
+        lines = AxisLines(chain)
+        if not (lines.three_parallel(0) or lines.three_parallel(1)):
+            return "no three neighbouring axes are parallel"
+        if not moves_freely(chain):
+            return "the arm cannot move its tool in all six directions"
+        return None
+
+    def details(self) -> str:
+        """Name the axes and the subproblems."""
+        first = 2 if self.lines.three_parallel(1) else 1
+        meet = self.lines.meet(4)
+        outer = ("1 and 5" if first == 2 else "4 and 5") + (
+            " one after the other (subproblem 4)" if meet else " together (subproblem 6)"
+        )
+        return (
+            f"axes {first}, {first + 1}, {first + 2} are parallel ({self.lines.describe()}); "
+            f"joints {outer}, joint 6 (subproblem 1), then a planar arm (subproblems 3 and 1)"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) in one jitted call."""
+        from dh2urdf.kernels.three_parallel import solve_three_parallel
+
+        solve_three_parallel(
+            self.links,
+            self.joints,
+            self.form.rows,
+            self.form.ends,
+            SLACK,
+            Ts,
+            within_limits,
+            q_out,
+            residual_out,
+            count_out,
+            branch_out,
+            free_out,
+        )

@@ -1,0 +1,48 @@
+"""From the solutions of a reversed chain to those of the chain itself."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+
+__all__ = ["invert_poses", "turn_back"]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def invert_poses(Ts, out):
+    """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
+    for i in range(Ts.shape[0]):
+        for j in range(3):
+            total = 0.0
+            for k in range(3):
+                out[i, j, k] = Ts[i, k, j]
+                total -= Ts[i, k, j] * Ts[i, k, 3]
+            out[i, j, 3] = total
+            out[i, 3, j] = 0.0
+        out[i, 3, 3] = 1.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free):
+    """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
+
+    The reversed chain measures its position error at the other end.
+    """
+    n = q.shape[2]
+    work = np.empty((n, n + 8))
+    for i in range(Ts.shape[0]):
+        found = count[i]
+        for k in range(found):
+            for j in range(n // 2):
+                q[i, k, j], q[i, k, n - 1 - j] = q[i, k, n - 1 - j], q[i, k, j]
+            mask = 0
+            for j in range(n):
+                if free[i, k] & (1 << j):
+                    mask |= 1 << (n - 1 - j)
+            free[i, k] = mask
+            residual[i, k] = -1.0
+        count[i] = finish_pose(
+            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        )

@@ -1,0 +1,313 @@
+"""6R arms with three neighbouring parallel axes: 1, 2, 3 or 2, 3, 4 (UR and its kin).
+
+The three turn in a plane and leave alone what points or lies along their common normal. So the
+height of the pose over that plane and the slope of axis 6 are two equations without them, in two
+of the other joints: a subproblem 6, or 4 twice where axes 5 and 6 meet. Then axis 6 follows by
+subproblem 1, and the three are a planar RR arm with a wrist (Elias and Wen; EAIK).
+
+In Denavit-Hartenberg form (:mod:`dh2urdf.kernels.position_arm`) the parallel axes have
+alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and the
+shoulder.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import middle_angle
+from dh2urdf.kernels.trig import circle_pair, linear_trig, trig_roots
+
+__all__ = ["solve_three_parallel"]
+
+ALL_FREE = 0b111111
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _pairs_behind_one(form, D, slack, pair):
+    """Joints 1 and 5 where axes 2, 3, 4 are parallel; the number of pairs, negative if 1 is free.
+
+    With k the common direction turned by joint 1: ``k . p`` is the offset of the arm's plane and
+    ``k . z6`` the slope of axis 6, ``cos alpha4 cos alpha5 - sin alpha4 sin alpha5 cos t5``.
+    """
+    ca1, sa1, ca4, sa4 = form[0, 1], form[0, 2], form[3, 1], form[3, 2]
+    a5, ca5, sa5 = form[4, 0], form[4, 1], form[4, 2]
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3] - form[0, 3]
+    offset = form[1, 3] + form[2, 3] + form[3, 3] + ca4 * form[4, 3] - ca1 * pz
+    if a5 == 0.0:
+        free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
+        count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
+        if free:
+            count, c1, s1 = 1, math.cos(form[0, 4]), math.sin(form[0, 4])
+        for k in range(count):
+            pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
+            pair[k, 2] = 2.0
+        return -count if free else count
+    M, N, d, found = np.empty((2, 2)), np.zeros((2, 2)), np.empty(2), np.empty((4, 4))
+    M[0, 0], M[0, 1], N[0, 0] = -sa1 * D[1, 2], sa1 * D[0, 2], sa4 * sa5
+    d[0] = ca4 * ca5 - ca1 * D[2, 2]
+    M[1, 0], M[1, 1], N[1, 1] = -sa1 * py, sa1 * px, -sa4 * a5
+    d[1] = offset
+    count = max(circle_pair(M, N, d, slack, np.empty((3, 5)), found), 0)
+    for k in range(count):
+        for j in range(4):
+            pair[k, j] = found[k, j]
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _pairs_before_four(form, D, slack, pair):
+    """Joints 4 and 5 where axes 1, 2, 3 are parallel; the number of pairs.
+
+    With f the common direction seen after joint 4: ``a5 (f_x c5 + f_y s5) = n1`` is the height
+    of the pose, ``sin alpha5 (f_x s5 - f_y c5) = n2`` the slope of axis 6; n1, n2 and f_z are
+    linear in the cosine and sine of t4, and ``(n1 / a5)^2 + (n2 / sin alpha5)^2 + f_z^2 = 1``.
+    """
+    ca3, sa3, a4, ca4, sa4 = form[2, 1], form[2, 2], form[3, 0], form[3, 1], form[3, 2]
+    a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
+    height = D[2, 3] - form[0, 3] - form[1, 3] - form[2, 3] - ca3 * form[3, 3]
+    z0, z1 = ca3 * ca4, -sa3 * sa4
+    rise, slope = np.empty(3), np.empty(3)
+    rise[0], rise[1], rise[2] = height - d5 * z0, -d5 * z1, -sa3 * a4
+    slope[0], slope[1], slope[2] = D[2, 2] - ca5 * z0, -ca5 * z1, 0.0
+    series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
+    if a5 == 0.0 or sa5 == 0.0:
+        row = rise if a5 == 0.0 else slope
+        count, c1, s1, c2, s2 = linear_trig(row[1], row[2], -row[0], slack)
+        cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
+    else:
+        _add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
+        _add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
+        _add_square(series, 1.0, z0, z1, 0.0)
+        series[0] -= 1.0
+        count = trig_roots(series, 2, cosines, sines)
+    pairs = 0
+    for k in range(count):
+        c4, s4 = cosines[k], sines[k]
+        fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
+        n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
+        if a5 == 0.0:
+            found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, slack)
+            if found == 2 and math.hypot(D[2, 0], D[2, 1]) <= FREE:
+                found, c1, s1 = 1, -sa5 * fy * n2, sa5 * fx * n2
+        elif sa5 == 0.0:
+            found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, slack)
+        else:
+            n1, n2 = n1 / a5, n2 / sa5
+            found, c1, s1, c2, s2 = 1, fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
+        for j in range(found):
+            c5, s5 = (c1, s1) if j == 0 else (c2, s2)
+            r = math.hypot(c5, s5)
+            pair[pairs, 0], pair[pairs, 1] = c4, s4
+            pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
+            pairs += 1
+    return pairs
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _add_square(series, weight, constant, cosine, sine):
+    """Add ``weight (constant + cosine cos x + sine sin x)^2`` to a series of degree 2."""
+    series[0] += weight * (constant * constant + 0.5 * (cosine * cosine + sine * sine))
+    series[1] += weight * 2.0 * constant * cosine
+    series[2] += weight * 2.0 * constant * sine
+    series[3] += weight * 0.5 * (cosine * cosine - sine * sine)
+    series[4] += weight * cosine * sine
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _seen_from_plane(form, first, c1, s1, x, y, z):
+    """A vector of frame 0 in the frame of the parallel axes, which joint 1 turns or not."""
+    if first == 0:
+        return x, y, z
+    x, y = c1 * x + s1 * y, c1 * y - s1 * x
+    ca, sa = form[0, 1], form[0, 2]
+    return x, ca * y + sa * z, ca * z - sa * y
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _to_frame_six(form, last, cs, x, origin):
+    """A vector of the frame after the last parallel axis, seen in frame 6.
+
+    ``origin`` 1.0: the vector from that frame's origin to frame 6's; 0.0: the direction x.
+    """
+    x, y, z = (form[last, 0], 0.0, 0.0) if origin != 0.0 else (x, 0.0, 0.0)
+    for i in range(last + 1, 6):
+        ca, sa = form[i - 1, 1], form[i - 1, 2]
+        y, z = ca * y + sa * z, ca * z - sa * y
+        c, s = cs[i, 0], cs[i, 1]
+        x, y = c * x + s * y, c * y - s * x
+        x += origin * form[i, 0]
+        z += origin * form[i, 3]
+    return x, y, z
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _seen_arm(form, first, D, cs, x, origin):
+    """``_to_frame_six`` brought on into the plane of the parallel axes."""
+    x, y, z = _to_frame_six(form, first + 2, cs, x, origin)
+    u = D[0, 0] * x + D[0, 1] * y + D[0, 2] * z
+    v = D[1, 0] * x + D[1, 1] * y + D[1, 2] * z
+    w = D[2, 0] * x + D[2, 1] * y + D[2, 2] * z
+    return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _last_joint(form, first, D, cs):
+    """Cosine and sine of t6 into cs by subproblem 1; returns whether axis 6 is in line.
+
+    The common direction k has components ``r = k^T R`` in frame 6 and ``g`` before joint 6.
+    """
+    kx, ky, kz = 0.0, 0.0, 1.0
+    if first == 1:
+        kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
+    rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
+    ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
+    x, y, z = 0.0, 0.0, 1.0
+    for i in range(first + 3, 6):
+        ca, sa = form[i - 1, 1], form[i - 1, 2]
+        y, z = ca * y + sa * z, ca * z - sa * y
+        if i < 5:
+            c, s = cs[i, 0], cs[i, 1]
+            x, y = c * x + s * y, c * y - s * x
+    in_line = math.hypot(rx, ry)
+    c6, s6 = x * rx + y * ry, y * rx - x * ry
+    r = math.hypot(c6, s6)
+    if in_line <= NICE or r == 0.0:
+        cs[5, 0], cs[5, 1] = math.cos(form[5, 4]), math.sin(form[5, 4])
+    else:
+        cs[5, 0], cs[5, 1] = c6 / r, s6 / r
+    return in_line
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _reach_with_last_joint(form, first, D, cs, x, y):
+    """Choose t6, free in a singular family, so that the planar arm reaches (lecture notes 8.2).
+
+    The point that the arm has to reach goes round a circle about axis 6. It stays where t6 is
+    zero if that is within reach; else it goes to the middle of what is. Returns the point.
+    """
+    upper, fore = form[first, 0], form[first + 1, 0]
+    near, far = abs(upper - fore), upper + fore
+    bx, by, _ = _seen_arm(form, first, D, cs, 0.0, 1.0)
+    cx, cy = x + bx, y + by
+    distance, radius = math.hypot(cx, cy), math.hypot(bx, by)
+    if near <= math.hypot(x, y) <= far or distance * radius == 0.0:
+        return x, y
+    low, high = max(near, abs(distance - radius)), min(far, distance + radius)
+    goal = 0.5 * (low + high)
+    cosine = (distance * distance + radius * radius - goal * goal) / (2.0 * distance * radius)
+    cosine = min(max(cosine, -1.0), 1.0)
+    sine = math.sqrt((1.0 - cosine) * (1.0 + cosine))
+    ux, uy = cx / distance, cy / distance
+    vx, vy = radius * (ux * cosine - uy * sine), radius * (uy * cosine + ux * sine)
+    c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
+    _, _, up = _seen_arm_axis(form, first, D, cs)
+    s = -s if up > 0.0 else s
+    cs[5, 0], cs[5, 1] = cs[5, 0] * c - cs[5, 1] * s, cs[5, 1] * c + cs[5, 0] * s
+    return cx - vx, cy - vy
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _seen_arm_axis(form, first, D, cs):
+    """Axis 6 in the plane's frame."""
+    return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, count):
+    """Append the elbows of one set of outer joints; returns the new count."""
+    in_line = _last_joint(form, first, D, cs)
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3]
+    if first == 1:
+        pz -= form[0, 3]
+    x, y, _ = _seen_from_plane(form, first, cs[0, 0], cs[0, 1], px, py, pz)
+    x -= form[0, 0] if first == 1 else 0.0
+    bx, by, _ = _seen_arm(form, first, D, cs, 0.0, 1.0)
+    x, y = x - bx, y - by
+    if in_line <= FREE:
+        mask |= (0b111 << first) | 0b100000
+    if in_line <= NICE:
+        x, y = _reach_with_last_joint(form, first, D, cs, x, y)
+    hx, hy, _ = _seen_arm(form, first, D, cs, 1.0, 0.0)
+    heading = math.atan2(hy, hx)
+    upper, fore = form[first, 0], form[first + 1, 0]
+    square = x * x + y * y
+    outer = (upper + fore) * (upper + fore) - square
+    inner = square - (upper - fore) * (upper - fore)
+    if min(outer, inner) < -slack * (square + 2.0 * upper * fore):
+        return count
+    cosine = (square - upper * upper - fore * fore) / (2.0 * upper * fore)
+    sine = math.sqrt(max(outer, 0.0) * max(inner, 0.0)) / (2.0 * upper * fore)
+    if square <= FREE * FREE:
+        mask |= 0b101 << first
+    up = form[0, 2] if first == 1 else -1.0
+    side = -1.0 if (up > 0.0) == (shoulder == 0) else 1.0
+    for elbow in range(1 if sine == 0.0 else 2):
+        s3 = side * sine
+        along, across = upper + fore * cosine, fore * s3
+        t_first = math.atan2(y * along - x * across, x * along + y * across)
+        t_next = math.atan2(s3, cosine)
+        for i in range(6):
+            t = math.atan2(cs[i, 1], cs[i, 0])
+            if i == first:
+                t = t_first
+            elif i == first + 1:
+                t = t_next
+            elif i == first + 2:
+                t = heading - t_first - t_next
+            q[count, i] = form[i, 6] * (t - form[i, 4])
+        branch[count] = shoulder + 2 * elbow + (4 if cs[4, 1] < 0.0 else 0)
+        free[count] = mask
+        side = -side
+        count += 1
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_three_parallel(
+    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+):
+    """All solutions of poses Ts (m, 4, 4); q (m, 8, 6), the rest as its first axes.
+
+    The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
+    """
+    D, pair, work = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14))
+    cs, r = np.zeros((6, 2)), np.empty((3, 3))
+    first = 1 if form[0, 2] != 0.0 else 0
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        found, mask = 0, 0
+        if first == 1:
+            pairs = _pairs_behind_one(form, D, slack, pair)
+            mask = ALL_FREE if pairs < 0 else 0
+        else:
+            pairs = _pairs_before_four(form, D, slack, pair)
+        for k in range(abs(pairs)):
+            outer = 0 if first == 1 else 3
+            cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
+            cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
+            shoulder = 0
+            if first == 1:
+                shoulder = 1 if pair[k, 0] * D[0, 3] + pair[k, 1] * D[1, 3] < 0.0 else 0
+            wrists = 1
+            if first == 1 and form[4, 0] == 0.0:
+                kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
+                for j in range(3):
+                    r[j, 2] = kx * D[0, j] + ky * D[1, j] + kz * D[2, j]
+                wrists, cs[4, 0], cs[4, 1] = middle_angle(form, r[0, 2], r[1, 2], r[2, 2], slack)
+                if math.hypot(r[0, 2], r[1, 2]) <= FREE:
+                    wrists = min(wrists, 1)
+            for _ in range(wrists):
+                found = _add_planar(
+                    form, first, D, cs, shoulder, mask, slack, q[i], branch[i], free[i], found
+                )
+                cs[4, 1] = -cs[4, 1]
+        for k in range(found):
+            residual[i, k] = -1.0
+        count[i] = finish_pose(
+            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        )
