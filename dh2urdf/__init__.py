@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from dh2urdf import exceptions, transforms
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
+from dh2urdf.dh_reach import dh_parameters
 from dh2urdf.exceptions import Dh2UrdfError
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ __all__ = [
     "SerialChain",
     "UrdfOptions",
     "dh_factors",
+    "dh_parameters",
     "dh_transform",
     "exceptions",
     "list_tables",

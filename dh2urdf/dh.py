@@ -23,6 +23,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
+from dh2urdf.dh_reach import why_unreachable
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
 
@@ -206,11 +207,11 @@ class DHRow:
         out = []
         if self.sign not in (1, -1):
             out.append(f"sign: {self.sign!r} is not allowed; +1 or -1")
-        if not {"lower", "upper"} & bad and None not in (self.lower, self.upper):
-            if self.lower > self.upper:  # type: ignore[operator]
-                out.append(f"lower: {self.lower!r} lies above upper {self.upper!r}")
-        for key in {"mass", "velocity", "damping", "friction", "effort"} - bad:
-            value = getattr(self, key)
+        lower = None if {"lower", "upper"} & bad else self.lower
+        if lower is not None and self.upper is not None and lower > self.upper:
+            out.append(f"lower: {lower!r} lies above upper {self.upper!r}")
+        for key in ("mass", "velocity", "damping", "friction", "effort"):
+            value = None if key in bad else getattr(self, key)
             if value is not None and value < 0:
                 out.append(f"{key}: {value!r} must not be negative")
             elif value == 0 and key in {"mass", "velocity"}:
@@ -218,13 +219,19 @@ class DHRow:
         if self.mass is None and (self.com is not None or self.inertia is not None):
             out.append("mass: missing, but com or inertia is given")
         if self.joint_type is JointType.FIXED:
-            for key in _JOINT_ONLY:
-                if getattr(self, key) is not None:
-                    out.append(f"{key}: a fixed row has none; give it to the joint's row above")
+            out += [
+                f"{key}: a fixed row has none; give it to the joint's row above"
+                for key in _JOINT_ONLY
+                if getattr(self, key) is not None
+            ]
             if self.origin is not None and any((self.theta, self.d, self.a, self.alpha)):
                 out.append("origin: a fixed row takes either xyz and rpy or DH parameters")
         elif self.origin is not None:
-            out.append(f"origin: only a fixed row has xyz and rpy, this one is {self.joint_type}")
+            step = dh_transform(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
+            reason = why_unreachable(step) or "give its four DH parameters instead"
+            out.append(
+                f"xyz: only a fixed row has xyz and rpy, this one is {self.joint_type}; {reason}"
+            )
         return out
 
     @property

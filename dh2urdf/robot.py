@@ -198,7 +198,7 @@ class Robot(RobotIK, RobotPictures):
             J: Array = pin.computeFrameJacobian(
                 self.model, self._data, config, self._path.tip, pin.LOCAL_WORLD_ALIGNED
             )
-            return J
+            return J.reshape(6, self.n)
         from dh2urdf.kernels.chain import chain_jacobian_batch
 
         flat, shape = self._flat(config)

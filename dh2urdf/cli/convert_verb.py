@@ -19,7 +19,9 @@ def convert_(
     tables: list[str],
     /,
     *,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)
+    ] = None,
     out_dir: Path | None = None,
     force: bool = False,
     collision: bool = False,

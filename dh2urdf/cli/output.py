@@ -101,6 +101,9 @@ def parse_configuration(values: Iterable[str], robot: Robot, *, deg: bool) -> Ar
     ConfigurationError
     """
     cells = [cell for value in values for cell in value.split(",") if cell.strip()]
+    unknown = [cell for cell in cells if cell.startswith("--")]
+    if unknown:
+        raise ConfigurationError(f"no such option: {unknown[0]}; --help lists them")
     if len(cells) != robot.n:
         raise ConfigurationError(
             f"q: {robot.n} values are needed ({', '.join(robot.joint_names)}), got {len(cells)}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import pinocchio as pin
@@ -108,7 +109,7 @@ def model_to_chain(model: pin.Model, path: ChainPath) -> SerialChain:
         turn[:3, :3] = frame_with_z(-axis if k < path.up else axis)
         frames.append(data.oMi[i].homogeneous @ turn)
     frames.append(data.oMf[path.tip].homogeneous)
-    links = [_relative(a, b) for a, b in zip(frames, frames[1:], strict=False)]
+    links = [_relative(a, b) for a, b in pairwise(frames)]
     lower, upper = zip(*(_limits(model, i) for i in path.ids), strict=True)
     return SerialChain(
         links=np.stack(links),

@@ -1,0 +1,124 @@
+"""``dh2urdf show``: a table, its transforms, and how its inverse kinematics is solved."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import numpy as np
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
+from dh2urdf.dh import DHTable
+from dh2urdf.exceptions import NoSolverError
+from dh2urdf.grids import number
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+
+__all__ = ["show_"]
+
+
+def show_(
+    table: str,
+    values: Annotated[list[str], Parameter(allow_leading_hyphen=True)] | None = None,
+    /,
+    *,
+    q: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
+    deg: bool = False,
+    symbolic: bool = False,
+    format: str = "text",
+    json: bool = False,
+) -> int:
+    """Print a table, each of its transforms, their product, and its solver.
+
+    Parameters
+    ----------
+    table
+        A table file, or the name of a table that ships.
+    values
+        Joint values for the transforms; default: all zero.
+    q
+        The same as an option: --q=0,-pi/2,90deg.
+    deg
+        Bare angles are degrees.
+    symbolic
+        The transforms in symbols too (extra symbolic).
+    format
+        Of the table alone: text, markdown, csv, latex, html.
+    json
+        One JSON object instead of text.
+    """
+    arm = Robot.from_dh(table_of(table))
+    dh = arm.table
+    assert dh is not None
+    if format != "text":
+        emit(_formatted(dh, format))
+        return 0
+    cells = [*(values or []), *(q or [])]
+    config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
+    name, why = _solver(arm)
+    if json:
+        emit_json(
+            "show",
+            name=dh.name,
+            convention=str(dh.convention),
+            source=dh.source,
+            checked=dh.checked,
+            joint_names=arm.joint_names,
+            q=config,
+            transforms=dh.transforms(config),
+            T_base_tool=dh.fk(config),
+            solver=name,
+            solver_explained=why,
+        )
+        return 0
+    emit(str(dh))
+    for label, text in (("source", dh.source), ("checked", dh.checked)):
+        if text:
+            emit(f"\n{label}: {' '.join(text.split())}")
+    _show_transforms(dh, config)
+    if symbolic:
+        _show_symbols(dh)
+    emit(f"\ninverse kinematics: {name}\n{why}")
+    return 0
+
+
+def _formatted(dh: DHTable, format: str) -> str:
+    from dh2urdf.exceptions import Dh2UrdfError
+
+    writers = {
+        "markdown": dh.to_markdown,
+        "csv": dh.to_csv,
+        "latex": dh.to_latex,
+        "html": dh._repr_html_,
+    }
+    if format not in writers:
+        raise Dh2UrdfError(f"--format: {format!r}; allowed: text, {', '.join(writers)}")
+    return writers[format]()
+
+
+def _solver(arm: Robot) -> tuple[str, str]:
+    """Short name of the solver and its explanation; why there is none otherwise."""
+    try:
+        return str(arm.solver), arm.solver.explain()
+    except NoSolverError as error:
+        return "none", str(error)
+
+
+def _show_transforms(dh: DHTable, config: Array) -> None:
+    shown = ", ".join(number(float(f"{v:.10g}")) for v in config)
+    emit(f"\nat q = ({shown}):")
+    for i, T in enumerate(dh.transforms(config), 1):
+        emit(f"\nH_{i}^{i - 1} =\n{matrix_text(T)}")
+    frames = dh.frames(config)
+    emit(f"\nH_{dh.n}^0 =\n{matrix_text(np.linalg.inv(frames[0]) @ frames[-1])}")
+    if not (dh.tool.is_identity and np.array_equal(frames[0], np.eye(4))):
+        emit(f"\nT_base_tool =\n{matrix_text(dh.fk(config))}")
+
+
+def _show_symbols(dh: DHTable) -> None:
+    from dh2urdf.symbolic import symbolic_product, symbolic_text, symbolic_transforms
+
+    emit("\nin symbols, c1 = cos(q_1), s12 = sin(q_1 + q_2):")
+    for i, H in enumerate(symbolic_transforms(dh), 1):
+        emit(f"\nH_{i}^{i - 1} =\n{symbolic_text(H)}")
+    emit(f"\nH_{dh.n}^0 =\n{symbolic_text(symbolic_product(dh))}")

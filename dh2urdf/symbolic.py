@@ -1,0 +1,120 @@
+"""The same transforms in symbols, with the sympy extra: ``c_1``, ``s_12``, ``d_2 + 2``."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.exceptions import MissingExtraError
+
+__all__ = ["symbolic_product", "symbolic_text", "symbolic_transforms"]
+
+SHORT = 3
+"""Joints up to which the whole product is simplified; beyond, that takes minutes."""
+
+
+def _sympy() -> Any:
+    try:
+        import sympy
+    except ImportError:
+        raise MissingExtraError("symbolic", "transforms in symbols") from None
+    return sympy
+
+
+def _angle(value: float) -> Any:
+    """An angle [rad], exact where it is a multiple of 15 degrees."""
+    sp = _sympy()
+    turns = value / (math.pi / 12)
+    if abs(turns - round(turns)) < 1e-12:
+        return sp.Rational(round(turns), 12) * sp.pi
+    return sp.Float(value)
+
+
+def _length(value: float) -> Any:
+    """A length [m] as the rational number that its shortest decimal is."""
+    sp = _sympy()
+    return sp.Rational(repr(value)) if value else sp.Integer(0)
+
+
+def symbolic_transforms(table: DHTable) -> list[Any]:
+    """``H_i^{i-1}`` for i = 1 ... n as sympy matrices in q_1 ... q_n, fixed rows folded in."""
+    out: list[Any] = []
+    for row in table.rows:
+        if row.is_joint:
+            out.append(_row(row, len(out) + 1, table.convention))
+        elif out:
+            out[-1] = out[-1] * _row(row, 0, table.convention)
+    return out
+
+
+def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
+    sp = _sympy()
+    if row.origin is not None:
+        roll, pitch, yaw = (_angle(v) for v in row.origin.rpy)
+        R = sp.rot_ccw_axis3(yaw) * sp.rot_ccw_axis2(pitch) * sp.rot_ccw_axis1(roll)
+        p = sp.Matrix([_length(v) for v in row.origin.xyz])
+        return R.row_join(p).col_join(sp.Matrix([[0, 0, 0, 1]]))
+    theta, d = _angle(row.theta), _length(row.d)
+    if row.joint_type is JointType.REVOLUTE:
+        theta += row.sign * sp.Symbol(f"q_{i}")
+    elif row.joint_type is JointType.PRISMATIC:
+        d += row.sign * sp.Symbol(f"q_{i}")
+    a, alpha = _length(row.a), _angle(row.alpha)
+    c, s, ca, sa = sp.cos(theta), sp.sin(theta), sp.cos(alpha), sp.sin(alpha)
+    if convention is DHConvention.MODIFIED:
+        rows = [
+            [c, -s, 0, a],
+            [s * ca, c * ca, -sa, -sa * d],
+            [s * sa, c * sa, ca, ca * d],
+            [0, 0, 0, 1],
+        ]
+    else:
+        rows = [
+            [c, -s * ca, s * sa, a * c],
+            [s, c * ca, -c * sa, a * s],
+            [0, sa, ca, d],
+            [0, 0, 0, 1],
+        ]
+    return sp.Matrix(rows)
+
+
+def symbolic_product(table: DHTable) -> Any:
+    """``H_n^0`` in symbols; angles about parallel axes are added (``c_12``)."""
+    sp = _sympy()
+    product, group = sp.eye(4), sp.eye(4)
+    matrices = symbolic_transforms(table)
+    for k, matrix in enumerate(matrices):
+        group = group * matrix
+        parallel = group[2, 2] ** 2 == 1
+        if not parallel or k == len(matrices) - 1:
+            product = product * group.applyfunc(lambda e: sp.trigsimp(sp.expand(e)))
+            group = sp.eye(4)
+    if table.n <= SHORT:
+        return product.applyfunc(lambda e: sp.trigsimp(sp.expand(e)))
+    return product.applyfunc(sp.expand)
+
+
+def symbolic_text(matrix: Any) -> str:
+    """A symbolic matrix in aligned columns, ``cos(q_1 + q_2)`` written ``c12``."""
+    cells = [[_short(matrix[r, c]) for c in range(4)] for r in range(4)]
+    widths = [max(len(row[k]) for row in cells) for k in range(4)]
+    return "\n".join(
+        "  " + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
+    )
+
+
+def _short(entry: Any) -> str:
+    """The notes' abbreviations: c_i = cos q_i, s_i = sin q_i, c_ij = cos(q_i + q_j)."""
+    sp = _sympy()
+
+    def name(letter: str, argument: Any) -> Any:
+        terms = sp.Add.make_args(argument)
+        if all(t.is_Symbol for t in terms):
+            return sp.Symbol(letter + "".join(sorted(str(t).removeprefix("q_") for t in terms)))
+        return (sp.cos if letter == "c" else sp.sin)(argument, evaluate=False)
+
+    plain = entry.replace(sp.cos, lambda x: name("c", x)).replace(sp.sin, lambda x: name("s", x))
+    decimal = plain.xreplace({r: sp.Float(r, 15) for r in plain.atoms(sp.Rational) if r.q > 1})
+    text = sp.sstr(decimal, full_prec=False)
+    return str(text).replace("*", "·").replace("··", "^").replace("-", "\N{MINUS SIGN}")

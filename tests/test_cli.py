@@ -1,0 +1,272 @@
+"""The command line as a user meets it: output, exit status, messages, files left behind."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from dh_product import dh_frames, difference
+
+import dh2urdf
+from dh2urdf.cli import main
+
+RPR = """
+name: rpr
+convention: standard
+units: {length: m, angle: deg}
+joints:
+  - {theta: theta_1, d: 0, a: 3, alpha: -90}
+  - {theta: 0, d: l_2 + 2, a: 0, alpha: 90}
+  - {theta: theta_3 + 90, d: 0, a: 1.5, alpha: 0}
+"""
+
+
+@pytest.fixture
+def run(capsys, tmp_path, monkeypatch):
+    """Run the command line in an empty folder: status, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*argv):
+        with pytest.raises(SystemExit) as stop:
+            main([str(a) for a in argv])
+        out, err = capsys.readouterr()
+        return stop.value.code, out, err
+
+    return call
+
+
+def test_convert_writes_a_verified_urdf(run, tmp_path):
+    """A table in, a URDF beside it, the proof printed."""
+    (tmp_path / "arm.yaml").write_text(RPR)
+    status, out, err = run("convert", "arm.yaml", "-o", "arm.urdf")
+    assert (status, "arm.urdf  largest difference" in out) == (0, True)
+    assert "no limits in the table" in err
+    assert dh2urdf.load_table(tmp_path / "arm.urdf").n == 3
+
+
+def test_convert_to_stdout_prints_only_the_urdf(run):
+    """With -o - stdout is the file, everything else is on stderr."""
+    status, out, err = run("convert", "ur5", "-o", "-")
+    assert status == 0
+    assert out.startswith("<?xml")
+    assert out.rstrip().endswith("</robot>")
+    assert "largest difference" in err
+
+
+def test_one_bad_table_does_not_stop_the_rest(run, tmp_path):
+    """Of three tables two are written; the third is named; status 2."""
+    (tmp_path / "bad.yaml").write_text(RPR.replace("convention: standard", ""))
+    (tmp_path / "good.yaml").write_text(RPR)
+    status, out, err = run("convert", "good.yaml", "bad.yaml", "ur5", "--out-dir", "out")
+    assert status == 2
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == ["good.urdf", "ur5.urdf"]
+    assert "bad.yaml" in err
+    assert "convention" in err
+    assert "1 of 3 tables were not converted" in err
+    assert "2 files written" in out
+
+
+def test_two_sources_of_one_name_do_not_overwrite_each_other(run, tmp_path):
+    """The second of two tables that would write one file is refused."""
+    (tmp_path / "ur5.yaml").write_text(RPR)
+    status, _, err = run("convert", "ur5", "ur5.yaml", "--out-dir", "out")
+    assert status == 2
+    assert "already written from ur5" in err
+
+
+def test_fk_agrees_with_the_dh_product(run):
+    """fk in degrees and as JSON equals the DH product."""
+    status, out, _ = run(
+        "fk", "denso_vs6556", "0", "-90", "20deg", "-1e-3rad", "0", "0", "--deg", "--json"
+    )
+    found = json.loads(out)
+    table = dh2urdf.load_table("denso_vs6556")
+    q = np.array([0, -np.pi / 2, np.radians(20), -1e-3, 0, 0])
+    assert status == 0
+    assert found["schema"] == 1
+    assert difference(found["q"], q) < 1e-16
+    assert difference(found["T_base_tip"], dh_frames(table, q)[-1]) < 1e-14
+
+
+def test_fk_takes_values_as_an_option(run):
+    """--q=0,-pi/2,... and bare numbers after --q are read alike."""
+    a = run("fk", "planar_rrr", "--q=0,-pi/2,90deg", "--json")[1]
+    b = run("fk", "planar_rrr", "0", "-1.5707963267948966", "1.5707963267948966", "--json")[1]
+    assert json.loads(a)["q"] == json.loads(b)["q"]
+
+
+def test_show_prints_table_transforms_and_product(run):
+    """show holds the table, each H_i^{i-1}, the product and the solver."""
+    status, out, _ = run("show", "planar_rr", "--q=90deg,0", "--symbolic")
+    assert status == 0
+    for part in (
+        "planar_rr: 2 joints",
+        "H_1^0 =",
+        "H_2^1 =",
+        "H_2^0 =",
+        "c12",
+        "inverse kinematics",
+    ):
+        assert part in out
+    assert json.loads(run("show", "ur5", "--json")[1])["convention"] == "standard"
+    assert r"\begin{tabular}" in run("show", "ur5", "--format", "latex")[1]
+
+
+def test_list_names_every_table(run):
+    """list shows all names, and as JSON their joints and sources."""
+    out = run("list")[1]
+    assert all(name in out for name in dh2urdf.list_tables())
+    found = json.loads(run("list", "--json")[1])["tables"]
+    assert [t["name"] for t in found] == list(dh2urdf.list_tables())
+
+
+USAGE = [
+    (["fk", "denso"], "did you mean"),
+    (["fk", "ur5", "0", "0"], "6 values are needed"),
+    (["fk", "ur5", "0", "0", "0", "0", "x", "0"], "wrist_2_joint"),
+    (["fk", "nowhere.urdf", "0"], "nowhere.urdf"),
+    (["convert"], "TABLES"),
+    (["convert", "ur5", "ur3", "-o", "x.urdf"], "--out-dir"),
+    (["convert", "ur5", "-o", "no/such/folder/x.urdf"], "folder"),
+    (["show", "ur5", "--format", "word"], "latex"),
+    (["frobnicate"], "frobnicate"),
+    (["fk", "ur5", "--nonsense"], "nonsense"),
+]
+
+
+@pytest.mark.parametrize(("argv", "message"), USAGE, ids=[" ".join(a) for a, _ in USAGE])
+def test_bad_usage_is_one_message_and_status_2(run, argv, message, tmp_path):
+    """Bad usage ends with status 2, a message that names it, no traceback, nothing written."""
+    status, out, err = run(*argv)
+    assert status == 2
+    assert message in err + out
+    assert "Traceback" not in err
+    assert list(tmp_path.iterdir()) == []
+
+
+BROKEN = {
+    "empty": "",
+    "no convention": RPR.replace("convention: standard\n", ""),
+    "no units": RPR.replace("units: {length: m, angle: deg}\n", ""),
+    "unknown key": RPR.replace("d: 0, a: 3", "d: 0, aa: 3"),
+    "text in a cell": RPR.replace("a: 3", "a: three"),
+    "NaN": RPR.replace("a: 3", "a: .nan"),
+    "infinity": RPR.replace("a: 3", "a: .inf"),
+    "code": RPR.replace("a: 3", "a: __import__('os').getcwd()"),
+    "tower of powers": RPR.replace("a: 3", "a: 9**9**9**9"),
+    "object tag": RPR.replace("a: 3", "a: !!python/object/apply:os.getcwd []"),
+    "bomb": "a: &a [x,x,x,x,x,x,x,x,x]\n"
+    + "\n".join(
+        f"{b}: &{b} [{','.join(['*' + a] * 9)}]"
+        for a, b in zip("abcdefgh", "bcdefghi", strict=True)
+    ),
+    "brackets": "[" * 5000,
+    "lower above upper": RPR.replace("a: 3,", "a: 3, lower: 10, upper: -10,"),
+    "mass zero": RPR.replace("a: 3,", "a: 3, mass: 0,"),
+    "mass negative": RPR.replace("a: 3,", "a: 3, mass: -2,"),
+    "sign 2": RPR.replace("a: 3,", "a: 3, sign: 2,"),
+    "two joints of a name": RPR.replace("{theta", "{name: j, theta"),
+    "duplicate key": RPR.replace("a: 3,", "a: 3, a: 4,"),
+    "no joints": RPR.partition("joints:")[0] + "joints: []\n",
+    "joints missing": RPR.partition("joints:")[0],
+    "unknown unit": RPR.replace("length: m,", "length: parsec,"),
+    "not a mapping": "- 1\n- 2\n",
+    "broken YAML": RPR + "  - {theta: 0\n",
+    "two steps of one row": RPR + "  - {type: fixed, xyz: [1, 2, 3], d: 1}\n",
+    "unreachable frame": RPR.replace("a: 1.5, alpha: 0", "a: 0, alpha: 0, xyz: [0, 1.5, 0]"),
+}
+
+
+@pytest.mark.parametrize("kind", BROKEN)
+def test_broken_tables_leave_everything_as_it_was(run, kind, tmp_path):
+    """Status 2, one message that names the file, no traceback, the older output untouched."""
+    (tmp_path / "arm.yaml").write_text(BROKEN[kind])
+    (tmp_path / "arm.urdf").write_text("<dh2urdf/> older")
+    status, out, err = run("convert", "arm.yaml", "-o", "arm.urdf")
+    assert status == 2
+    assert err.startswith("dh2urdf: arm.yaml")
+    assert "Traceback" not in err
+    assert out == ""
+    assert (tmp_path / "arm.urdf").read_text() == "<dh2urdf/> older"
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["arm.urdf", "arm.yaml"]
+
+
+def test_other_broken_inputs(run, tmp_path):
+    """Binary data, a folder, a missing file, an r column, an embedded table cut short."""
+    (tmp_path / "binary.yaml").write_bytes(bytes(range(256)))
+    (tmp_path / "folder.yaml").mkdir()
+    (tmp_path / "r.csv").write_text(
+        "# convention: standard\n# units: m, rad\ntheta,d,r,alpha\n0,0,1,0\n"
+    )
+    (tmp_path / "plain.urdf").write_text("<robot name='x'/>")
+    for name, words in {
+        "binary.yaml": ["text"],
+        "folder.yaml": ["folder"],
+        "missing.yaml": ["no such file"],
+        "r.csv": ["a", "d"],
+        "plain.urdf": ["extract"],
+    }.items():
+        status, out, err = run("convert", name, "-o", "x.urdf")
+        assert (status, out) == (2, "")
+        assert all(word in err for word in words), err
+        assert not (tmp_path / "x.urdf").exists()
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
+def test_no_permission_is_a_message(run, tmp_path):
+    """A folder without write permission gives one message."""
+    (tmp_path / "locked").mkdir(mode=0o500)
+    status, _, err = run("convert", "ur5", "-o", "locked/x.urdf")
+    assert status == 2
+    assert "permission" in err
+
+
+def test_full_disk_loses_nothing(run):
+    """On a full disk the message says so, and the older file stays whole."""
+    if subprocess.run(["mountpoint", "-q", "/dev/shm"], check=False).returncode:
+        pytest.skip("no small file system at hand")
+    from pathlib import Path
+
+    folder = Path("/dev/shm/dh2urdf-tiny")
+    folder.mkdir(exist_ok=True)
+    mount = subprocess.run(
+        ["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", folder], capture_output=True, check=False
+    )
+    if mount.returncode:
+        folder.rmdir()
+        pytest.skip("mounting a tmpfs takes root")
+    try:
+        (folder / "ur5.urdf").write_text("<dh2urdf/> older")
+        status, _, err = run("convert", "ur5", "-o", folder / "ur5.urdf")
+        assert status == 2
+        assert "full" in err
+        assert [p.name for p in folder.iterdir()] == ["ur5.urdf"]
+        assert (folder / "ur5.urdf").read_text() == "<dh2urdf/> older"
+    finally:
+        subprocess.run(["umount", folder], check=True)
+        folder.rmdir()
+
+
+def test_closed_pipe_ends_quietly():
+    """`dh2urdf list | head -1` prints one line and no traceback."""
+    command = f"{sys.executable} -m dh2urdf list | head -1"
+    done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("name")
+    assert done.stderr == ""
+
+
+def test_import_and_convert_load_nothing_heavy():
+    """import dh2urdf loads NumPy only; converting loads no Numba, matplotlib, viser or mujoco."""
+    code = (
+        "import sys, dh2urdf\n"
+        "heavy = {'numba', 'matplotlib', 'viser', 'mujoco', 'dask', 'yourdfpy', 'sympy', 'scipy'}\n"
+        "assert not ({'pinocchio', 'rich', 'cyclopts', 'lxml'} | heavy) & set(sys.modules)\n"
+        "from dh2urdf.cli import main\n"
+        "try: main(['convert', 'ur5', '-o', '-'])\n"
+        "except SystemExit as stop: assert stop.code == 0\n"
+        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
