@@ -15,7 +15,10 @@ if TYPE_CHECKING:
     from dh2urdf.conversions.explain import FrameStep
     from dh2urdf.conversions.snap import Change
 
-__all__ = ["Extraction", "extract_dh"]
+__all__ = ["SIGNATURE", "Extraction", "extract_dh"]
+
+SIGNATURE = "extracted by dh2urdf"
+"""Begins the source of every extracted table; a file that says so may be written over."""
 
 CONFIGURATIONS = 64
 """Configurations at which a table is compared with its source."""
@@ -172,6 +175,12 @@ def extract_dh(
             f"{found.name}: the table differs from its source by {max_error:.3g} (allowed "
             f"{allowed:.1g}); leave compact on, or snap"
         )
+    table = replace(
+        table,
+        source=f"{SIGNATURE} from {found.origin}, {found.base} to {found.tip}",
+        checked=f"against Pinocchio, largest FK difference {max_error:.2g} m or rad over "
+        f"{len(qs)} configurations",
+    )
     return Extraction(
         table=table,
         base=found.base,

@@ -13,6 +13,9 @@ from dh2urdf.transforms import Array, inverse
 
 __all__ = ["carry"]
 
+NOISE = 1e-15
+"""What a product of rotations leaves of an exact zero, relative to the largest entry."""
+
 
 def carry(table: DHTable, source: ChainSource) -> DHTable:
     """The table with drives and inertial parameters of its source, moved into the DH frames."""
@@ -40,9 +43,15 @@ def _carried(
 def _with_body(row: DHRow, body: Inertial, T_dh_joint: Array) -> DHRow:
     """The row with a body given in the chain's frame of its joint."""
     moved = body.moved(T_dh_joint)
-    x, y, z = (float(v) + 0.0 for v in moved.com)
-    m = 0.5 * (moved.inertia + moved.inertia.T) + 0.0
+    x, y, z = (float(v) for v in _cleared(moved.com, 1e-3))
+    m = _cleared(0.5 * (moved.inertia + moved.inertia.T), 0.0)
     ixx, ixy, ixz, iyy, iyz, izz = (
         float(m[i, j]) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
     )
     return replace(row, mass=body.mass, com=(x, y, z), inertia=(ixx, ixy, ixz, iyy, iyz, izz))
+
+
+def _cleared(values: Array, least: float) -> Array:
+    """Values without the rounding noise of turning them, relative to the largest."""
+    noise = NOISE * max(float(np.abs(values).max(initial=0.0)), least)
+    return np.where(np.abs(values) <= noise, 0.0, values)

@@ -75,6 +75,7 @@ def read_source(
         "tool",
         bodies=(None,) * chain.n,
         drives=(Actuation(),) * chain.n,
+        origin="joint axes",
     )
     return Source(found, screw_referee(chain))
 
@@ -87,7 +88,7 @@ def _from_model(model: pin.Model, base: str | None, tip: str | None) -> Source:
 def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None) -> Source:
     """A path, or the text of a URDF."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
-        return _from_urdf(parse_xml(source.encode(), "<text>"), "<text>", base, tip)
+        return _from_urdf(parse_xml(source.encode(), "URDF text"), "URDF text", base, tip)
     path = Path(source)
     where = os.fspath(source)
     try:

@@ -47,6 +47,7 @@ def model_source(
         model.frames[tip_id].name,
         bodies=_bodies(model, path, frames),
         drives=tuple(_drive(model, i) for i in path.ids),
+        origin="a Pinocchio model",
     )
     return source, path
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -40,6 +41,8 @@ class ChainSource:
         All that moves with joint i, in the chain's frame of joint i.
     drives : tuple of n Actuation
     warnings : tuple of str
+    origin : str
+        What the chain was read from, in a word or a file's name.
     """
 
     chain: SerialChain
@@ -49,6 +52,7 @@ class ChainSource:
     bodies: tuple[Inertial | None, ...]
     drives: tuple[Actuation, ...]
     warnings: tuple[str, ...] = ()
+    origin: str = ""
 
 
 def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
@@ -93,6 +97,7 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
         bodies=tuple(_body(tree, step, cut) for step in moving),
         drives=tuple(Actuation(j.velocity, j.effort, j.damping, j.friction) for j in joints),
         warnings=(*tree.warnings, *_remarks(tree, moving, cut)),
+        origin=os.path.basename(tree.where),
     )
 
 

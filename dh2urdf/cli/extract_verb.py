@@ -1,0 +1,184 @@
+"""``dh2urdf extract``: the DH table of a robot description, verified."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, note
+from dh2urdf.exceptions import Dh2UrdfError, OutputExistsError
+from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
+
+__all__ = ["extract_"]
+
+Format = Literal["yaml", "toml", "json", "csv", "markdown", "latex", "rtb", "matlab", "matlab-rst"]
+
+SUFFIXES = {
+    ".yaml": "yaml",
+    ".yml": "yaml",
+    ".toml": "toml",
+    ".json": "json",
+    ".csv": "csv",
+    ".md": "markdown",
+    ".tex": "latex",
+    ".py": "rtb",
+    ".m": "matlab",
+}
+
+
+def extract_(
+    source: str,
+    /,
+    *,
+    base: str | None = None,
+    tip: str | None = None,
+    convention: Literal["standard", "modified"] = "standard",
+    snap: float | None = None,
+    explain: bool = False,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    format: Format | None = None,
+    force: bool = False,
+    x_axis: Literal["auto", "away"] = "auto",
+    compact: Annotated[bool, Parameter(negative="--no-compact")] = True,
+    flip: tuple[str, ...] = (),
+    embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
+    json: bool = False,
+) -> int:
+    """Find the DH table of a URDF, xacro or MJCF by frame assignment.
+
+    The table's forward kinematics is compared with Pinocchio's of the file.
+
+    Parameters
+    ----------
+    source
+        The file.
+    base, tip
+        Links between which the table runs, anywhere in the tree. Default: the root and the end of
+        the longest chain.
+    convention
+        Standard (distal) or modified (proximal, Craig).
+    snap
+        Set angles [rad] and lengths [m] right that miss a round value by no more than this, and
+        print what each costs; 2e-5 takes 1.5708 for pi/2.
+    explain
+        Explain every frame, like a worked solution.
+    output
+        File to write; - for stdout. Its suffix tells the format.
+    format
+        Format of the output; rtb is Python for robotics-toolbox-python, matlab is for Corke's
+        toolbox, matlab-rst for the Robotics System Toolbox.
+    force
+        Replace a file that dh2urdf did not write.
+    x_axis
+        away: every x points away from the axis before it, a >= 0, as in the notes.
+    compact
+        Give nearly parallel axes a fixed step in place of a far-away common normal.
+    flip
+        Joint whose z is to point against its positive direction; repeat for several.
+    embedded
+        Return the table that a file of dh2urdf carries.
+    json
+        One JSON object instead of text.
+    """
+    found = extract_dh(
+        source,
+        base,
+        tip,
+        convention,
+        snap,
+        x_axis=x_axis,
+        compact=compact,
+        flip=flip,
+        embedded=embedded,
+    )
+    if output is not None or format is not None:
+        _write(found, output, format, force=force)
+    if json:
+        _show_json(found)
+        return 0
+    for warning in found.warnings:
+        note(f"warning: {warning}")
+    if output is None and format is None:
+        emit(found.explain() if explain else str(found))
+    elif explain:
+        note(found.explain())
+    return 0
+
+
+def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
+    """The table in its format, to a file or stdout."""
+    chosen = format or SUFFIXES.get(output.suffix.lower() if output else "", "")
+    if not chosen:
+        raise Dh2UrdfError(
+            f"{output}: the suffix tells no format; use {', '.join(SUFFIXES)} or --format"
+        )
+    text = _text(found, chosen)
+    if output is None or str(output) == "-":
+        emit(text)
+        return
+    from dh2urdf.dh_io import atomic_write
+
+    _check_free(output, force)
+    atomic_write(output, text)
+    note(
+        f"{output}: {found.base} to {found.tip}, largest FK difference {found.max_error:.2g} "
+        f"m or rad (Pinocchio)"
+    )
+
+
+def _text(found: Extraction, format: str) -> str:
+    from dh2urdf.conversions.constructors import CONSTRUCTORS
+    from dh2urdf.dh_io import table_to_text
+    from dh2urdf.dh_print import table_latex
+
+    if format in CONSTRUCTORS:
+        return CONSTRUCTORS[format](found.table)
+    if format == "latex":
+        return f"% {found.table.source}\n{table_latex(found.table)}\n"
+    return table_to_text(found.table, format)
+
+
+def _check_free(path: Path, force: bool) -> None:
+    """Refuse to write over what is not ours."""
+    if force or not path.exists() or path.is_dir():
+        return
+    try:
+        ours = SIGNATURE in path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        ours = False
+    if not ours:
+        raise OutputExistsError(f"{path}: exists and was not extracted by dh2urdf; use --force")
+
+
+def _show_json(found: Extraction) -> None:
+    from json import loads
+
+    from dh2urdf.dh_io import table_to_text
+
+    emit_json(
+        "extract",
+        base=found.base,
+        tip=found.tip,
+        max_error=found.max_error,
+        configurations=found.configurations,
+        table=loads(table_to_text(found.table, "json")),
+        steps=[
+            {
+                "frame": step.frame,
+                "joint": step.joint,
+                "case": step.case,
+                "origin": step.origin,
+                "x": step.x,
+                "z": step.z,
+                "text": step.text,
+            }
+            for step in found.steps
+        ],
+        changes=[
+            {"where": c.where, "before": c.before, "after": c.after, "cost": c.cost}
+            for c in found.changes
+        ],
+        warnings=found.warnings,
+    )

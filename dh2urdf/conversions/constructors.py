@@ -1,0 +1,243 @@
+"""A table as source code of the toolboxes that people compute with.
+
+``rtb``: robotics-toolbox-python. ``matlab``: Peter Corke's toolbox for MATLAB. ``matlab-rst``:
+MathWorks' Robotics System Toolbox. The variable of every joint is the table's q.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from dh2urdf.conversions.inertia import tensor
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.exceptions import TableError
+from dh2urdf.transforms import Array
+
+__all__ = ["CONSTRUCTORS", "matlab_corke", "matlab_rst", "rtb_python"]
+
+
+def rtb_python(table: DHTable) -> str:
+    """Python source of a ``DHRobot``; of a ``Robot`` by elementary transforms with fixed rows."""
+    lines = [f"# {line}" for line in _head(table)]
+    lines += ["import roboticstoolbox as rtb", "from spatialmath import SE3", ""]
+    if all(row.is_joint for row in table.rows):
+        return "\n".join([*lines, *_rtb_links(table)]) + "\n"
+    return "\n".join([*lines, *_rtb_ets(table)]) + "\n"
+
+
+def _rtb_links(table: DHTable) -> list[str]:
+    suffix = "DH" if table.convention is DHConvention.STANDARD else "MDH"
+    lines = ["robot = rtb.DHRobot(", "    ["]
+    for row in table.joints:
+        slides = row.joint_type is JointType.PRISMATIC
+        other, offset = ("theta", "d") if slides else ("d", "theta")
+        cells = [f"{key}={getattr(row, key)!r}" for key in (other, "a", "alpha")]
+        cells.append(f"offset={getattr(row, offset)!r}")
+        if row.sign < 0:
+            cells.append("flip=True")
+        cells += _optional(row, lambda key, values: f"{key}={values!r}")
+        kind = "Prismatic" if slides else "Revolute"
+        lines.append(f"        rtb.{kind}{suffix}({', '.join(cells)}),")
+    lines += ["    ],", f"    name={table.name!r},"]
+    for key in ("base", "tool"):
+        origin = getattr(table, key)
+        if not origin.is_identity:
+            lines.append(f"    {key}=SE3({origin.matrix.tolist()}, check=False),")
+    return [*lines, ")"]
+
+
+def _rtb_ets(table: DHTable) -> list[str]:
+    """Elementary transforms, which take the steps that a DH link cannot."""
+    steps = []
+    if not table.base.is_identity:
+        steps.append(f"rtb.ET.SE3(SE3({table.base.matrix.tolist()}, check=False))")
+    for row in table.rows:
+        if row.origin is not None:
+            steps.append(f"rtb.ET.SE3(SE3({row.origin.matrix.tolist()}, check=False))")
+            continue
+        crossing = [f"rtb.ET.tx({row.a!r})", f"rtb.ET.Rx({row.alpha!r})"]
+        along = [f"rtb.ET.Rz({row.theta!r})", f"rtb.ET.tz({row.d!r})"]
+        if row.is_joint:
+            arguments = ["flip=True"] if row.sign < 0 else []
+            if row.lower is not None and row.upper is not None:
+                arguments.append(f"qlim=[{row.lower!r}, {row.upper!r}]")
+            kind = "tz" if row.joint_type is JointType.PRISMATIC else "Rz"
+            along.append(f"rtb.ET.{kind}({', '.join(arguments)})")
+        standard = table.convention is DHConvention.STANDARD
+        steps += [*along, *crossing] if standard else [*crossing, *along]
+    if not table.tool.is_identity:
+        steps.append(f"rtb.ET.SE3(SE3({table.tool.matrix.tolist()}, check=False))")
+    body = "\n    * ".join(steps)
+    return [f"ets = (\n    {body}\n)", f"robot = rtb.Robot(ets, name={table.name!r})"]
+
+
+def matlab_corke(table: DHTable) -> str:
+    """MATLAB source of a ``SerialLink`` (Robotics Toolbox 10).
+
+    Raises
+    ------
+    TableError
+        A fixed row, which that toolbox's links do not have.
+    """
+    if not all(row.is_joint for row in table.rows):
+        raise TableError(
+            "format matlab: its links have no fixed rows; use matlab-rst, or extract with "
+            "compact=False"
+        )
+    lines = [f"% {line}" for line in _head(table)]
+    for i, row in enumerate(table.joints, 1):
+        slides = row.joint_type is JointType.PRISMATIC
+        other, offset = ("theta", "d") if slides else ("d", "theta")
+        cells = [f"'{row.joint_type}'"]
+        cells += [f"'{key}', {getattr(row, key)!r}" for key in (other, "a", "alpha")]
+        cells.append(f"'offset', {getattr(row, offset)!r}")
+        cells += _optional(row, lambda key, values: f"'{key}', {_matlab(values)}")
+        if row.sign < 0:
+            cells.append("'flip'")
+        cells.append(f"'{table.convention}'")
+        lines.append(f"L({i}) = Link({', '.join(cells)});")
+    ends = [
+        f", '{key}', SE3({_matlab(getattr(table, key).matrix)})"
+        for key in ("base", "tool")
+        if not getattr(table, key).is_identity
+    ]
+    lines.append(f"robot = SerialLink(L, 'name', '{_quoted(table.name)}'{''.join(ends)});")
+    return "\n".join(lines) + "\n"
+
+
+def matlab_rst(table: DHTable) -> str:
+    """MATLAB source of a ``rigidBodyTree`` with the joints set by ``'dh'`` or ``'mdh'``.
+
+    ``setFixedTransform`` ignores the parameter that the joint moves, so a constant part of it
+    becomes a fixed body of its own; base, tool and fixed rows do too.
+    """
+    tree = _Tree(weighs=any(row.mass is not None for row in table.joints))
+    leading, groups = _groups(table)
+    if not table.base.is_identity:
+        tree.fixed("frame_0", table.base.matrix)
+    for k, row in enumerate(leading, 1):
+        tree.fixed(f"frame_0_step_{k}", row.transform(0.0, table.convention))
+    standard = table.convention is DHConvention.STANDARD
+    for name, (joint, steps) in zip(table.joint_names, groups, strict=True):
+        slides = joint.joint_type is JointType.PRISMATIC
+        fixed = JointType.FIXED
+        kept = (
+            DHRow(d=joint.d, joint_type=fixed) if slides else DHRow(joint.theta, joint_type=fixed)
+        )
+        offset = [(f"{name}_offset", kept)] if kept.d or kept.theta else []
+        extra = [(f"{name}_step_{k}", row) for k, row in enumerate(steps, 1)]
+        for label, row in offset if standard else []:
+            tree.fixed(label, row.transform(0.0, table.convention))
+        after = extra if standard else [*offset, *extra]
+        tree.joint(name, joint, "dh" if standard else "mdh", carries=not after)
+        for label, row in after:
+            carried = joint if label == after[-1][0] else None
+            tree.fixed(label, row.transform(0.0, table.convention), carried)
+    if not table.tool.is_identity:
+        tree.fixed("tool0", table.tool.matrix)
+    head = [f"% {line}" for line in _head(table)]
+    return "\n".join([*head, "robot = rigidBodyTree('DataFormat', 'row');", *tree.lines]) + "\n"
+
+
+def _groups(table: DHTable) -> tuple[list[DHRow], list[tuple[DHRow, list[DHRow]]]]:
+    """Fixed rows before the first joint, and each joint with the fixed rows after it."""
+    leading: list[DHRow] = []
+    groups: list[tuple[DHRow, list[DHRow]]] = []
+    for row in table.rows:
+        if row.is_joint:
+            groups.append((row, []))
+        else:
+            (groups[-1][1] if groups else leading).append(row)
+    return leading, groups
+
+
+class _Tree:
+    """Bodies of a ``rigidBodyTree``, each on the one before."""
+
+    def __init__(self, weighs: bool) -> None:
+        self.lines: list[str] = []
+        self.weighs = weighs
+        self.parent = "robot.BaseName"
+
+    def fixed(self, name: str, T: Array, carried: DHRow | None = None) -> None:
+        self._start(name, "fixed")
+        self.lines.append(f"setFixedTransform(jnt, {_matlab(T)});")
+        self._end(name, carried)
+
+    def joint(self, name: str, row: DHRow, kind: str, *, carries: bool) -> None:
+        self._start(name, str(row.joint_type))
+        numbers = _matlab([row.a, row.alpha, row.d, row.theta])
+        self.lines.append(f"setFixedTransform(jnt, {numbers}, '{kind}');")
+        if row.sign < 0:
+            self.lines.append("jnt.JointAxis = [0 0 -1];")
+        if row.lower is not None and row.upper is not None:
+            self.lines.append(f"jnt.PositionLimits = {_matlab([row.lower, row.upper])};")
+        self._end(name, row if carries else None)
+
+    def _start(self, name: str, kind: str) -> None:
+        self.lines.append(f"body = rigidBody('{_quoted(name)}');")
+        self.lines.append(f"jnt = rigidBodyJoint('{_quoted(name)}', '{kind}');")
+
+    def _end(self, name: str, carried: DHRow | None) -> None:
+        self.lines.append("body.Joint = jnt;")
+        if self.weighs:
+            self.lines += _rst_inertial(carried)
+        self.lines.append(f"addBody(robot, body, {self.parent});")
+        self.parent = f"'{_quoted(name)}'"
+
+
+def _rst_inertial(row: DHRow | None) -> list[str]:
+    """Mass properties about the body frame's origin; a body of that toolbox weighs 1 kg else."""
+    if row is None or row.mass is None:
+        return ["body.Mass = 0;", "body.Inertia = zeros(1, 6);"]
+    com = np.zeros(3) if row.com is None else np.array(row.com)
+    about_com = np.zeros((3, 3)) if row.inertia is None else tensor(row.inertia)
+    m = about_com + row.mass * ((com @ com) * np.eye(3) - np.outer(com, com))
+    six = [m[0, 0], m[1, 1], m[2, 2], m[1, 2], m[0, 2], m[0, 1]]
+    return [
+        f"body.Mass = {row.mass!r};",
+        f"body.CenterOfMass = {_matlab(com)};",
+        f"body.Inertia = {_matlab(six)};",
+    ]
+
+
+def _optional(row: DHRow, put: Callable[[str, list[float]], str]) -> list[str]:
+    """Limits and inertial parameters in the order of Corke's toolboxes."""
+    out = []
+    if row.lower is not None and row.upper is not None:
+        out.append(put("qlim", [row.lower, row.upper]))
+    if row.mass is not None:
+        out.append(put("m", [row.mass]))
+    if row.com is not None:
+        out.append(put("r", list(row.com)))
+    if row.inertia is not None:
+        ixx, ixy, ixz, iyy, iyz, izz = row.inertia
+        out.append(put("I", [ixx, iyy, izz, ixy, iyz, ixz]))
+    return out
+
+
+def _head(table: DHTable) -> list[str]:
+    lines = [f"{table.name}, {table.convention} DH, metres and radians"]
+    return lines + [text for text in (table.source, table.checked) if text]
+
+
+def _matlab(values: Sequence[float] | Array) -> str:
+    """A vector or matrix in MATLAB's brackets."""
+    array = np.asarray(values, float)
+    if array.ndim == 1:
+        return "[" + " ".join(repr(float(v)) for v in array) + "]"
+    return "[" + "; ".join(" ".join(repr(float(v) + 0.0) for v in row) for row in array) + "]"
+
+
+def _quoted(text: str) -> str:
+    return text.replace("'", "''")
+
+
+CONSTRUCTORS: dict[str, Callable[[DHTable], str]] = {
+    "rtb": rtb_python,
+    "matlab": matlab_corke,
+    "matlab-rst": matlab_rst,
+}
+"""Names of the formats and their writers."""
