@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from dh2urdf.conversions.dh_to_urdf import UrdfOptions
     from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
     from dh2urdf.dh_io import write_table as save_table
+    from dh2urdf.extract import Extraction, extract_dh
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
@@ -33,9 +34,11 @@ __version__ = "0.1.0"
 
 _LATE = {
     "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
+    "Extraction": ("dh2urdf.extract", "Extraction"),
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
     "UrdfOptions": ("dh2urdf.conversions.dh_to_urdf", "UrdfOptions"),
+    "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),
     "load_table": ("dh2urdf.robots", "load_table"),
     "save_table": ("dh2urdf.dh_io", "write_table"),
@@ -51,6 +54,7 @@ __all__ = [
     "DHRow",
     "DHTable",
     "Dh2UrdfError",
+    "Extraction",
     "JointType",
     "Origin",
     "Robot",
@@ -60,6 +64,7 @@ __all__ = [
     "dh_parameters",
     "dh_transform",
     "exceptions",
+    "extract_dh",
     "list_tables",
     "load_table",
     "save_table",
