@@ -114,7 +114,7 @@ class SerialChain:
 
     def fk(self, q: Array) -> Array:
         """``T_base_tool`` at q (n,) by the defining product, shape (4, 4)."""
-        T = self.links[0]
+        T: Array = self.links[0]
         for qi, slides, link in zip(q, self.prismatic, self.links[1:], strict=True):
             c, s, t = (1.0, 0.0, qi) if slides else (math.cos(qi), math.sin(qi), 0.0)
             T = T @ np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, t], [0, 0, 0, 1]]) @ link

@@ -11,9 +11,9 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
-from dh2urdf.conversions.bodies import link_frames
+from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
 from dh2urdf.conversions.coupling import Coupling, couple
-from dh2urdf.conversions.dh_to_chain import FLIP, dh_to_chain
+from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
 from dh2urdf.conversions.model_to_chain import (
     chain_path,
@@ -32,6 +32,11 @@ from dh2urdf.robots import load_table
 from dh2urdf.transforms import Array, pose_error
 
 __all__ = ["Robot"]
+
+_forward_kinematics = pin.forwardKinematics
+_update_frame_placement = pin.updateFramePlacement
+_frame_jacobian = pin.computeFrameJacobian
+_ALIGNED = pin.LOCAL_WORLD_ALIGNED
 
 AGREEMENT = 1e-12
 """Largest difference between Pinocchio and the chain when a robot is built, relative to the
@@ -53,6 +58,11 @@ class Robot(RobotIK, RobotPictures):
         The same chain as constant links between z axes.
     table : DHTable or None
         The table the robot was made from.
+    n : int
+        Number of joint values in q.
+    joint_names : tuple of n str
+    lower, upper : array, shape (n,)
+        Bounds of q [rad] or [m], infinite where there are none.
     base, tip : str
         Names of the two frames; ``T_base_tip`` is what ``fk`` and ``ik`` speak of.
     source : Path or None
@@ -121,11 +131,6 @@ class Robot(RobotIK, RobotPictures):
         robot.source = Path(path)
         return robot
 
-    @property
-    def n(self) -> int:
-        """Number of joint values in q."""
-        return len(self.joint_names)
-
     def fk(self, q: ArrayLike) -> Array:
         """Pose of the tip in the base, ``T_base_tip``.
 
@@ -145,10 +150,10 @@ class Robot(RobotIK, RobotPictures):
             Last axis is not n long.
         """
         config = np.asarray(q, dtype=np.float64)
-        if config.shape == (self.n,) and self._direct:
+        if config.shape == self._direct:
             model, data = self.model, self._data
-            pin.forwardKinematics(model, data, config)
-            oMt = pin.updateFramePlacement(model, data, self._path.tip)
+            _forward_kinematics(model, data, config)
+            oMt = _update_frame_placement(model, data, self._tip)
             if self._M_base_world is not None:
                 oMt = self._M_base_world * oMt
             T_base_tip: Array = oMt.homogeneous
@@ -194,11 +199,9 @@ class Robot(RobotIK, RobotPictures):
         array, shape (6, n) or (..., 6, n)
         """
         config = np.asarray(q, dtype=np.float64)
-        if config.shape == (self.n,) and self._direct and self._M_base_world is None:
-            J: Array = pin.computeFrameJacobian(
-                self.model, self._data, config, self._path.tip, pin.LOCAL_WORLD_ALIGNED
-            )
-            return J.reshape(6, self.n)
+        if config.shape == self._direct and self._M_base_world is None:
+            J: Array = _frame_jacobian(self.model, self._data, config, self._tip, _ALIGNED)
+            return J if J.ndim == 2 else J.reshape(6, 1)
         from dh2urdf.kernels.chain import chain_jacobian_batch
 
         flat, shape = self._flat(config)
@@ -256,6 +259,7 @@ class Robot(RobotIK, RobotPictures):
     def _bounds(self) -> None:
         coupling, chain = self._coupling, self.chain
         self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names
+        self.n = len(self.joint_names)
         self.lower: Array = coupling.lower if coupling else chain.lower
         self.upper: Array = coupling.upper if coupling else chain.upper
 
@@ -264,37 +268,22 @@ class Robot(RobotIK, RobotPictures):
         model, path = self.model, self._path
         self._data = model.createData()
         joints = [model.joints[i] for i in path.ids]
-        self._direct = (
+        one_to_one = (
             path.up == 0
             and self._coupling is None
             and model.frames[path.base].parentJoint == 0
             and all(j.nq == 1 and j.idx_q == k for k, j in enumerate(joints))
         )
+        self._direct = (self.n,) if one_to_one else None
+        self._tip = path.tip
         placement = model.frames[path.base].placement
         identity = model.frames[path.base].parentJoint == 0 and placement.isIdentity(0.0)
         self._M_base_world = None if identity else placement.inverse()
-        self._carried = self._dh_frames() if self.table else self._joint_frames()
-
-    def _dh_frames(self) -> Array:
-        """DH frames as seen from the chain's joints, shape (n + 1, 4, 4)."""
-        assert self.table is not None
-        frames = np.stack([*link_frames(self.table).dh])
-        for i, row in enumerate(self.table.joints, 1):
-            if row.sign < 0:
-                frames[i] = FLIP @ frames[i]
-        frames[0] = self.table.base_frame
-        return frames
-
-    def _joint_frames(self) -> Array:
-        """Pinocchio's joint frames as seen from the chain's joints, shape (n + 1, 4, 4)."""
-        frames = np.tile(np.eye(4), (self.chain.n + 1, 1, 1))
-        data = self.model.createData()
-        pin.framesForwardKinematics(self.model, data, pin.neutral(self.model))
-        M_base_world = data.oMf[self._path.base].inverse()
-        for k, i in enumerate(self._path.ids):
-            T_base_joint = (M_base_world * data.oMi[i]).homogeneous
-            frames[k + 1] = np.linalg.inv(self.chain.joint_frames[k]) @ T_base_joint
-        return frames
+        self._carried = (
+            carried_dh_frames(self.table)
+            if self.table
+            else carried_joint_frames(model, path, self.chain)
+        )
 
     def _placements(self, q: Array) -> Array:
         """``T_base_tip`` of configurations (k, n) by Pinocchio, shape (k, 4, 4)."""
