@@ -1,4 +1,4 @@
-"""The pictures of a robot: what ``figure`` and ``view`` need lies above and is loaded when asked."""
+"""The pictures of a robot; what draws them lies above and is loaded when asked for."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.dh_to_chain import split_row
 from dh2urdf.conversions.inertia import Inertial
-from dh2urdf.dh import DHConvention, DHTable, JointType
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["Body", "LinkFrames", "draw_bodies", "link_frames"]
@@ -130,7 +130,7 @@ def draw_bodies(table: DHTable, chain: SerialChain) -> list[list[Body]]:
         elif row.joint_type is JointType.PRISMATIC:
             parts.insert(0, _box(np.zeros(3), np.eye(3), (3.2 * r, 3.2 * r, 2.6 * r), "joint"))
         else:
-            parts.insert(0, _drum(path[0], r))
+            parts.insert(0, _drum(path[0] + _stand(i, row, frames, r), r))
         if i < table.n and table.joints[i].joint_type is JointType.PRISMATIC:
             parts.append(_rail(table, i, frames.origins[i], float(radii[i + 1]), chain))
         bodies.append(parts)
@@ -186,6 +186,12 @@ def _capsules(path: list[Array], r: float) -> Iterator[Body]:
 
 def _drum(centre: Array, r: float) -> Body:
     return _cylinder(centre, np.array([0.0, 0, 1]), (1.5 * r, 3.2 * r), "joint")
+
+
+def _stand(i: int, row: DHRow, frames: LinkFrames, r: float) -> Array:
+    """How far the first drum is raised to stand on the floor instead of in it."""
+    on_floor = i == 1 and float(np.linalg.norm(frames.dh[0][:3, 3])) < r and row.d > 2.4 * r
+    return np.array([0.0, 0.0, 1.6 * r if on_floor else 0.0])
 
 
 def _pedestal(centre: Array, r: float) -> Body:

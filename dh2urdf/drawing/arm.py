@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,7 +16,7 @@ from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["DrawnArm", "drawn_arm", "load_robot", "table_of"]
+__all__ = ["DrawnArm", "drawn_arm", "slides", "table_of", "zero_configuration"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,24 +61,6 @@ def table_of(robot: Robot) -> DHTable:
     if robot.table is not None:
         return robot.table
     return chain_to_dh(robot.chain, name=robot.model.name).table
-
-
-def load_robot(source: str | os.PathLike[str], base: str | None, tip: str | None) -> Robot:
-    """A robot of a table file, the name of a table that ships, a URDF, xacro or MJCF.
-
-    A URDF that carries its table is drawn by that table unless a base or tip is asked for.
-
-    Raises
-    ------
-    Dh2UrdfError
-        Whatever is wrong with the file or the names.
-    """
-    suffix = Path(source).suffix.lower()
-    if suffix not in {".urdf", ".xacro", ".xml"}:
-        if base or tip:
-            raise ConfigurationError("--base and --tip name links of a URDF; a table has its own")
-        return Robot.from_dh(source)
-    return Robot.from_urdf(source, base=base, tip=tip)
 
 
 def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:

@@ -10,12 +10,19 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
 from dh2urdf.exceptions import ConfigurationError
-from dh2urdf.figures.canvas import Canvas, text_size
+from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
-from dh2urdf.figures.dh_panel import DHPanel, pose_sentence
+from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
 from dh2urdf.figures.projection import View, best_view
 from dh2urdf.figures.schematic import draw_schematic, schematic_points
-from dh2urdf.figures.solid_paint import BODY, ToPoints, ghost_paint, paint_floor, paint_parts
+from dh2urdf.figures.solid_paint import (
+    BODY,
+    ToPoints,
+    floor_discs,
+    ghost_paint,
+    paint_floor,
+    paint_parts,
+)
 from dh2urdf.figures.solids import Part, arm_parts
 from dh2urdf.figures.style import BRANCH_COLOURS, RC, Picture, mpl
 from dh2urdf.robot import Robot
@@ -92,17 +99,20 @@ class _ArmPicture:
         table: bool,
         view: tuple[float, float] | None,
     ) -> None:
+        colours = [BRANCH_COLOURS[k % len(BRANCH_COLOURS)] for k in range(len(ghosts))]
         self.arm: DrawnArm = drawn_arm(table_of(robot))
         asked = zero_configuration(robot, q)
         self.q = robot.chain_configuration(asked)
         self.ghosts = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
-        self.style, self.show_frames, self.ghost_names = style, frames, list(ghost_names)
+        self.style, self.show_frames = style, frames
+        self.key = list(zip(colours, ghost_names, strict=False))
         dh_frames = self.arm.table.frames(self.q)
         self.view = View(*view) if view else best_view(dh_frames, self.arm.chain)
         self.parts = self._parts(self.q)
+        self.floor = self._floor()
         self.ghost_parts = [self._parts(g) for g in self.ghosts]
         note = pose_sentence(self.q, slides(self.arm.table))
-        self.panel = DHPanel(self.arm.table, [note]) if table else None
+        self.panel = DHPanel(self.arm.table, [note], self.key) if table else None
         self._lay_out(dh_frames)
 
     def _parts(self, q: Array) -> list[Part]:
@@ -113,7 +123,7 @@ class _ArmPicture:
         points = [self._extent(parts) for parts in [self.parts, *self.ghost_parts]]
         if self.style == "schematic":
             points = [schematic_points(self.arm, self.q, self.view)]
-        flat = np.concatenate(points)
+        flat = np.concatenate([*points, *self.floor])
         side = float(np.ptp(flat, axis=0).max())
         self.arrow = ARROW * side
         if self.show_frames:
@@ -127,10 +137,11 @@ class _ArmPicture:
         width = float(np.clip(inner * span[0] / span[1] + 2 * MARGIN, NARROWEST, WIDEST))
         self.scale = float(min(inner / span[1], (width - 2 * MARGIN) / span[0]))
         self.middle = (low + high) / 2
-        self.centre = np.array([width / 2, height / 2])
-        self.bounds = np.array([[6.0, 6.0], [width - 6.0, height - 6.0]])
+        foot = 14.0 * len(self.key) if self.panel is None else 0.0
+        self.centre = np.array([width / 2, height / 2 + foot])
+        self.bounds = np.array([[6.0, 6.0 + foot], [width - 6.0, height + foot - 6.0]])
         total = width + (self.panel.width + 44.0 if self.panel else 0.0)
-        self.canvas = Canvas(total, height)
+        self.canvas = Canvas(total, height + foot)
 
     @property
     def to(self) -> ToPoints:
@@ -142,7 +153,7 @@ class _ArmPicture:
         return np.concatenate(corners)
 
     def draw(self) -> Picture:
-        self._floor()
+        paint_floor(self.canvas, self.to, self.floor)
         for k, parts in enumerate(self.ghost_parts):
             colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
             paint_parts(self.canvas, parts, self.view, self.to, ghost_paint(colour))
@@ -151,29 +162,23 @@ class _ArmPicture:
         else:
             draw_schematic(self.canvas, self.view, self.to, self.arm, self.q, self.scale)
         if self.show_frames:
-            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow)
+            outlines = [f[0].polygon for part in self.parts for f in part.faces(self.view)]
+            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow, outlines)
             marks.draw(self.bounds)
-        self._key()
-        if self.panel:
+        if self.panel is None:
+            draw_key(self.canvas, 14.0, 14.0 * len(self.key), self.key)
+        else:
             top = (self.canvas.height + self.panel.height) / 2
             self.panel.draw(self.canvas, self.canvas.width - self.panel.width - 24.0, top)
         return self.canvas.figure
 
-    def _floor(self) -> None:
+    def _floor(self) -> list[Array]:
         """Shade under the base, where the eye looks down on it at a slant."""
-        if 2.0 < self.view.elevation < 80.0 and self.style == "bodies":
-            pedestal = [b for b in self.arm.bodies[0] if b.material == "base"]
-            if pedestal:
-                body = pedestal[0]
-                foot = body.pose[:3, 3] - body.pose[:3, 2] * body.size[1] / 2
-                paint_floor(self.canvas, self.view, self.to, foot, 2.6 * body.size[0])
-
-    def _key(self) -> None:
-        """Names of the ghosts, each with a square in its colour."""
-        y = 16.0
-        for k in range(len(self.ghost_names) - 1, -1, -1):
-            colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
-            square = np.array([[10, y - 4], [18, y - 4], [18, y + 4], [10, y + 4]], float)
-            self.canvas.polygon(square, colour)
-            self.canvas.text((24.0, y), self.ghost_names[k], 9.0, align="left", halo=True)
-            y += 14.0
+        if self.style != "bodies" or not 2.0 < self.view.elevation < 80.0:
+            return []
+        pedestal = next((b for b in self.arm.bodies[0] if b.material == "base"), None)
+        if pedestal is None:
+            return []
+        radius, height = pedestal.size
+        foot = pedestal.pose[:3, 3] - pedestal.pose[:3, 2] * height / 2
+        return floor_discs(self.view, foot, 1.9 * radius)

@@ -10,7 +10,7 @@ import numpy as np
 from dh2urdf.figures.style import INK, Picture, mpl
 from dh2urdf.transforms import Array
 
-__all__ = ["Canvas", "text_size"]
+__all__ = ["Canvas", "text_box", "text_size"]
 
 POINTS_PER_INCH = 72.0
 
@@ -69,9 +69,7 @@ class Canvas:
             )
         if dashes:
             style = {"dashes": dashes, "dash_capstyle": "butt"}
-        self.axes.plot(
-            *points.T, color=colour, lw=width, alpha=alpha, zorder=self._next(), **style
-        )
+        self.axes.plot(*points.T, color=colour, lw=width, alpha=alpha, zorder=self._next(), **style)
 
     def arrow(self, start: Array, end: Array, colour: str, width: float) -> None:
         """Draw an arrow with a filled head, on a white casing."""
@@ -140,6 +138,12 @@ class Canvas:
             under.set_path_effects([Stroke(linewidth=2.6, foreground="white")])
         self.axes.text(x, y, text, color=colour, zorder=self._next(), **style)
 
+    def label(self, centre: Array, text: str, size: float, colour: str) -> None:
+        """Write a text so that its ink is centred, over a white halo."""
+        left, bottom, width, height = text_box(text, size)
+        corner = centre - np.array([left + width / 2, bottom + height / 2])
+        self.text(corner, text, size, colour, halo=True, align="left", vertical="baseline")
+
     def _next(self) -> float:
         """A level above everything drawn so far: painted in the order of calls."""
         self._level += 1.0
@@ -147,11 +151,16 @@ class Canvas:
 
 
 @lru_cache(maxsize=4096)
-def text_size(text: str, size: float, weight: str = "normal") -> tuple[float, float]:
-    """Width and height of a text [pt]."""
+def text_box(text: str, size: float, weight: str = "normal") -> tuple[float, float, float, float]:
+    """Left, bottom, width and height [pt] of a text's ink, from the start of its baseline."""
     from matplotlib.font_manager import FontProperties
     from matplotlib.textpath import TextPath
 
     font = FontProperties(family=mpl.rcParams["font.sans-serif"], weight=weight)
     box = TextPath((0, 0), text or " ", size=size, prop=font).get_extents()
-    return float(box.width), float(box.height)
+    return float(box.x0), float(box.y0), float(box.width), float(box.height)
+
+
+def text_size(text: str, size: float, weight: str = "normal") -> tuple[float, float]:
+    """Width and height of a text [pt]."""
+    return text_box(text, size, weight)[2:]

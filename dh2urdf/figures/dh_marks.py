@@ -29,6 +29,10 @@ SAME = 1e-6
 """Arrows closer than this share of the arm's size are one arrow with two names."""
 
 
+OUTLINE = 0.16
+"""How much a body's outline minds being covered by a label, against 1 for an arrow."""
+
+
 @dataclass(eq=False)
 class Arrow:
     """An axis of one or more frames: names such as ``x_3``, start [m], unit direction."""
@@ -54,15 +58,28 @@ class DHMarks:
     q : array, shape (n,)
     length : float
         Length of the x and z arrows [m].
+    outlines : list of arrays (m, 2)
+        Outlines of the bodies in the picture [m]; labels would rather not stand on them.
     """
 
     def __init__(
-        self, canvas: Canvas, view: View, to: ToPoints, arm: DrawnArm, q: Array, length: float
+        self,
+        canvas: Canvas,
+        view: View,
+        to: ToPoints,
+        arm: DrawnArm,
+        q: Array,
+        length: float,
+        outlines: list[Array],
     ) -> None:
         self.canvas, self.view, self.to, self.length = canvas, view, to, length
         self.arm, self.frames = arm, arm.table.frames(q)
         self.rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
-        self.lines: list[Line] = []
+        self.lines = [
+            Line(to(np.stack(edge)), OUTLINE)
+            for outline in outlines
+            for edge in zip(outline, np.roll(outline, -1, axis=0), strict=True)
+        ]
         self.labels: list[Label] = []
         self.colours: list[str] = []
 
@@ -161,8 +178,7 @@ class DHMarks:
     def _label(
         self, text: str, anchor: Array, toward: Array, colour: str, both_ways: bool = False
     ) -> None:
-        width, height = text_size(text, LABEL)
-        size = np.array([width, max(height, 0.62 * LABEL)])
+        size = np.array(text_size(text, LABEL))
         self.labels.append(Label(text, size, anchor, toward, both_ways))
         self.colours.append(colour)
 
@@ -176,7 +192,7 @@ class DHMarks:
                 )
                 self.canvas.line(np.stack([edge, label.anchor]), mix(colour, 0.55), 0.7)
         for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
-            self.canvas.text(centre, label.text, LABEL, colour, halo=True, vertical="center")
+            self.canvas.label(centre, label.text, LABEL, colour)
 
 
 LEADER = 13.0

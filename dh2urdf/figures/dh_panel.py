@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh_print import degrees, plus, step
 from dh2urdf.figures.canvas import Canvas, text_size
@@ -12,7 +14,7 @@ from dh2urdf.figures.style import FAINT, INK, MUTED, QUANTITY
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
-__all__ = ["DHPanel", "pose_sentence"]
+__all__ = ["DHPanel", "draw_key", "pose_sentence"]
 
 SIZE = 10.5
 ROW = 25.0
@@ -34,8 +36,10 @@ class Cell:
 class DHPanel:
     """Cells of the table, measured, and drawn where the figure has room for them."""
 
-    def __init__(self, table: DHTable, notes: list[str]) -> None:
-        self.table = table
+    def __init__(
+        self, table: DHTable, notes: list[str], key: list[tuple[str, str]] | None = None
+    ) -> None:
+        self.table, self.key = table, key or []
         self.rounded = False
         self.rows = [self._row(row, i) for i, row in self._numbered()]
         self.header = self._header()
@@ -44,7 +48,9 @@ class DHPanel:
         if self.rounded:
             self.notes.append("Long values are rounded to six digits here.")
         self.widths = [
-            max(text_size(row[k].text, SIZE)[0] for row in [self.header, *self.rows] if len(row) > 1)
+            max(
+                text_size(row[k].text, SIZE)[0] for row in [self.header, *self.rows] if len(row) > 1
+            )
             + GAP
             for k in range(len(KEYS))
         ]
@@ -54,12 +60,14 @@ class DHPanel:
     def width(self) -> float:
         """Width of the panel [pt]."""
         title = text_size(self.title, SIZE + 1, "bold")[0]
-        return float(max(sum(self.widths), title, 190.0))
+        names = [20.0 + text_size(name, SIZE - 2)[0] for _, name in self.key]
+        return float(max(sum(self.widths), title, 230.0, *names))
 
     @property
     def height(self) -> float:
         """Height of the panel [pt]."""
-        return 28.0 + ROW * (len(self.rows) + 1) + 14.0 + 14.0 * len(self.notes)
+        below = 14.0 * (len(self.notes) + len(self.key)) + (10.0 if self.key else 0.0)
+        return 28.0 + ROW * (len(self.rows) + 1) + 14.0 + below
 
     def draw(self, canvas: Canvas, left: float, top: float) -> None:
         """Draw the panel below and right of a corner [pt]."""
@@ -75,6 +83,7 @@ class DHPanel:
         _rule(canvas, left, right, y, 1.3)
         for k, note in enumerate(self.notes):
             canvas.text((left, y - 14.0 * (k + 1)), note, SIZE - 2, MUTED, align="left")
+        draw_key(canvas, left, y - 14.0 * len(self.notes) - 24.0, self.key)
 
     def _line(self, canvas: Canvas, row: list[Cell], left: float, right: float, y: float) -> None:
         if len(row) == 1:
@@ -114,7 +123,7 @@ class DHPanel:
         theta, d = self._degrees(row.theta), self._number(row.d)
         sign = "" if row.sign > 0 else "-"
         if row.joint_type is JointType.REVOLUTE:
-            theta = plus(f"${sign}q_{{{i}}}$", "0" if row.theta == 0 else theta)
+            theta = plus(f"${sign}q_{{{i}}}$", theta if theta != "0°" else "0")
         elif row.joint_type is JointType.PRISMATIC:
             d = plus(f"${sign}q_{{{i}}}$", d)
         a, alpha = self._number(row.a), self._degrees(row.alpha)
@@ -126,22 +135,39 @@ class DHPanel:
     def _degrees(self, angle: float) -> str:
         text = degrees(angle)
         if len(text) > WIDEST:
-            self.rounded, text = True, number(float(f"{math.degrees(angle):.6g}"))
+            self.rounded, text = True, number(_six_digits(math.degrees(angle)))
         return f"{text}°"
 
     def _number(self, value: float) -> str:
         text = number(value)
         if len(text) > WIDEST:
-            self.rounded, text = True, number(float(f"{value:.6g}"))
+            self.rounded, text = True, number(_six_digits(value))
         return text
 
     def _frame_notes(self) -> list[str]:
         table = self.table
         return [
             f"{what}: {step(origin)}"
-            for what, origin in (("frame 0 in base", table.base), ("tool in the last frame", table.tool))
+            for what, origin in (
+                ("frame 0 in base", table.base),
+                ("tool in the last frame", table.tool),
+            )
             if not origin.is_identity
         ]
+
+
+def _six_digits(value: float) -> float:
+    """Six significant digits, at most seven decimals."""
+    return round(float(f"{value:.6g}"), 7) + 0.0
+
+
+def draw_key(canvas: Canvas, left: float, top: float, key: list[tuple[str, str]]) -> None:
+    """Draw a column of (colour, name) below a height, each with a square in its colour."""
+    for k, (colour, name) in enumerate(key):
+        y = top - 14.0 * k
+        corners = np.array([[0, -4], [8, -4], [8, 4], [0, 4]], float)
+        canvas.polygon(corners + np.array([left, y]), colour)
+        canvas.text((left + 14.0, y), name, SIZE - 2, align="left")
 
 
 def pose_sentence(q: Array, slides: tuple[bool, ...]) -> str:
@@ -167,6 +193,4 @@ def wrapped(text: str, width: float, size: float) -> list[str]:
 
 
 def _rule(canvas: Canvas, left: float, right: float, y: float, width: float) -> None:
-    import numpy as np
-
     canvas.line(np.array([[left, y], [right, y]]), INK, width, cap="butt")

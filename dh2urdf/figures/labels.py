@@ -99,12 +99,10 @@ def _candidates(label: Label) -> Array:
     return np.concatenate(centres)
 
 
-def _fixed_cost(
-    label: Label, spots: Array, samples: Array, weights: Array, bounds: Array
-) -> Array:
+def _fixed_cost(label: Label, spots: Array, samples: Array, weights: Array, bounds: Array) -> Array:
     half = label.size / 2 + PADDING
     away = np.abs(spots[:, None, :] - samples[None, :, :]) <= half
-    covered = away.all(axis=2) @ weights * SPACING
+    covered = away.all(axis=2) @ weights
     outside = np.maximum(bounds[0] - (spots - half), 0) + np.maximum(spots + half - bounds[1], 0)
     way = spots - label.anchor
     gap = np.maximum(np.abs(way) - label.size / 2, 0.0)
@@ -131,7 +129,8 @@ def _samples(lines: list[Line]) -> tuple[Array, Array]:
     points, weights = [np.zeros((0, 2))], [np.zeros(0)]
     for line in lines:
         start, end = line.points
-        count = max(2, int(np.linalg.norm(end - start) / SPACING) + 1)
+        length = float(np.linalg.norm(end - start))
+        count = max(2, int(length / SPACING) + 1)
         points.append(start + np.linspace(0, 1, count)[:, None] * (end - start))
-        weights.append(np.full(count, line.weight))
+        weights.append(np.full(count, line.weight * length / count))
     return np.concatenate(points), np.concatenate(weights)

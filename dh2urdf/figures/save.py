@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 from dh2urdf.dh_io import atomic_write
-from dh2urdf.exceptions import OutputError
+from dh2urdf.exceptions import OutputError, OutputExistsError
 from dh2urdf.figures.style import RC, Picture, mpl
 
 __all__ = ["FORMATS", "picture_bytes", "save_picture"]
@@ -15,10 +15,13 @@ __all__ = ["FORMATS", "picture_bytes", "save_picture"]
 FORMATS = ("png", "svg", "pdf")
 """Formats written, by suffix."""
 
-_NO_DATES: dict[str, dict[str, object]] = {
-    "png": {"Software": None},
-    "svg": {"Date": None, "Creator": None},
-    "pdf": {"CreationDate": None, "ModDate": None, "Creator": None, "Producer": None},
+MARK = "dh2urdf figure"
+"""Written into every file: what has it may be replaced."""
+
+METADATA: dict[str, dict[str, object]] = {
+    "png": {"Software": MARK},
+    "svg": {"Date": None, "Creator": MARK},
+    "pdf": {"CreationDate": None, "ModDate": None, "Creator": MARK, "Producer": None},
 }
 
 
@@ -26,7 +29,7 @@ def picture_bytes(figure: Picture, format: str, *, dpi: float = 180.0) -> bytes:
     """The figure in one of :data:`FORMATS`; ``dpi`` is the resolution of a PNG."""
     out = io.BytesIO()
     with mpl.rc_context(RC):
-        figure.savefig(out, format=format, dpi=dpi, metadata=_NO_DATES[format])
+        figure.savefig(out, format=format, dpi=dpi, metadata=METADATA[format])
     return out.getvalue()
 
 
@@ -44,7 +47,31 @@ def format_of(path: Path) -> str:
     return suffix
 
 
-def save_picture(figure: Picture, path: str | os.PathLike[str], *, dpi: float = 180.0) -> Path:
-    """Write a figure; the suffix chooses the format, the file appears whole or not at all."""
+def save_picture(
+    figure: Picture, path: str | os.PathLike[str], *, dpi: float = 180.0, force: bool = True
+) -> Path:
+    """Write a figure; the suffix chooses the format, the file appears whole or not at all.
+
+    Parameters
+    ----------
+    figure : Picture
+    path : path
+    dpi : float
+        Resolution of a PNG.
+    force : bool
+        Replace a file that this package did not write.
+
+    Raises
+    ------
+    OutputError
+        A format that is not written here, or a place that cannot be written.
+    OutputExistsError
+        Without ``force``: somebody else's file is in the way.
+    """
     target = Path(path)
-    return atomic_write(target, picture_bytes(figure, format_of(target), dpi=dpi))
+    format = format_of(target)
+    if not force and target.is_file() and MARK.encode() not in target.read_bytes():
+        raise OutputExistsError(
+            f"{target}: exists and was not drawn by dh2urdf; --force (force=True) replaces it"
+        )
+    return atomic_write(target, picture_bytes(figure, format, dpi=dpi))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -51,7 +52,7 @@ def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:
     for row in rows:
         corners += [*_corners(arm, row), row.T_next[:3, 3]]
     corners.append((rows[-1].T_next @ arm.table.tool.matrix)[:3, 3])
-    for start, end in zip(corners[:-1], corners[1:], strict=True):
+    for start, end in pairwise(corners):
         if float(np.linalg.norm(end - start)) > 1e-6 * arm.size:
             yield Part("link", _rod(start, end, ROD * arm.size))
     placed: list[Array] = []

@@ -9,11 +9,11 @@ import numpy as np
 
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.projection import View
-from dh2urdf.figures.solids import Face, Part, painted_order
+from dh2urdf.figures.solids import SHEEN, Face, Part, painted_order
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
 
-__all__ = ["BODY", "Paint", "ghost_paint", "paint_floor", "paint_parts"]
+__all__ = ["BODY", "Paint", "floor_discs", "ghost_paint", "paint_floor", "paint_parts"]
 
 ToPoints = Callable[[Array], Array]
 """Picture coordinates (..., 2) in metres to points on the sheet."""
@@ -83,13 +83,14 @@ def _paint_part(
             canvas.polygon(to(face.polygon), tone, edge, 0.7 * paint.width)
 
 
-SHEEN = 0.45
-"""Tone of the band of light along a cylinder; it has no outline."""
-
-
-def paint_floor(canvas: Canvas, view: View, to: ToPoints, centre: Array, radius: float) -> None:
-    """Two discs of shade on the floor under the base."""
+def floor_discs(view: View, centre: Array, radius: float) -> list[Array]:
+    """Outlines in the picture [m] of two discs of shade on the floor, the larger first."""
     angle = np.linspace(0.0, 2 * np.pi, 72, endpoint=False)
     rim = np.stack([np.cos(angle), np.sin(angle), np.zeros_like(angle)], axis=1)
-    for share, colour in ((1.0, "#eef0f3"), (0.66, "#e2e6eb")):
-        canvas.polygon(to(view.flat(centre + share * radius * rim)), colour)
+    return [view.flat(centre + share * radius * rim) for share in (1.0, 0.66)]
+
+
+def paint_floor(canvas: Canvas, to: ToPoints, discs: list[Array]) -> None:
+    """Paint the shade under the base."""
+    for disc, colour in zip(discs, ("#f0f2f5", "#e4e8ed"), strict=False):
+        canvas.polygon(to(disc), colour)

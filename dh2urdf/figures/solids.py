@@ -16,13 +16,19 @@ from dh2urdf.conversions.bodies import Body
 from dh2urdf.figures.projection import View
 from dh2urdf.transforms import Array
 
-__all__ = ["Face", "Part", "arm_parts", "painted_order"]
+__all__ = ["SHEEN", "Face", "Part", "arm_parts", "painted_order"]
 
 AROUND = 48
 """Corners of a circle."""
 
 RASTER = 110
 """Rays along the longer side of the picture that decide which part hides which."""
+
+STRIP = (0.25, 0.75)
+"""Angles [rad], from what faces the eye towards the light, between which a cylinder shines."""
+
+SHEEN = 0.45
+"""Brightness of that strip; it has no outline."""
 
 NORMALS = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
 
@@ -173,17 +179,18 @@ def _faces(body: Body, T: Array, view: View) -> list[Face]:
 
 
 def _sheen(body: Body, T: Array, view: View) -> list[Face]:
-    """A lighter band along a cylinder, left of the middle where the light comes from."""
-    along = view.flat(T[:3, 2])
-    if float(np.linalg.norm(along)) < 0.05:
+    """A lighter strip along a cylinder's surface, left of what faces the eye."""
+    toward, left = T[:3, :3].T @ view.axes[2], T[:3, :3].T @ -view.axes[0]
+    if float(np.hypot(toward[0], toward[1])) < 0.05:
         return []
-    across = np.array([-along[1], along[0]]) / np.linalg.norm(along)
-    across *= -1.0 if across[0] > 0 or (across[0] == 0 and across[1] < 0) else 1.0
+    facing, lit = np.arctan2(toward[1], toward[0]), np.arctan2(left[1], left[0])
+    side = 1.0 if np.sin(lit - facing) >= 0 else -1.0
+    angle = facing + side * np.linspace(*STRIP, 7)
     radius, length = body.size
-    centre, half = view.flat(T[:3, 3]), along * (length / 2)
-    u, v = across * (0.62 * radius), across * (0.08 * radius)
-    corners = [centre - half + u, centre + half + u, centre + half + v, centre - half + v]
-    return [Face(np.array(corners), 0.45)]
+    rim = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    ends = [np.c_[rim, np.full(len(rim), z)] for z in (-length / 2, length / 2)]
+    strip = np.concatenate([ends[0], ends[1][::-1]])
+    return [Face(view.flat(strip @ T[:3, :3].T + T[:3, 3]), SHEEN)]
 
 
 def _box_faces(body: Body, T: Array, view: View) -> list[Face]:

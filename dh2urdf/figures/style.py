@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from dh2urdf.exceptions import MissingExtraError
 from dh2urdf.grids import HTML_COLOURS
 
@@ -38,7 +40,7 @@ INK = "#1b2333"
 MUTED = "#5c6470"
 FAINT = "#b4b8be"
 
-RC: dict[str, Any] = {
+RC: Any = {
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
     "mathtext.fontset": "stix",
@@ -76,5 +78,6 @@ def mix(colour: str, share: float, other: str = "#ffffff") -> str:
     """A colour blended with another one, ``share`` of the first."""
     from matplotlib.colors import to_hex, to_rgb
 
-    pairs = zip(to_rgb(colour), to_rgb(other), strict=True)
-    return str(to_hex([share * a + (1 - share) * b for a, b in pairs]))
+    first, second = np.array(to_rgb(colour)), np.array(to_rgb(other))
+    r, g, b = (share * first + (1.0 - share) * second).tolist()
+    return str(to_hex((r, g, b)))

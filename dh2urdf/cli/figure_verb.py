@@ -1,0 +1,101 @@
+"""``dh2urdf figure``: the arm with its DH frames, for print."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+from dh2urdf.exceptions import ConfigurationError
+
+__all__ = ["figure_"]
+
+
+def figure_(
+    robot: str,
+    /,
+    *,
+    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    q: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    deg: bool = False,
+    style: Literal["bodies", "schematic"] = "bodies",
+    branches: bool = False,
+    frames: Annotated[bool, Parameter(negative="--no-frames")] = True,
+    table: Annotated[bool, Parameter(negative="--no-table")] = True,
+    view: tuple[float, float] | None = None,
+    base: str | None = None,
+    tip: str | None = None,
+    dpi: float = 180.0,
+    force: bool = False,
+    json: bool = False,
+) -> int:
+    """Draw an arm with its DH frames and its table.
+
+    Parameters
+    ----------
+    robot
+        A table file, the name of a table that ships, or a URDF.
+    output
+        The picture to write: .png, .svg or .pdf.
+    q
+        Configuration: --q=0,-pi/2,90deg or --q 0 -90 90 --deg; default zero.
+    deg
+        Bare angles are degrees.
+    style
+        Solid bodies, or the lines, cylinders and boxes of textbooks.
+    branches
+        Draw every other configuration that reaches the same pose as a ghost.
+    frames
+        Draw the DH frames and lengths.
+    table
+        Draw the DH table beside the arm.
+    view
+        Azimuth and elevation of the eye in degrees; default: one that shows the arm.
+    base, tip
+        Links of a URDF to draw between.
+    dpi
+        Resolution of a PNG.
+    force
+        Replace a file that dh2urdf did not write.
+    json
+        One JSON object instead of text.
+    """
+    from dh2urdf.figures import figure, save_picture
+    from dh2urdf.figures.save import format_of
+
+    format_of(output)
+    if not 10 <= dpi <= 2400:
+        raise ConfigurationError(f"--dpi: {dpi:g} is not between 10 and 2400")
+    arm = robot_of(robot, base, tip)
+    config = parse_configuration(q, arm, deg=deg) if q else None
+    ghosts, names = np.empty((0, arm.n)), list[str]()
+    if branches:
+        from dh2urdf.drawing.arm import zero_configuration
+
+        config = zero_configuration(arm, config)
+        found = arm.ik(arm.fk(config), seed=config, within_limits=False)
+        ghosts, names = (
+            found.q[1:],
+            [name or f"solution {k + 1}" for k, name in enumerate(found.branch)][1:],
+        )
+        if not len(ghosts):
+            note("this pose has one solution only: nothing to draw as a ghost")
+    picture = figure(
+        arm,
+        config,
+        style=style,
+        ghosts=list(ghosts),
+        ghost_names=names,
+        frames=frames,
+        table=table,
+        view=view,
+    )
+    path = save_picture(picture, output, dpi=dpi, force=force)
+    if json:
+        emit_json("figure", path=path, branches=len(ghosts))
+    else:
+        emit(str(path))
+    return 0
