@@ -59,9 +59,10 @@ class SphericalWrist(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) in one jitted call."""
-        from dh2urdf.kernels.spherical_wrist import solve_turning_arm
+        from dh2urdf.kernels.spherical_wrist import solve_sliding_arm, solve_turning_arm
 
-        solve_turning_arm(
+        solve = solve_sliding_arm if self.chain.prismatic.any() else solve_turning_arm
+        solve(
             self.links,
             self.joints,
             self.form.rows,

@@ -14,8 +14,9 @@ from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
+from dh2urdf.kernels.position_slides import place_wrist_sliding
 
-__all__ = ["add_wrist", "middle_angle", "solve_turning_arm"]
+__all__ = ["add_wrist", "middle_angle", "solve_sliding_arm", "solve_turning_arm"]
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -139,6 +140,25 @@ def solve_turning_arm(
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
         rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        found = 0
+        for k in range(rows):
+            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
+        for k in range(found):
+            residual[i, k] = -1.0
+        count[i] = finish_pose(
+            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_sliding_arm(
+    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+):
+    """:func:`solve_turning_arm` where some of the first three joints slide."""
+    D, R, arm, work = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        rows = place_wrist_sliding(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
         found = 0
         for k in range(rows):
             found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)

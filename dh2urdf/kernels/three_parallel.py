@@ -20,7 +20,7 @@ from numba import njit
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
-from dh2urdf.kernels.trig import circle_pair, linear_trig, trig_roots
+from dh2urdf.kernels.trig import add_square, circle_pair, linear_trig, trig_roots
 
 __all__ = ["solve_three_parallel"]
 
@@ -80,9 +80,9 @@ def _pairs_before_four(form, D, slack, pair):
         count, c1, s1, c2, s2 = linear_trig(row[1], row[2], -row[0], slack)
         cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
     else:
-        _add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
-        _add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
-        _add_square(series, 1.0, z0, z1, 0.0)
+        add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
+        add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
+        add_square(series, 1.0, z0, z1, 0.0)
         series[0] -= 1.0
         count = trig_roots(series, 2, cosines, sines)
     pairs = 0
@@ -97,8 +97,10 @@ def _pairs_before_four(form, D, slack, pair):
         elif sa5 == 0.0:
             found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, slack)
         else:
-            n1, n2 = n1 / a5, n2 / sa5
-            found, c1, s1, c2, s2 = 1, fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
+            n1, n2, square = n1 / a5, n2 / sa5, fx * fx + fy * fy
+            near = abs(n1 * n1 + n2 * n2 - square) <= slack * (n1 * n1 + n2 * n2 + square)
+            found = 1 if near else 0
+            c1, s1, c2, s2 = fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
         for j in range(found):
             c5, s5 = (c1, s1) if j == 0 else (c2, s2)
             r = math.hypot(c5, s5)
@@ -106,16 +108,6 @@ def _pairs_before_four(form, D, slack, pair):
             pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
             pairs += 1
     return pairs
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _add_square(series, weight, constant, cosine, sine):
-    """Add ``weight (constant + cosine cos x + sine sin x)^2`` to a series of degree 2."""
-    series[0] += weight * (constant * constant + 0.5 * (cosine * cosine + sine * sine))
-    series[1] += weight * 2.0 * constant * cosine
-    series[2] += weight * 2.0 * constant * sine
-    series[3] += weight * 0.5 * (cosine * cosine - sine * sine)
-    series[4] += weight * cosine * sine
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

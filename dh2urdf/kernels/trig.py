@@ -12,7 +12,14 @@ import math
 
 from numba import njit
 
-__all__ = ["atan2_array", "circle_pair", "linear_trig", "real_quadratic", "trig_roots"]
+__all__ = [
+    "add_square",
+    "atan2_array",
+    "circle_pair",
+    "linear_trig",
+    "real_quadratic",
+    "trig_roots",
+]
 
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""
@@ -22,6 +29,9 @@ ON_CIRCLE = 0.05
 
 SWEEPS = 60
 """Most iterations of Aberth's method; simple roots take six to ten."""
+
+SETTLED = 1e-9
+"""Relative step after which the next one, its cube, is below rounding."""
 
 TAN_EIGHTH = 0.4142135623730950
 A0, A1, A2, A3 = -0.3333333333333333, 0.19999999999999804, -0.14285714285659828, 0.11111111105155447
@@ -96,6 +106,16 @@ def real_quadratic(a, b, c, slack):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def add_square(series, weight, constant, cosine, sine):
+    """Add ``weight (constant + cosine cos x + sine sin x)^2`` to a series of degree 2."""
+    series[0] += weight * (constant * constant + 0.5 * (cosine * cosine + sine * sine))
+    series[1] += weight * 2.0 * constant * cosine
+    series[2] += weight * 2.0 * constant * sine
+    series[3] += weight * 0.5 * (cosine * cosine - sine * sine)
+    series[4] += weight * cosine * sine
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def trig_roots(series, degree, cosines, sines):
     """Find the real roots of a trigonometric polynomial of low degree.
 
@@ -137,7 +157,7 @@ def trig_roots(series, degree, cosines, sines):
         cosines[k], sines[k] = start.real, start.imag
         start *= turn
     for _ in range(SWEEPS):
-        if _aberth_sweep(series, degree, cosines, sines) < 1e-15:
+        if _aberth_sweep(series, degree, cosines, sines) < SETTLED:
             break
     found = 0
     for k in range(size):
@@ -219,7 +239,7 @@ def circle_pair(M, N, d, slack, scratch, out):
     if singular:
         rows = _one_by_one(first, second, d, slack, out)
     else:
-        rows = _two_ellipses(first, second, d, det, scratch, out)
+        rows = _two_ellipses(first, second, d, det, slack, scratch, out)
     if swapped:
         for k in range(rows):
             out[k, 0], out[k, 1], out[k, 2], out[k, 3] = out[k, 2], out[k, 3], out[k, 0], out[k, 1]
@@ -260,7 +280,7 @@ def _one_by_one(M, N, d, slack, out):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _two_ellipses(M, N, d, det, scratch, out):
+def _two_ellipses(M, N, d, det, slack, scratch, out):
     """Solve :func:`circle_pair` where M is regular: ``|M^-1 (d - N (c, s))| = 1`` in y."""
     u0 = (M[1, 1] * d[0] - M[0, 1] * d[1]) / det
     u1 = (M[0, 0] * d[1] - M[1, 0] * d[0]) / det
@@ -275,16 +295,18 @@ def _two_ellipses(M, N, d, det, scratch, out):
     series[3] = 0.5 * (v0 * v0 + v1 * v1 - w0 * w0 - w1 * w1)
     series[4] = v0 * w0 + v1 * w1
     count = trig_roots(series, 2, cosines, sines)
+    scale = 1.0 + u0 * u0 + u1 * u1 + v0 * v0 + v1 * v1 + w0 * w0 + w1 * w1
+    rows = 0
     for k in range(count):
         e, f = cosines[k], sines[k]
         c, s = u0 + v0 * e + w0 * f, u1 + v1 * e + w1 * f
-        radius = math.hypot(c, s)
-        if radius > 0.0:
-            c, s = c / radius, s / radius
-        else:
-            c, s = 1.0, 0.0
-        out[k, 0], out[k, 1], out[k, 2], out[k, 3] = c, s, e, f
-    return count
+        square = c * c + s * s
+        if abs(square - 1.0) > slack * scale:
+            continue
+        radius = math.sqrt(square)
+        out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = c / radius, s / radius, e, f
+        rows += 1
+    return rows
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
