@@ -1,0 +1,58 @@
+"""One adapter a peer, and the list of them; a peer that is not installed is named and left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib import import_module
+
+from benchmarks.arms import Arm
+from benchmarks.contestant import IKContestant, NotCoveredError
+
+__all__ = ["IK_PEERS", "Entry", "contestants"]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Where a solver's adapter is."""
+
+    name: str
+    module: str
+    cls: str
+
+    def load(self) -> type[IKContestant]:
+        """Import the adapter and with it the peer."""
+        found: type[IKContestant] = getattr(
+            import_module(f"benchmarks.peers.{self.module}"), self.cls
+        )
+        return found
+
+
+IK_PEERS = (
+    Entry("dh2urdf", "ours", "Ours"),
+    Entry("EAIK", "eaik", "Eaik"),
+    Entry("ik-geo", "ik_geo", "IkGeo"),
+    Entry("py-ikgeo", "py_ikgeo", "PyIkgeo"),
+    Entry("py-opw", "py_opw", "PyOpw"),
+    Entry("ur-analytic-ik", "ur_analytic", "UrAnalytic"),
+    Entry("ssik prebuilt", "ssik", "SsikPrebuilt"),
+    Entry("ssik from_axes", "ssik", "SsikAxes"),
+    Entry("crx-kinematics", "crx", "CrxKinematics"),
+    Entry("ikdh", "ikdh", "Ikdh"),
+    Entry("frankik", "frankik", "Frankik"),
+)
+"""All solvers of inverse kinematics, ours first."""
+
+
+def contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[IKContestant]:
+    """Solvers built for an arm; ``left_out`` learns of those that are not there or refuse."""
+    for entry in IK_PEERS:
+        try:
+            cls = entry.load()
+        except ImportError as error:
+            left_out[entry.name] = f"not installed ({error})"
+            continue
+        try:
+            yield cls(arm)
+        except NotCoveredError as reason:
+            left_out[f"{entry.name}, {arm.key}"] = str(reason)
