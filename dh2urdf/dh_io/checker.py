@@ -110,7 +110,7 @@ def _units(cells: Cells, report: Report) -> Units:
         unit = unit_name(cell.text) if isinstance(cell, Scalar) else ""
         if unit in UNIT_SIZES[kind]:
             units = units._replace(**{kind.value: unit})
-        else:
+        elif cell is not None or parts.is_missing(kind.value):
             message = f"found {found(cell)}; " if cell is not None else "missing; "
             message += f"allowed: {allowed[kind.value]}"
             hint = did_you_mean(unit, UNIT_SIZES[kind]) if unit else ""

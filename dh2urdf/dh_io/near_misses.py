@@ -107,7 +107,8 @@ def _angle(path: str, typed: Decimal, value: float, unit: str, is_limit: bool) -
         if meant is None or meant.denominator > 2 or _decimals(typed) < 2 or is_limit:
             return []
         return [NearMiss(path, f"{typed} deg is {_pi_text(meant)} in radians; radians meant?")]
-    if abs(value) > (WIDE_LIMIT if is_limit else FULL_TURN):
+    over = abs(value) > (WIDE_LIMIT if is_limit else FULL_TURN)
+    if over and (meant is None or abs(meant) > 2):
         turns = "two turns" if is_limit else "a full turn"
         return [NearMiss(path, f"{typed} rad is more than {turns}; degrees meant?")]
     if meant is None or is_limit:
@@ -129,8 +130,8 @@ def rounded_pi(typed: Decimal) -> Fraction | None:
     parts = {2: 2, 3: 4}.get(decimals, 12)
     multiple = Fraction(round(typed * parts / PI), parts)
     exact = multiple.numerator * PI / multiple.denominator
-    near = abs(typed - exact) < Decimal(1).scaleb(-decimals)
-    return multiple if multiple and near else None
+    cut_off = (abs(exact) - abs(typed)).scaleb(decimals)
+    return multiple if multiple and Decimal("-0.5") <= cut_off < 1 else None
 
 
 def _decimals(typed: Decimal) -> int:

@@ -34,7 +34,7 @@ FORMATS = {
 
 MAX_BYTES = 1_000_000
 
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]")
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 _READERS: dict[str, Callable[[str, Report], Node]] = {
     "toml": read_toml,
@@ -100,10 +100,10 @@ def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
         How messages name the text; its stem is the table's name where the text gives none.
     """
     report = Report(filename, text)
-    if len(text) > MAX_BYTES:
-        report.stop(Mark(), f"larger than {MAX_BYTES // 1000} kB; a DH table is smaller")
     if "\0" in text:
         report.stop(Mark(), "not a text file: it holds binary data")
+    if len(text) > MAX_BYTES:
+        report.stop(Mark(), f"larger than {MAX_BYTES // 1000} kB; a DH table is smaller")
     if control := _CONTROL.search(text):
         line, column = text.count("\n", 0, control.start()), text.rfind("\n", 0, control.start())
         mark = Mark(line + 1, control.start() - column)

@@ -1,7 +1,7 @@
 """Units of files: read as decimals and rounded once, so that nothing is lost either way.
 
 ``89.159 mm`` is exactly the float ``0.089159`` and ``90 deg`` exactly ``math.pi / 2``, because
-a cell is converted from its decimal text with forty digits before it becomes a float.
+a cell is converted from its decimal text with a hundred digits before it becomes a float.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 __all__ = ["EXACT", "PI", "SI", "UNIT_SIZES", "Kind", "Units", "decimal_text"]
 
-EXACT = Context(prec=50, traps=[DivisionByZero, InvalidOperation, Overflow])
-"""Arithmetic of cells: fifty digits, so that one rounding remains, the one to a float."""
+EXACT = Context(prec=100, traps=[DivisionByZero, InvalidOperation, Overflow])
+"""Arithmetic of cells: a hundred digits, so that one rounding remains, the one to a float."""
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510")
 
@@ -26,17 +26,19 @@ class Kind(StrEnum):
     ANGLE = "angle"
 
 
-UNIT_SIZES: dict[Kind, dict[str, Decimal]] = {
+ONE = Decimal(1)
+
+UNIT_SIZES: dict[Kind, dict[str, tuple[Decimal, Decimal]]] = {
     Kind.LENGTH: {
-        "m": Decimal(1),
-        "cm": Decimal("0.01"),
-        "mm": Decimal("0.001"),
-        "in": Decimal("0.0254"),
+        "m": (ONE, ONE),
+        "cm": (ONE, Decimal(100)),
+        "mm": (ONE, Decimal(1000)),
+        "in": (Decimal(254), Decimal(10_000)),
     },
-    Kind.ANGLE: {"rad": Decimal(1), "deg": EXACT.divide(PI, Decimal(180))},
+    Kind.ANGLE: {"rad": (ONE, ONE), "deg": (PI, Decimal(180))},
     Kind.NUMBER: {},
 }
-"""Size of each unit in [m] or [rad]."""
+"""Size of each unit in [m] or [rad], as a quotient: 30 deg is then pi/6 to the last digit."""
 
 UNIT_ALIASES = {
     **dict.fromkeys(("meter", "meters", "metre", "metres"), "m"),
@@ -77,9 +79,12 @@ def unit_kind(unit: str) -> Kind | None:
 
 
 def to_si(number: Decimal, unit: str) -> Decimal:
-    """Decimal of some unit in [m] or [rad], fifty digits; plain numbers stay."""
+    """Decimal of some unit in [m] or [rad]; plain numbers stay."""
     kind = unit_kind(unit)
-    return EXACT.multiply(number, UNIT_SIZES[kind][unit]) if kind else number
+    if kind is None:
+        return number
+    numerator, denominator = UNIT_SIZES[kind][unit]
+    return EXACT.divide(EXACT.multiply(number, numerator), denominator)
 
 
 def decimal_text(value: float, unit: str = "") -> str:
@@ -92,11 +97,14 @@ def decimal_text(value: float, unit: str = "") -> str:
     unit : str
     """
     kind = unit_kind(unit)
-    if value == 0 or kind is None or UNIT_SIZES[kind][unit] == 1:
+    numerator, denominator = UNIT_SIZES[kind][unit] if kind else (ONE, ONE)
+    if value == 0:
+        return "0"
+    if numerator == denominator:
         return repr(value).removesuffix(".0")
-    exact = EXACT.divide(Decimal(repr(value)), UNIT_SIZES[kind][unit])
+    exact = EXACT.divide(EXACT.multiply(Decimal(repr(value)), denominator), numerator)
     for digits in range(15, 25):
         short = Context(prec=digits).plus(exact).normalize(EXACT)
         if float(to_si(short, unit)) == value:
             break
-    return f"{short:f}" if -7 < short.adjusted() < 16 else f"{short:e}"
+    return f"{short:f}" if -5 < short.adjusted() < 16 else f"{short:e}"

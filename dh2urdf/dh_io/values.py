@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from decimal import Decimal, DecimalException
+from decimal import Decimal, DecimalException, Overflow
 
 from dh2urdf.dh_io.units import EXACT, Kind
 from dh2urdf.exceptions import TableError
@@ -74,6 +74,8 @@ def over(x: Value, y: Value) -> Value:
     """Quotient by a plain number."""
     if y.kind is not Kind.NUMBER or y.variable:
         raise ExpressionError("a division is by a plain number only")
+    if y.number == 0:
+        raise ExpressionError("division by zero")
     return replace(
         x,
         number=EXACT.divide(x.number, y.number),
@@ -87,6 +89,8 @@ def power(x: Value, y: Value) -> Value:
         raise ExpressionError("a power takes plain numbers only")
     if abs(y.number) > MAX_EXPONENT:
         raise ExpressionError(f"an exponent of at most {MAX_EXPONENT} is allowed")
+    if x.number == 0 and y.number < 0:
+        raise ExpressionError("division by zero")
     return Value(EXACT.power(x.number, y.number))
 
 
@@ -118,8 +122,4 @@ def call(name: str, values: list[Value]) -> Value:
 
 def failure(error: DecimalException) -> str:
     """Reason for which decimals failed."""
-    return {
-        "DivisionByZero": "division by zero",
-        "DivisionUndefined": "division by zero",
-        "Overflow": "the number is too large",
-    }.get(type(error).__name__, "has no real value")
+    return "the number is too large" if isinstance(error, Overflow) else "has no real value"

@@ -1,0 +1,163 @@
+"""A file is written whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from dh2urdf.dh_io import atomic_write
+from dh2urdf.exceptions import OutputError
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(p.name for p in folder.iterdir())
+
+
+def test_text_and_bytes_are_written(tmp_path: Path) -> None:
+    """The file holds exactly the content, and nothing else is left in the folder."""
+    path = tmp_path / "arm.yaml"
+    assert atomic_write(path, "θ\n") == path
+    assert path.read_bytes() == "θ\n".encode()
+    atomic_write(path, b"\r\n")
+    assert path.read_bytes() == b"\r\n"
+    assert names(tmp_path) == ["arm.yaml"]
+
+
+def test_a_new_file_has_the_permissions_of_any_new_file(tmp_path: Path) -> None:
+    """It is as readable as one made by ``touch``, unlike a bare temporary file."""
+    atomic_write(tmp_path / "a", "")
+    (tmp_path / "b").touch()
+    assert (tmp_path / "a").stat().st_mode == (tmp_path / "b").stat().st_mode
+
+
+def test_permissions_of_an_older_file_are_kept(tmp_path: Path) -> None:
+    """Mode 0640 stays mode 0640."""
+    path = tmp_path / "arm.yaml"
+    path.touch()
+    path.chmod(0o640)
+    atomic_write(path, "new")
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_a_symbolic_link_is_followed(tmp_path: Path) -> None:
+    """The file behind the link changes, the link stays a link."""
+    target, link = tmp_path / "target", tmp_path / "link"
+    target.write_text("old")
+    link.symlink_to(target)
+    atomic_write(link, "new")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+
+
+def test_a_pipe_is_written_to_not_replaced(tmp_path: Path) -> None:
+    """A named pipe stays a pipe and carries the content."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    atomic_write(pipe, "content")
+    assert os.read(reader, 100) == b"content"
+    os.close(reader)
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EIO])
+def test_a_failed_write_leaves_the_older_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
+) -> None:
+    """Where the last step fails, the older file and the folder are as before."""
+    path = tmp_path / "arm.yaml"
+    path.write_text("old")
+
+    def fail(*_: object) -> None:
+        raise OSError(code, os.strerror(code))
+
+    monkeypatch.setattr(Path, "replace", fail)
+    with pytest.raises(OutputError, match=r"arm\.yaml: cannot write"):
+        atomic_write(path, "new")
+    assert path.read_text() == "old"
+    assert names(tmp_path) == ["arm.yaml"]
+
+
+def test_a_full_disk_leaves_the_older_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A disk that is full is named, and no temporary file stays."""
+    path = tmp_path / "arm.yaml"
+    path.write_text("old")
+    real = os.fdopen
+
+    def full(handle: int, mode: str) -> object:
+        os.close(handle)
+        return real(os.open("/dev/full", os.O_WRONLY), mode)
+
+    monkeypatch.setattr(os, "fdopen", full)
+    with pytest.raises(OutputError, match="the disk is full"):
+        atomic_write(path, "new")
+    monkeypatch.undo()
+    assert path.read_text() == "old"
+    assert names(tmp_path) == ["arm.yaml"]
+
+
+def test_an_interrupt_leaves_the_older_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Ctrl-C in the middle passes through and leaves no temporary file."""
+    path = tmp_path / "arm.yaml"
+    path.write_text("old")
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "replace", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        atomic_write(path, "new")
+    assert path.read_text() == "old"
+    assert names(tmp_path) == ["arm.yaml"]
+
+
+def test_paths_that_cannot_be_written(tmp_path: Path) -> None:
+    """A folder, a missing folder, a file for a folder and a bad name are told in one line."""
+    (tmp_path / "file").touch()
+    cases = {
+        tmp_path: "it is a folder",
+        tmp_path / "none" / "arm.yaml": "there is no such folder",
+        tmp_path / "file" / "arm.yaml": "part of the path is a file, not a folder",
+        tmp_path / ("x" * 300): "the name is too long",
+        tmp_path / "a\0b": "embedded null",
+    }
+    for path, reason in cases.items():
+        with pytest.raises(OutputError, match=reason) as caught:
+            atomic_write(path, "new")
+        assert str(caught.value).startswith(f"{path}: cannot write: ")
+        assert "\n" not in str(caught.value)
+
+
+def test_text_that_is_no_unicode_is_refused(tmp_path: Path) -> None:
+    """A lone surrogate cannot be written, and no file is made."""
+    with pytest.raises(OutputError, match="as UTF-8"):
+        atomic_write(tmp_path / "a", "\ud800")
+    assert names(tmp_path) == []
+
+
+def test_a_file_that_may_not_be_written_is_left(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A read-only file is not replaced, although its folder would allow it."""
+    path = tmp_path / "arm.yaml"
+    path.write_text("old")
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write everything
+    with pytest.raises(OutputError, match="no permission to write there"):
+        atomic_write(path, "new")
+    assert path.read_text() == "old"
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write into every folder")
+def test_a_folder_without_permission_is_told(tmp_path: Path) -> None:
+    """No permission in the folder is one line, and nothing is made."""
+    tmp_path.chmod(0o500)
+    with pytest.raises(OutputError, match="no permission to write there"):
+        atomic_write(tmp_path / "arm.yaml", "new")
+    tmp_path.chmod(0o700)
+    assert names(tmp_path) == []
