@@ -196,7 +196,7 @@ def polish(links, joints, T, q, work):
 def _principal(angle):
     """Bring an angle into [-pi, pi]."""
     if -math.pi <= angle <= math.pi:
-        return angle
+        return angle + 0.0
     return angle - TWO_PI * math.floor(angle / TWO_PI + 0.5)
 
 

@@ -15,7 +15,7 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.trig import circle_pair, linear_trig
+from dh2urdf.kernels.trig import MERGE, circle_pair, elbow_angle, linear_trig
 
 __all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "tool_to_wrist"]
 
@@ -72,7 +72,7 @@ def _parallel_elbow(form, px, py, pz, slack, arm):
     scale = (a1 + a2 + forearm) * (a1 + a2 + forearm) + offset * offset
     if reach2 < -slack * scale:
         return 0
-    reach = math.sqrt(max(reach2, 0.0))
+    reach = math.sqrt(reach2) if reach2 > MERGE * scale else 0.0
     free = square <= FREE * FREE and reach <= FREE
     rows = 0
     for shoulder in range(2):
@@ -102,18 +102,10 @@ def _parallel_elbow(form, px, py, pz, slack, arm):
 def _planar(upper, fore, x, y, up, slack, arm, row):
     """Planar RR arm (lecture notes 8.2): angles t2 and t3 in columns 1 and 2 from ``row`` on.
 
-    ``sin t3`` comes from the product of the distances to the outer and the inner rim, which
-    keeps all digits near both. ``up`` is the sign of sin t3 times -1 of the elbow-up branch.
+    ``up`` is the sign of sin t3 times -1 of the elbow-up branch.
     """
     square = x * x + y * y
-    outer = (upper + fore) * (upper + fore) - square
-    inner = square - (upper - fore) * (upper - fore)
-    scale = 2.0 * upper * fore
-    if min(outer, inner) < -slack * (square + scale):
-        return 0
-    cosine = (square - upper * upper - fore * fore) / scale
-    sine = math.sqrt(max(outer, 0.0) * max(inner, 0.0)) / abs(scale)
-    count = 1 if sine == 0.0 else 2
+    count, cosine, sine = elbow_angle(upper, fore, square, slack)
     side = -up
     for k in range(count):
         s3 = side * sine

@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
-from dh2urdf.kernels.trig import add_square, linear_trig, real_quadratic, trig_roots
+from dh2urdf.kernels.trig import MERGE, add_square, linear_trig, real_quadratic, trig_roots
 
 __all__ = ["place_wrist_sliding"]
 
@@ -161,7 +161,7 @@ def _turn_slide_turn(form, px, py, pz, slack, arm):
             depth2 = square - x * x
             if depth2 < -slack * (square + x * x):
                 continue
-            depth = math.sqrt(max(depth2, 0.0))
+            depth = math.sqrt(depth2) if depth2 > MERGE * (square + x * x) else 0.0
             found = 2 if depth > 0.0 else 1
         for _ in range(found):
             ux, uy = x, ca1 * y - sa1 * depth
@@ -203,9 +203,10 @@ def _slide_turn_turn(form, px, py, pz, slack, arm):
         if oblique:
             found, y = 1, (py + sa1 * vz) / ca1
         else:
-            if square - x * x < -slack * (square + x * x):
+            y2 = square - x * x
+            if y2 < -slack * (square + x * x):
                 continue
-            y = math.sqrt(max(square - x * x, 0.0))
+            y = math.sqrt(y2) if y2 > MERGE * (square + x * x) else 0.0
             found = 2 if y > 0.0 else 1
         for _ in range(found):
             arm[rows, 0] = pz - sa1 * y - ca1 * vz

@@ -15,6 +15,7 @@ from numba import njit
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
+from dh2urdf.kernels.trig import MERGE
 
 __all__ = ["add_wrist", "middle_angle", "solve_sliding_arm", "solve_turning_arm"]
 
@@ -57,7 +58,7 @@ def middle_angle(form, x, y, z, slack):
         sine2 = low * high / (scale * scale)
         if sine2 < -slack:
             return 0, 1.0, 0.0
-        sine = math.sqrt(max(sine2, 0.0))
+        sine = math.sqrt(sine2) if sine2 > MERGE else 0.0
     length = math.hypot(cosine, sine)
     return (1 if sine == 0.0 else 2), cosine / length, sine / length
 

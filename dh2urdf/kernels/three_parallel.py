@@ -20,7 +20,7 @@ from numba import njit
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
-from dh2urdf.kernels.trig import add_square, circle_pair, linear_trig, trig_roots
+from dh2urdf.kernels.trig import add_square, circle_pair, elbow_angle, linear_trig, trig_roots
 
 __all__ = ["solve_three_parallel"]
 
@@ -228,17 +228,12 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
     heading = math.atan2(hy, hx)
     upper, fore = form[first, 0], form[first + 1, 0]
     square = x * x + y * y
-    outer = (upper + fore) * (upper + fore) - square
-    inner = square - (upper - fore) * (upper - fore)
-    if min(outer, inner) < -slack * (square + 2.0 * upper * fore):
-        return count
-    cosine = (square - upper * upper - fore * fore) / (2.0 * upper * fore)
-    sine = math.sqrt(max(outer, 0.0) * max(inner, 0.0)) / (2.0 * upper * fore)
+    elbows, cosine, sine = elbow_angle(upper, fore, square, slack)
     if square <= FREE * FREE:
         mask |= 0b101 << first
     up = form[0, 2] if first == 1 else -1.0
     side = -1.0 if (up > 0.0) == (shoulder == 0) else 1.0
-    for elbow in range(1 if sine == 0.0 else 2):
+    for elbow in range(elbows):
         s3 = side * sine
         along, across = upper + fore * cosine, fore * s3
         t_first = math.atan2(y * along - x * across, x * along + y * across)

@@ -24,6 +24,10 @@ __all__ = [
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""
 
+MERGE = 1e-14
+"""Relative distance from its rim at which an equation has one root instead of two: they would be
+1e-7 apart, less than what counts as one solution, and the middle misses by rounding only."""
+
 ON_CIRCLE = 0.05
 """Distance from the unit circle at which a complex root is still handed on as a real one."""
 
@@ -72,7 +76,7 @@ def linear_trig(a, b, d, slack):
         return -1, 1.0, 0.0, 1.0, 0.0
     amplitude = math.sqrt(square)
     gap = amplitude - abs(d)
-    if gap <= 0.0:
+    if gap <= MERGE * amplitude:
         if -gap > slack * amplitude:
             return 0, 1.0, 0.0, 1.0, 0.0
         side = math.copysign(1.0, d) / amplitude
@@ -95,7 +99,7 @@ def real_quadratic(a, b, c, slack):
     """
     discriminant = b * b - a * c
     scale = b * b + abs(a * c)
-    if discriminant <= 0.0:
+    if discriminant <= MERGE * scale:
         if -discriminant > slack * scale:
             return 0, 0.0, 0.0
         return 1, -b / a, -b / a
@@ -103,6 +107,32 @@ def real_quadratic(a, b, c, slack):
     if root == 0.0:
         return 1, 0.0, 0.0
     return 2, root / a, c / root
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def elbow_angle(upper, fore, square, slack):
+    """Cosine and sine of the elbow of a planar RR arm (lecture notes 8.2).
+
+    ``square = upper^2 + fore^2 + 2 upper fore cos``. The sine, not negative, comes from the
+    product of the distances to the outer and the inner rim, which keeps all digits near both.
+
+    Returns
+    -------
+    count : int
+        2; 1 on a rim, where the elbow is straight or folded; 0 beyond it.
+    cosine, sine : float
+    """
+    outer = (upper + fore) * (upper + fore) - square
+    inner = square - (upper - fore) * (upper - fore)
+    scale = 2.0 * upper * fore
+    size = square + scale
+    if min(outer, inner) < -slack * size:
+        return 0, 1.0, 0.0
+    if outer <= MERGE * size:
+        return 1, 1.0, 0.0
+    if inner <= MERGE * size:
+        return 1, -1.0, 0.0
+    return 2, 0.5 * (inner - outer) / scale, math.sqrt(outer * inner) / scale
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
