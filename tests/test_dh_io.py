@@ -152,6 +152,17 @@ def test_variables_count_joints_not_rows() -> None:
     assert table.rows[2].theta == HALF
 
 
+def test_a_row_with_a_pose_alone_is_fixed() -> None:
+    """xyz or rpy without DH parameters need no type; a fixed DH row fills up with zeros."""
+    table = yaml_rows(
+        "{theta: 0, d: 0, a: 1, alpha: 0}", "{rpy: [0, 0, 90]}", "{type: fixed, d: 7}"
+    )
+    assert table.rows[1:] == (
+        DHRow(joint_type=JointType.FIXED, origin=Origin(rpy=(0, 0, HALF))),
+        DHRow(0, 0.007, 0, 0, JointType.FIXED),
+    )
+
+
 def test_constants_take_the_unit_of_the_cell_they_stand_in() -> None:
     """A bare constant is millimetres in d and degrees in alpha; one with a unit keeps it."""
     more = "constants: {l1: 400, l2: 2*l1 + 100mm, l3: l1/4, twist: pi/2, tilt: 30}\n"
