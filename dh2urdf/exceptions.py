@@ -14,6 +14,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── NoSolverError                    no analytic solver for this chain or task
     ├── OutputError (OSError)            a file that cannot be written
     │   └── OutputExistsError            a file of somebody else's in the way
+    ├── ServerError (OSError)            the browser view cannot listen there
     └── MissingExtraError (ImportError)  an optional dependency is not installed
 """
 
@@ -30,6 +31,7 @@ __all__ = [
     "OutputError",
     "OutputExistsError",
     "PoseError",
+    "ServerError",
     "TableError",
     "TableFileError",
     "UrdfError",
@@ -87,6 +89,10 @@ class OutputError(Dh2UrdfError, OSError):
 
 class OutputExistsError(OutputError):
     """The output path holds something that this package did not write."""
+
+
+class ServerError(Dh2UrdfError, OSError):
+    """A host or port on which the browser view cannot listen."""
 
 
 class MissingExtraError(Dh2UrdfError, ImportError):
