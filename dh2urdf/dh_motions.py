@@ -1,0 +1,79 @@
+"""The four DH motions and their product, the Big Equation, in both conventions::
+
+    standard  T_{i-1,i} = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha)
+    modified  T_{i-1,i} = Trans_x(a) Rot_x(alpha) Rot_z(theta) Trans_z(d)
+
+Lecture notes section 5; Spong, Hutchinson and Vidyasagar, eq. 3.10; Craig, eq. 3.6.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf import transforms as tf
+from dh2urdf.transforms import Array
+
+__all__ = ["DHConvention", "DHFactors", "dh_factors", "dh_transform"]
+
+
+class DHConvention(StrEnum):
+    """Which end of the link carries the frame."""
+
+    STANDARD = "standard"  # distal: Paul, Spong, the lecture notes
+    MODIFIED = "modified"  # proximal: Craig, Khalil
+
+
+class DHFactors(NamedTuple):
+    """The four simple displacements of one row, each (4, 4)."""
+
+    rot_z: Array
+    trans_z: Array
+    trans_x: Array
+    rot_x: Array
+
+
+def dh_factors(theta: float, d: float, a: float, alpha: float) -> DHFactors:
+    """``Rot_z(theta)``, ``Trans_z(d)``, ``Trans_x(a)`` and ``Rot_x(alpha)`` of one row."""
+    return DHFactors(tf.rot_z(theta), tf.trans(0, 0, d), tf.trans(a, 0, 0), tf.rot_x(alpha))
+
+
+def dh_transform(
+    theta: float,
+    d: float,
+    a: float,
+    alpha: float,
+    convention: DHConvention | str = DHConvention.STANDARD,
+) -> Array:
+    """``T_{i-1,i}`` of one row: the Big Equation, or Craig's (3.6) for modified tables.
+
+    Parameters
+    ----------
+    theta, d, a, alpha : float
+        Joint angle [rad], link offset [m], link length [m], link twist [rad].
+
+    Returns
+    -------
+    array, shape (4, 4)
+    """
+    ct, st, ca, sa = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
+    if DHConvention(convention) is DHConvention.STANDARD:
+        return np.array(
+            [
+                [ct, -st * ca, st * sa, a * ct],
+                [st, ct * ca, -ct * sa, a * st],
+                [0.0, sa, ca, d],
+                [0.0, 0.0, 0.0, 1.0],
+            ]
+        )
+    return np.array(
+        [
+            [ct, -st, 0.0, a],
+            [st * ca, ct * ca, -sa, -sa * d],
+            [st * sa, ct * sa, ca, ca * d],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )

@@ -1,0 +1,226 @@
+"""One row of a DH table: frozen, plain floats, in metres and radians, checked when it is made."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from numpy.typing import ArrayLike
+
+from dh2urdf import transforms as tf
+from dh2urdf.dh_motions import DHConvention, dh_transform
+from dh2urdf.dh_reach import why_unreachable
+from dh2urdf.exceptions import TableError
+from dh2urdf.transforms import Array
+
+__all__ = ["DHRow", "JointType", "Origin"]
+
+
+class JointType(StrEnum):
+    """Kind of a row's joint."""
+
+    REVOLUTE = "revolute"
+    PRISMATIC = "prismatic"
+    FIXED = "fixed"
+
+
+@dataclass(frozen=True)
+class Origin:
+    """A rigid step in URDF's terms: xyz [m], then roll, pitch, yaw [rad]."""
+
+    xyz: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for key in ("xyz", "rpy"):
+            value = _triple(getattr(self, key), key)
+            object.__setattr__(self, key, value)
+
+    @property
+    def matrix(self) -> Array:
+        """The step as a homogeneous matrix, shape (4, 4)."""
+        return tf.origin_matrix(self.xyz, self.rpy)
+
+    @property
+    def is_identity(self) -> bool:
+        """True where the step is exactly none."""
+        return not (any(self.xyz) or any(self.rpy))
+
+    @classmethod
+    def from_matrix(cls, T: ArrayLike) -> Origin:
+        """The step of a rigid (4, 4) matrix."""
+        m = tf.check_pose(T)
+        x, y, z = (float(v) + 0.0 for v in m[:3, 3])
+        r, p, w = (v + 0.0 for v in tf.matrix_to_rpy(m))
+        return cls((x, y, z), (r, p, w))
+
+
+@dataclass(frozen=True)
+class DHRow:
+    """One row of a DH table, at q = 0.
+
+    Parameters
+    ----------
+    theta, d, a, alpha : float
+        Joint angle [rad], link offset [m], link length [m], link twist [rad].
+    joint_type : JointType
+        A ``FIXED`` row is the rigid step ``T(theta, d, a, alpha)``, or ``origin``; it belongs to
+        the row above it, whose frame is taken after it.
+    sign : int
+        +1 or -1: the joint variable is ``sign * q + theta`` or ``sign * q + d``.
+    name : str
+        Joint name; empty for ``joint_i``.
+    lower, upper : float or None
+        Bounds of q, what the controller shows, in [rad] or [m].
+    velocity, effort : float or None
+        Largest speed [rad/s or m/s] and torque or force [N m or N].
+    damping, friction : float or None
+        Viscous [N m s/rad or N s/m] and dry friction [N m or N].
+    mass : float or None
+        Link mass [kg].
+    com : tuple or None
+        Centre of mass [m] in DH frame i.
+    inertia : tuple or None
+        ``(ixx, ixy, ixz, iyy, iyz, izz)`` [kg m^2] about the centre of mass, axes of DH frame i.
+    origin : Origin or None
+        The step of a fixed row, in place of its four parameters.
+
+    Raises
+    ------
+    TableError
+        Every fault of the row at once.
+    """
+
+    theta: float = 0.0
+    d: float = 0.0
+    a: float = 0.0
+    alpha: float = 0.0
+    joint_type: JointType = JointType.REVOLUTE
+    sign: int = 1
+    name: str = ""
+    lower: float | None = None
+    upper: float | None = None
+    velocity: float | None = None
+    effort: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+    mass: float | None = None
+    com: tuple[float, float, float] | None = None
+    inertia: tuple[float, float, float, float, float, float] | None = None
+    origin: Origin | None = None
+
+    def __post_init__(self) -> None:
+        problems: list[str] = []
+        put = object.__setattr__
+        try:
+            put(self, "joint_type", JointType(self.joint_type))
+        except ValueError:
+            allowed = ", ".join(JointType)
+            problems.append(f"type: {self.joint_type!r} is not a joint type; allowed: {allowed}")
+        for key in ("theta", "d", "a", "alpha"):
+            problems += _floats(self, key, required=True)
+        for key in ("lower", "upper", "velocity", "effort", "damping", "friction", "mass"):
+            problems += _floats(self, key, required=False)
+        for key, size in (("com", 3), ("inertia", 6)):
+            problems += _tuples(self, key, size)
+        bad = {problem.partition(":")[0] for problem in problems}
+        problems += [p for p in self._range_problems(bad) if p.partition(":")[0] not in bad]
+        if problems:
+            raise TableError(problems)
+        put(self, "sign", int(self.sign))
+
+    def _range_problems(self, bad: set[str]) -> list[str]:
+        """Faults of the fields that are of the right kind; ``bad`` names those that are not."""
+        out = []
+        if self.sign not in (1, -1):
+            out.append(f"sign: {self.sign!r} is not allowed; +1 or -1")
+        lower = None if {"lower", "upper"} & bad else self.lower
+        if lower is not None and self.upper is not None and lower > self.upper:
+            out.append(f"lower: {lower!r} lies above upper {self.upper!r}")
+        for key in ("mass", "velocity", "damping", "friction", "effort"):
+            value = None if key in bad else getattr(self, key)
+            if value is not None and value < 0:
+                out.append(f"{key}: {value!r} must not be negative")
+            elif value == 0 and key in {"mass", "velocity"}:
+                out.append(f"{key}: {value!r} must be greater than 0")
+        if self.mass is None and (self.com is not None or self.inertia is not None):
+            out.append("mass: missing, but com or inertia is given")
+        if self.joint_type is JointType.FIXED:
+            out += [
+                f"{key}: a fixed row has none; give it to the joint's row above"
+                for key in _JOINT_ONLY
+                if getattr(self, key) is not None
+            ]
+            if self.origin is not None and any((self.theta, self.d, self.a, self.alpha)):
+                out.append("origin: a fixed row takes either xyz and rpy or DH parameters")
+        elif self.origin is not None:
+            step = dh_transform(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
+            reason = why_unreachable(step) or "give its four DH parameters instead"
+            out.append(
+                f"xyz: only a fixed row has xyz and rpy, this one is {self.joint_type}; {reason}"
+            )
+        return out
+
+    @property
+    def is_joint(self) -> bool:
+        """True for a row that moves."""
+        return self.joint_type is not JointType.FIXED
+
+    def variables(self, q: float = 0.0) -> tuple[float, float]:
+        """Joint angle theta [rad] and link offset d [m] with the joint at q."""
+        if self.joint_type is JointType.REVOLUTE:
+            return self.sign * q + self.theta, self.d
+        if self.joint_type is JointType.PRISMATIC:
+            return self.theta, self.sign * q + self.d
+        return self.theta, self.d
+
+    def transform(self, q: float, convention: DHConvention) -> Array:
+        """``T_{i-1,i}`` of this row with its joint at q [rad or m], shape (4, 4)."""
+        if self.origin is not None:
+            return self.origin.matrix
+        theta, d = self.variables(q)
+        return dh_transform(theta, d, self.a, self.alpha, convention)
+
+
+_JOINT_ONLY = ("lower", "upper", "velocity", "effort", "damping", "friction", "mass")
+
+
+def _triple(value: Sequence[float], key: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(v) for v in value)
+    except (TypeError, ValueError):
+        raise TableError(f"{key}: expected three numbers, got {value!r:.60}") from None
+    if not all(map(math.isfinite, (x, y, z))):
+        raise TableError(f"{key}: {value!r} is not finite")
+    return x, y, z
+
+
+def _floats(row: DHRow, key: str, *, required: bool) -> list[str]:
+    """Turn one field into a float in place; say what is wrong with it otherwise."""
+    value = getattr(row, key)
+    if value is None:
+        return [f"{key}: missing"] if required else []
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return [f"{key}: expected a number, got {value!r:.60}"]
+    if not math.isfinite(number):
+        return [f"{key}: {value!r} is not finite"]
+    object.__setattr__(row, key, number + 0.0)
+    return []
+
+
+def _tuples(row: DHRow, key: str, size: int) -> list[str]:
+    value = getattr(row, key)
+    if value is None:
+        return []
+    try:
+        numbers = tuple(float(v) for v in value)
+    except (TypeError, ValueError):
+        return [f"{key}: expected {size} numbers, got {value!r:.60}"]
+    if len(numbers) != size or not all(map(math.isfinite, numbers)):
+        return [f"{key}: expected {size} finite numbers, got {value!r:.60}"]
+    object.__setattr__(row, key, numbers)
+    return []
