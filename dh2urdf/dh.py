@@ -60,6 +60,8 @@ class DHTable:
         except ValueError:
             allowed = " or ".join(DHConvention)
             raise TableError(f"convention: {self.convention!r}; allowed: {allowed}") from None
+        if not self.name:
+            raise TableError("name: a table needs one")
         if self.n == 0:
             raise TableError("joints: a table needs at least one revolute or prismatic row")
         names = self.joint_names

@@ -1,4 +1,6 @@
-"""The four DH motions and their product, the Big Equation, in both conventions::
+"""The four DH motions and their product, the Big Equation, in both conventions.
+
+::
 
     standard  T_{i-1,i} = Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha)
     modified  T_{i-1,i} = Trans_x(a) Rot_x(alpha) Rot_z(theta) Trans_z(d)

@@ -104,6 +104,7 @@ def test_all_faults_of_a_row_are_told():
     ("build", "message"),
     [
         (lambda: DHTable((), "standard"), "at least one"),
+        (lambda: DHTable((DHRow(),), "standard", name=""), "needs one"),
         (lambda: DHTable((DHRow(),), "distal"), "standard or modified"),
         (lambda: DHTable((DHRow(name="a"), DHRow(name="a")), "standard"), "more than one"),
         (lambda: DHRow(joint_type="ball"), "revolute, prismatic, fixed"),
