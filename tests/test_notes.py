@@ -55,7 +55,7 @@ def test_third_row_of_the_rpr_arm_is_recognised():
 
 def test_tilted_frame_is_recognised():
     """A frame whose x leans against the previous z is refused with the angle."""
-    with pytest.raises(TableError, match="not perpendicular to z_0 .off by 10 deg"):
+    with pytest.raises(TableError, match=r"not perpendicular to z_0 \(off by 10 deg\)"):
         dh_parameters(turn(1, math.radians(10)))
 
 
