@@ -1,0 +1,458 @@
+"""What a table can be extracted from, and what is said of sources that are broken."""
+
+import math
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pinocchio as pin
+import pytest
+from axes import pose
+from dh_product import dh_frames, difference
+
+from dh2urdf import extract_dh, load_table, urdf_text
+from dh2urdf.conversions.dh_to_urdf import UrdfOptions
+from dh2urdf.dh import DHConvention
+from dh2urdf.exceptions import NameNotFoundError, PoseError, UrdfError
+
+ROBOTS = Path(pin.__file__).parents[4] / "share/example-robot-data/robots"
+UR5 = ROBOTS / "ur_description/urdf/ur5_robot.urdf"
+PANDA = ROBOTS / "panda_description/urdf/panda.urdf"
+TIAGO = ROBOTS / "tiago_description/robots/tiago.urdf"
+ANYMAL = ROBOTS / "anymal_b_simple_description/robots/anymal.urdf"
+
+URDF = """<robot name="small">
+  <link name="root"/>
+  <link name="arm"><inertial><mass value="2"/><origin xyz="0.1 0.2 0.3" rpy="0.1 0.2 0.3"/>
+    <inertia ixx="0.03" ixy="1e-3" ixz="2e-3" iyy="0.04" iyz="3e-3" izz="0.05"/></inertial></link>
+  <link name="hand"><inertial><mass value="1"/><origin xyz="0 0.1 0"/>
+    <inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="shoulder" type="revolute">
+    <parent link="root"/><child link="arm"/>
+    <origin xyz="0 0 0.4" rpy="0 0 0.2"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="1" effort="9" velocity="3"/>
+    <dynamics damping="0.5" friction="0.2"/>
+  </joint>
+  <joint name="elbow" type="prismatic">
+    <parent link="arm"/><child link="hand"/>
+    <origin xyz="0.3 0 0.1" rpy="0.3 1.0 0"/><axis xyz="0 1 0"/>
+    <limit lower="-0.1" upper="0.2" effort="8" velocity="1"/>
+  </joint>
+</robot>
+"""
+
+BROKEN = {
+    "not XML": ("<robot", "<<robot", r":1: not XML"),
+    "cut off": ("</robot>", "", r"not XML"),
+    "a list": (URDF, "joint: 1", r":1: not XML"),
+    "another root": ("robot", "world", r":1: root element is <world>"),
+    "an entity": (
+        '<robot name="small">',
+        '<!DOCTYPE r [<!ENTITY e SYSTEM "file:///etc/passwd">]>\n<robot name="small">&e;',
+        r":1: <!DOCTYPE>: document types and entities",
+    ),
+    "a loop": (
+        '<child link="hand"/>',
+        '<child link="root"/>',
+        r':\d+: <joint name="shoulder">: closes a loop',
+    ),
+    "two roots": (
+        "</robot>",
+        '<link name="lost"/></robot>',
+        r':18: <link name="lost">: a second root',
+    ),
+    "two parents": (
+        "</robot>",
+        '<joint name="third" type="fixed"><parent link="root"/><child link="hand"/></joint>'
+        "</robot>",
+        r':18: <joint name="third">: link \'hand\' hangs on joint \'elbow\' already',
+    ),
+    "NaN in an origin": (
+        'xyz="0 0 0.4"',
+        'xyz="0 0 nan"',
+        r':9: <origin> of <joint name="shoulder">: xyz="0 0 nan" is not finite',
+    ),
+    "NaN in an inertial": (
+        'xyz="0.1 0.2 0.3"',
+        'xyz="nan 0 0"',
+        r':3: <origin> of <link name="arm">: xyz="nan 0 0" is not finite',
+    ),
+    "a zero axis": (
+        '<axis xyz="0 0 1"/>',
+        '<axis xyz="0 0 0"/>',
+        r':9: <axis> of <joint name="shoulder">: xyz="0 0 0" is a zero axis',
+    ),
+    "two numbers": ('rpy="0 0 0.2"', 'rpy="0 0"', r':9: <origin> .* rpy="0 0" is not 3 numbers'),
+    "words": ('xyz="0 0 0.4"', 'xyz="0 0 up"', r"is not 3 numbers"),
+    "xacro": ('xyz="0 0 0.4"', 'xyz="0 0 ${h}"', r"this is xacro, not URDF"),
+    "an unknown type": ('type="prismatic"', 'type="sliding"', r':13: .* type="sliding" is not one'),
+    "a floating joint": (
+        'type="revolute"',
+        'type="floating"',
+        r':7: <joint name="shoulder">: a floating joint between',
+    ),
+    "a planar joint": (
+        'type="prismatic"',
+        'type="planar"',
+        r':13: <joint name="elbow">: a planar joint between',
+    ),
+    "an unknown link": (
+        '<parent link="arm"/>',
+        '<parent link="leg"/>',
+        r":14: <parent> of <joint name=\"elbow\">: no link is named 'leg'",
+    ),
+    "no child": ('<child link="hand"/>', "", r':13: <joint name="elbow">: has no <child link'),
+    "a joint of one link": (
+        '<child link="hand"/>',
+        '<child link="arm"/>',
+        r"joins link 'arm' to itself",
+    ),
+    "a name twice": ('name="elbow"', 'name="shoulder"', r":13: .*second joint of this name"),
+    "crossed limits": ('lower="-2"', 'lower="2"', r":10: <limit> .* lower 2.0 lies above upper"),
+    "a negative mass": ('mass value="1"', 'mass value="-1"', r":5: <inertial> .*mass of -1.0"),
+    "no joints": (URDF[URDF.index("  <joint") : URDF.index("</robot>")], "", r"no joints"),
+}
+
+
+@pytest.mark.parametrize("fault", BROKEN)
+def test_a_broken_urdf_is_named_by_element_and_line(fault, tmp_path):
+    """One message says which element on which line is wrong and why."""
+    old, new, message = BROKEN[fault]
+    assert URDF.count(old) >= 1
+    path = tmp_path / "broken.urdf"
+    path.write_text(
+        URDF.replace(old, new, 1)
+        if fault != "another root"
+        else URDF.replace("<robot", "<world").replace("</robot", "</world")
+    )
+    with pytest.raises(UrdfError, match=message) as caught:
+        extract_dh(path, "root", "hand")
+    assert "broken.urdf" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_missing_files_are_named(tmp_path):
+    """A path that is not there, or a folder, is one message."""
+    with pytest.raises(UrdfError, match=r"gone\.urdf: No such file"):
+        extract_dh(tmp_path / "gone.urdf")
+    with pytest.raises(UrdfError, match="directory"):
+        extract_dh(tmp_path)
+
+
+def test_missing_meshes_do_not_matter():
+    """Kinematics needs no meshes."""
+    with_mesh = URDF.replace(
+        '<link name="root"/>',
+        '<link name="root"><visual><geometry><mesh filename="package://no/such.stl"/></geometry>'
+        "</visual></link>",
+    )
+    assert extract_dh(with_mesh).table == extract_dh(URDF).table
+
+
+def test_entities_are_not_read(tmp_path):
+    """A million laughs end in a message at once."""
+    bomb = '<!DOCTYPE r [<!ENTITY a "ha">' + "".join(
+        f'<!ENTITY {chr(98 + k)} "{("&" + chr(97 + k) + ";") * 10}">' for k in range(12)
+    )
+    path = tmp_path / "bomb.urdf"
+    path.write_text(bomb + ']><robot name="&m;"/>')
+    with pytest.raises(UrdfError):
+        extract_dh(path)
+
+
+def fk_of(path_or_text, base, tip, found):
+    text = path_or_text if isinstance(path_or_text, str) else path_or_text.read_text()
+    model = pin.buildModelFromXML(text)
+    data = model.createData()
+    ids = [model.getFrameId(name, pin.FrameType.BODY) for name in (base, tip)]
+
+    def fk(q):
+        config = pin.neutral(model)
+        for name, value in zip(found.table.joint_names, q, strict=True):
+            config[model.joints[model.getJointId(name)].idx_q] = value
+        pin.framesForwardKinematics(model, data, config)
+        return data.oMf[ids[0]].actInv(data.oMf[ids[1]]).homogeneous
+
+    return fk
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+@pytest.mark.parametrize(
+    ("base", "tip"), [("hand", "root"), ("arm", "hand"), ("hand", "arm"), ("root", "hand")]
+)
+def test_a_chain_runs_either_way(convention, base, tip):
+    """With the base below the tip the axes turn round and q stays the file's."""
+    found = extract_dh(URDF, base, tip, convention)
+    fk = fk_of(URDF, base, tip, found)
+    for q in np.random.default_rng(2).uniform(-2, 2, (5, found.table.n)):
+        assert difference(dh_frames(found.table, q)[-1], fk(q)) <= 1e-14
+    assert all(row.sign == 1 for row in found.table.joints)
+    bounds = {"shoulder": (-2, 1), "elbow": (-0.1, 0.2)}
+    for row in found.table.joints:
+        assert (row.lower, row.upper) == bounds[row.name]
+
+
+def test_from_foot_to_foot():
+    """Two legs are one chain: up from one foot, down to the other."""
+    found = extract_dh(ANYMAL, "LF_FOOT", "RH_FOOT")
+    assert found.table.joint_names == (
+        *("LF_KFE", "LF_HFE", "LF_HAA"),
+        *("RH_HAA", "RH_HFE", "RH_KFE"),
+    )
+    assert found.max_error <= 1e-13
+
+
+def test_the_longest_chain_is_chosen_and_named():
+    """Without names the root and the far end; a hand's fingers are no arm's tip."""
+    assert (extract_dh(UR5).base, extract_dh(UR5).tip) == ("world", "tool0")
+    assert extract_dh(PANDA).tip == "panda_hand"
+    assert "panda_link0 to panda_hand" in str(extract_dh(PANDA))
+
+
+def test_a_tree_offers_its_tips():
+    """Four legs of equal length: the message lists the feet."""
+    with pytest.raises(UrdfError, match=r"4 chains of 3 joints; choose the tip, one of: LF_FOOT"):
+        extract_dh(ANYMAL)
+
+
+def test_a_link_that_is_not_there_is_answered_with_the_ones_that_are():
+    """Unknown base or tip: all links, and the nearest name."""
+    with pytest.raises(NameNotFoundError, match=r"no link named 'tool'; .* did you mean 'tool0'"):
+        extract_dh(UR5, tip="tool")
+    with pytest.raises(UrdfError, match="no joint moves between 'wrist_3_link' and 'tool0'"):
+        extract_dh(UR5, base="wrist_3_link", tip="tool0")
+
+
+def test_continuous_joints_are_plain_angles():
+    """A continuous joint is a revolute row without limits."""
+    text = URDF.replace('type="revolute"', 'type="continuous"')
+    found = extract_dh(text)
+    assert (found.table.rows[0].lower, found.table.rows[0].upper) == (None, None)
+    assert found.table.rows[0].joint_type == "revolute"
+    assert found.max_error <= 1e-14
+
+
+def test_mimicking_joints_are_told():
+    """A joint that follows another is a joint of its own in the table, with a warning."""
+    text = URDF.replace("</robot>", "").replace(
+        '<limit lower="-0.1" upper="0.2" effort="8" velocity="1"/>',
+        '<limit lower="-0.1" upper="0.2" effort="8" velocity="1"/><mimic joint="shoulder"/>',
+    )
+    found = extract_dh(text + "</robot>")
+    assert any("follows joint 'shoulder'" in warning for warning in found.warnings)
+    assert found.table.n == 2
+
+
+def test_limits_that_are_missing_or_infinite_are_none():
+    """No <limit>, or an infinite one, is no limit, and the first is worth a warning."""
+    without = URDF.replace('<limit lower="-2" upper="1" effort="9" velocity="3"/>', "")
+    found = extract_dh(without)
+    assert (found.table.rows[0].lower, found.table.rows[0].upper) == (None, None)
+    assert any("no <limit>" in warning for warning in found.warnings)
+    infinite = URDF.replace('lower="-2" upper="1"', 'lower="-inf" upper="inf"')
+    assert extract_dh(infinite).table.rows[0].upper is None
+
+
+def test_drives_are_carried():
+    """Velocity, effort, damping and friction of each joint are in its row."""
+    row = extract_dh(URDF).table.rows[0]
+    assert (row.velocity, row.effort, row.damping, row.friction) == (3.0, 9.0, 0.5, 0.2)
+
+
+def reduced(path, names):
+    model = pin.buildModelFromUrdf(str(path))
+    others = [i for i in range(1, model.njoints) if model.names[i] not in names]
+    return pin.buildReducedModel(model, others, pin.neutral(model))
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+@pytest.mark.parametrize(
+    ("path", "base", "tip"),
+    [
+        (UR5, "world", "ee_link"),
+        (PANDA, "panda_link0", "panda_hand"),
+        (TIAGO, "base_footprint", "hand_palm_link"),
+        (ANYMAL, "base", "LF_FOOT"),
+    ],
+)
+def test_inertial_parameters_move_with_the_frames(convention, path, base, tip):
+    """Joint torques of the table's own URDF equal those of the file with its other joints held."""
+    found = extract_dh(path, base, tip, convention)
+    names = found.table.joint_names
+    source = reduced(path, names)
+    made = pin.buildModelFromXML(
+        urdf_text(found.table, UrdfOptions(balance_inertia=False, embed_table=False))
+    )
+    order = [source.joints[source.getJointId(name)].idx_v for name in names]
+    made_order = [made.joints[made.getJointId(name)].idx_v for name in names]
+    rng = np.random.default_rng(4)
+    for _ in range(5):
+        values = rng.uniform(-1, 1, (3, len(names)))
+        torques = []
+        for model, places in ((source, order), (made, made_order)):
+            state = np.zeros((3, len(names)))
+            state[:, places] = values
+            torques.append(pin.rnea(model, model.createData(), *state)[places])
+        assert torques[1] == pytest.approx(torques[0], abs=1e-9)
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+def test_inertial_parameters_of_a_chain_turned_round(convention):
+    """Standing on its hand, the arm moves the bodies that it stood on before."""
+    found = extract_dh(URDF, "hand", "root", convention)
+    assert [row.mass for row in found.table.joints] == [2.0, None]
+    frames = dh_frames(found.table, (0.05, 0.7))
+    com = (frames[1] @ [*found.table.joints[0].com, 1.0])[:3]
+    model = pin.buildModelFromXML(URDF)
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, np.array([0.7, 0.05]))
+    hand, arm = (data.oMf[model.getFrameId(n, pin.FrameType.BODY)] for n in ("hand", "arm"))
+    assert com == pytest.approx(hand.actInv(arm).act(np.array([0.1, 0.2, 0.3])), abs=1e-14)
+    six = found.table.joints[0].inertia
+    tensor = np.array([six[:3], [six[1], *six[3:5]], [six[2], *six[4:]]])
+    given = np.array([[0.03, 0.001, 0.002], [0.001, 0.04, 0.003], [0.002, 0.003, 0.05]])
+    turn = hand.rotation.T @ arm.rotation @ pin.rpy.rpyToMatrix(0.1, 0.2, 0.3)
+    turned = frames[1][:3, :3] @ tensor @ frames[1][:3, :3].T
+    assert turned == pytest.approx(turn @ given @ turn.T, abs=1e-15)
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+def test_a_pinocchio_model(convention):
+    """A model gives the table that its file gives, inertial parameters included."""
+    model = pin.buildModelFromUrdf(str(PANDA))
+    found = extract_dh(model, "panda_link0", "panda_hand", convention)
+    direct = extract_dh(PANDA, "panda_link0", "panda_hand", convention)
+    for a, b in zip(found.table.joints, direct.table.joints, strict=True):
+        for key in ("theta", "d", "a", "alpha", "lower", "upper", "velocity", "effort", "mass"):
+            assert getattr(a, key) == pytest.approx(getattr(b, key), abs=1e-12), key
+        assert a.com == pytest.approx(b.com, abs=1e-12)
+        assert a.inertia == pytest.approx(b.inertia, abs=1e-12)
+    assert found.max_error <= 1e-13
+
+
+def test_a_model_upside_down():
+    """From the hand of a model to its root, bodies and all."""
+    model = pin.buildModelFromXML(URDF)
+    found = extract_dh(model, "hand", "root")
+    assert found.max_error <= 1e-14
+    assert [row.mass for row in found.table.joints] == [2.0, None]
+    assert found.table.joints[0].com == pytest.approx(
+        extract_dh(URDF, "hand", "root").table.joints[0].com, abs=1e-14
+    )
+
+
+MJCF = """<mujoco model="bench"><compiler angle="degree" eulerseq="xyz"/>
+<default><default class="c"><joint axis="0 1 0" range="-90 90" damping="2"/></default></default>
+<worldbody><body name="b1" pos="0 0 .3" euler="0 10 20">
+  <joint name="j1" type="hinge" axis="0 0 1" pos="0.1 0 0.05" ref="30" range="-170 170"/>
+  <geom type="capsule" size=".05 .1"/>
+  <body name="b2" pos="0.3 0 0.1" quat="0.9 0.1 0.2 0.3">
+    <joint name="j2" class="c"/>
+    <joint name="j3" type="slide" axis="1 0 1" pos="0 0 .2" range="0 1" ref="0.2"/>
+    <geom type="sphere" size=".05"/>
+    <body name="b3" pos="0 0 .2"><joint name="j4" axis="1 0 0"/><geom type="sphere" size=".05"/>
+      <site name="tcp" pos="0.1 0.2 .3" euler="0 90 0"/></body>
+</body></body></worldbody></mujoco>
+"""
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+def test_an_mjcf(convention, tmp_path):
+    """Offsets, references and several joints a body come out as MuJoCo itself places them."""
+    path = tmp_path / "bench.xml"
+    path.write_text(MJCF)
+    found = extract_dh(path, "world", "tcp", convention)
+    assert found.table.joint_names == ("j1", "j2", "j3", "j4")
+    assert found.max_error <= 1e-14
+    assert found.table.joints[0].lower == pytest.approx(math.radians(-170))
+    model = mujoco.MjModel.from_xml_string(MJCF)
+    data = mujoco.MjData(model)
+    for q in np.random.default_rng(6).uniform(-1, 1, (5, 4)):
+        data.qpos[:] = q
+        mujoco.mj_kinematics(model, data)
+        truth = np.eye(4)
+        truth[:3, :3] = data.site("tcp").xmat.reshape(3, 3)
+        truth[:3, 3] = data.site("tcp").xpos
+        assert difference(dh_frames(found.table, q)[-1], truth) <= 1e-14
+
+
+def test_a_broken_mjcf(tmp_path):
+    """MuJoCo's own complaint, in one message."""
+    path = tmp_path / "broken.xml"
+    path.write_text(MJCF.replace('type="slide"', 'type="sliding"'))
+    with pytest.raises(UrdfError, match="MuJoCo"):
+        extract_dh(path)
+
+
+def test_a_xacro(tmp_path):
+    """A xacro file is expanded first."""
+    path = tmp_path / "small.xacro"
+    text = URDF.replace(
+        '<robot name="small">',
+        '<robot name="small" xmlns:xacro="http://www.ros.org/wiki/xacro">'
+        '<xacro:property name="h" value="0.4"/>',
+    )
+    path.write_text(text.replace('xyz="0 0 0.4"', 'xyz="0 0 ${h}"'))
+    assert extract_dh(path).table.rows == extract_dh(URDF).table.rows
+
+
+@pytest.mark.parametrize("convention", list(DHConvention))
+def test_screws_points_and_frames_agree(convention):
+    """The same arm typed as screw axes, as directions with points, and as frames."""
+    axes = [([0, 0, 1], [0, 0, 0]), ([0, 1, 0], [0, 0, 0.3]), ([0, 1, 0], [0.4, 0, 0.3])]
+    tool = pose((0, 0, 1), 0.2, (0.7, 0.1, 0.3))
+    screws = [[*axis, *np.cross(point, axis)] for axis, point in axes]
+    frames = [pose((1, 0, 0), 0 if k == 0 else -math.pi / 2, p) for k, (_, p) in enumerate(axes)]
+    found = [extract_dh(kind, convention=convention, tool=tool) for kind in (screws, axes, frames)]
+    for other in found[1:]:
+        for a, b in zip(found[0].table.joints, other.table.joints, strict=True):
+            assert (a.a, a.d) == pytest.approx((b.a, b.d), abs=1e-14)
+    q = (0.3, -0.7, 1.1)
+    truth = np.eye(4)
+    for screw, value in zip(screws, q, strict=True):
+        motion = pin.Motion(np.array(screw[3:]) * value, np.array(screw[:3]) * value)
+        truth = truth @ pin.exp6(motion).homogeneous
+    for each in found:
+        assert difference(dh_frames(each.table, q)[-1], truth @ tool) <= 1e-14
+
+
+@pytest.mark.parametrize(
+    ("source", "options", "message"),
+    [
+        ([[0, 0, 1, 0, 0]], {}, r"shape \(1, 5\): allowed are"),
+        ([], {}, "allowed are"),
+        ("abc", {}, "abc: No such file"),
+        ([["a"] * 6], {}, "expected numbers"),
+        ([[0, 0, 1, 0, 0, math.nan]], {}, "joint 1: NaN"),
+        ([[0, 0, 0, 0, 0, 0]], {}, "joint 1: a zero axis"),
+        ([[0, 0, 1, 0, 0, 1]], {}, "joint 1: a screw of pitch 1 "),
+        ([[[0, 0, 1], [0, 0, 0]]], {"joint_types": "RR"}, "joint_types: 2 for 1 joints"),
+        ([[[0, 0, 1], [0, 0, 0]]], {"joint_types": "X"}, "joint_types: 'X' is not R, P"),
+        ([[0, 0, 1, 0, 0, 0]], {"names": ["a", "b"]}, "names: 2 for 1 joints"),
+        ([[0, 0, 1, 0, 0, 0]], {"tip": "x"}, "base and tip: typed axes"),
+        (UR5, {"tool": np.eye(4)}, "tool: only for joint axes typed by hand"),
+        (UR5, {"snap": 3.0}, "snap: 3.0 is not a tolerance"),
+    ],
+)
+def test_axes_that_make_no_arm(source, options, message):
+    """Each slip of the pen is one message."""
+    with pytest.raises(UrdfError, match=message):
+        extract_dh(source, **options)
+
+
+def test_a_frame_that_is_no_pose():
+    """A frame whose axes are not orthonormal is refused."""
+    with pytest.raises(PoseError, match="joint frames"):
+        extract_dh([2.0 * np.eye(4)])
+
+
+def test_flip_names_a_joint_of_the_chain():
+    """A joint to turn round must be in the chain."""
+    with pytest.raises(NameNotFoundError, match="flip: no joint named 'wrist'"):
+        extract_dh(UR5, flip=["wrist"])
+
+
+def test_every_shipped_file_is_read_as_it_was_written():
+    """The link frames of our own files are no obstacle to reading them."""
+    found = extract_dh(urdf_text(load_table("stanford")), embedded=False)
+    assert (found.base, found.tip) == ("base_link", "tool0")
