@@ -19,27 +19,24 @@ import numpy as np
 from dh2urdf.kernels.lanes import LANES, vector_kernel
 
 __all__ = [
-    "ARCS_A_WINDOW",
+    "ARC",
+    "ARC_TAN",
     "CIRCLE_COS",
     "CIRCLE_SIN",
+    "SPANS",
     "STACK",
     "TERMS",
-    "WINDOWS",
-    "WINDOW_COS",
-    "WINDOW_SIN",
     "circle_arcs",
     "roots_on_arc",
     "window_arc",
+    "window_nodes",
 ]
 
 DEGREE = 8
 TERMS = 2 * DEGREE + 1
 HARMONICS = 23
 ARC = 2.0 * math.pi / LANES
-WINDOWS = 8
-ARCS_A_WINDOW = LANES // WINDOWS
 ARC_TAN = math.tan(0.25 * ARC)
-WINDOW_TAN = math.tan(0.25 * ARC * ARCS_A_WINDOW)
 STACK = 40
 """Rows that the halving needs at most."""
 
@@ -52,13 +49,19 @@ NEAR_DOUBLE = 0.02
 SHALLOW = 0.03
 """An arc whose smallest coefficient is below this part of its largest may hold such a pair."""
 
+FLAT = 1e4
+"""An arc on which f is below this many times the noise is in doubt."""
+
+UNSURE = 1e-6
+"""A root whose place is uncertain by more than this [rad] is in doubt."""
+
+SPANS = 31
+"""Spans of doubt that are remembered."""
+
 CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
 CIRCLE_COS = np.cos(CIRCLE_ANGLE)
 CIRCLE_SIN = np.sin(CIRCLE_ANGLE)
-NODE = WINDOW_TAN * np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
-WINDOW_ANGLE = 2.0 * np.arctan(NODE) + ARC * ARCS_A_WINDOW * np.arange(WINDOWS)[:, None]
-WINDOW_COS = np.cos(WINDOW_ANGLE)
-WINDOW_SIN = np.sin(WINDOW_ANGLE)
+NODE = np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
 
 
 def _circle_table():
@@ -88,12 +91,9 @@ def _arc_table():
 
 
 def _window_table():
-    """Weights (24, 24) of the samples on a window: 17 Bernstein coefficients, 7 contradictions."""
-    x = 0.5 * (1.0 + NODE / WINDOW_TAN)
-    basis = (
-        np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
-        / (1.0 + NODE[:, None] ** 2) ** DEGREE
-    )
+    """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
+    x = 0.5 * (1.0 + NODE)
+    basis = np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
     u, s, vt = np.linalg.svd(basis)
     rows = np.vstack([vt.T @ (u[:, :TERMS] / s).T, u[:, TERMS:].T])
     return np.ascontiguousarray(rows.T)
@@ -153,26 +153,36 @@ def circle_arcs(samples, series, turned, arcs):
 
 
 @vector_kernel
-def window_arc(samples, series):
+def window_nodes(centre, half_tan, cosines, sines):
+    """Cosines and sines of the 24 places at which a window is sampled."""
+    for k in range(LANES):
+        q = centre + 2.0 * math.atan(half_tan * NODE[k])
+        cosines[k], sines[k] = math.cos(q), math.sin(q)
+
+
+@vector_kernel
+def window_arc(samples, half_tan, series):
     """Bernstein coefficients of f on one window from its 24 samples, to ``series`` (24,).
 
     Returns
     -------
-    float, float
-        The largest contradiction among the samples (the noise) and the largest coefficient.
+    float
+        The largest contradiction among the samples: the noise.
     """
     for m in range(LANES):
         series[m] = 0.0
     for k in range(LANES):
-        f = samples[k]
+        t = half_tan * NODE[k]
+        weight = 1.0 + t * t
+        weight *= weight
+        weight *= weight
+        f = samples[k] * weight * weight
         for m in range(LANES):
             series[m] += f * WINDOW_TABLE[k, m]
-    largest, noise = 0.0, 0.0
-    for m in range(TERMS):
-        largest = max(largest, abs(series[m]))
+    noise = 0.0
     for m in range(TERMS, LANES):
         noise = max(noise, abs(series[m]))
-    return noise, largest
+    return noise
 
 
 @vector_kernel
@@ -223,7 +233,7 @@ def _extremum(row, x, scratch):
 
 @vector_kernel
 def _shape(row):
-    """Sign changes, first crossing, place of the smallest size and its part of the largest."""
+    """Sign changes, first crossing, place of the smallest size, that size and the largest."""
     positive = row[0] > 0.0
     changes, crossing, place = 0, 0.5, 0
     smallest, largest = abs(row[0]), abs(row[0])
@@ -238,7 +248,7 @@ def _shape(row):
         largest = max(largest, size)
         if size < smallest:
             smallest, place = size, i
-    return changes, crossing, place / (TERMS - 1), smallest < SHALLOW * largest
+    return changes, crossing, place / (TERMS - 1), smallest, largest
 
 
 @vector_kernel
@@ -260,7 +270,29 @@ def _angle(centre, row, x):
 
 
 @vector_kernel
-def roots_on_arc(stack, centre, half_tan, noise, scratch, count, roots, slopes):
+def _doubt(spans, row, centre):
+    """Widen the last span of doubt to a row, or begin one."""
+    n = int(spans[0, 0])
+    low, high = _angle(centre, row, 0.0), _angle(centre, row, 1.0)
+    if n > 0 and low <= spans[1, n] + 1e-9 and high >= spans[0, n] - 1e-9:
+        spans[0, n], spans[1, n] = min(low, spans[0, n]), max(high, spans[1, n])
+    elif n < SPANS:
+        n += 1
+        spans[0, 0], spans[0, n], spans[1, n] = n, low, high
+
+
+@vector_kernel
+def _pair(row, x, f, ddf, rising, length, scratch):
+    """The two roots beside an extremum at x that lies across the axis, with f' there."""
+    h = math.sqrt(abs(2.0 * f / ddf))
+    fine = 1e-8 / length
+    a, da = _bracketed_root(row, 0.0, x, max(x - h, 0.0), rising, fine, scratch)
+    b, db = _bracketed_root(row, x, 1.0, min(x + h, 1.0), not rising, fine, scratch)
+    return a, da, b, db
+
+
+@vector_kernel
+def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
     """Append the real roots on one arc.
 
     Parameters
@@ -272,6 +304,9 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, count, roots, slopes):
     noise : float
         Size below which f cannot be told from zero.
     scratch : (24,)
+    spans : (2, SPANS + 1), in and out
+        ``spans[0, 0]`` spans of doubt, each from ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f
+        is so small, or a root so uncertain, that it should be sampled anew.
     count : int
         Number of roots so far.
     roots, slopes : (24,), out
@@ -287,34 +322,34 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, count, roots, slopes):
     top = 0
     while top >= 0 and count < LANES - 1:
         row = stack[top]
-        changes, crossing, place, shallow = _shape(row)
+        changes, crossing, place, smallest, largest = _shape(row)
         length = 2.0 * (row[18] - row[17])
+        if largest < FLAT * noise:
+            _doubt(spans, row, centre)
         if changes == 1:
-            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, 1e-8 / length, scratch)
-            roots[count] = _angle(centre, row, x)
-            slopes[count] = abs(df) / length + 1e-300
+            fine = 1e-8 / length
+            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, fine, scratch)
+            roots[count], slopes[count] = _angle(centre, row, x), abs(df) / length + 1e-300
+            if slopes[count] * UNSURE < noise:
+                _doubt(spans, row, centre)
             count += 1
             top -= 1
             continue
-        if (changes == 0 and shallow) or (changes == 2 and length < NARROW):
+        if (changes == 0 and smallest < SHALLOW * largest) or (changes == 2 and length < NARROW):
             x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
             positive = row[0] > 0.0
             if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
                 near = NEAR_DOUBLE / length
                 if (f > 0.0) != positive:
-                    h = math.sqrt(abs(2.0 * f / ddf))
-                    for side in range(2):
-                        low, high = (0.0, x) if side == 0 else (x, 1.0)
-                        start = max(x - h, 0.0) if side == 0 else min(x + h, 1.0)
-                        z, df = _bracketed_root(
-                            row, low, high, start, positive == (side == 1), 1e-8 / length, scratch
-                        )
-                        roots[count] = _angle(centre, row, z)
-                        slopes[count] = abs(df) / length + 1e-300
-                        count += 1
+                    a, da, b, db = _pair(row, x, f, ddf, not positive, length, scratch)
+                    roots[count], slopes[count] = _angle(centre, row, a), abs(da) / length + 1e-300
+                    count += 1
+                    roots[count], slopes[count] = _angle(centre, row, b), abs(db) / length + 1e-300
+                    count += 1
+                    if min(abs(da), abs(db)) * UNSURE < noise * length:
+                        _doubt(spans, row, centre)
                 elif 2.0 * abs(f) < near * near * abs(ddf) + noise:
-                    roots[count] = _angle(centre, row, x)
-                    slopes[count] = 0.0
+                    roots[count], slopes[count] = _angle(centre, row, x), 0.0
                     count += 1
                 top -= 1
                 continue
@@ -322,8 +357,7 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, count, roots, slopes):
             top -= 1
             continue
         if length < 1e-12 or top + 2 > STACK:
-            roots[count] = _angle(centre, row, 0.5)
-            slopes[count] = 0.0
+            roots[count], slopes[count] = _angle(centre, row, 0.5), 0.0
             count += 1
             top -= 1
             continue

@@ -27,7 +27,7 @@ from dh2urdf.kernels.general_6r_passes import (
     inner_target,
     rate_elimination,
     simple_roots,
-    window_roots,
+    span_roots,
 )
 from dh2urdf.kernels.general_6r_work import make_work_6r
 from dh2urdf.kernels.lanes import vector_kernel
@@ -40,11 +40,14 @@ Plan: TypeAlias = tuple[Array, Array, Array, Array, float, Array, NDArray[np.int
 TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 """Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
 
-POSES = 32
+POSES = 24
 """Random poses on which each elimination is tried."""
 
-USABLE = -0.3
-"""Mean decimal logarithm of the seeds' errors above which an elimination is not kept."""
+USABLE = 0.3
+"""Part of the best elimination's solutions that another must find to be kept."""
+
+WORTH = 0.03
+"""Solutions a pose that one more digit in the seeds outweighs."""
 
 MOST = 3
 """Eliminations kept."""
@@ -92,6 +95,26 @@ def _random_poses(links: Array) -> Array:
     return poses
 
 
+def _rank(
+    fixed: tuple[Array, Array, Array, Array, float, Array],
+    choices: NDArray[np.int64],
+    lefts: Array,
+    poses: Array,
+) -> NDArray[np.int64]:
+    """Indices of the eliminations to keep, best first: by solutions found, then by precision."""
+    rating = np.empty(POSES)
+    out_q, residual = np.empty((POSES, 16, 6)), np.empty((POSES, 16))
+    count = np.empty(POSES, dtype=np.int64)
+    found, digits = np.empty(12), np.empty(12)
+    for k, (shift, reverse) in enumerate(choices):
+        one = slice(k, k + 1)
+        rate_elimination(*fixed, shift, reverse, lefts[k], poses, rating)
+        solve_general_6r_batch(*fixed, choices[one], lefts[one], poses, out_q, residual, count)
+        found[k], digits[k] = count.mean(), -rating.mean()
+    order = np.argsort(-found - digits * WORTH)
+    return order[found[order] >= USABLE * found.max()][:MOST]
+
+
 def plan_general_6r(links: Array) -> Plan:
     """Prepare an arm of six revolute joints.
 
@@ -119,14 +142,7 @@ def plan_general_6r(links: Array) -> Plan:
     for k, (shift, reverse) in enumerate(choices):
         close_loop(chain, np.eye(4)[:3].ravel(), shift, reverse, loop)
         left_coefficients(loop, samples, lefts[k])
-    poses, rating = _random_poses(links), np.empty(POSES)
-    ratings = np.empty(12)
-    for k, (shift, reverse) in enumerate(choices):
-        rate_elimination(*fixed, shift, reverse, lefts[k], poses, rating)
-        ratings[k] = rating.mean()
-    order = np.argsort(ratings)
-    usable = order[ratings[order] < USABLE][:MOST]
-    best = usable if usable.size else order[:1]
+    best = _rank(fixed, choices, lefts, _random_poses(links))
     return (*fixed, np.ascontiguousarray(choices[best]), np.ascontiguousarray(lefts[best]))
 
 
@@ -165,19 +181,19 @@ def solve_general_6r(
     int
         Number of solutions written.
     """
-    slopes = work[21]
+    spans, slopes = work[20], work[21]
     inner_target(base_inverse, tool_inverse, size, T, work[1], work[0])
     found = 0
     for e in range(choices.shape[0]):
         shift, reverse = choices[e, 0], choices[e, 1]
         eliminate(chain, shift, reverse, lefts[e], work)
-        count, again = circle_roots(work)
-        if again < 0:
+        count = circle_roots(work)
+        if count < 0:
             continue
         simple = simple_roots(count, slopes)
         found = follow(links, size, count, found, shift, reverse, turns, out_q, out_residual, work)
-        if again > 0:
-            count = window_roots(work)
+        if spans[0, 0] > 0.0:
+            count = span_roots(work)
             found = follow(
                 links, size, count, found, shift, reverse, turns, out_q, out_residual, work
             )

@@ -8,16 +8,16 @@ from __future__ import annotations
 import math
 
 from dh2urdf.kernels.arc_roots import (
-    ARCS_A_WINDOW,
+    ARC,
+    ARC_TAN,
     CIRCLE_COS,
     CIRCLE_SIN,
+    SPANS,
     TERMS,
-    WINDOW_COS,
-    WINDOW_SIN,
-    WINDOWS,
     circle_arcs,
     roots_on_arc,
     window_arc,
+    window_nodes,
 )
 from dh2urdf.kernels.elimination import (
     close_loop,
@@ -45,7 +45,7 @@ __all__ = [
     "inner_target",
     "rate_elimination",
     "simple_roots",
-    "window_roots",
+    "span_roots",
 ]
 
 TOLERANCE = 1e-9
@@ -61,15 +61,14 @@ SAME = 1e-6
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
 
-FLAT = 1e4
-"""An arc on which f is below this many times the noise is sampled again."""
+MARGIN = 1.1
+"""How much wider than a span of doubt its window is."""
 
-UNSURE = 1e-6
-"""A root whose place is uncertain by more than this [rad] is looked for again."""
+NARROWER = 0.5
+"""Length, in half lengths of a window, below which a span in it is sampled in turn."""
 
-ARC = 2.0 * math.pi / LANES
-ARC_TAN = math.tan(0.25 * ARC)
-WINDOW_TAN = math.tan(0.25 * ARC * ARCS_A_WINDOW)
+DEAREST = 6.0
+"""Most digits that spans of doubt count for."""
 
 
 @vector_kernel
@@ -106,56 +105,51 @@ def eliminate(chain, shift, reverse, left, work):
 
 @vector_kernel
 def circle_roots(work):
-    """Roots on the whole circle: their number, and the number of windows to sample again; or -1.
-
-    A window is marked in ``work[20]`` where the polynomial is too small to be trusted.
-    """
+    """Number of roots on the whole circle; -1 where the polynomial says nothing."""
     equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
     series, turned, arcs, stack, scratch = work[14], work[15], work[16], work[17], work[18]
-    roots, slopes, suspect = work[19], work[21], work[20]
+    roots, spans, slopes = work[19], work[20], work[21]
     resultants(equations, CIRCLE_COS, CIRCLE_SIN, LANES, A, W, determinant, V, beta)
     noise, largest = circle_arcs(determinant, series, turned, arcs)
     if not noise < HOPELESS * largest:
-        return 0, -1
+        return -1
     count = 0
-    for w in range(WINDOWS):
-        suspect[w] = 0.0
+    spans[0, 0] = 0.0
     for k in range(LANES):
-        window = (k + 1) // ARCS_A_WINDOW % WINDOWS
-        height = 0.0
         for i in range(TERMS):
             stack[0, i] = arcs[i, k]
-            height = max(height, abs(arcs[i, k]))
-        if height < FLAT * noise:
-            suspect[window] = 1.0
-        first = count
-        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, count, roots, slopes)
-        for r in range(first, count):
-            if 0.0 < slopes[r] < noise / UNSURE:
-                suspect[window] = 1.0
-    again = 0
-    for w in range(WINDOWS):
-        if suspect[w] > 0.0:
-            again += 1
-    return count, again
+        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, spans, count, roots, slopes)
+    return count
 
 
 @vector_kernel
-def window_roots(work):
-    """Roots in the marked windows, each sampled on its own; returns their number."""
+def span_roots(work):
+    """Number of roots in the spans of doubt, each sampled on its own.
+
+    A span much narrower than the window it is found in is sampled in turn.
+    """
     equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
-    series, stack, scratch = work[14], work[17], work[18]
-    roots, slopes, suspect = work[19], work[21], work[20]
-    count = 0
-    for w in range(WINDOWS):
-        if suspect[w] == 0.0:
-            continue
-        resultants(equations, WINDOW_COS[w], WINDOW_SIN[w], LANES, A, W, determinant, V, beta)
-        noise, _ = window_arc(determinant, series)
+    series, stack, scratch, fresh = work[14], work[17], work[18], work[41]
+    roots, spans, slopes, hc, hs = work[19], work[20], work[21], work[31], work[32]
+    count, k = 0, 1
+    while k <= spans[0, 0]:
+        centre = 0.5 * (spans[0, k] + spans[1, k])
+        half = 0.5 * (spans[1, k] - spans[0, k])
+        half_tan = math.tan(0.5 * min(MARGIN * half, 1.0))
+        window_nodes(centre, half_tan, hc, hs)
+        resultants(equations, hc, hs, LANES, A, W, determinant, V, beta)
+        noise = window_arc(determinant, half_tan, series)
         for i in range(TERMS):
             stack[0, i] = series[i]
-        centre = w * ARC * ARCS_A_WINDOW
-        count = roots_on_arc(stack, centre, WINDOW_TAN, noise, scratch, count, roots, slopes)
+        fresh[0, 0] = 0.0
+        count = roots_on_arc(stack, centre, half_tan, noise, scratch, fresh, count, roots, slopes)
+        last = int(spans[0, 0])
+        for n in range(1, int(fresh[0, 0]) + 1):
+            if fresh[1, n] - fresh[0, n] < NARROWER * half and last < SPANS:
+                last += 1
+                spans[0, last], spans[1, last] = fresh[0, n], fresh[1, n]
+        spans[0, 0] = last
+        k += 1
     return count
 
 
@@ -287,27 +281,28 @@ def rate_elimination(
 ):
     """Decimal logarithm of the worst unpolished error of each pose's seeds; 0 where it fails.
 
+    Every span of doubt, which takes time, counts as one digit lost.
+
     Ts (m, 4, 4), reachable; rating (m,), out.
     """
     work = make_work_6r()
-    target, slopes = work[1], work[21]
+    target = work[1]
     cosines, sines, frames = work[26], work[27], work[28]
     error, position, angle = work[37], work[38], work[39]
     for m in range(Ts.shape[0]):
         rating[m] = 0.0
         inner_target(base_inverse, tool_inverse, size, Ts[m], target, work[0])
         eliminate(chain, shift, reverse, left, work)
-        count, again = circle_roots(work)
-        if again < 0 or count == 0:
+        count = circle_roots(work)
+        if count <= 0:
             continue
         lanes = _seeds(count, False, shift, reverse, turns, work)
         chain_frames(links, cosines, sines, LANES, frames)
         pose_error(target, frames, LANES, error, position, angle)
         worst = 1e-16
         for k in range(lanes):
-            if slopes[k] > 0.0:
-                worst = max(worst, position[k] / size, angle[k])
-        rating[m] = min(math.log10(worst), 0.0)
+            worst = max(worst, position[k] / size, angle[k])
+        rating[m] = min(math.log10(worst) + min(work[20][0, 0], DEAREST), 0.0)
 
 
 @vector_kernel

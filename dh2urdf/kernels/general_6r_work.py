@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.arc_roots import STACK, TERMS
+from dh2urdf.kernels.arc_roots import SPANS, STACK, TERMS
 from dh2urdf.kernels.lanes import COLUMN, LANES, vector_kernel
 
 __all__ = ["make_work_6r"]
@@ -34,7 +34,7 @@ def make_work_6r():
         np.zeros((STACK, TERMS + 2)),  # 17 arcs being halved
         np.zeros(LANES),  # 18 de Casteljau
         np.zeros(LANES),  # 19 roots
-        np.zeros(LANES),  # 20 windows to sample again
+        np.zeros((2, SPANS + 1)),  # 20 spans of doubt
         np.zeros(LANES),  # 21 slopes at the roots
         np.zeros(COLUMN),  # 22 null vectors
         np.zeros(COLUMN),  # 23 second null vectors
@@ -55,4 +55,5 @@ def make_work_6r():
         np.zeros(LANES),  # 38 its position
         np.zeros(LANES),  # 39 its angle
         np.zeros(LANES),  # 40 the error before
+        np.zeros((2, SPANS + 1)),  # 41 spans of doubt in a window
     )
