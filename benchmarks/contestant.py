@@ -31,6 +31,8 @@ class IKContestant(ABC):
 
     name: ClassVar[str]
     distribution: ClassVar[str]
+    keeps_limits: ClassVar[bool] = False
+    """It leaves out what is beyond the joint limits and cannot be told not to."""
 
     @abstractmethod
     def __init__(self, arm: Arm) -> None:

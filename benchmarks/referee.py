@@ -89,6 +89,11 @@ class Verdict:
     wrong: int
     worst: float
 
+    @property
+    def found(self) -> int:
+        """Number of distinct solutions that hold."""
+        return sum(len(q) for q in self.exact)
+
     def recall(self, truth: Sequence[Array]) -> float:
         """Share of the known solutions that were found."""
         known = sum(len(t) for t in truth)

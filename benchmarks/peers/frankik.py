@@ -22,6 +22,7 @@ class Frankik(IKContestant):
 
     name = "frankik"
     distribution = "frankik"
+    keeps_limits = True
 
     def __init__(self, arm: Arm) -> None:
         if arm.key != "franka_fer" or not arm.held:

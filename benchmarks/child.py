@@ -1,0 +1,71 @@
+"""What has to be measured in a process of its own; prints one JSON object.
+
+``python -m benchmarks.child imports dh2urdf`` and so on; called by ``benchmarks.work.processes``
+and ``benchmarks.work.memory``.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import resource
+import sys
+import time
+
+__all__: list[str] = []
+
+
+def imports(module: str) -> dict[str, object]:
+    """Seconds to import NumPy, then a module; heavy packages that came with it."""
+    start = time.perf_counter()
+    importlib.import_module("numpy")
+    middle = time.perf_counter()
+    importlib.import_module(module)
+    end = time.perf_counter()
+    heavy = [m for m in ("numba", "pinocchio", "matplotlib", "scipy", "sympy") if m in sys.modules]
+    return {"numpy": middle - start, "module": end - middle, "loaded": heavy}
+
+
+def first(key: str) -> dict[str, object]:
+    """Seconds from nothing to a robot, and to its first solutions."""
+    start = time.perf_counter()
+    from benchmarks.arms import arm_named
+
+    arm = arm_named(key)
+    T = arm.draw(1)[1][0]
+    drawn = time.perf_counter()
+    from dh2urdf import Robot
+
+    robot = Robot.from_dh(arm.table)
+    built = time.perf_counter()
+    robot.ik(T, within_limits=False, locked=arm.locked)
+    solved = time.perf_counter()
+    return {"robot": built - drawn, "ik": solved - built, "total": solved - start}
+
+
+def memory(key: str, contestant: str, poses: str) -> dict[str, object]:
+    """Growth of the process's peak while a batch is solved, per pose, and its output arrays."""
+    import numpy as np
+
+    from benchmarks.arms import arm_named
+    from benchmarks.contestant import BatchContestant
+    from benchmarks.peers import contestants
+
+    arm = arm_named(key)
+    own = next(c for c in contestants(arm, {}) if c.name == contestant)
+    assert isinstance(own, BatchContestant)
+    _, T = arm.draw(int(poses))
+    own.solve_batch(own.encode_batch(T[:1000]), 2)
+    native = own.encode_batch(T)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    answer = own.solve_batch(native, 2)
+    after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    parts = [getattr(answer, k, None) for k in ("q", "residual", "count", "joints")]
+    arrays = sum(a.nbytes for a in parts if isinstance(a, np.ndarray))
+    return {"bytes": 1024 * (after - before) / int(poses), "arrays": arrays / int(poses)}
+
+
+if __name__ == "__main__":
+    task, *arguments = sys.argv[1:]
+    answer = {"imports": imports, "first": first, "memory": memory}[task](*arguments)
+    print(json.dumps(answer))

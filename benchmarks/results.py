@@ -1,0 +1,107 @@
+"""Results of a run: rows of figures, and the JSON file that tables and plots are made of."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from benchmarks import machine
+from benchmarks.clock import Timing
+
+__all__ = ["LATEST", "Results", "Row"]
+
+SCHEMA = 1
+LATEST = Path(__file__).parent / "results" / "latest.json"
+"""The run that the README shows."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One figure of one contestant.
+
+    ``seconds`` (median, with the 10 % and 90 % quantiles ``low`` and ``high``) are per unit:
+    a pose, a configuration, a construction, a process.
+    """
+
+    work: str
+    arm: str
+    contestant: str
+    seconds: float | None = None
+    low: float | None = None
+    high: float | None = None
+    rounds: int = 0
+    size: int = 1
+    threads: int = 1
+    recall: float | None = None
+    wrong: int | None = None
+    residual: float | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def timed(cls, work: str, arm: str, contestant: str, timing: Timing, **more: Any) -> Row:
+        """A row from a timing."""
+        return cls(
+            work,
+            arm,
+            contestant,
+            timing.median,
+            timing.low,
+            timing.high,
+            timing.rounds,
+            **{"size": timing.units, **more},
+        )
+
+
+@dataclass
+class Results:
+    """All rows of one run, and what it ran on."""
+
+    quick: bool = False
+    rows: list[Row] = field(default_factory=list)
+    left_out: dict[str, str] = field(default_factory=dict)
+    about: dict[str, Any] = field(default_factory=dict)
+
+    def add(self, row: Row) -> None:
+        """Keep a row."""
+        self.rows.append(row)
+
+    def of(self, work: str, arm: str | None = None) -> Iterator[Row]:
+        """Rows of one piece of work."""
+        for row in self.rows:
+            if row.work == work and arm in (None, row.arm):
+                yield row
+
+    def describe(self, seconds: float, load: list[list[float]]) -> None:
+        """Write down machine, versions, commit, load before and after, and duration."""
+        self.about = {
+            "commit": machine.commit(),
+            "machine": machine.describe(),
+            "versions": machine.versions(),
+            "load_average": load,
+            "seconds": round(seconds),
+        }
+
+    def save(self, path: Path) -> None:
+        """Write the JSON file."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        rows = [{k: v for k, v in asdict(r).items() if v not in (None, {})} for r in self.rows]
+        document = {
+            "schema": SCHEMA,
+            "quick": self.quick,
+            **self.about,
+            "left_out": self.left_out,
+            "rows": rows,
+        }
+        path.write_text(json.dumps(document, indent=1) + "\n")
+
+    @classmethod
+    def load(cls, path: Path) -> Results:
+        """Read a JSON file."""
+        document = json.loads(path.read_text())
+        if document.pop("schema") != SCHEMA:
+            raise ValueError(f"{path}: another version's results; run the benchmarks again")
+        rows = [Row(**row) for row in document.pop("rows")]
+        return cls(document.pop("quick"), rows, document.pop("left_out"), document)

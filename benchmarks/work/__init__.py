@@ -1,0 +1,1 @@
+"""The pieces of work that are measured, one module each; every ``run`` adds rows to the results."""

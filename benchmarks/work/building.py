@@ -1,0 +1,34 @@
+"""Building a solver for an arm, kernels compiled and packages imported."""
+
+from __future__ import annotations
+
+from benchmarks.arms import ARMS, Arm
+from benchmarks.clock import Block, interleaved
+from benchmarks.contestant import IKContestant, NotCoveredError
+from benchmarks.peers import contestants
+from benchmarks.results import Results, Row
+
+__all__ = ["run"]
+
+QUICK = ("puma560", "ur5")
+
+
+def run(results: Results) -> None:
+    """Construction alone; ours includes the robot, its model and its first solution."""
+    for arm in ARMS:
+        if results.quick and arm.key not in QUICK:
+            continue
+        blocks = {type(c).name: _block(type(c), arm) for c in contestants(arm, results.left_out)}
+        for name, timing in interleaved(blocks, 0.5 if results.quick else 3.0, most=20).items():
+            results.add(Row.timed("build", arm.key, name, timing))
+
+
+def _block(cls: type[IKContestant], arm: Arm) -> Block:
+    def block() -> int:
+        try:
+            cls(arm)
+        except NotCoveredError:
+            raise AssertionError(f"{cls.name} took {arm.key} before") from None
+        return 1
+
+    return block

@@ -1,0 +1,63 @@
+"""Forward kinematics: one configuration a call, and many at once."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from benchmarks import referee
+from benchmarks.arms import Arm, arm_named
+from benchmarks.clock import Block, each, interleaved
+from benchmarks.contestant import FKContestant
+from benchmarks.peers.forward import forward_contestants
+from benchmarks.results import Results, Row
+
+__all__ = ["run"]
+
+ARMS = ("ur5", "kuka_kr6_r700", "franka_fer")
+MANY = 100_000
+
+
+def run(results: Results) -> None:
+    """FK of the arms that most peers know."""
+    for key in ARMS[:1] if results.quick else ARMS:
+        arm = arm_named(key)
+        contestants = [c for c in forward_contestants(arm, results.left_out) if _right(c, arm)]
+        _single(results, arm, contestants)
+        _batch(results, arm, contestants)
+
+
+def _right(contestant: FKContestant, arm: Arm) -> bool:
+    """Compare with the referee before anything is timed."""
+    q, T = arm.draw(100, seed=1)
+    found = [contestant.to_poses(contestant.one(v)) for v in contestant.encode(q)]
+    error = referee.residuals(np.array(found), T).max()
+    if error > 1e-9:
+        raise AssertionError(f"{contestant.name} differs from the referee by {error:.2g}")
+    return True
+
+
+def _single(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
+    q, _ = arm.draw(500)
+    blocks = {c.name: each(c.one, list(c.encode(q))) for c in contestants if c.one}
+    for name, timing in interleaved(blocks, 1.0 if results.quick else 6.0).items():
+        results.add(Row.timed("fk one", arm.key, name, timing, size=1))
+
+
+def _batch(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
+    m = 10_000 if results.quick else MANY
+    q, T = arm.draw(m)
+    blocks: dict[str, Block] = {}
+    errors = {}
+    for c in contestants:
+        if c.many is None:
+            continue
+        found = c.to_poses(c.many(q, 2))
+        errors[c.name] = float(referee.residuals(found, T).max())
+
+        def block(c: FKContestant = c) -> int:
+            c.many(q, 2)
+            return m
+
+        blocks[c.name] = block
+    for name, timing in interleaved(blocks, 2.0 if results.quick else 10.0, most=25).items():
+        results.add(Row.timed("fk batch", arm.key, name, timing, threads=2, residual=errors[name]))

@@ -1,0 +1,126 @@
+"""Whole processes: imports, first calls with and without compiled kernels, the command line."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+
+from benchmarks.arms import arm_named
+from benchmarks.clock import Block, Timing, interleaved
+from benchmarks.results import Results, Row
+from dh2urdf import save_table, urdf_text
+
+__all__ = ["child", "run"]
+
+ROOT = Path(__file__).parent.parent.parent
+IMPORTS = {
+    "dh2urdf": "dh2urdf",
+    "EAIK": "eaik.IK_Homogeneous",
+    "ssik prebuilt": "ssik.prebuilt.universal_robots.ur5_ik",
+    "py-ikgeo": "py_ikgeo_kinematics",
+    "Pinocchio": "pinocchio",
+    "roboticstoolbox": "roboticstoolbox",
+    "ikpy": "ikpy.chain",
+}
+FIRST = ("puma560", "ur5", "fanuc_crx10ia", "franka_fer")
+"""Arms of the first calls, one a class."""
+
+
+def child(*arguments: str, cache: str | None = None) -> dict[str, Any]:
+    """Run ``benchmarks.child`` and read its answer; ``cache`` is where kernels are kept."""
+    env = {**os.environ, **({"NUMBA_CACHE_DIR": cache} if cache else {})}
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks.child", *arguments],
+        cwd=ROOT,
+        env=env,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        raise RuntimeError(f"benchmarks.child {' '.join(arguments)}:\n{done.stderr}")
+    found: dict[str, Any] = json.loads(done.stdout)
+    return found
+
+
+def run(results: Results) -> None:
+    """Imports, first calls, the command line."""
+    _imports(results)
+    _first_calls(results)
+    with TemporaryDirectory() as folder:
+        _command_line(results, Path(folder))
+
+
+def _imports(results: Results) -> None:
+    """Seconds beyond NumPy, medians of interleaved processes."""
+    seconds: dict[str, list[float]] = {}
+    loaded: dict[str, list[str]] = {}
+    rounds = 2 if results.quick else 7
+    for _ in range(rounds):
+        for name, module in IMPORTS.items():
+            if name in results.left_out:
+                continue
+            try:
+                found = child("imports", module)
+            except RuntimeError as error:
+                results.left_out[f"import {name}"] = str(error).strip().splitlines()[-1]
+                continue
+            seconds.setdefault(name, []).append(found["module"])
+            seconds.setdefault("NumPy itself", []).append(found["numpy"])
+            loaded[name] = found["loaded"]
+    for name, values in seconds.items():
+        extra = {"loaded": loaded.get(name, [])}
+        results.add(Row.timed("import", "", name, Timing.of(values, 1), extra=extra))
+
+
+def _first_calls(results: Results) -> None:
+    """A fresh installation compiles; the next start reads the kernels from their cache."""
+    for key in FIRST[:0] if results.quick else FIRST:
+        with TemporaryDirectory() as cache:
+            cold = child("first", key, cache=cache)
+            warm = [child("first", key, cache=cache) for _ in range(5)]
+        for work, found in (("first call, compiling", [cold]), ("first call, cached", warm)):
+            timing = Timing.of([f["total"] for f in found], 1)
+            parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
+            results.add(Row.timed(work, key, "dh2urdf", timing, extra=parts))
+
+
+def _command_line(results: Results, folder: Path) -> None:
+    """``convert`` and ``extract`` as a shell starts them, beside a bare interpreter."""
+    table, urdf = folder / "arm.yaml", folder / "given.urdf"
+    save_table(arm_named("ur5").table, table)
+    urdf.write_text(urdf_text(arm_named("ur5").table))
+    verbs: Mapping[str, list[str]] = {
+        "convert": ["-m", "dh2urdf", "convert", str(table), "-o", str(folder / "arm.urdf")],
+        "extract": ["-m", "dh2urdf", "extract", str(urdf), "--tip", "tool0"],
+        "fk": ["-m", "dh2urdf", "fk", "ur5", "0", "-90", "90", "0", "0", "0", "--deg"],
+        "Python itself": ["-c", "pass"],
+        "Python, NumPy, Pinocchio": ["-c", "import numpy, pinocchio"],
+    }
+    blocks: dict[str, Block] = {}
+    for name, arguments in verbs.items():
+        try:
+            _process(arguments)()
+        except subprocess.CalledProcessError as error:
+            results.left_out[f"dh2urdf {name}"] = error.stderr.strip().splitlines()[-1]
+            continue
+        blocks[name] = _process(arguments)
+    timings = interleaved(blocks, 0.0, least=3 if results.quick else 9)
+    for name, timing in timings.items():
+        results.add(Row.timed("process", "ur5", name, timing))
+
+
+def _process(arguments: list[str]) -> Callable[[], int]:
+    def block() -> int:
+        subprocess.run([sys.executable, *arguments], check=True, capture_output=True, text=True)
+        return 1
+
+    return block

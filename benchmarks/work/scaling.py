@@ -1,0 +1,63 @@
+"""How the time of a batch grows from one pose to a million, on one and two threads."""
+
+from __future__ import annotations
+
+from benchmarks.arms import arm_named
+from benchmarks.clock import Block, interleaved
+from benchmarks.contestant import BatchContestant, NotCoveredError
+from benchmarks.peers.ours import Ours
+from benchmarks.results import Results, Row
+
+__all__ = ["run"]
+
+MOST = {"puma560": 1_000_000, "ur5": 1_000_000, "fanuc_crx10ia": 10_000}
+"""Arms and their largest batch."""
+
+
+def run(results: Results) -> None:
+    """Ours, and EAIK where it is there, up to 100,000 poses."""
+    for key, most in MOST.items():
+        most = min(most, 1_000) if results.quick else most
+        m = 1
+        while m <= most:
+            _one_size(results, key, m)
+            m *= 10
+
+
+def _one_size(results: Results, key: str, m: int) -> None:
+    arm = arm_named(key)
+    _, T = arm.draw(m)
+    blocks: dict[str, Block] = {}
+    for own in _solvers(key, m):
+        for threads in (1, 2):
+            blocks[f"{own.name}|{threads}"] = _block(own, T, threads)
+    budget = 0.2 if results.quick else 1.5
+    for name, timing in interleaved(blocks, budget, least=3).items():
+        contestant, threads = name.split("|")
+        results.add(Row.timed("scaling", key, contestant, timing, size=m, threads=int(threads)))
+
+
+def _solvers(key: str, m: int) -> list[BatchContestant]:
+    arm = arm_named(key)
+    found: list[BatchContestant] = []
+    try:
+        found.append(Ours(arm))
+        if m <= 100_000:
+            from benchmarks.peers.eaik import Eaik
+
+            found.append(Eaik(arm))
+    except (ImportError, NotCoveredError):
+        pass
+    return found
+
+
+def _block(own: BatchContestant, T: object, threads: int) -> Block:
+    poses = own.encode_batch(T)
+    repeats = max(1, 200 // len(poses))
+
+    def block() -> int:
+        for _ in range(repeats):
+            own.solve_batch(poses, threads)
+        return repeats * len(poses)
+
+    return block
