@@ -173,6 +173,12 @@ SOLVERS: tuple[SolverRow, ...] = (
         "dh2urdf.ik.reversed_chain",
         "ThreeParallelReversed",
     ),
+    SolverRow(
+        "general 6R",
+        "six revolute joints, any axes",
+        "dh2urdf.ik.general_6r",
+        "General6R",
+    ),
 )
 """Families, best first; a chain gets the first that has no obstacle."""
 

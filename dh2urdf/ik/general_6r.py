@@ -1,0 +1,63 @@
+"""Any arm of six revolute joints: elimination, then Newton on the exact chain."""
+
+from __future__ import annotations
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.geometry import AxisLines, moves_freely
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.transforms import Array
+
+__all__ = ["General6R"]
+
+
+class General6R(SolverBase):
+    """Raghavan and Roth's elimination of five joints; up to 16 solutions."""
+
+    name = "general 6R"
+    kmax = 16
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        from dh2urdf.kernels.finish import finish_batch
+        from dh2urdf.kernels.general_6r import plan_general_6r, solve_general_6r_batch
+
+        self.plan = plan_general_6r(self.links)
+        self._solve, self._finish = solve_general_6r_batch, finish_batch
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the elimination from covering the chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n != 6 or chain.prismatic.any():
+            return "it needs 6 revolute joints"
+        if not moves_freely(chain):
+            return "the arm cannot move its tool in all six directions"
+        return None
+
+    def details(self) -> str:
+        """Name the axes and the method."""
+        return (
+            f"five joints eliminated, the sixth from a polynomial of degree 16 (Raghavan and "
+            f"Roth 1993), then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) in two jitted calls."""
+        outputs = (q_out, residual_out, count_out)
+        self._solve(*self.plan, Ts, *outputs)
+        self._finish(self.links, self.joints, Ts, within_limits, *outputs, branch_out, free_out)

@@ -1,0 +1,42 @@
+"""From the candidates of a batch to its solutions: limits, free joints, one of each family."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.families import free_joints
+
+__all__ = ["finish_batch"]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, free):
+    """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose i, in place.
+
+    Parameters
+    ----------
+    links, joints
+        The exact chain, see :mod:`dh2urdf.kernels.certify`.
+    Ts : array, shape (m, 4, 4)
+    within_limits : bool
+    q, residual, count, branch, free
+        As in :class:`dh2urdf.ik.solver.Solver`; branches become -1.
+    """
+    n = q.shape[2]
+    work, trial = np.empty((n, n + 8)), np.empty(n)
+    for i in range(Ts.shape[0]):
+        found = count[i]
+        for k in range(found):
+            residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
+        found = finish_pose(
+            links, joints, Ts[i], False, q[i], residual[i], branch[i], free[i], found, work
+        )
+        for k in range(found):
+            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial, work)
+        if within_limits:
+            found = finish_pose(
+                links, joints, Ts[i], True, q[i], residual[i], branch[i], free[i], found, work
+            )
+        count[i] = found
