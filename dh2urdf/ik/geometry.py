@@ -97,7 +97,8 @@ class AxisLines:
         if abs(gap @ normal) > self.length * math.sqrt(square):
             return None
         point: Array = points[j] + self.axes[j] * (np.cross(self.axes[i], gap) @ normal / square)
-        return point + normal * (gap @ normal / square)
+        point += normal * (gap @ normal / square)
+        return point
 
     def _centre(self, points: Array, i: int) -> Array | None:
         """Point within the tolerance of lines i, i + 1, i + 2, neighbours not parallel."""
@@ -157,7 +158,7 @@ class DHForm:
         """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
         axes, points = self.lines.axes, self.lines.points
         x, origin = _any_normal(axes, points), points[0]
-        frames = []
+        frames: list[Array] = []
         for i in range(len(axes)):
             if i > 0:
                 x, origin = self._normal(i - 1, x, origin)

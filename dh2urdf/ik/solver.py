@@ -7,6 +7,7 @@ the caller's arrays in one jitted call that holds no interpreter lock.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib import import_module
@@ -19,9 +20,21 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.transforms import Array
 
-__all__ = ["SOLVERS", "Solver", "SolverBase", "SolverRow", "Task", "select_solver"]
+__all__ = [
+    "SOLVERS",
+    "BatchKernel",
+    "Solver",
+    "SolverBase",
+    "SolverRow",
+    "Task",
+    "select_solver",
+    "whole_ranges",
+]
 
 IntArray = NDArray[np.int64]
+
+BatchKernel = Callable[..., None]
+"""A jitted function: constants, poses, ``within_limits``, then the five output arrays."""
 
 
 class Task(StrEnum):
@@ -146,6 +159,11 @@ class SolverBase:
 
     def __str__(self) -> str:
         return self.name
+
+
+def whole_ranges(chain: SerialChain) -> bool:
+    """Whether every joint has both of its limits or neither."""
+    return bool((np.isfinite(chain.lower) == np.isfinite(chain.upper)).all())
 
 
 SOLVERS: tuple[SolverRow, ...] = (

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
 from dh2urdf.ik.tolerances import SLACK
 from dh2urdf.transforms import Array
 
@@ -29,6 +31,7 @@ class SphericalWrist(SolverBase):
         super().__init__(chain, task, others)
         self.lines = AxisLines(nominal or chain)
         self.form = DHForm(self.lines)
+        self.constants = self.links, self.joints, self.form.rows, self.form.ends, SLACK
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -48,6 +51,19 @@ class SphericalWrist(SolverBase):
         """Name the subproblems of the position arm and of the wrist."""
         return f"axes 4, 5, 6 meet ({self.lines.describe()})"
 
+    @cached_property
+    def kernel(self) -> BatchKernel:
+        """The fastest kernel that covers the geometry."""
+        from dh2urdf.kernels.spherical_wrist import solve_sliding_arm, solve_turning_arm
+        from dh2urdf.kernels.spherical_wrist_blocks import solve_common_wrist
+
+        if self.chain.prismatic.any():
+            return solve_sliding_arm  # type: ignore[no-any-return]
+        rows = self.form.rows
+        common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0
+        fast = common and self.form.exact and whole_ranges(self.chain)
+        return solve_common_wrist if fast else solve_turning_arm  # type: ignore[no-any-return]
+
     def solve_batch(
         self,
         Ts: Array,
@@ -59,23 +75,8 @@ class SphericalWrist(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) in one jitted call."""
-        from dh2urdf.kernels.spherical_wrist import solve_sliding_arm, solve_turning_arm
-
-        solve = solve_sliding_arm if self.chain.prismatic.any() else solve_turning_arm
-        solve(
-            self.links,
-            self.joints,
-            self.form.rows,
-            self.form.ends,
-            SLACK,
-            Ts,
-            within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
-        )
+        outputs = q_out, residual_out, count_out, branch_out, free_out
+        self.kernel(*self.constants, Ts, within_limits, *outputs)
 
 
 def _places_wrist(form: DHForm) -> bool:

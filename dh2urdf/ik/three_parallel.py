@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
 from dh2urdf.ik.tolerances import SLACK
 from dh2urdf.transforms import Array
 
@@ -27,6 +29,7 @@ class ThreeParallel(SolverBase):
         super().__init__(chain, task, others)
         self.lines = AxisLines(nominal or chain)
         self.form = DHForm(self.lines)
+        self.constants = self.links, self.joints, self.form.rows, self.form.ends, SLACK
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -54,6 +57,17 @@ class ThreeParallel(SolverBase):
             f"joints {outer}, joint 6 (subproblem 1), then a planar arm (subproblems 3 and 1)"
         )
 
+    @cached_property
+    def kernel(self) -> BatchKernel:
+        """The fastest kernel that covers the geometry."""
+        from dh2urdf.kernels.three_parallel import solve_three_parallel
+        from dh2urdf.kernels.three_parallel_blocks import solve_common_parallel
+
+        rows = self.form.rows
+        common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0
+        fast = common and self.form.exact and whole_ranges(self.chain)
+        return solve_common_parallel if fast else solve_three_parallel  # type: ignore[no-any-return]
+
     def solve_batch(
         self,
         Ts: Array,
@@ -65,19 +79,5 @@ class ThreeParallel(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) in one jitted call."""
-        from dh2urdf.kernels.three_parallel import solve_three_parallel
-
-        solve_three_parallel(
-            self.links,
-            self.joints,
-            self.form.rows,
-            self.form.ends,
-            SLACK,
-            Ts,
-            within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
-        )
+        outputs = q_out, residual_out, count_out, branch_out, free_out
+        self.kernel(*self.constants, Ts, within_limits, *outputs)

@@ -17,7 +17,13 @@ from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
 from dh2urdf.kernels.trig import MERGE
 
-__all__ = ["add_wrist", "middle_angle", "solve_sliding_arm", "solve_turning_arm"]
+__all__ = [
+    "add_wrist",
+    "middle_angle",
+    "solve_sliding_arm",
+    "solve_turning_arm",
+    "solve_turning_pose",
+]
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -128,6 +134,22 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def solve_turning_pose(
+    links, joints, form, ends, slack, T, within_limits, q, residual, branch, free, scratch
+):
+    """All solutions of one pose T (4, 4), written to q (8, 6) and the rest; returns the count."""
+    D, R, arm, work = scratch
+    tool_to_wrist(ends, T, D)
+    rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+    found = 0
+    for k in range(rows):
+        found = add_wrist(form, D, arm[k], R, slack, q, branch, free, found)
+    for k in range(found):
+        residual[k] = -1.0
+    return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def solve_turning_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
@@ -137,17 +159,11 @@ def solve_turning_arm(
     ``form`` and ``ends`` of its Denavit-Hartenberg form. Outputs: q (m, 8, 6), residual,
     branch and free (m, 8), count (m,).
     """
-    D, R, arm, work = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    scratch = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
     for i in range(Ts.shape[0]):
-        tool_to_wrist(ends, Ts[i], D)
-        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
-        found = 0
-        for k in range(rows):
-            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
-        for k in range(found):
-            residual[i, k] = -1.0
-        count[i] = finish_pose(
-            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = solve_turning_pose(
+            links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
         )
 
 

@@ -22,7 +22,7 @@ from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
 from dh2urdf.kernels.trig import add_square, circle_pair, elbow_angle, linear_trig, trig_roots
 
-__all__ = ["solve_three_parallel"]
+__all__ = ["solve_parallel_pose", "solve_three_parallel"]
 
 ALL_FREE = 0b111111
 
@@ -255,6 +255,48 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def solve_parallel_pose(
+    links, joints, form, ends, slack, T, within_limits, q, residual, branch, free, scratch
+):
+    """All solutions of one pose T (4, 4), written to q (8, 6) and the rest; returns the count."""
+    D, pair, work, cs = scratch
+    first = 1 if form[0, 2] != 0.0 else 0
+    tool_to_wrist(ends, T, D)
+    found, mask = 0, 0
+    if first == 1:
+        pairs = _pairs_behind_one(form, D, slack, pair)
+        mask = ALL_FREE if pairs < 0 else 0
+    else:
+        pairs = _pairs_before_four(form, D, slack, pair)
+    outer = 0 if first == 1 else 3
+    for k in range(abs(pairs)):
+        cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
+        cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
+        shoulder, wrists = 0, 1
+        if first == 1:
+            shoulder = 1 if pair[k, 0] * D[0, 3] + pair[k, 1] * D[1, 3] < 0.0 else 0
+            if form[4, 0] == 0.0:
+                wrists = _slope_of_last(form, D, cs, slack)
+        for _ in range(wrists):
+            found = _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, found)
+            cs[4, 1] = -cs[4, 1]
+    for k in range(found):
+        residual[k] = -1.0
+    return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _slope_of_last(form, D, cs, slack):
+    """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
+    kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
+    x = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
+    y = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
+    z = kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2]
+    wrists, cs[4, 0], cs[4, 1] = middle_angle(form, x, y, z, slack)
+    return min(wrists, 1) if math.hypot(x, y) <= FREE else wrists
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def solve_three_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
@@ -262,39 +304,9 @@ def solve_three_parallel(
 
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
     """
-    D, pair, work = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14))
-    cs, r = np.zeros((6, 2)), np.empty((3, 3))
-    first = 1 if form[0, 2] != 0.0 else 0
+    scratch = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14)), np.zeros((6, 2))
     for i in range(Ts.shape[0]):
-        tool_to_wrist(ends, Ts[i], D)
-        found, mask = 0, 0
-        if first == 1:
-            pairs = _pairs_behind_one(form, D, slack, pair)
-            mask = ALL_FREE if pairs < 0 else 0
-        else:
-            pairs = _pairs_before_four(form, D, slack, pair)
-        for k in range(abs(pairs)):
-            outer = 0 if first == 1 else 3
-            cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
-            cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
-            shoulder = 0
-            if first == 1:
-                shoulder = 1 if pair[k, 0] * D[0, 3] + pair[k, 1] * D[1, 3] < 0.0 else 0
-            wrists = 1
-            if first == 1 and form[4, 0] == 0.0:
-                kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-                for j in range(3):
-                    r[j, 2] = kx * D[0, j] + ky * D[1, j] + kz * D[2, j]
-                wrists, cs[4, 0], cs[4, 1] = middle_angle(form, r[0, 2], r[1, 2], r[2, 2], slack)
-                if math.hypot(r[0, 2], r[1, 2]) <= FREE:
-                    wrists = min(wrists, 1)
-            for _ in range(wrists):
-                found = _add_planar(
-                    form, first, D, cs, shoulder, mask, slack, q[i], branch[i], free[i], found
-                )
-                cs[4, 1] = -cs[4, 1]
-        for k in range(found):
-            residual[i, k] = -1.0
-        count[i] = finish_pose(
-            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = solve_parallel_pose(
+            links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
         )

@@ -1,0 +1,183 @@
+"""The common spherical-wrist arm, vectorised: axis 2 parallel to 3, an orthogonal wrist.
+
+The same mathematics as :mod:`dh2urdf.kernels.position_arm` and
+:mod:`dh2urdf.kernels.spherical_wrist`, for poses away from singularities and rims; all others go to
+the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow ``k >> 1 & 1``, wrist ``k >> 2``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.blocks import (
+    BLOCK,
+    CLEAR,
+    COS,
+    DIRTY,
+    FEW,
+    ROWS,
+    SIN,
+    VALID,
+    WORK,
+    block_kernel,
+    emit,
+    load_poses,
+    measure,
+)
+from dh2urdf.kernels.spherical_wrist import solve_turning_pose
+
+__all__ = ["solve_common_wrist"]
+
+JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + [3] * 8 + [4] * 8 + [5] * 8)
+ROW_OF = np.array([[k & 1, 2 + (k & 3), 6 + (k & 3), 10 + k, 18 + k, 26 + k] for k in range(8)])
+
+PLANE = WORK
+"""Per shoulder: x and y of the wrist centre in the arm's plane, the rotation seen from there."""
+
+
+@block_kernel
+def _shoulders(form, n, S):
+    """Joint 1, and the pose seen from the arm's plane, for both shoulders."""
+    a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
+    lateral = form[2, 1] * form[3, 3] + form[1, 3] + form[2, 3]
+    scale = a1 * a1 + form[1, 0] * form[1, 0] + form[2, 0] * form[2, 0] + form[3, 3] * form[3, 3]
+    for shoulder in range(2):
+        side = 1.0 - 2.0 * shoulder
+        rows = BLOCK * (PLANE + 11 * shoulder)
+        for i in range(n):
+            px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
+            y = (pz - ca1 * lateral) / sa1
+            offset = ca1 * y - sa1 * lateral
+            square = px * px + py * py
+            reach2 = square - offset * offset
+            size = scale + offset * offset
+            reach = side * math.sqrt(max(reach2, 0.0))
+            inverse = 1.0 / max(square, 1e-30)
+            c, s = (px * reach + py * offset) * inverse, (py * reach - px * offset) * inverse
+            S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i] = c, s
+            S[rows + i], S[rows + BLOCK + i] = reach - a1, y
+            S[BLOCK * (VALID + shoulder) + i] = 1.0 if reach2 > 0.0 else 0.0
+            dirty = abs(reach2) < CLEAR * CLEAR * size or square < CLEAR * CLEAR * size
+            S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
+        for j in range(3):
+            for i in range(n):
+                c, s = S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i]
+                r0, r1 = S[BLOCK * j + i], S[BLOCK * (3 + j) + i]
+                r2 = S[BLOCK * (6 + j) + i]
+                x, y = c * r0 + s * r1, c * r1 - s * r0
+                S[rows + BLOCK * (2 + j) + i] = x
+                S[rows + BLOCK * (5 + j) + i] = ca1 * y + sa1 * r2
+                S[rows + BLOCK * (8 + j) + i] = ca1 * r2 - sa1 * y
+
+
+@block_kernel
+def _elbows(form, n, S):
+    """Joints 2 and 3 of all four arms: planar RR (lecture notes 8.2)."""
+    upper = form[1, 0]
+    wx, wy = form[2, 0], -form[2, 2] * form[3, 3]
+    fore = math.sqrt(wx * wx + wy * wy)
+    lean_c, lean_s = wx / fore, wy / fore
+    scale = 2.0 * upper * fore
+    for arm in range(4):
+        shoulder, elbow = arm & 1, arm >> 1
+        rows = BLOCK * (PLANE + 11 * shoulder)
+        side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
+        for i in range(n):
+            x, y = S[rows + i], S[rows + BLOCK + i]
+            square = x * x + y * y
+            outer = (upper + fore) * (upper + fore) - square
+            inner = square - (upper - fore) * (upper - fore)
+            product = outer * inner
+            cosine = 0.5 * (inner - outer) / scale
+            sine = side * math.sqrt(max(product, 0.0)) / abs(scale)
+            along, across = upper + fore * cosine, fore * sine
+            inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
+            S[BLOCK * (COS + 2 + arm) + i] = (x * along + y * across) * inverse
+            S[BLOCK * (SIN + 2 + arm) + i] = (y * along - x * across) * inverse
+            S[BLOCK * (COS + 6 + arm) + i] = cosine * lean_c + sine * lean_s
+            S[BLOCK * (SIN + 6 + arm) + i] = sine * lean_c - cosine * lean_s
+            exists = S[BLOCK * (VALID + shoulder) + i] if product > 0.0 else 0.0
+            S[BLOCK * (VALID + 4 + arm) + i] = exists
+            size = square + abs(scale)
+            dirty = abs(product) < CLEAR * CLEAR * size * size or square < CLEAR * CLEAR * size
+            S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
+
+
+@block_kernel
+def _wrists(form, n, S):
+    """ZYZ angles of what is left of the rotation, for all four arms and both wrists."""
+    ca3, sa3, sa4, sa5 = form[2, 1], form[2, 2], form[3, 2], form[4, 2]
+    for arm in range(4):
+        rows = BLOCK * (PLANE + 11 * (arm & 1))
+        flip = arm + 4
+        for i in range(n):
+            c2, s2 = S[BLOCK * (COS + 2 + arm) + i], S[BLOCK * (SIN + 2 + arm) + i]
+            c3, s3 = S[BLOCK * (COS + 6 + arm) + i], S[BLOCK * (SIN + 6 + arm) + i]
+            c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
+            x0, x1, x2 = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i], S[rows + BLOCK * 4 + i]
+            y0, y1, y2 = S[rows + BLOCK * 5 + i], S[rows + BLOCK * 6 + i], S[rows + BLOCK * 7 + i]
+            z0, z1, z2 = S[rows + BLOCK * 8 + i], S[rows + BLOCK * 9 + i], S[rows + BLOCK * 10 + i]
+            x0, x1, x2, y0, y1, y2 = (
+                c * x0 + s * y0,
+                c * x1 + s * y1,
+                c * x2 + s * y2,
+                c * y0 - s * x0,
+                c * y1 - s * x1,
+                c * y2 - s * x2,
+            )
+            y0, y1, y2, z0, z1, z2 = (
+                ca3 * y0 + sa3 * z0,
+                ca3 * y1 + sa3 * z1,
+                ca3 * y2 + sa3 * z2,
+                ca3 * z0 - sa3 * y0,
+                ca3 * z1 - sa3 * y1,
+                ca3 * z2 - sa3 * y2,
+            )
+            s5 = math.sqrt(x2 * x2 + y2 * y2)
+            c5 = -z2 * sa4 * sa5
+            inverse = sa5 / max(s5, 1e-30)
+            c4, s4 = x2 * inverse, y2 * inverse
+            c6 = c5 * (c4 * x0 + s4 * y0) + s5 * sa4 * z0
+            s6 = -c5 * (c4 * x1 + s4 * y1) - s5 * sa4 * z1
+            S[BLOCK * (COS + 10 + arm) + i], S[BLOCK * (SIN + 10 + arm) + i] = c4, s4
+            S[BLOCK * (COS + 18 + arm) + i], S[BLOCK * (SIN + 18 + arm) + i] = c5, s5
+            S[BLOCK * (COS + 26 + arm) + i], S[BLOCK * (SIN + 26 + arm) + i] = c6, s6
+            S[BLOCK * (COS + 10 + flip) + i], S[BLOCK * (SIN + 10 + flip) + i] = -c4, -s4
+            S[BLOCK * (COS + 18 + flip) + i], S[BLOCK * (SIN + 18 + flip) + i] = c5, -s5
+            S[BLOCK * (COS + 26 + flip) + i], S[BLOCK * (SIN + 26 + flip) + i] = -c6, -s6
+            exists = S[BLOCK * (VALID + flip) + i]
+            S[BLOCK * (VALID + arm) + i] = exists
+            dirty = s5 < CLEAR and exists > 0.0
+            S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
+
+
+@block_kernel
+def solve_common_wrist(
+    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+):
+    """:func:`dh2urdf.kernels.spherical_wrist.solve_turning_arm` for the common geometry."""
+    scratch = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    m = Ts.shape[0]
+    S = np.zeros(ROWS * BLOCK if m >= FEW else 1)
+    for first in range(0, m, BLOCK):
+        n = min(BLOCK, m - first)
+        if n < FEW:
+            count[first : first + n] = -1
+        else:
+            load_poses(ends, form[0, 3], Ts, first, n, S)
+            _shoulders(form, n, S)
+            _elbows(form, n, S)
+            _wrists(form, n, S)
+            for k in range(8):
+                arm = k & 3
+                measure(form, ends[2], n, S, k, k & 1, 2 + arm, 6 + arm, 10 + k, 18 + k, 26 + k)
+            table = JOINT_OF, ROW_OF
+            emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
+        for i in range(first, first + n):
+            if count[i] < 0:
+                out = q[i], residual[i], branch[i], free[i]
+                count[i] = solve_turning_pose(
+                    links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+                )

@@ -1,0 +1,171 @@
+"""The UR family, vectorised: axes 2, 3, 4 parallel, the last three square to one another.
+
+The same mathematics as :mod:`dh2urdf.kernels.three_parallel`, for poses away from singularities and
+rims; all others go to the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow
+``k >> 1 & 1``, wrist ``k >> 2``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.blocks import (
+    BLOCK,
+    CLEAR,
+    COS,
+    DIRTY,
+    FEW,
+    ROWS,
+    SIN,
+    VALID,
+    WORK,
+    block_kernel,
+    emit,
+    load_poses,
+    measure,
+)
+from dh2urdf.kernels.three_parallel import solve_parallel_pose
+
+__all__ = ["solve_common_parallel"]
+
+JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
+ROW_OF = np.array(
+    [
+        [k & 1, 10 + k, 18 + k, 26 + k, 2 + (k & 1) + 2 * (k >> 2), 6 + (k & 1) + 2 * (k >> 2)]
+        for k in range(8)
+    ]
+)
+
+PLANE = WORK
+"""Per shoulder and wrist: where the planar arm has to reach, and its heading; four rows each."""
+
+
+@block_kernel
+def _shoulders(form, n, S):
+    """Joint 1 from the offset of the arm's plane, joint 5 from the slope of axis 6."""
+    ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
+    constant = form[1, 3] + form[2, 3] + form[3, 3]
+    for shoulder in range(2):
+        side = (1.0 if sa1 < 0.0 else -1.0) * (1.0 - 2.0 * shoulder)
+        flip = shoulder + 2
+        for i in range(n):
+            px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
+            a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
+            square = a * a + b * b
+            gap = square - d * d
+            t = side * math.sqrt(max(gap, 0.0))
+            inverse = 1.0 / max(square, 1e-30)
+            c, s = (a * d - b * t) * inverse, (b * d + a * t) * inverse
+            exists = 1.0 if gap > 0.0 else 0.0
+            kx, ky = sa1 * s, -sa1 * c
+            rx = kx * S[i] + ky * S[BLOCK * 3 + i] + ca1 * S[BLOCK * 6 + i]
+            ry = kx * S[BLOCK + i] + ky * S[BLOCK * 4 + i] + ca1 * S[BLOCK * 7 + i]
+            rz = kx * S[BLOCK * 2 + i] + ky * S[BLOCK * 5 + i] + ca1 * S[BLOCK * 8 + i]
+            s5 = math.sqrt(rx * rx + ry * ry)
+            c5 = -rz * sa4 * sa5
+            inverse = sa4 / max(s5, 1e-30)
+            c6, s6 = rx * inverse, -ry * inverse
+            S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i] = c, s
+            S[BLOCK * (COS + 2 + shoulder) + i], S[BLOCK * (SIN + 2 + shoulder) + i] = c5, s5
+            S[BLOCK * (COS + 2 + flip) + i], S[BLOCK * (SIN + 2 + flip) + i] = c5, -s5
+            S[BLOCK * (COS + 6 + shoulder) + i], S[BLOCK * (SIN + 6 + shoulder) + i] = c6, s6
+            S[BLOCK * (COS + 6 + flip) + i], S[BLOCK * (SIN + 6 + flip) + i] = -c6, -s6
+            S[BLOCK * (VALID + shoulder) + i] = exists
+            size = square + d * d
+            dirty = abs(gap) < CLEAR * CLEAR * size or (s5 < CLEAR and exists > 0.0)
+            S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
+
+
+@block_kernel
+def _planes(form, n, S):
+    """Where the planar arm has to reach and how it points, for both shoulders and wrists."""
+    a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
+    a4, sa5, d5 = form[3, 0], form[4, 2], form[4, 3]
+    for pair in range(4):
+        shoulder = pair & 1
+        rows = BLOCK * (PLANE + 4 * pair)
+        for i in range(n):
+            c1, s1 = S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i]
+            c5, s5 = S[BLOCK * (COS + 2 + pair) + i], S[BLOCK * (SIN + 2 + pair) + i]
+            c6, s6 = S[BLOCK * (COS + 6 + pair) + i], S[BLOCK * (SIN + 6 + pair) + i]
+            x, y, z = c5 * a4, sa5 * d5, sa5 * s5 * a4
+            x, y = c6 * x + s6 * y, c6 * y - s6 * x
+            u, v, w = c6 * c5, -s6 * c5, sa5 * s5
+            r0, r1, r2 = S[i], S[BLOCK + i], S[BLOCK * 2 + i]
+            p0 = S[BLOCK * 9 + i] - r0 * x - r1 * y - r2 * z
+            h0 = r0 * u + r1 * v + r2 * w
+            r0, r1, r2 = S[BLOCK * 3 + i], S[BLOCK * 4 + i], S[BLOCK * 5 + i]
+            p1 = S[BLOCK * 10 + i] - r0 * x - r1 * y - r2 * z
+            h1 = r0 * u + r1 * v + r2 * w
+            r0, r1, r2 = S[BLOCK * 6 + i], S[BLOCK * 7 + i], S[BLOCK * 8 + i]
+            p2 = S[BLOCK * 11 + i] - r0 * x - r1 * y - r2 * z
+            h2 = r0 * u + r1 * v + r2 * w
+            S[rows + i] = c1 * p0 + s1 * p1 - a1
+            S[rows + BLOCK + i] = ca1 * (c1 * p1 - s1 * p0) + sa1 * p2
+            S[rows + BLOCK * 2 + i] = c1 * h0 + s1 * h1
+            S[rows + BLOCK * 3 + i] = ca1 * (c1 * h1 - s1 * h0) + sa1 * h2
+
+
+@block_kernel
+def _elbows(form, n, S):
+    """Joints 2, 3 and 4 of all eight arms: planar RRR (lecture notes 8.2)."""
+    upper, fore = form[1, 0], form[2, 0]
+    scale = 2.0 * upper * fore
+    for k in range(7, -1, -1):
+        shoulder, elbow, pair = k & 1, k >> 1 & 1, (k & 1) + 2 * (k >> 2)
+        rows = BLOCK * (PLANE + 4 * pair)
+        side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
+        for i in range(n):
+            x, y = S[rows + i], S[rows + BLOCK + i]
+            hx, hy = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i]
+            square = x * x + y * y
+            outer = (upper + fore) * (upper + fore) - square
+            inner = square - (upper - fore) * (upper - fore)
+            product = outer * inner
+            c3 = 0.5 * (inner - outer) / scale
+            s3 = side * math.sqrt(max(product, 0.0)) / abs(scale)
+            along, across = upper + fore * c3, fore * s3
+            inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
+            c2, s2 = (x * along + y * across) * inverse, (y * along - x * across) * inverse
+            c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
+            S[BLOCK * (COS + 10 + k) + i], S[BLOCK * (SIN + 10 + k) + i] = c2, s2
+            S[BLOCK * (COS + 18 + k) + i], S[BLOCK * (SIN + 18 + k) + i] = c3, s3
+            S[BLOCK * (COS + 26 + k) + i] = hx * c + hy * s
+            S[BLOCK * (SIN + 26 + k) + i] = hy * c - hx * s
+            exists = S[BLOCK * (VALID + shoulder) + i]
+            size = square + abs(scale)
+            dirty = abs(product) < CLEAR * CLEAR * size * size or square < CLEAR * CLEAR * size
+            S[BLOCK * DIRTY + i] += exists if dirty else 0.0
+            S[BLOCK * (VALID + k) + i] = exists if product > 0.0 else 0.0
+
+
+@block_kernel
+def solve_common_parallel(
+    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+):
+    """:func:`dh2urdf.kernels.three_parallel.solve_three_parallel` for the common geometry."""
+    scratch = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14)), np.zeros((6, 2))
+    m = Ts.shape[0]
+    S = np.zeros(ROWS * BLOCK if m >= FEW else 1)
+    for first in range(0, m, BLOCK):
+        n = min(BLOCK, m - first)
+        if n < FEW:
+            count[first : first + n] = -1
+        else:
+            load_poses(ends, form[0, 3], Ts, first, n, S)
+            _shoulders(form, n, S)
+            _planes(form, n, S)
+            _elbows(form, n, S)
+            for k in range(8):
+                pair = (k & 1) + 2 * (k >> 2)
+                measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
+            table = JOINT_OF, ROW_OF
+            emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
+        for i in range(first, first + n):
+            if count[i] < 0:
+                out = q[i], residual[i], branch[i], free[i]
+                count[i] = solve_parallel_pose(
+                    links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+                )
