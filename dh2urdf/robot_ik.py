@@ -36,6 +36,15 @@ class RobotIK:
         """The solver of the full pose; prints as its name, ``explain()`` says why it was chosen."""
         return self._ik.solver
 
+    def solver_for(self, *, task: Task | str = "pose", locked: Locked | None = None) -> Solver:
+        """The solver of a task with joints held, see :meth:`ik`.
+
+        Raises
+        ------
+        NoSolverError
+        """
+        return self._ik.problem(task, locked).solver
+
     def ik(
         self,
         T: ArrayLike,
