@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
 from dh2urdf.cli.output import emit, emit_json, note
-from dh2urdf.exceptions import Dh2UrdfError, OutputExistsError
+from dh2urdf.exceptions import Dh2UrdfError, OutputExistsError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 
 __all__ = ["extract_"]
@@ -29,7 +30,7 @@ SUFFIXES = {
 
 
 def extract_(
-    source: str,
+    source: Annotated[str, Parameter(allow_leading_hyphen=True)],
     /,
     *,
     base: str | None = None,
@@ -37,7 +38,9 @@ def extract_(
     convention: Literal["standard", "modified"] = "standard",
     snap: float | None = None,
     explain: bool = False,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)
+    ] = None,
     format: Format | None = None,
     force: bool = False,
     x_axis: Literal["auto", "away"] = "auto",
@@ -53,7 +56,7 @@ def extract_(
     Parameters
     ----------
     source
-        The file.
+        The file; - for a URDF on stdin.
     base, tip
         Links between which the table runs, anywhere in the tree. Default: the root and the end of
         the longest chain.
@@ -65,7 +68,7 @@ def extract_(
     explain
         Explain every frame, like a worked solution.
     output
-        File to write; - for stdout. Its suffix tells the format.
+        File to write; - for stdout. Its suffix tells the format, YAML on stdout.
     format
         Format of the output; rtb is Python for robotics-toolbox-python, matlab is for Corke's
         toolbox, matlab-rst for the Robotics System Toolbox.
@@ -83,7 +86,7 @@ def extract_(
         One JSON object instead of text.
     """
     found = extract_dh(
-        source,
+        _stdin() if source == "-" else source,
         base,
         tip,
         convention,
@@ -107,15 +110,25 @@ def extract_(
     return 0
 
 
+def _stdin() -> str:
+    """The text of a URDF on stdin."""
+    text = sys.stdin.read()
+    if not text.lstrip().startswith("<"):
+        raise UrdfError("<stdin>:1: not XML")
+    return text
+
+
 def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
     """The table in its format, to a file or stdout."""
-    chosen = format or SUFFIXES.get(output.suffix.lower() if output else "", "")
+    to_stdout = output is None or str(output) == "-"
+    suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")
+    chosen = format or SUFFIXES.get(suffix, "")
     if not chosen:
         raise Dh2UrdfError(
             f"{output}: the suffix tells no format; use {', '.join(SUFFIXES)} or --format"
         )
     text = _text(found, chosen)
-    if output is None or str(output) == "-":
+    if output is None or to_stdout:
         emit(text)
         return
     from dh2urdf.dh_io import atomic_write

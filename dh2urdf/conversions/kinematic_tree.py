@@ -205,7 +205,7 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
         return start, usual[0] if usual else deepest
     trunk = _shared(list(longest))
     if len(trunk) > most - len(trunk):
-        return start, _fork(tree, [tips[0] for tips in longest.values()])
+        return start, _fork(tree, start, [tips[0] for tips in longest.values()])
     offered = ", ".join(tip for tips in longest.values() for tip in tips)
     raise UrdfError(
         f"{tree.where}: {len(longest)} chains of {most} joints; choose the tip, one of: {offered}"
@@ -213,16 +213,15 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
 
 
 def _moving_names(tree: KinematicTree, base: str, tip: str) -> tuple[str, ...]:
-    """Names of the moving joints on the way down to a leaf; empty where there is no such way."""
-    names = []
-    for joint in tree.above(tip):
-        if joint.kind not in (*MOVING, "fixed"):
-            return ()
-        if joint.kind in MOVING:
-            names.append(joint.name)
-        if joint.parent == base:
-            return tuple(reversed(names))
-    return ()
+    """Names of the moving joints from base to tip; empty where another kind is on the way."""
+    up, down = tree.above(base), tree.above(tip)
+    while up and down and up[-1] is down[-1]:
+        up.pop()
+        down.pop()
+    way = [*up, *reversed(down)]
+    if any(joint.kind not in (*MOVING, "fixed") for joint in way):
+        return ()
+    return tuple(joint.name for joint in way if joint.kind in MOVING)
 
 
 def _shared(chains: list[tuple[str, ...]]) -> tuple[str, ...]:
@@ -235,9 +234,9 @@ def _shared(chains: list[tuple[str, ...]]) -> tuple[str, ...]:
     return tuple(trunk)
 
 
-def _fork(tree: KinematicTree, tips: list[str]) -> str:
-    """The last link that the ways to all tips have in common."""
-    ways = [[tree.root, *(j.child for j in reversed(tree.above(tip)))] for tip in tips]
+def _fork(tree: KinematicTree, base: str, tips: list[str]) -> str:
+    """The last link that the ways from the base to all tips have in common."""
+    ways = [[base, *(step.link for step in find_path(tree, base, tip))] for tip in tips]
     common: list[str] = [names[0] for names in zip(*ways, strict=False) if len(set(names)) == 1]
     return common[-1]
 
