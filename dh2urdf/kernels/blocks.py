@@ -52,7 +52,7 @@ joint values, whether these are inside their limits, and for eight solutions whe
 and their residual; the rest belongs to the family."""
 
 
-def block_kernel(function):  # type: ignore[no-untyped-def]
+def block_kernel(function):
     """Compile with fused multiply-add and without a test of every division."""
     return njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
 

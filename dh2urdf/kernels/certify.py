@@ -211,11 +211,12 @@ def _same(joints, q, p, reach):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _into_limits(links, joints, T, q, residual):
+def _into_limits(links, joints, T, q, residual, free):
     """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual, or -1.0 if outside.
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
     still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
+    A free joint may be outside: another member of its family may not.
     """
     inside, moved = True, False
     for i in range(q.shape[0]):
@@ -228,7 +229,7 @@ def _into_limits(links, joints, T, q, residual):
                 q[i] += TWO_PI * math.ceil((lower - CLUSTER - q[i]) / TWO_PI)
             elif upper < math.inf:
                 q[i] -= TWO_PI * math.ceil((q[i] - upper - CLUSTER) / TWO_PI)
-        if q[i] < lower or q[i] > upper:
+        if (q[i] < lower or q[i] > upper) and not (free >> i) & 1:
             if q[i] < lower - CLUSTER or q[i] > upper + CLUSTER:
                 inside = False
             else:
@@ -238,7 +239,8 @@ def _into_limits(links, joints, T, q, residual):
     if not moved:
         return residual
     for i in range(q.shape[0]):
-        q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
+        if not (free >> i) & 1:
+            q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
     residual = pose_residual(links, joints, T, q)
     return residual if residual <= ACCEPT else -1.0
 
@@ -263,8 +265,8 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     T : array, shape (4, 4)
         Target ``T_base_tool``.
     within_limits : bool
-        Drop what no full turn brings into the limits; a representative of a singular family
-        stays, for another member may be inside.
+        Drop what no full turn brings into the limits; a free joint may be outside, for another
+        member of its family may not.
     q : array, shape (kmax, n)
         Candidates in the first ``count`` rows, any turn.
     residual : array, shape (kmax,)
@@ -303,8 +305,8 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             _move(q, residual, branch, free, kept, twin)
     solutions = 0
     for k in range(kept):
-        certified = _into_limits(links, joints, T, q[k], residual[k])
-        if certified < 0.0 and within_limits and free[k] == 0:
+        certified = _into_limits(links, joints, T, q[k], residual[k], free[k])
+        if certified < 0.0 and within_limits:
             continue
         if certified >= 0.0:
             residual[k] = certified
