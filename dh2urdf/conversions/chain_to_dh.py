@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.dh_to_chain import FLIP
-from dh2urdf.conversions.frame_assignment import Assignment, XRule, assign_frames, references
+from dh2urdf.conversions.frame_assignment import Assignment, FrameAssigner, XRule
 from dh2urdf.conversions.prismatic_axes import place_prismatic_axes
 from dh2urdf.conversions.rounding import tidy_angle, tidy_length, tidy_origin
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
@@ -64,15 +64,10 @@ def chain_to_dh(
     signs = tuple(signs) if signs is not None else (1,) * chain.n
     links = turned_round(chain.links, signs)
     slides: list[bool] = chain.prismatic.tolist()
-    size = references(links).size
-
-    def assign(trial: Array) -> Assignment:
-        return assign_frames(
-            trial, convention, prismatic=slides, x_rule=rule, compact=compact, size=size
-        )
-
-    links = place_prismatic_axes(links, slides, lambda trial: assign(trial).lengths, size)
-    assignment = assign(links)
+    assigner = FrameAssigner(links, convention, prismatic=slides, x_rule=rule, compact=compact)
+    size = assigner.ref.size
+    links = place_prismatic_axes(links, slides, assigner.lengths, size)
+    assignment = assigner.assign(links)
     rows = _rows(assignment, chain, signs)
     table = DHTable(
         rows,

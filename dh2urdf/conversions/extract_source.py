@@ -122,7 +122,9 @@ def _mjcf_referee(where: str, found: ChainSource, root: str, addresses: dict[str
 def _from_urdf(root: etree._Element, where: str, base: str | None, tip: str | None) -> Source:
     tree = read_urdf(root, where)
     found = tree_to_chain(tree, *choose_ends(tree, base, tip))
-    model = urdf_model(root, where)
+    ways = (tree.above(found.base), tree.above(found.tip))
+    links = {tree.root, *(joint.child for way in ways for joint in way)}
+    model = urdf_model(root, where, links)
     ends = frame_id(model, found.base), frame_id(model, found.tip)
     referee = model_referee(model, *ends, found.chain.names)
     return Source(found, referee, _embedded(root, where, found))

@@ -33,12 +33,12 @@ from dh2urdf.conversions.axis_pairs import (
     classify,
     common_normal,
 )
-from dh2urdf.conversions.frame_directions import Directions, choose_directions
+from dh2urdf.conversions.frame_directions import choose_directions
 from dh2urdf.conversions.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
 
-__all__ = ["FAR", "Assignment", "Reference", "XRule", "assign_frames", "references"]
+__all__ = ["FAR", "Assignment", "FrameAssigner", "Reference", "XRule", "references"]
 
 FAR = 20.0
 """Common normals farther off than this many arm's lengths are not gone to.
@@ -86,14 +86,6 @@ class Assignment:
         """Number of joints."""
         return len(self.theta)
 
-    @property
-    def lengths(self) -> tuple[float, ...]:
-        """Every length of the table, base and tool, by which tables are called simple."""
-        between = tuple(n.a for n in self.normals)
-        base, tool = self.base[:3, 3], self.end.tool[:3, 3]
-        ends = (*map(float, base), *map(float, tool), self.start.a, self.end.a)
-        return (*self.d, *between, *ends)
-
 
 def references(links: Array) -> Reference:
     """Walk from the base to the tool, each time to the nearest point of the next axis.
@@ -111,97 +103,108 @@ def references(links: Array) -> Reference:
     return Reference(tuple(heights[:-1]), max(size, 1e-9))
 
 
-def assign_frames(
-    links: Array,
-    convention: DHConvention,
-    *,
-    prismatic: Sequence[bool] = (),
-    x_rule: XRule = XRule.AUTO,
-    compact: bool = True,
-    size: float | None = None,
-) -> Assignment:
-    """Assign all frames of a chain.
+class FrameAssigner:
+    """Assigns all frames of a chain; what it found of a link it keeps.
 
     Parameters
     ----------
     links : array, shape (n + 1, 4, 4)
         Constant transforms of a :class:`~dh2urdf.chain.SerialChain`.
-    prismatic : sequence of n bool, optional
-        True where a joint slides; none does where left out.
+    prismatic : sequence of n bool
+        True where a joint slides.
     compact : bool
         Slide the frames of pairs whose common normal is :data:`FAR` away back to the arm and
         leave the rest to one rotation ``beta``.
-    size : float, optional
-        Length of the arm [m], where it is not to be measured on these links.
     """
-    ref = references(links)
-    if size is not None:
-        ref = ref._replace(size=size)
-    start = first_frame(links[0], convention, ref.size)
-    pairs = [classify(L, ref.size) for L in links[1:-1]]
-    normals: list[Normal] = []
-    slid = []
-    s = start.s
-    for i, pair in enumerate(pairs):
-        normal, near = _normal(links[i + 1], pair, i, ref, s, convention, compact)
-        normals.append(normal)
-        slid.append(near)
-        s = normal.s2
-    n = len(links) - 1
-    own = _own_height(ref, n - 1, s)
-    ends = EndPlacer(links[-1], convention, own, ref.size)
-    turns = tuple(prismatic) or (False,) * n
-    path = choose_directions(start.phi, pairs, normals, ends, turns, x_rule is XRule.AWAY)
-    base, theta = start.base, list(path.theta)
-    d = [a + b for a, b in zip(_before(start.s, path.normals), _after(path), strict=True)]
-    if base is None:
-        base = links[0] @ slide_turn(theta[0], d[0])
-        theta[0] = d[0] = 0.0
-    return Assignment(
-        convention,
-        start,
-        path.end,
-        base,
-        tuple(theta),
-        tuple(d),
-        tuple(pairs),
-        path.normals,
-        tuple(slid),
-        ref.size,
-    )
+
+    def __init__(
+        self,
+        links: Array,
+        convention: DHConvention,
+        *,
+        prismatic: Sequence[bool],
+        x_rule: XRule = XRule.AUTO,
+        compact: bool = True,
+    ) -> None:
+        self.links, self.convention, self.compact = links, convention, compact
+        self.prismatic, self.strict = tuple(prismatic), x_rule is XRule.AWAY
+        self.ref = references(links)
+        self._known: dict[bytes, tuple[AxisPair, Normal | None]] = {}
+
+    def assign(self, links: Array) -> Assignment:
+        """The frames of the chain, the axes of its sliding joints where ``links`` have them."""
+        start, ends, pairs, normals, slid = self._place(links)
+        path = choose_directions(start.phi, pairs, normals, ends, self.prismatic, self.strict)
+        base, theta, d = start.base, list(path.theta), _offsets(start, path.normals, path.end)
+        if base is None:
+            base = links[0] @ slide_turn(theta[0], d[0])
+            theta[0] = d[0] = 0.0
+        return Assignment(
+            self.convention,
+            start,
+            path.end,
+            base,
+            tuple(theta),
+            tuple(d),
+            tuple(pairs),
+            path.normals,
+            tuple(slid),
+            self.ref.size,
+        )
+
+    def lengths(self, links: Array) -> tuple[float, ...]:
+        """Every length of the table, base and tool, by which tables are called simple."""
+        start, ends, _, normals, _ = self._place(links)
+        end = ends(0.0)[0]
+        d = _offsets(start, normals, end)
+        base = start.base
+        if base is None:
+            base = links[0] @ slide_turn(0.0, d[0])
+            d[0] = 0.0
+        between = (normal.a for normal in normals)
+        return (*d, *between, *base[:3, 3], *end.tool[:3, 3], start.a, end.a)
+
+    def _place(
+        self, links: Array
+    ) -> tuple[Start, EndPlacer, list[AxisPair], list[Normal], list[bool]]:
+        """Everything but the directions of x, which do not bear on any length."""
+        start = first_frame(links[0], self.convention, self.ref.size)
+        pairs, normals, slid = [], [], []
+        s = start.s
+        for i, L in enumerate(links[1:-1]):
+            pair, normal, near = self._normal(L, i, s)
+            pairs.append(pair)
+            normals.append(normal)
+            slid.append(near)
+            s = normal.s2
+        own = self._own_height(len(links) - 2, s)
+        ends = EndPlacer(links[-1], self.convention, own, self.ref.size)
+        return start, ends, pairs, normals, slid
+
+    def _normal(self, L: Array, i: int, s: float | None) -> tuple[AxisPair, Normal, bool]:
+        """The common normal of pair i, and whether it stands in for one far away."""
+        key = L.tobytes()
+        if key not in self._known:
+            pair = classify(L, self.ref.size)
+            self._known[key] = pair, None if pair.parallel else common_normal(L, pair)
+        pair, normal = self._known[key]
+        if normal is not None:
+            heights = self.ref.heights
+            reach = max(abs(normal.s1 - heights[i]), abs(-normal.s2 - heights[i + 1]))
+            if not self.compact or reach <= FAR * self.ref.size:
+                return pair, normal, False
+        height = self._own_height(i, s) if i == 0 or s is None else -s
+        return pair, across(L, pair, height, 0.0, self.convention), not pair.parallel
+
+    def _own_height(self, i: int, s: float | None) -> float:
+        """Height of joint i's own origin, or of a point nearby where that is far off the arm."""
+        if abs(self.ref.heights[i]) <= FAR * self.ref.size:
+            return 0.0
+        return self.ref.heights[i] if s is None else -s
 
 
-def _before(s: float | None, normals: Sequence[Normal]) -> list[float]:
-    """Slide along each axis that the pair before it leaves [m]."""
-    return [s or 0.0, *(normal.s2 for normal in normals)]
-
-
-def _after(path: Directions) -> list[float]:
-    """Slide along each axis to the foot of the pair after it [m]."""
-    return [*(normal.s1 for normal in path.normals), path.end.s1]
-
-
-def _own_height(ref: Reference, i: int, s: float | None) -> float:
-    """Height of joint i's own origin, or of a point nearby where that is far off the arm."""
-    if abs(ref.heights[i]) <= FAR * ref.size:
-        return 0.0
-    return ref.heights[i] if s is None else -s
-
-
-def _normal(
-    L: Array,
-    pair: AxisPair,
-    i: int,
-    ref: Reference,
-    s: float | None,
-    convention: DHConvention,
-    compact: bool,
-) -> tuple[Normal, bool]:
-    """The common normal of pair i, and whether it stands in for one far away."""
-    if not pair.parallel:
-        normal = common_normal(L, pair)
-        reach = max(abs(normal.s1 - ref.heights[i]), abs(-normal.s2 - ref.heights[i + 1]))
-        if not compact or reach <= FAR * ref.size:
-            return normal, False
-    height = _own_height(ref, i, s) if i == 0 or s is None else -s
-    return across(L, pair, height, 0.0, convention), not pair.parallel
+def _offsets(start: Start, normals: Sequence[Normal], end: End) -> list[float]:
+    """Each joint's d [m]: the slides along its axis that the pairs before and after it leave."""
+    before = [start.s or 0.0, *(normal.s2 for normal in normals)]
+    after = [*(normal.s1 for normal in normals), end.s1]
+    return [a + b for a, b in zip(before, after, strict=True)]

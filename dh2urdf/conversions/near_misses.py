@@ -27,7 +27,7 @@ def near_misses(assigned: AssignedTable, chain: SerialChain, qs: Array) -> list[
     """
     warnings = list(_far_normals(assigned))
     snapped, changes = snap_chain(chain, NEAR, qs)
-    again = chain_to_dh(snapped, assigned.table.convention)
+    again = chain_to_dh(snapped, assigned.table.convention) if changes else assigned
     table, rounded = snap_table(again.table, NEAR, qs)
     changes += rounded
     if changes:

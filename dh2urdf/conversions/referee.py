@@ -8,7 +8,7 @@ extraction.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 import pinocchio as pin
@@ -34,8 +34,13 @@ Referee = Callable[[Array], Array]
 """From configurations (m, n) to ``T_base_tip`` (m, 4, 4)."""
 
 
-def urdf_model(root: etree._Element, where: str) -> pin.Model:
+def urdf_model(root: etree._Element, where: str, links: Collection[str]) -> pin.Model:
     """Pinocchio's model of the bare kinematics of a URDF: links, joints and their numbers.
+
+    Parameters
+    ----------
+    links : collection of str
+        The links to keep, with all that lie between them and the root.
 
     Raises
     ------
@@ -43,8 +48,11 @@ def urdf_model(root: etree._Element, where: str) -> pin.Model:
     """
     robot = etree.Element("robot", name=root.get("name") or "robot")
     for link in root.iterchildren("link"):
-        etree.SubElement(robot, "link", name=link.get("name"))
+        if link.get("name") in links:
+            etree.SubElement(robot, "link", name=link.get("name"))
     for joint in root.iterchildren("joint"):
+        if joint.find("child").get("link") not in links:
+            continue
         kind = joint.get("type")
         bare = etree.SubElement(robot, "joint", name=joint.get("name"), type=kind)
         for tag in ("parent", "child", "origin", "axis"):

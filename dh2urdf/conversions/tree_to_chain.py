@@ -71,12 +71,12 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
     moving = [step for step in steps if step.joint.kind in MOVING]
     links, T = [], np.eye(4)
     for step in steps:
-        before, after = _halves(step)
         if step.joint.kind in MOVING:
+            before, after = _halves(step)
             links.append(T @ before)
             T = after
         else:
-            T = T @ before @ after
+            T = T @ _at_rest(step)
     links.append(T)
     joints = [step.joint for step in moving]
     chain = SerialChain(
@@ -102,15 +102,19 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
 
 
 def _halves(step: Step) -> tuple[Array, Array]:
-    """A step at q as ``before Z(q) after``; the product is the step at q = 0."""
+    """A moving step at q as ``before Z(q) after``."""
     joint = step.joint
     turn = np.eye(4)
-    if joint.kind in MOVING:
-        turn[:3, :3] = frame_with_z(joint.axis)
+    turn[:3, :3] = frame_with_z(joint.axis)
     if step.forward:
         return joint.origin @ turn, turn.T
     # (origin turn Z(q) turn^-1)^-1 = turn FLIP Z(q) FLIP turn^-1 origin^-1
     return turn @ FLIP, FLIP @ turn.T @ tf.inverse(joint.origin)
+
+
+def _at_rest(step: Step) -> Array:
+    """A step at q = 0."""
+    return step.joint.origin if step.forward else tf.inverse(step.joint.origin)
 
 
 def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | None:
@@ -122,8 +126,7 @@ def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | No
         if inertial is not None:
             T_joint_part = T_joint_link
             for part in way:
-                before, after = _halves(part)
-                T_joint_part = T_joint_part @ before @ after
+                T_joint_part = T_joint_part @ _at_rest(part)
             parts.append(inertial.moved(T_joint_part))
     return Inertial.total(parts) if parts else None
 
