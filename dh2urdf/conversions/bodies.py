@@ -1,35 +1,44 @@
-"""Drawn bodies of an arm: drums on the joints, capsule-like links, rails for prismatic joints.
+"""Drawn bodies of an arm: drums on the joints, capsule-like links, rails and rams that slide.
 
-Link i is drawn in its own URDF link frame, whose z is the axis of joint i. Its body starts
-where the link before it ends on that axis, follows the offset d along the axis to the foot of
-the common normal (the frame's origin), then the common normal of length a to the next axis,
-then any fixed step. Sizes follow the arm's size, so that a toy and a crane look alike.
+Each body is drawn in the URDF frame of its link, along the corner points of its link's path.
+Thickness follows what a link has to carry, the length of the arm from there on, so that a toy
+and a crane look alike and an arm on a long track stays an arm.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.dh_to_chain import split_row
 from dh2urdf.conversions.inertia import Inertial
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
-from dh2urdf.transforms import Array, inverse
+from dh2urdf.conversions.link_paths import LinkFrames, link_frames, link_paths
+from dh2urdf.dh import DHTable, JointType
+from dh2urdf.transforms import Array
 
 __all__ = ["Body", "LinkFrames", "draw_bodies", "link_frames"]
 
-LINK_RADIUS = 0.040
-"""Radius of the first link's capsule, as a share of the arm's size."""
+LINK_RADIUS = 0.042
+"""Radius of the first link's capsule, as a share of the arm's length."""
 
-TAPER = 0.5
-"""Radius of the last link over that of the first."""
+TAPER = 0.78
+"""Least radius of a link over that of the link before it: the drum shows around the rod."""
 
-FAR = 10.0
-"""A table whose lengths sum to this many times the arm's size has common normals far outside
-the arm (calibrated arms); its links are drawn straight from axis to axis."""
+DRUM = (1.45, 3.0)
+"""Radius and length of a joint's drum, in radii of its link."""
+
+SLEEVE = (3.2, 2.6)
+"""Width and length of what slides on a rail, or of what a ram slides in, in radii."""
+
+PEDESTAL = (2.3, 0.7)
+"""Radius and height of the base, in radii of the first link."""
+
+UNKNOWN_TRAVEL = 0.5
+"""Travel drawn for a prismatic joint without limits, as a share of the arm's size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,99 +85,109 @@ class Body:
         return Inertial(m, np.zeros(3), np.diag(moments)).moved(self.pose)
 
 
-@dataclass(frozen=True, eq=False)
-class LinkFrames:
-    """Where the URDF puts its links.
-
-    Parameters
-    ----------
-    origins : tuple of n arrays (4, 4)
-        ``T_parent_link`` of each joint's ``<origin>``: base_link to link 1, link 1 to link 2, ...
-    dh : tuple of n + 1 arrays (4, 4)
-        DH frame i in the frame of link i (frame 0 in base_link).
-    tool : array, shape (4, 4)
-        ``tool0`` in the frame of link n.
-    """
-
-    origins: tuple[Array, ...]
-    dh: tuple[Array, ...]
-    tool: Array
-
-
-def link_frames(table: DHTable) -> LinkFrames:
-    """Split the DH product into URDF origins and DH frames.
-
-    Standard DH: the tail ``Trans_x(a) Rot_x(alpha)`` of a row goes into the next joint's origin,
-    the last one into the tool. Modified DH: the link frames are the DH frames.
-    """
-    origins: list[Array] = []
-    dh = [table.base.matrix]
-    for row in table.rows:
-        if row.is_joint:
-            before, after = split_row(row, table.convention)
-            origins.append(dh[-1] @ before)
-            dh.append(after)
-        else:
-            dh[-1] = dh[-1] @ row.transform(0.0, table.convention)
-    return LinkFrames(tuple(origins), tuple(dh), dh[-1] @ table.tool.matrix)
-
-
 def draw_bodies(table: DHTable, chain: SerialChain) -> list[list[Body]]:
     """Bodies of base_link (index 0) and of links 1 ... n, each list in its link's frame."""
-    frames = link_frames(table)
-    size = max(chain.size, 1e-3)
-    radii = LINK_RADIUS * size * np.linspace(1.0, TAPER, table.n + 1)
-    straight = table.length > FAR * size
-    paths = _straight_paths(chain, frames) if straight else _dh_paths(table, frames)
-    bodies: list[list[Body]] = []
-    for i, path in enumerate(paths):
-        r = float(radii[i])
-        row = table.joints[i - 1] if i else None
-        parts = list(_capsules(path, r))
-        if row is None:
-            parts.insert(0, _pedestal(path[0], r))
-        elif row.joint_type is JointType.PRISMATIC:
-            parts.insert(0, _box(np.zeros(3), np.eye(3), (3.2 * r, 3.2 * r, 2.6 * r), "joint"))
+    return _Artist(table, chain).draw()
+
+
+class _Artist:
+    """One arm's frames, paths, travels and radii."""
+
+    def __init__(self, table: DHTable, chain: SerialChain) -> None:
+        self.joints = table.joints
+        self.frames = link_frames(table)
+        self.paths = link_paths(table, chain, self.frames)
+        self.travels = [_travel(chain, i, row.sign) for i, row in enumerate(self.joints)]
+        self.radii = self._radii(max(chain.size, 1e-3))
+
+    def draw(self) -> list[list[Body]]:
+        base, standing = self._pedestal()
+        bodies = [[base, *_capsules(self.paths[0], self.radii[0])]]
+        for i, path in enumerate(self.paths[1:]):
+            r = self.radii[i + 1]
+            parts = list(_capsules(path, r))
+            if self.joints[i].joint_type is JointType.PRISMATIC:
+                fixed, moving = self._slide(i)
+                bodies[-1].append(fixed)
+                parts.insert(0, moving)
+            else:
+                parts.insert(0, standing if i == 0 and standing else _drum(path[0], r))
+            bodies.append(parts)
+        return bodies
+
+    def _radii(self, size: float) -> list[float]:
+        """Radius of each link [m]: geometric mean of the arm (once) and what it carries (twice)."""
+        lengths = [_length(path) for path in self.paths[1:]]
+        whole = 0.0
+        carried: list[float] = []
+        for length, travel in zip(lengths[::-1], self.travels[::-1], strict=True):
+            carried.insert(0, whole + length)
+            whole = carried[0] + travel[1] - travel[0]
+        whole = whole if whole > 1e-3 * size else size
+        radii: list[float] = []
+        for i, length in enumerate(carried):
+            least = TAPER * radii[i - 1] if i else 0.25 * LINK_RADIUS * whole
+            radii.append(max(LINK_RADIUS * math.cbrt(whole * length * length), least))
+        return [radii[0], *radii]
+
+    def _pedestal(self) -> tuple[Body, Body | None]:
+        """The disc under the arm, and the first drum where it has to be fitted to the disc."""
+        r = self.radii[0]
+        radius, height = PEDESTAL[0] * r, PEDESTAL[1] * r
+        column = _length(self.paths[0]) >= r
+        if column or self.joints[0].joint_type is JointType.PRISMATIC:
+            up = np.array([0.0, 0.0, -1.0 if self.paths[0][-1][2] < -r else 1.0])
+            return _cylinder(0.5 * height * up, up, (radius, height), "base"), None
+        start, foot = self.paths[1][:2]
+        T_base_link = self.frames.origins[0]
+        axis, leg = T_base_link[:3, 2], float(foot[2] - start[2])
+        side = np.sign(leg) if abs(leg) > 1e-9 else (1.0 if axis[2] >= -1e-9 else -1.0)
+        ground = (T_base_link @ np.array([*start, 1.0]))[:3]
+        standing = None
+        if abs(leg) > 1.5 * r:
+            length = min(DRUM[1] * r, abs(leg) - height)
+            centre = start + np.array([0.0, 0.0, side * (height + 0.5 * length)])
+            standing = _cylinder(centre, np.array([0.0, 0, 1]), (DRUM[0] * r, length), "joint")
+            middle = ground + 0.5 * height * side * axis
         else:
-            parts.insert(0, _drum(path[0] + _stand(i, row, frames, r), r))
-        if i < table.n and table.joints[i].joint_type is JointType.PRISMATIC:
-            parts.append(_rail(table, i, frames.origins[i], float(radii[i + 1]), chain))
-        bodies.append(parts)
-    return bodies
+            middle = ground - 0.5 * (height + DRUM[1] * r) * side * axis
+        return _cylinder(middle, axis, (radius, height), "base"), standing
+
+    def _slide(self, i: int) -> tuple[Body, Body]:
+        """What joint i slides on, in the link before it, and what slides, in its own link.
+
+        A ram runs in a sleeve where the arm goes on along the axis, a sleeve on a rail where it
+        turns off it.
+        """
+        r, d = self.radii[i + 1], self.joints[i].d
+        width, length = SLEEVE[0] * r, SLEEVE[1] * r
+        origin = self.frames.origins[i]
+        low, high = self.travels[i]
+        last = i + 1 == len(self.joints)
+        follows = i > 0 and (last or self.joints[i + 1].joint_type is not JointType.PRISMATIC)
+        turns_off = any(np.hypot(p[0], p[1]) > r for p in self.paths[i + 1])
+        if follows and not turns_off:
+            sleeve = _box(origin, -d, (width, width, length), "joint")
+            ends = (min(0.0, -(high + d) - 0.6 * length), max(0.0, -(low + d) + 0.6 * length))
+            ram = _box(np.eye(4), sum(ends) / 2, (1.6 * r, 1.6 * r, ends[1] - ends[0]), "rail")
+            return sleeve, ram
+        ends = (min(low - 0.6 * length, -d), max(high + 0.6 * length, -d))
+        rail = _box(origin, sum(ends) / 2, (1.6 * r, 1.6 * r, ends[1] - ends[0]), "rail")
+        return rail, _box(np.eye(4), 0.0, (width, width, length), "joint")
 
 
-def _dh_paths(table: DHTable, frames: LinkFrames) -> list[list[Array]]:
-    """Corner points of each link's body in its own frame, by the DH parameters."""
-    zero = np.zeros(3)
-    modified = table.convention is DHConvention.MODIFIED
-    paths: list[list[Array]] = [[zero, frames.dh[0][:3, 3]]]
-    for i, row in enumerate(table.joints, 1):
-        slides = row.joint_type is JointType.PRISMATIC
-        start = zero if slides else np.array([0.0, 0.0, -row.d])
-        corners = [start, zero]
-        if not modified:
-            corners.append(np.array([row.a, 0.0, 0.0]))
-        corners.append(frames.dh[i][:3, 3])
-        paths.append(corners)
-    paths[-1].append(frames.tool[:3, 3])
-    if modified:
-        for i, row in enumerate(table.joints):
-            paths[i].append((frames.dh[i] @ np.array([row.a, 0.0, 0.0, 1.0]))[:3])
-    return paths
+def _travel(chain: SerialChain, i: int, sign: int) -> tuple[float, float]:
+    """Range of a prismatic joint along its own z [m]; (0, 0) for a revolute one."""
+    if not chain.prismatic[i]:
+        return 0.0, 0.0
+    low = chain.lower[i] if np.isfinite(chain.lower[i]) else 0.0
+    high = chain.upper[i] if np.isfinite(chain.upper[i]) else low + UNKNOWN_TRAVEL * chain.size
+    a, b = sorted((float(sign * low), float(sign * high)))
+    return a, b
 
 
-def _straight_paths(chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:
-    """From axis to axis by the nearest points, in each link's frame."""
-    points = [np.zeros(3)]
-    for point, axis in zip(chain.points, chain.axes, strict=True):
-        points.append(point + axis * float(axis @ (points[-1] - point)))
-    points.append(chain.tool[:3, 3])
-    T_base_link, paths = np.eye(4), []
-    for i in range(chain.n + 1):
-        T_base_link = T_base_link @ frames.origins[i - 1] if i else T_base_link
-        T_link_base = inverse(T_base_link)
-        paths.append([T_link_base[:3, :3] @ p + T_link_base[:3, 3] for p in points[i : i + 2]])
-    return paths
+def _length(path: list[Array]) -> float:
+    return float(sum(np.linalg.norm(b - a) for a, b in pairwise(path)))
 
 
 def _capsules(path: list[Array], r: float) -> Iterator[Body]:
@@ -185,39 +204,17 @@ def _capsules(path: list[Array], r: float) -> Iterator[Body]:
 
 
 def _drum(centre: Array, r: float) -> Body:
-    return _cylinder(centre, np.array([0.0, 0, 1]), (1.5 * r, 3.2 * r), "joint")
-
-
-def _stand(i: int, row: DHRow, frames: LinkFrames, r: float) -> Array:
-    """How far the first drum is raised to stand on the floor instead of in it."""
-    on_floor = i == 1 and float(np.linalg.norm(frames.dh[0][:3, 3])) < r and row.d > 2.4 * r
-    return np.array([0.0, 0.0, 1.6 * r if on_floor else 0.0])
-
-
-def _pedestal(centre: Array, r: float) -> Body:
-    return _cylinder(
-        centre + np.array([0, 0, 0.4 * r]), np.array([0.0, 0, 1]), (2.4 * r, 0.8 * r), "base"
-    )
-
-
-def _rail(table: DHTable, i: int, origin: Array, r: float, chain: SerialChain) -> Body:
-    """A box along prismatic joint i + 1 over its travel, in the frame of the link before it."""
-    row = table.joints[i]
-    low = chain.lower[i] if np.isfinite(chain.lower[i]) else 0.0
-    high = chain.upper[i] if np.isfinite(chain.upper[i]) else 0.5 * chain.size
-    ends = sorted((row.sign * low, row.sign * high))
-    start, stop = min(ends[0], -row.d, 0.0), max(ends[1], -row.d, 0.0)
-    length = max(stop - start, r)
-    middle = origin @ np.array([0.0, 0.0, 0.5 * (start + stop), 1.0])
-    return _box(middle[:3], origin[:3, :3], (1.6 * r, 1.6 * r, length), "rail")
+    return _cylinder(centre, np.array([0.0, 0, 1]), (DRUM[0] * r, DRUM[1] * r), "joint")
 
 
 def _cylinder(centre: Array, axis: Array, size: tuple[float, float], material: str) -> Body:
     return Body("cylinder", size, _pose(_frame_along(axis), centre), material)
 
 
-def _box(centre: Array, R: Array, size: tuple[float, float, float], material: str) -> Body:
-    return Body("box", tuple(float(s) for s in size), _pose(R, centre), material)
+def _box(T: Array, z: float, size: tuple[float, float, float], material: str) -> Body:
+    """A box along the z axis of a frame, its middle at height z."""
+    middle = T @ np.array([0.0, 0.0, z, 1.0])
+    return Body("box", size, _pose(T[:3, :3], middle[:3]), material)
 
 
 def _pose(R: Array, p: Array) -> Array:

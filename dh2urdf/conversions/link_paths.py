@@ -1,0 +1,102 @@
+"""Where the URDF puts its links, and the corner points that each link's body runs along.
+
+Link i lives in its own URDF link frame, whose z is the axis of joint i. Its body starts where
+the link before it ends on that axis, follows the offset d along the axis to the foot of the
+common normal (the frame's origin), then the common normal of length a to the next axis, then
+any fixed step.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.dh_to_chain import split_row
+from dh2urdf.dh import DHConvention, DHTable, JointType
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["LinkFrames", "link_frames", "link_paths"]
+
+FAR = 2.5
+"""A table whose lengths sum to this many times the arm's size has common normals far outside
+the arm (calibrated arms); its links are drawn straight from axis to axis."""
+
+
+@dataclass(frozen=True, eq=False)
+class LinkFrames:
+    """Where the URDF puts its links.
+
+    Parameters
+    ----------
+    origins : tuple of n arrays (4, 4)
+        ``T_parent_link`` of each joint's ``<origin>``: base_link to link 1, link 1 to link 2, ...
+    dh : tuple of n + 1 arrays (4, 4)
+        DH frame i in the frame of link i (frame 0 in base_link).
+    tool : array, shape (4, 4)
+        ``tool0`` in the frame of link n.
+    """
+
+    origins: tuple[Array, ...]
+    dh: tuple[Array, ...]
+    tool: Array
+
+
+def link_frames(table: DHTable) -> LinkFrames:
+    """Split the DH product into URDF origins and DH frames.
+
+    Standard DH: the tail ``Trans_x(a) Rot_x(alpha)`` of a row goes into the next joint's origin,
+    the last one into the tool. Modified DH: the link frames are the DH frames.
+    """
+    origins: list[Array] = []
+    dh = [table.base.matrix]
+    for row in table.rows:
+        if row.is_joint:
+            before, after = split_row(row, table.convention)
+            origins.append(dh[-1] @ before)
+            dh.append(after)
+        else:
+            dh[-1] = dh[-1] @ row.transform(0.0, table.convention)
+    return LinkFrames(tuple(origins), tuple(dh), dh[-1] @ table.tool.matrix)
+
+
+def link_paths(table: DHTable, chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:
+    """Corner points [m] of base_link (index 0) and of links 1 ... n, each in its link's frame."""
+    if table.length > FAR * chain.size:
+        return _straight_paths(chain, frames)
+    return _dh_paths(table, frames)
+
+
+def _dh_paths(table: DHTable, frames: LinkFrames) -> list[list[Array]]:
+    """By the DH parameters."""
+    zero = np.zeros(3)
+    modified = table.convention is DHConvention.MODIFIED
+    paths: list[list[Array]] = [[zero, frames.dh[0][:3, 3]]]
+    for i, row in enumerate(table.joints, 1):
+        slides = row.joint_type is JointType.PRISMATIC
+        start = zero if slides else np.array([0.0, 0.0, -row.d])
+        corners = [start, zero]
+        if not modified:
+            corners.append(np.array([row.a, 0.0, 0.0]))
+        corners.append(frames.dh[i][:3, 3])
+        paths.append(corners)
+    paths[-1].append(frames.tool[:3, 3])
+    if modified:
+        for i, row in enumerate(table.joints):
+            paths[i].append((frames.dh[i] @ np.array([row.a, 0.0, 0.0, 1.0]))[:3])
+    return paths
+
+
+def _straight_paths(chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:
+    """From axis to axis by the nearest points."""
+    points = [np.zeros(3)]
+    for point, axis in zip(chain.points, chain.axes, strict=True):
+        points.append(point + axis * float(axis @ (points[-1] - point)))
+    points.append(chain.tool[:3, 3])
+    T_base_link, paths = np.eye(4), []
+    for i in range(chain.n + 1):
+        T_base_link = T_base_link @ frames.origins[i - 1] if i else T_base_link
+        T_link_base = inverse(T_base_link)
+        paths.append([T_link_base[:3, :3] @ p + T_link_base[:3, 3] for p in points[i : i + 2]])
+    return paths
