@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from numba import njit
+
+from dh2urdf.kernels.chain_lanes import BLOCK, ROWS, fits, lanes_fk
 
 __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_batch"]
 
@@ -117,9 +120,19 @@ def chain_fk(links, prismatic, q, T):
 
 @njit(cache=True, nogil=True)
 def chain_fk_batch(links, prismatic, q, T):
-    """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4)."""
-    for k in range(q.shape[0]):
-        chain_fk(links, prismatic, q[k], T[k])
+    """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4).
+
+    Whole blocks go side by side; the rest, and angles of a thousand turns, one by one.
+    """
+    m = q.shape[0]
+    x, S = np.empty(BLOCK), np.empty(ROWS * BLOCK)
+    for first in range(0, m, BLOCK):
+        last = min(first + BLOCK, m)
+        if last - first == BLOCK and fits(q[first:last]):
+            lanes_fk(links, prismatic, q[first:last], T[first:last], x, S)
+        else:
+            for k in range(first, last):
+                chain_fk(links, prismatic, q[k], T[k])
 
 
 @njit(cache=True, nogil=True)
