@@ -43,6 +43,9 @@ STACK = 40
 NARROW = 0.06
 """Length [rad] of an arc on which a pair of roots is looked for at an extremum of f."""
 
+NARROWEST = 2e-4
+"""Length [rad] of an arc below which such a pair counts as a double root."""
+
 NEAR_DOUBLE = 0.02
 """Imaginary part [rad] below which a complex pair of roots is reported as a double one."""
 
@@ -348,11 +351,14 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
                     count += 1
                     if min(abs(da), abs(db)) * UNSURE < noise * length:
                         _doubt(spans, row, centre)
-                elif 2.0 * abs(f) < near * near * abs(ddf) + noise:
-                    roots[count], slopes[count] = _angle(centre, row, x), 0.0
-                    count += 1
-                top -= 1
-                continue
+                    top -= 1
+                    continue
+                if changes == 0 or length < NARROWEST:
+                    if 2.0 * abs(f) < near * near * abs(ddf) + noise:
+                        roots[count], slopes[count] = _angle(centre, row, x), 0.0
+                        count += 1
+                    top -= 1
+                    continue
         if changes == 0:
             top -= 1
             continue

@@ -190,14 +190,18 @@ def solve_general_6r(
         count = circle_roots(work)
         if count < 0:
             continue
-        simple = simple_roots(count, slopes)
-        found = follow(links, size, count, found, shift, reverse, turns, out_q, out_residual, work)
+        simple, before = simple_roots(count, slopes), found
+        found, doubt = follow(
+            links, size, count, found, shift, reverse, turns, out_q, out_residual, work
+        )
         if spans[0, 0] > 0.0:
             count = span_roots(work)
-            found = follow(
+            found, more = follow(
                 links, size, count, found, shift, reverse, turns, out_q, out_residual, work
             )
-        if found > 0 and found % 2 == 0 and found >= simple:
+            doubt += more
+        settled = doubt == 0 or (before > 0 and found == before)
+        if settled and found > 0 and found % 2 == 0 and found >= simple:
             break
     return found
 

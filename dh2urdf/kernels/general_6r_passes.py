@@ -220,59 +220,79 @@ def _polish(links, size, lanes, work):
 
 
 @vector_kernel
-def _collect(size, lanes, paired, found, out_q, out_residual, work):
-    """Append the lanes that reached the target and are new; keep the roots that brought nothing.
+def _place(size, k, found, out_q, out_residual, work):
+    """Store lane k unless it missed the target or is known.
 
-    Returns the number of solutions and the number of roots left at the front of the root list.
+    Returns
+    -------
+    int, int
+        The number of solutions, and the index of this one; -1 if it missed.
     """
-    roots, slopes, cosines, sines = work[19], work[21], work[26], work[27]
-    position, angle, q = work[38], work[39], work[8]
-    short = min(size, 1.0)
-    left = 0
-    for k in range(lanes):
-        residual = max(position[k], angle[k])
-        new = False
-        if position[k] <= TOLERANCE * short and angle[k] <= TOLERANCE:
-            for i in range(6):
-                q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
-            new = True
-            near = max(SAME, 10.0 * math.sqrt(residual))
-            for f in range(found):
-                far = 0.0
-                for i in range(6):
-                    d = abs(q[i] - out_q[f, i])
-                    far = max(far, min(d, 2.0 * math.pi - d))
-                if far < near:
-                    new = False
-                    if residual < out_residual[f]:
-                        out_residual[f] = residual
-                        for i in range(6):
-                            out_q[f, i] = q[i]
-                    break
-            if new and found < out_q.shape[0]:
-                for i in range(6):
-                    out_q[found, i] = q[i]
-                out_residual[found] = residual
-                found += 1
-        if not paired and (not new or slopes[k] == 0.0):
-            roots[left] = roots[k]
-            left += 1
-    return found, left
+    cosines, sines, position, angle, q = work[26], work[27], work[38], work[39], work[8]
+    residual = max(position[k], angle[k])
+    if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
+        return found, -1
+    for i in range(6):
+        q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
+    near = max(SAME, 10.0 * math.sqrt(residual))
+    place = found
+    for f in range(found):
+        far = 0.0
+        for i in range(6):
+            d = abs(q[i] - out_q[f, i])
+            far = max(far, min(d, 2.0 * math.pi - d))
+        if far < near:
+            place = f
+            break
+    if place == out_q.shape[0]:
+        return found, -1
+    if place == found or residual < out_residual[place]:
+        out_residual[place] = residual
+        for i in range(6):
+            out_q[place, i] = q[i]
+    return max(found, place + 1), place
 
 
 @vector_kernel
 def follow(links, size, count, found, shift, reverse, turns, out_q, out_residual, work):
-    """Solutions from a list of roots; those that bring nothing are taken for double roots."""
+    """Append the solutions that a list of roots leads to.
+
+    A double root, a root that leads nowhere and one that leads where another went are taken for
+    two solutions with the same value of the hidden joint, and tried again as such.
+
+    Returns
+    -------
+    int, int
+        The number of solutions, and the number of roots that stay in doubt: they did not lead to
+        two different ones.
+    """
+    roots, slopes, seen = work[19], work[21], work[40]
     if count == 0:
-        return found
+        return found, 0
     lanes = _seeds(count, False, shift, reverse, turns, work)
     _polish(links, size, lanes, work)
-    found, left = _collect(size, lanes, False, found, out_q, out_residual, work)
-    if left > 0:
-        lanes = _seeds(min(left, LANES // 2), True, shift, reverse, turns, work)
-        _polish(links, size, lanes, work)
-        found, _ = _collect(size, lanes, True, found, out_q, out_residual, work)
-    return found
+    for f in range(LANES):
+        seen[f] = 0.0
+    left = 0
+    for k in range(lanes):
+        found, place = _place(size, k, found, out_q, out_residual, work)
+        if place < 0 or seen[place] > 0.0 or slopes[k] == 0.0:
+            roots[left] = roots[k]
+            left += 1
+        if place >= 0:
+            seen[place] = 1.0
+    if left == 0:
+        return found, 0
+    left = min(left, LANES // 2)
+    _seeds(left, True, shift, reverse, turns, work)
+    _polish(links, size, 2 * left, work)
+    doubt = 0
+    for k in range(left):
+        found, one = _place(size, 2 * k, found, out_q, out_residual, work)
+        found, other = _place(size, 2 * k + 1, found, out_q, out_residual, work)
+        if one < 0 or other < 0 or one == other:
+            doubt += 1
+    return found, doubt
 
 
 @vector_kernel
