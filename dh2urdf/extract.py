@@ -171,9 +171,10 @@ def extract_dh(
     table = carry(assigned.table, found)
     max_error = pose_error(table_poses(table, qs), truth)
     if tolerance == 0 and not max_error <= allowed:
+        hint = "" if compact else "; leave compact on, or snap"
         raise VerificationError(
-            f"{found.name}: the table differs from its source by {max_error:.3g} (allowed "
-            f"{allowed:.1g}); leave compact on, or snap"
+            f"{found.name}: the table differs from Pinocchio's reading of the source by "
+            f"{max_error:.3g} (allowed {allowed:.1g}){hint}"
         )
     table = replace(
         table,

@@ -22,6 +22,12 @@ KINDS = (*MOVING, "fixed", "floating", "planar", "spherical")
 UNIT = 1e-6
 """How far from 1 the length of an axis may be without a remark: six written digits."""
 
+FARTHEST = 1e9
+"""Largest length [m] of an origin: beyond it sixteen digits no longer hold a micrometre."""
+
+LARGEST = 1e30
+"""Largest number of any kind: squares and products of it are still floats."""
+
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -116,7 +122,7 @@ class _Reader:
             self.fail(element, f'{key}="{text}" is not {_numbers(count)}{hint}')
         if len(values) != count:
             self.fail(element, f'{key}="{text}" is not {_numbers(count)}')
-        if not all(map(math.isfinite, values)):
+        if not all(abs(value) <= LARGEST for value in values):
             self.fail(element, f'{key}="{text}" is not finite')
         return values
 
@@ -127,6 +133,14 @@ class _Reader:
         if element.get(key, "").strip().lower().lstrip("+-") in ("inf", "infinity"):
             return None
         return self.numbers(element, key, 1, (0.0,))[0]
+
+    def amount(self, element: etree._Element | None, key: str) -> float | None:
+        """Like :meth:`number`, for what cannot be negative; left out with a remark if it is."""
+        value = self.number(element, key)
+        if value is not None and value < 0:
+            self.warnings.append(f'{self.place(element)}: {key}="{value!r}" is negative; left out')
+            return None
+        return value
 
     def name(self, element: etree._Element) -> str:
         name = element.get("name")
@@ -141,6 +155,8 @@ class _Reader:
             return np.eye(4)
         zeros = (0.0, 0.0, 0.0)
         xyz = self.numbers(origin, "xyz", 3, zeros)
+        if max(map(abs, xyz)) > FARTHEST:
+            self.fail(origin, f'xyz="{origin.get("xyz")}" is farther than {FARTHEST:.0e} m')
         return tf.origin_matrix(xyz, self.numbers(origin, "rpy", 3, zeros))
 
     def link(self, element: etree._Element) -> TreeLink:
@@ -185,10 +201,10 @@ class _Reader:
             where=self.place(element),
             lower=lower,
             upper=upper,
-            velocity=self.number(limit, "velocity") or None,
-            effort=self.number(limit, "effort") or None,
-            damping=self.number(dynamics, "damping"),
-            friction=self.number(dynamics, "friction"),
+            velocity=self.amount(limit, "velocity") or None,
+            effort=self.amount(limit, "effort") or None,
+            damping=self.amount(dynamics, "damping"),
+            friction=self.amount(dynamics, "friction"),
             mimic="" if mimic is None else mimic.get("joint", ""),
         )
 
@@ -205,10 +221,13 @@ class _Reader:
         axis = element.find("axis")
         if axis is None:
             return np.array([1.0, 0.0, 0.0])
-        vector = np.array(self.numbers(axis, "xyz", 3, (1.0, 0.0, 0.0)))
-        length = float(np.linalg.norm(vector))
-        if length < 1e-9:
-            self.fail(axis, f'xyz="{axis.get("xyz")}" is a zero axis')
+        if axis.get("xyz") is None:
+            self.fail(axis, "has no xyz")
+        vector = np.array(self.numbers(axis, "xyz", 3, ()))
+        length = math.hypot(*vector.tolist())
+        if length < 1e-9 or length > FARTHEST:
+            what = "a zero axis" if length < 1e-9 else "no direction"
+            self.fail(axis, f'xyz="{axis.get("xyz")}" is {what}')
         if abs(length - 1) > UNIT:
             self.warnings.append(f"{self.place(axis)}: length {length:.6g}, taken as a direction")
         return vector if length == 1.0 else vector / length

@@ -30,6 +30,9 @@ __all__ = [
     "urdf_model",
 ]
 
+FAR = 100.0
+"""Limits beyond this many arm's lengths are a way to say that there are none."""
+
 Referee = Callable[[Array], Array]
 """From configurations (m, n) to ``T_base_tip`` (m, 4, 4)."""
 
@@ -128,8 +131,8 @@ def configurations(chain: SerialChain, count: int, size: float) -> Array:
     """
     rng = np.random.default_rng(20170829)
     reach = np.where(chain.prismatic, size, np.pi)
-    low = np.where(chain.prismatic & np.isfinite(chain.lower), chain.lower, -reach)
-    high = np.where(chain.prismatic & np.isfinite(chain.upper), chain.upper, reach)
+    low = np.where(chain.prismatic & (np.abs(chain.lower) <= FAR * size), chain.lower, -reach)
+    high = np.where(chain.prismatic & (np.abs(chain.upper) <= FAR * size), chain.upper, reach)
     qs = rng.uniform(low, np.maximum(low, high), size=(count, chain.n))
     qs[0] = 0.0
     return qs
