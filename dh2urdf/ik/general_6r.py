@@ -43,8 +43,8 @@ class General6R(SolverBase):
     def details(self) -> str:
         """Name the axes and the method."""
         return (
-            f"five joints eliminated, the sixth from a polynomial of degree 16 (Raghavan and "
-            f"Roth 1993), then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
+            "five joints eliminated, the sixth from a polynomial of degree 16 (Raghavan and Roth "
+            f"1993), then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
         )
 
     def solve_batch(

@@ -19,6 +19,7 @@ from dh2urdf.kernels.trig import MERGE
 
 __all__ = [
     "add_wrist",
+    "append_wrist",
     "middle_angle",
     "solve_sliding_arm",
     "solve_turning_arm",
@@ -96,6 +97,12 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
         Candidates, as in :func:`dh2urdf.kernels.certify.finish_pose`.
     """
     _orientation_left(form, D, values, R)
+    return append_wrist(form, values, R, slack, q, branch, free, count)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def append_wrist(form, values, R, slack, q, branch, free, count):
+    """:func:`add_wrist` for a known orientation ``R_36`` (3, 3)."""
     wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
