@@ -19,9 +19,9 @@ from dh2urdf.kernels.trig import MERGE, circle_pair, elbow_angle, linear_trig
 
 __all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "tool_to_wrist"]
 
-FREE = 1e-10
-"""Distance from an axis [m], or sine, below which rounding leaves fewer than six digits of the
-angle about it: the joint is reported as free."""
+FREE = 5e-10
+"""Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned
+round by any amount, the residual stays within what a solution may have."""
 
 NICE = 1e-13
 """The same, below which there is nothing left of the angle, and the joint is put to zero."""
@@ -72,7 +72,7 @@ def _parallel_elbow(form, px, py, pz, slack, arm):
     scale = (a1 + a2 + forearm) * (a1 + a2 + forearm) + offset * offset
     if reach2 < -slack * scale:
         return 0
-    reach = math.sqrt(reach2) if reach2 > MERGE * scale else 0.0
+    reach = math.sqrt(reach2) if reach2 > MERGE * square else 0.0
     free = square <= FREE * FREE and reach <= FREE
     rows = 0
     for shoulder in range(2):

@@ -1,0 +1,203 @@
+"""What the inverse-kinematics tests share: arms, a forward kinematics of their own, a referee.
+
+Nothing here uses the kernels: the product of the chain is NumPy, and the independent count of
+solutions is a damped Newton search from many random starts.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+import dh2urdf
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.dh import JointType
+from dh2urdf.ik.solver import select_solver
+
+HALF = math.pi / 2
+
+
+class Found(NamedTuple):
+    """The five output arrays of a solver."""
+
+    q: np.ndarray
+    residual: np.ndarray
+    count: np.ndarray
+    branch: np.ndarray
+    free: np.ndarray
+
+    def of(self, i):
+        """Configurations, residuals, branch codes and masks of pose i."""
+        k = self.count[i]
+        return self.q[i, :k], self.residual[i, :k], self.branch[i, :k], self.free[i, :k]
+
+
+@cache
+def shipped(name):
+    return dh_to_chain(dh2urdf.load_table(name))
+
+
+@cache
+def arm(rows, kinds="RRRRRR", seed=0):
+    """A chain of Denavit-Hartenberg steps (d, a, alpha) with random base, tool and zeros."""
+    rng = np.random.default_rng(seed)
+    links = [random_pose(rng, 0.2)]
+    for d, a, alpha in rows:
+        theta = rng.uniform(-3, 3)
+        c, s = math.cos(theta), math.sin(theta)
+        zero = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
+        c, s = math.cos(alpha), math.sin(alpha)
+        step = np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, d], [0, 0, 0, 1.0]])
+        links.append(zero @ step)
+    links[-1] = links[-1] @ random_pose(rng, 0.2)
+    types = tuple(JointType.PRISMATIC if k == "P" else JointType.REVOLUTE for k in kinds)
+    names = tuple(f"joint_{i}" for i in range(1, len(rows) + 1))
+    free = np.full(len(rows), math.inf)
+    return SerialChain(np.stack(links), types, names, -free, free)
+
+
+def random_pose(rng, spread):
+    Q = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    T = np.eye(4)
+    T[:3, :3] = Q * np.linalg.det(Q)
+    T[:3, 3] = rng.normal(size=3) * spread
+    return T
+
+
+def with_limits(chain, lower, upper):
+    return SerialChain(
+        chain.links,
+        chain.joint_types,
+        chain.names,
+        np.broadcast_to(lower, chain.n).astype(float),
+        np.broadcast_to(upper, chain.n).astype(float),
+    )
+
+
+def forward(chain, q):
+    """Poses of configurations (..., n) by the product of the chain."""
+    T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
+    for i in range(chain.n):
+        T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
+    return T
+
+
+def joint_matrix(chain, i, q):
+    Z = np.zeros((*q.shape, 4, 4))
+    Z[..., [0, 1, 2, 3], [0, 1, 2, 3]] = 1.0
+    if chain.prismatic[i]:
+        Z[..., 2, 3] = q
+    else:
+        Z[..., 0, 0], Z[..., 1, 1] = np.cos(q), np.cos(q)
+        Z[..., 1, 0], Z[..., 0, 1] = np.sin(q), -np.sin(q)
+    return Z
+
+
+def error_vectors(T, T_target):
+    """Position difference and rotation vector (sine long) from T to T_target, (..., 6)."""
+    turn = 0.5 * np.cross(T[..., :3, :3], T_target[..., :3, :3], axis=-2).sum(-1)
+    behind = (T[..., :3, :3] * T_target[..., :3, :3]).sum((-1, -2)) < 1.0
+    turn[behind] = math.pi
+    return np.concatenate([T_target[..., :3, 3] - T[..., :3, 3], turn], axis=-1)
+
+
+def residuals(chain, q, T_target):
+    e = error_vectors(forward(chain, q), T_target)
+    return np.maximum(np.linalg.norm(e[..., :3], axis=-1), np.linalg.norm(e[..., 3:], axis=-1))
+
+
+def jacobians(chain, q):
+    """Geometric Jacobians at the tip in base axes, (..., 6, n)."""
+    T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
+    tip = forward(chain, q)[..., :3, 3]
+    columns = []
+    for i in range(chain.n):
+        z, p = T[..., :3, 2], T[..., :3, 3]
+        if chain.prismatic[i]:
+            columns.append(np.concatenate([z, np.zeros_like(z)], -1))
+        else:
+            columns.append(np.concatenate([np.cross(z, tip - p), z], -1))
+        T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
+    return np.stack(columns, -1)
+
+
+def gaps(chain, q, p):
+    """Largest joint difference of configurations modulo full turns, broadcast."""
+    d = np.asarray(q) - np.asarray(p)
+    return np.where(chain.prismatic, np.abs(d), np.abs(np.arcsin(np.sin(d / 2)) * 2)).max(-1)
+
+
+def draw(chain, m, seed):
+    q = np.random.default_rng(seed).uniform(-math.pi, math.pi, (m, chain.n))
+    q[:, chain.prismatic] *= 0.2
+    return q
+
+
+def solve(chain, Ts, within_limits=False, solver=None):
+    solver = solver or select_solver(chain)
+    Ts = np.ascontiguousarray(Ts)
+    m, k = len(Ts), solver.kmax
+    found = Found(
+        np.full((m, k, chain.n), np.nan),
+        np.full((m, k), np.nan),
+        np.zeros(m, np.int64),
+        np.zeros((m, k), np.int64),
+        np.zeros((m, k), np.int64),
+    )
+    q, residual, count, branch, free = found
+    solver.solve_batch(Ts, within_limits, q, residual, count, branch, free)
+    return found
+
+
+def check_all(chain, q, found, Ts):
+    """Every solution reaches its pose, none is there twice, the generating one is among them."""
+    exists = np.arange(found.q.shape[1]) < found.count[:, None]
+    measured = residuals(chain, np.where(exists[..., None], found.q, 0.0), Ts[:, None])
+    assert measured[exists].max() <= 1e-12
+    assert found.residual[exists].max() <= 1e-12
+    assert found.free[exists].max(initial=0) == 0
+    away = np.where(exists, gaps(chain, np.nan_to_num(found.q), q[:, None]), np.inf)
+    assert away.min(axis=1).max() <= 1e-6
+    for i in range(found.q.shape[1]):
+        for j in range(i):
+            apart = gaps(chain, np.nan_to_num(found.q[:, i]), np.nan_to_num(found.q[:, j]))
+            assert apart[exists[:, i]].min(initial=1.0) > 1e-6
+
+
+def search(chain, T, seed, starts=400, steps=40):
+    """All solutions that damped Newton finds from random starts, (k, n)."""
+    q = draw(chain, starts, seed)
+    for step in range(steps):
+        e = error_vectors(forward(chain, q), T)
+        J = jacobians(chain, q)
+        damping = 1e-2 if step < steps // 2 else 1e-14
+        A = J @ J.swapaxes(-1, -2) + damping * np.eye(6)
+        dq = (J.swapaxes(-1, -2) @ np.linalg.solve(A, e[..., None]))[..., 0]
+        q = q + np.clip(dq, -0.5, 0.5)
+    q = q[residuals(chain, q, T) < 1e-10]
+    distinct = []
+    for candidate in q:
+        if not distinct or gaps(chain, candidate, np.array(distinct)).min() > 1e-5:
+            distinct.append(candidate)
+    return np.array(distinct).reshape(-1, chain.n)
+
+
+def check_family(chain, q, T, mask):
+    """The free joints, and only these, move along a curve of solutions through q."""
+    free = [i for i in range(chain.n) if mask >> i & 1]
+    J = jacobians(chain, q)
+    _, sigma, Vt = np.linalg.svd(J)
+    tangent = Vt[-1]
+    assert sigma[-1] < 1e-9
+    assert np.abs(tangent[free]).min() > 1e-9
+    assert np.abs(np.delete(tangent, free)).max(initial=0.0) < 1e-7
+    moved = q + 1e-3 * tangent
+    for _ in range(5):
+        e = error_vectors(forward(chain, moved), T)
+        moved = moved + np.linalg.pinv(jacobians(chain, moved), rcond=1e-6) @ e
+    assert residuals(chain, moved, T) < 1e-9
+    assert 5e-4 < gaps(chain, moved, q) < 2e-3

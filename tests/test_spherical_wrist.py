@@ -1,0 +1,331 @@
+"""Arms whose last or first three axes meet: complete, certified, exact at the edges."""
+
+from __future__ import annotations
+
+import math
+
+import ik_referee as ref
+import numpy as np
+import pinocchio as pin
+import pytest
+from ik_referee import HALF
+
+import dh2urdf
+from dh2urdf.ik.solver import select_solver
+from dh2urdf.ik.spherical_wrist import SphericalWrist
+
+SHIPPED = [
+    "abb_irb120",
+    "abb_irb140",
+    "abb_irb140_modified",
+    "cylindrical_wrist",
+    "denso_vs060",
+    "denso_vs6556",
+    "doosan_m1013",
+    "fanuc_lrmate200id",
+    "gantry_wrist",
+    "kinova_jaco2_spherical",
+    "kuka_kr16_2",
+    "kuka_kr5_arc",
+    "kuka_kr6_r700",
+    "lite6",
+    "mecademic_meca500",
+    "puma560",
+    "puma560_modified",
+    "stanford",
+    "stanford_modified",
+    "staubli_tx2_60",
+    "uf850",
+    "yaskawa_gp7",
+]
+
+WRIST = ((0.4, 0.0, HALF), (0.0, 0.0, -HALF), (0.0, 0.0, 0.0))
+SKEW = ((0.4, 0.0, 1.0), (0.0, 0.0, -0.6), (0.0, 0.0, 0.0))
+ELBOWS = {
+    "nothing special": ((0.3, 0.2, 1.0), (0.1, 0.4, 0.7), (0.1, 0.3, -1.2)),
+    "1 meets 2": ((0.3, 0.0, 1.0), (0.1, 0.4, 0.7), (0.1, 0.3, -1.2)),
+    "1 parallel to 2": ((0.3, 0.3, 0.0), (0.1, 0.4, 0.7), (0.1, 0.3, -1.2)),
+    "2 meets 3": ((0.3, 0.3, 1.0), (0.1, 0.0, 0.7), (0.1, 0.3, -1.2)),
+    "2 parallel to 3": ((0.3, 0.1, 1.0), (0.1, 0.5, 0.0), (0.1, 0.3, -1.2)),
+    "2 antiparallel to 3": ((0.3, 0.1, 1.0), (0.1, 0.5, math.pi), (0.1, 0.3, -1.2)),
+    "1 meets 2 parallel to 3": ((0.3, 0.0, HALF), (0.1, 0.5, 0.0), (0.0, 0.1, HALF)),
+    "1 meets 2 meets 3": ((0.3, 0.0, 1.0), (0.4, 0.0, 0.7), (0.1, 0.3, -1.2)),
+}
+SLIDES = {
+    "oblique": ((0.3, 0.2, 1.0), (0.1, 0.25, 0.7), (0.1, 0.3, -1.2)),
+    "square": ((0.3, 0.2, HALF), (0.1, 0.25, -HALF), (0.1, 0.3, HALF)),
+    "first square": ((0.4, 0.1, -HALF), (0.15, 0.2, 0.8), (0.1, 0.0, 0.3)),
+    "second square": ((0.4, 0.1, -0.8), (0.15, 0.2, HALF), (0.1, 0.0, 0.3)),
+}
+KINDS = ["RRP", "RPR", "PRR", "RPP", "PRP", "PPR", "PPP"]
+
+
+def check_random_poses(chain, m, seed=1):
+    q = ref.draw(chain, m, seed)
+    Ts = ref.forward(chain, q)
+    ref.check_all(chain, q, ref.solve(chain, Ts), Ts)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_arms_are_complete_and_certified(name):
+    """Every shipped arm with a spherical wrist gets this solver and finds what made the pose."""
+    chain = ref.shipped(name)
+    assert str(select_solver(chain)) == "spherical wrist"
+    check_random_poses(chain, 2000)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_arms_on_a_hundred_thousand_poses(name):
+    """The same on 100,000 poses, ten seeds."""
+    for seed in range(10):
+        check_random_poses(ref.shipped(name), 10_000, seed)
+
+
+@pytest.mark.parametrize("wrist", [WRIST, SKEW], ids=["orthogonal", "skew"])
+@pytest.mark.parametrize("elbow", ELBOWS)
+def test_turning_position_arms(elbow, wrist):
+    """Each special geometry of the first three axes, and none, is complete with either wrist."""
+    chain = ref.arm(ELBOWS[elbow] + wrist, seed=3)
+    assert str(select_solver(chain)) == "spherical wrist"
+    check_random_poses(chain, 400)
+
+
+@pytest.mark.parametrize("geometry", SLIDES)
+@pytest.mark.parametrize("kinds", KINDS)
+def test_sliding_position_arms(kinds, geometry):
+    """Each mix of turning and sliding joints before a wrist is complete."""
+    chain = ref.arm(SLIDES[geometry] + WRIST, kinds + "RRR", seed=4)
+    if (kinds, geometry) == ("PRP", "square"):
+        assert "cannot move the wrist centre" in SphericalWrist.obstacle(chain)
+        return
+    assert str(select_solver(chain)) == "spherical wrist"
+    check_random_poses(chain, 200)
+
+
+def test_spherical_shoulder():
+    """The mirrored arms are complete, with the residual measured at the tool."""
+    for rows in (
+        ((0, 0, 1.0), (0, 0, -1.2), (0.4, 0.1, 0.5), (0.1, 0.5, 0.7), (0.1, 0.3, -0.8), (0, 0, 0)),
+        ((0, 0, HALF), (0, 0, -HALF), (0.4, 0.1, 0.5), (0.1, 0.5, 0), (0.1, 0.3, -0.8), (0, 0, 0)),
+    ):
+        chain = ref.arm(rows, seed=5)
+        assert str(select_solver(chain)) == "spherical shoulder"
+        check_random_poses(chain, 400)
+
+
+@pytest.mark.parametrize("name", ["puma560", "kinova_jaco2_spherical", "stanford"])
+def test_no_solution_that_a_search_finds_is_missing(name):
+    """A search from 400 starts finds nothing that the closed form does not."""
+    compare_with_search(name, 4)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", SHIPPED)
+def test_count_equals_that_of_a_search(name):
+    """The same over 200 poses of every shipped arm."""
+    compare_with_search(name, 200)
+
+
+def compare_with_search(name, m):
+    chain = ref.shipped(name)
+    Ts = ref.forward(chain, ref.draw(chain, m, 7))
+    found = ref.solve(chain, Ts)
+    for i in range(m):
+        q = found.of(i)[0]
+        for other in ref.search(chain, Ts[i], i):
+            assert ref.gaps(chain, q, other).min() < 1e-5
+
+
+def test_block_and_scalar_kernels_agree():
+    """The vectorised kernel returns the same solutions and branches as the scalar one."""
+    from dh2urdf.kernels.spherical_wrist import solve_turning_arm
+    from dh2urdf.kernels.spherical_wrist_blocks import solve_common_wrist
+
+    chain = ref.shipped("denso_vs6556")
+    solver = SphericalWrist(chain)
+    assert solver.kernel is solve_common_wrist
+    Ts = ref.forward(chain, ref.draw(chain, 1000, 8))
+    for within_limits in (False, True):
+        fast = ref.solve(chain, Ts, within_limits, solver)
+        solver.kernel = solve_turning_arm
+        slow = ref.solve(chain, Ts, within_limits, solver)
+        del solver.kernel
+        assert np.array_equal(fast.count, slow.count)
+        for i in range(len(Ts)):
+            a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
+            assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
+            assert np.allclose(fast.of(i)[0][a], slow.of(i)[0][b], atol=1e-9, rtol=0)
+
+
+def test_solutions_reach_the_pose_in_pinocchio():
+    """Pinocchio, from the written URDF, puts the tool where it should be, tool included."""
+    robot = dh2urdf.Robot.from_dh("fanuc_lrmate200id")
+    rng = np.random.default_rng(9)
+    frame, data = robot.model.getFrameId(robot.tip), robot.model.createData()
+    for _ in range(50):
+        T = robot.fk(rng.uniform(-3, 3, 6))
+        for q in robot.ik(T, within_limits=False):
+            pin.framesForwardKinematics(robot.model, data, np.asarray(q))
+            assert np.abs(data.oMf[frame].homogeneous - T).max() < 1e-12
+
+
+def test_all_solutions_within_limits_are_kept():
+    """With limits, exactly those solutions are left that some turn brings inside."""
+    chain = ref.shipped("puma560")
+    Ts = ref.forward(chain, ref.draw(chain, 300, 10))
+    everything, inside = ref.solve(chain, Ts), ref.solve(chain, Ts, True)
+    for i in range(len(Ts)):
+        turned = [
+            q
+            for q in everything.of(i)[0]
+            if all(
+                any(lo <= v + 2 * math.pi * k <= up for k in (-1, 0, 1))
+                for v, lo, up in zip(q, chain.lower, chain.upper, strict=True)
+            )
+        ]
+        kept = inside.of(i)[0]
+        assert len(kept) == len(turned)
+        assert np.all((chain.lower <= kept) & (kept <= chain.upper))
+
+
+def straight(chain):
+    """Value of joint 3 at which the arm is stretched."""
+    rows = SphericalWrist(chain).form.rows
+    lean = math.atan2(-rows[2, 2] * rows[3, 3], rows[2, 0])
+    return rows[2, 6] * (-lean - rows[2, 4])
+
+
+def test_puma_stretched_has_the_merged_elbow_once():
+    """A stretched Puma has four solutions, the two elbows being one, to rounding."""
+    chain = ref.shipped("puma560")
+    T = ref.forward(chain, np.array([0.3, -1.0, straight(chain), 0.4, 0.5, 0.6]))
+    q, residual, _, free = ref.solve(chain, T[None]).of(0)
+    assert len(q) == 4
+    assert residual.max() <= 1e-12
+    assert not free.any()
+
+
+@pytest.mark.parametrize("beyond", [1e-12, 1e-10, 5e-10])
+def test_on_the_rim_the_merged_branch_is_returned_once(beyond):
+    """A wrist centre up to 1e-9 beyond the rim has the merged elbow once for each wrist."""
+    chain = ref.arm(ELBOWS["1 meets 2 parallel to 3"] + WRIST)
+    q = np.array([0.3, -1.0, straight(chain), 0.4, 0.5, 0.6])
+    T = ref.forward(chain, q)
+    T[:3, 3] += beyond * outward(chain, T)
+    inner = ref.solve(chain, T[None])
+    assert inner.count[0] == 4 if abs(beyond) < 1e-9 else True
+    assert inner.of(0)[1].max() <= 1e-9
+
+
+def outward(chain, T):
+    """Direction from the shoulder to the wrist centre of a pose, in base."""
+    form = SphericalWrist(chain).form
+    centre = (T @ np.linalg.inv(form.tool))[:3, 3]
+    away = centre - form.frames[1][:3, 3]
+    return away / np.linalg.norm(away)
+
+
+def test_beyond_the_rim_there_is_nothing():
+    """1e-6 beyond the rim no solution is returned, 1e-6 inside eight are."""
+    chain = ref.arm(((0.3, 0.0, HALF), (0.0, 0.5, 0.0), (0.0, 0.1, HALF), *WRIST))
+    q = np.array([0.3, -1.0, straight(chain), 0.4, 0.5, 0.6])
+    T = ref.forward(chain, q)
+    away = outward(chain, T)
+    for step, expected in ((1e-6, 0), (-1e-6, 8), (1e-3, 0), (-1e-3, 8)):
+        moved = T.copy()
+        moved[:3, 3] += step * away
+        assert ref.solve(chain, moved[None]).count[0] == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "joint"),
+    [("puma560", 3), ("kinova_jaco2_spherical", 3), ("denso_vs6556", 3)]
+    + [("puma560", 5), ("kinova_jaco2_spherical", 5), ("stanford", 5)],
+)
+def test_every_distance_from_a_singularity(name, joint):
+    """Poses 1e-1 to 1e-12 from a straight elbow or wrist keep the generating configuration."""
+    chain = ref.shipped(name)
+    rng = np.random.default_rng(11)
+    for power in range(1, 13):
+        q = rng.uniform(-2, 2, 6)
+        q[joint - 1] = (straight(chain) if joint == 3 else special_wrist(chain)) + 10.0**-power
+        T = ref.forward(chain, q)
+        solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
+        assert residual.max() <= 1e-12
+        away = np.abs(np.sin((solutions - q) / 2)) * 2
+        away[:, chain.prismatic] = np.abs(solutions - q)[:, chain.prismatic]
+        for i in range(6):
+            away[:, i] *= (free >> i & 1) == 0
+        assert away.max(axis=1).min() <= 2e-6
+
+
+def special_wrist(chain):
+    """Value of joint 5 at which axes 4 and 6 are in line, or the wrist is stretched."""
+    rows = SphericalWrist(chain).form.rows
+    return -rows[4, 6] * rows[4, 4]
+
+
+@pytest.mark.parametrize("name", ["puma560", "abb_irb120", "stanford", "gantry_wrist"])
+def test_a_wrist_in_line_names_joints_4_and_6(name):
+    """At q5 = 0 one representative with joints 4 and 6 free stands for the family."""
+    chain = ref.shipped(name)
+    q = np.array([0.3, -0.5, 0.2, 0.4, special_wrist(chain), 0.6])
+    T = ref.forward(chain, q)
+    solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
+    assert residual.max() <= 1e-12
+    of_family = np.flatnonzero(free == 0b101000)
+    near = [k for k in of_family if ref.gaps(chain, np.r_[solutions[k, :3], q[3:]], q) < 1e-6]
+    assert len(near) == 1
+    ref.check_family(chain, solutions[near[0]], T, 0b101000)
+
+
+def test_wrist_centre_on_axis_1_names_joint_1():
+    """Over the shoulder joint 1 and the wrist are free: two families an elbow, all of them real."""
+    chain = ref.shipped("abb_irb120")
+    form = SphericalWrist(chain).form
+    rng = np.random.default_rng(12)
+    for _ in range(5):
+        D = ref.random_pose(rng, 0.0)
+        D[:3, 3] = 0.0, 0.0, rng.uniform(0.2, 0.4)
+        T = form.base @ D @ form.tool
+        solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
+        assert len(solutions) == 4
+        assert residual.max() <= 1e-12
+        assert set(free.tolist()) == {0b111001}
+        for q in solutions:
+            ref.check_family(chain, q, T, 0b111001)
+
+
+@pytest.mark.parametrize("power", range(2, 10))
+def test_near_axis_1_both_shoulders_are_found(power):
+    """A wrist centre 1e-2 to 1e-9 off axis 1 still has all eight solutions."""
+    chain = ref.shipped("abb_irb120")
+    form = SphericalWrist(chain).form
+    D = ref.random_pose(np.random.default_rng(13), 0.0)
+    D[:3, 3] = 0.6 * 10.0**-power, -0.8 * 10.0**-power, 0.3
+    _, residual, _, free = ref.solve(chain, (form.base @ D @ form.tool)[None]).of(0)
+    assert len(residual) == 8
+    assert residual.max() <= 1e-12
+    assert not free.any()
+
+
+def test_six_digit_poses_are_solved():
+    """A rotation typed with six digits is reached up to its own error, on every branch."""
+    chain = ref.shipped("puma560")
+    q = ref.draw(chain, 50, 14)
+    Ts = np.round(ref.forward(chain, q), 6)
+    Ts[:, 3] = 0, 0, 0, 1
+    found = ref.solve(chain, Ts)
+    exists = np.arange(8) < found.count[:, None]
+    assert (found.count == 8).mean() > 0.9
+    assert ref.residuals(chain, np.nan_to_num(found.q), Ts[:, None])[exists].max() <= 1e-9
+
+
+def test_obstacles_say_what_is_in_the_way():
+    """An arm without a spherical wrist is told so, by joints that can be checked."""
+    assert "has 5" in SphericalWrist.obstacle(ref.arm(ELBOWS["2 meets 3"] + WRIST[:2], "RRRRR"))
+    assert "do not meet" in SphericalWrist.obstacle(ref.shipped("ur5"))
+    planar = ((0.1, 0.4, 0.0), (0.1, 0.4, 0.0), (0.0, 0.3, 0.0), *WRIST)
+    assert "cannot move the wrist centre" in SphericalWrist.obstacle(ref.arm(planar))
+    assert "2 || 3" in select_solver(ref.shipped("puma560")).explain()

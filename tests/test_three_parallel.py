@@ -1,0 +1,204 @@
+"""Arms with three neighbouring parallel axes: complete, certified, exact at the edges."""
+
+from __future__ import annotations
+
+import math
+
+import ik_referee as ref
+import numpy as np
+import pytest
+from ik_referee import HALF
+
+from dh2urdf.ik.solver import Task, select_solver
+from dh2urdf.ik.three_parallel import ThreeParallel
+
+DEG = math.pi / 180
+SHIPPED = ["techman_tm5_700", "unitree_z1", "ur10", "ur10e", "ur16e", "ur20", "ur3", "ur30"]
+SHIPPED += ["ur3e", "ur5", "ur5e"]
+BEHIND_1 = ((0.3, 0.1, 1.0), (0.1, 0.5, 0.0), (0.1, 0.3, 0.0))
+PLANE = ((0.1, 0.5, 0.0), (0.1, 0.3, 0.0))
+LAST = (0.0, 0.0, 0.0)
+SYNTHETIC = {
+    "2, 3, 4": (*BEHIND_1, (0.1, 0.1, HALF), (0.2, 0.15, -1.0), LAST),
+    "2, 3, 4; 5 parallel to 6": (*BEHIND_1, (0.1, 0.1, 1.2), (0.2, 0.15, 0.0), LAST),
+    "2, 3, 4; 5 meets 6": (*BEHIND_1, (0.1, 0.1, 1.2), (0.2, 0.0, 1.1), LAST),
+    "2, 3, 4 one against the others": (
+        (0.3, 0.1, 1.0),
+        (0.1, 0.5, math.pi),
+        (0.1, 0.3, math.pi),
+        (0.1, 0.1, 1.2),
+        (0.2, 0.0, 1.1),
+        LAST,
+    ),
+    "1, 2, 3": (*PLANE, (0.1, 0.1, HALF), (0.2, 0.15, -1.0), (0.1, 0.2, 0.8), LAST),
+    "1, 2, 3; 5 meets 6": (*PLANE, (0.1, 0.1, HALF), (0.2, 0.15, -1.0), (0.1, 0.0, 0.8), LAST),
+    "1, 2, 3; 4 meets 5": (*PLANE, (0.1, 0.1, HALF), (0.2, 0.0, -1.0), (0.1, 0.2, 0.8), LAST),
+    "1, 2, 3; 5 parallel to 6": (*PLANE, (0.1, 0.1, HALF), (0.2, 0.1, -1.0), (0.1, 0.2, 0), LAST),
+    "3, 4, 5": ((0.1, 0.2, 1.0), (0.3, 0.1, 1.0), *PLANE, (0.1, 0.1, HALF), LAST),
+    "4, 5, 6": ((0.1, 0.2, 1.0), (0.3, 0.1, 1.0), (0.1, 0.1, 0.5), *PLANE, LAST),
+}
+
+
+def check_random_poses(chain, m, seed=1):
+    q = ref.draw(chain, m, seed)
+    Ts = ref.forward(chain, q)
+    ref.check_all(chain, q, ref.solve(chain, Ts), Ts)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_arms_are_complete_and_certified(name):
+    """Every shipped arm with axes 2, 3, 4 parallel finds what made the pose."""
+    chain = ref.shipped(name)
+    assert str(select_solver(chain)) == "three parallel axes"
+    check_random_poses(chain, 2000)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", SHIPPED)
+def test_shipped_arms_on_a_hundred_thousand_poses(name):
+    """The same on 100,000 poses, ten seeds."""
+    for seed in range(10):
+        check_random_poses(ref.shipped(name), 10_000, seed)
+
+
+@pytest.mark.parametrize("name", SYNTHETIC)
+def test_three_parallel_axes_anywhere(name):
+    """The three may be anywhere in the chain, with and without neighbours that meet."""
+    chain = ref.arm(SYNTHETIC[name], seed=2)
+    assert "three parallel axes" in str(select_solver(chain))
+    check_random_poses(chain, 400)
+
+
+def test_no_solution_that_a_search_finds_is_missing():
+    """A search from 400 starts finds nothing that the closed form does not."""
+    compare_with_search(ref.shipped("ur5"), 4)
+    compare_with_search(ref.arm(SYNTHETIC["1, 2, 3"], seed=2), 3)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", SHIPPED)
+def test_count_equals_that_of_a_search(name):
+    """The same over 200 poses of every shipped arm."""
+    compare_with_search(ref.shipped(name), 200)
+
+
+def compare_with_search(chain, m):
+    Ts = ref.forward(chain, ref.draw(chain, m, 7))
+    found = ref.solve(chain, Ts)
+    for i in range(m):
+        q = found.of(i)[0]
+        for other in ref.search(chain, Ts[i], i):
+            assert ref.gaps(chain, q, other).min() < 1e-5
+
+
+def test_block_and_scalar_kernels_agree():
+    """The vectorised kernel returns the same solutions and branches as the scalar one."""
+    from dh2urdf.kernels.three_parallel import solve_three_parallel
+    from dh2urdf.kernels.three_parallel_blocks import solve_common_parallel
+
+    chain = ref.with_limits(ref.shipped("ur5"), -2.5, 3.0)
+    solver = ThreeParallel(chain)
+    assert solver.kernel is solve_common_parallel
+    Ts = ref.forward(chain, ref.draw(chain, 1000, 8))
+    for within_limits in (False, True):
+        fast = ref.solve(chain, Ts, within_limits, solver)
+        solver.kernel = solve_three_parallel
+        slow = ref.solve(chain, Ts, within_limits, solver)
+        del solver.kernel
+        assert np.array_equal(fast.count, slow.count)
+        for i in range(len(Ts)):
+            a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
+            assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
+            assert np.allclose(fast.of(i)[0][a], slow.of(i)[0][b], atol=1e-8, rtol=0)
+
+
+def test_ur5_home_has_its_solution():
+    """Stretched up with the wrist in line, the UR5 is found at its home to rounding."""
+    chain = ref.shipped("ur5")
+    home = np.array([0, -90, 0, -90, 0, 0]) * DEG
+    T = ref.forward(chain, home)
+    q, residual, _, free = ref.solve(chain, T[None]).of(0)
+    assert residual.max() <= 1e-12
+    assert ref.gaps(chain, q, home).min() <= 1e-6
+    assert free[ref.gaps(chain, q, home).argmin()] == 0b101110
+
+
+def test_ur5_with_a_straight_elbow_has_it_once():
+    """At q3 = 0 the two elbows are one solution, and the other branches are all there."""
+    chain = ref.shipped("ur5")
+    q = np.array([0.3, -1.0, 0.0, 0.4, 0.5, 0.6])
+    T = ref.forward(chain, q)
+    solutions, residual, _, _ = ref.solve(chain, T[None]).of(0)
+    assert residual.max() <= 1e-12
+    assert (ref.gaps(chain, solutions, q) < 1e-6).sum() == 1
+    for other in ref.search(chain, T, 3, starts=1500):
+        assert ref.gaps(chain, solutions, other).min() < 1e-4
+
+
+def test_ur5_wrist_in_line_names_the_free_joints():
+    """At q5 = 0 joints 2, 3, 4 and 6 move along a family, and the other branches are isolated."""
+    chain = ref.shipped("ur5")
+    rng = np.random.default_rng(4)
+    for _ in range(10):
+        q = rng.uniform(-2, 2, 6)
+        q[4] = 0.0
+        T = ref.forward(chain, q)
+        solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
+        assert residual.max() <= 1e-12
+        here = np.abs(np.sin((solutions[:, [0, 4]] - q[[0, 4]]) / 2)).max(axis=1) < 1e-7
+        assert here.any()
+        for k in range(len(solutions)):
+            assert free[k] == (0b101110 if here[k] else 0)
+            if here[k] and abs(math.sin(solutions[k, 2])) > 1e-3:
+                ref.check_family(chain, solutions[k], T, 0b101110)
+
+
+@pytest.mark.parametrize("joint", [3, 5])
+@pytest.mark.parametrize("name", ["ur5", "unitree_z1"])
+def test_every_distance_from_a_singularity(name, joint):
+    """Poses 1e-1 to 1e-12 from a straight elbow or wrist keep the generating configuration."""
+    chain = ref.shipped(name)
+    rows = ThreeParallel(chain).form.rows
+    rng = np.random.default_rng(11)
+    for power in range(1, 13):
+        q = rng.uniform(-2, 2, 6)
+        q[joint - 1] = -rows[joint - 1, 6] * rows[joint - 1, 4] + 10.0**-power
+        T = ref.forward(chain, q)
+        solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
+        assert residual.max() <= 1e-12
+        away = np.abs(np.sin((solutions - q) / 2)) * 2
+        for i in range(6):
+            away[:, i] *= (free >> i & 1) == 0
+        assert away.max(axis=1).min() <= 2e-6
+
+
+def test_beyond_the_rims_there_is_nothing():
+    """1e-6 beyond the outer rim of the planar arm no solution is left; 1e-10 beyond, one."""
+    chain = ref.shipped("ur5")
+    form = ThreeParallel(chain).form
+    q = np.array([0.3, -1.0, 0.0, 0.4, 0.5, 0.6])
+    T = ref.forward(chain, q)
+    frames = [chain.links[0]]
+    for i in range(6):
+        frames.append(frames[-1] @ ref.joint_matrix(chain, i, q[i]) @ chain.links[i + 1])
+    shoulder, wrist = frames[1][:3, 3], frames[4][:3, 3]
+    axis = frames[1][:3, 2]
+    away = wrist - shoulder
+    away -= axis * (axis @ away)
+    away /= np.linalg.norm(away)
+    assert form.exact
+    for step, expected in ((1e-10, 1), (1e-6, 0), (-1e-6, 2)):
+        moved = T.copy()
+        moved[:3, 3] += step * away
+        found, residual, _, _ = ref.solve(chain, moved[None]).of(0)
+        near = np.abs(np.sin((found[:, [0, 4, 5]] - q[[0, 4, 5]]) / 2)).max(axis=1) < 1e-3
+        assert near.sum() == expected
+        assert residual.max() <= 1e-9
+
+
+def test_obstacles_say_what_is_in_the_way():
+    """What is not of this family is told so, and the explanation names the axes."""
+    assert "no three" in ThreeParallel.obstacle(ref.shipped("puma560"))
+    assert "6 revolute" in ThreeParallel.obstacle(ref.shipped("stanford"))
+    assert "position" in ThreeParallel.obstacle(ref.shipped("ur5"), Task.POSITION)
+    assert "axes 2, 3, 4 are parallel" in select_solver(ref.shipped("ur5")).explain()
