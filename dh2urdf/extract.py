@@ -94,9 +94,9 @@ def extract_dh(
     Parameters
     ----------
     source : path, pinocchio.Model, SerialChain or array_like
-        A URDF, xacro (with the extra) or MJCF file, the text of a URDF, a model, or joint axes
-        typed by hand: (n, 6) screw axes, (n, 2, 3) directions and points, (n, 4, 4) joint
-        frames, all in base at q = 0.
+        A URDF, xacro or MJCF file (the last two with their extras), the text of a URDF, a model,
+        or joint axes typed by hand: (n, 6) screw axes, (n, 2, 3) directions and points, (n, 4, 4)
+        joint frames, all in base at q = 0, or a YAML or JSON file of them.
     base, tip : str, optional
         Links anywhere in the tree. Without them the root and the end of the longest chain.
     convention : DHConvention

@@ -49,14 +49,15 @@ def extract_(
     embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
     json: bool = False,
 ) -> int:
-    """Find the DH table of a URDF, xacro or MJCF by frame assignment.
+    """Find the DH table of a URDF, xacro or MJCF, or of joint axes, by frame assignment.
 
     The table's forward kinematics is compared with Pinocchio's of the file.
 
     Parameters
     ----------
     source
-        The file; - for a URDF on stdin.
+        The file; - for a URDF on stdin. A YAML or JSON file holds joint axes: a list ``axes`` of
+        {axis: [x, y, z], point: [x, y, z]}, ``screws`` or ``frames``, and the ``tool``.
     base, tip
         Links between which the table runs, anywhere in the tree. Default: the root and the end of
         the longest chain.

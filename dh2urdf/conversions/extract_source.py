@@ -14,6 +14,8 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.kinematic_tree import choose_ends
 from dh2urdf.conversions.model_source import model_source
 from dh2urdf.conversions.model_to_chain import frame_id
+from dh2urdf.conversions.read_axes import SUFFIXES as AXES_SUFFIXES
+from dh2urdf.conversions.read_axes import read_axes
 from dh2urdf.conversions.read_urdf import parse_xml, read_urdf
 from dh2urdf.conversions.referee import (
     Referee,
@@ -68,14 +70,18 @@ def read_source(
     if base is not None or tip is not None:
         raise UrdfError("base and tip: typed axes go from the base frame to the tool")
     chain = source if isinstance(source, SerialChain) else typed_to_chain(source, **typed)
+    return _from_chain(chain, "robot", "joint axes")
+
+
+def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
     found = ChainSource(
         chain,
-        "robot",
+        name,
         "base",
         "tool",
         bodies=(None,) * chain.n,
         drives=(Actuation(),) * chain.n,
-        origin="joint axes",
+        origin=origin,
     )
     return Source(found, screw_referee(chain))
 
@@ -98,6 +104,10 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
         raise UrdfError(f"{where}: {reason}") from None
     if path.suffix == ".xacro":
         data = expand_xacro(path).encode()
+    if path.suffix.lower() in AXES_SUFFIXES:
+        if base is not None or tip is not None:
+            raise UrdfError(f"{where}: base and tip: typed axes go from the base to the tool")
+        return _from_chain(read_axes(path, data), path.stem, path.name)
     root = parse_xml(data, where)
     if root.tag == "mujoco":
         from dh2urdf.conversions.read_mjcf import read_mjcf

@@ -18,6 +18,9 @@ from dh2urdf.transforms import Array
 
 __all__ = ["typed_to_chain"]
 
+LARGEST = 1e9
+"""Largest number of an axis: beyond it sixteen digits no longer hold a micrometre."""
+
 PITCH = 1e-9
 """Largest ``omega . v`` [m/rad] of a screw that still counts as a pure rotation."""
 
@@ -61,9 +64,9 @@ def typed_to_chain(
             f"joint axes of shape {given.shape}: allowed are (n, 6) screws, (n, 2, 3) directions "
             "and points, (n, 4, 4) frames"
         )
-    if not np.isfinite(given).all():
-        where = np.argwhere(~np.isfinite(given.reshape(len(given), -1)).all(axis=1))[0, 0]
-        raise UrdfError(f"joint {where + 1}: NaN or infinity")
+    fits = (np.abs(given) <= LARGEST).reshape(len(given), -1).all(axis=1)
+    if not fits.all():
+        raise UrdfError(f"joint {int(np.argmin(fits)) + 1}: NaN, infinity or beyond {LARGEST:.0e}")
     if given.shape[1:] == (4, 4):
         frames, types = list(tf.check_pose(given, what="joint frames")), _types(joint_types, given)
     elif given.shape[1:] == (6,):
