@@ -20,7 +20,7 @@ from dh2urdf.conversions.link_paths import LinkFrames, link_frames, link_paths
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.transforms import Array
 
-__all__ = ["Body", "LinkFrames", "draw_bodies", "link_frames"]
+__all__ = ["Body", "LinkFrames", "draw_bodies", "frame_along", "link_frames"]
 
 LINK_RADIUS = 0.042
 """Radius of the first link's capsule, as a share of the arm's length."""
@@ -208,7 +208,7 @@ def _drum(centre: Array, r: float) -> Body:
 
 
 def _cylinder(centre: Array, axis: Array, size: tuple[float, float], material: str) -> Body:
-    return Body("cylinder", size, _pose(_frame_along(axis), centre), material)
+    return Body("cylinder", size, _pose(frame_along(axis), centre), material)
 
 
 def _box(T: Array, z: float, size: tuple[float, float, float], material: str) -> Body:
@@ -223,7 +223,7 @@ def _pose(R: Array, p: Array) -> Array:
     return T
 
 
-def _frame_along(axis: Array) -> Array:
+def frame_along(axis: Array) -> Array:
     """A rotation whose z is the given unit axis."""
     helper = np.eye(3)[int(np.argmin(np.abs(axis)))]
     x = np.cross(helper, axis)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -38,11 +39,13 @@ class DrawnArm:
 
     def link_poses(self, q: Array) -> Array:
         """``T_base_link`` of base_link and links 1 ... n at q (n,), shape (n + 1, 4, 4)."""
-        T_base_dh = self.table.frames(q)
-        T_link_dh = np.stack(link_frames(self.table).dh)
-        poses: Array = T_base_dh @ inverse(T_link_dh)
+        poses: Array = self.table.frames(q) @ self._T_dh_link
         poses[0] = np.eye(4)
         return poses
+
+    @cached_property
+    def _T_dh_link(self) -> Array:
+        return inverse(np.stack(link_frames(self.table).dh))
 
     @property
     def size(self) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
+from dh2urdf.drawing.colours import BRANCH_COLOURS
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
@@ -24,7 +25,7 @@ from dh2urdf.figures.solid_paint import (
     paint_parts,
 )
 from dh2urdf.figures.solids import Part, arm_parts
-from dh2urdf.figures.style import BRANCH_COLOURS, RC, Picture, mpl
+from dh2urdf.figures.style import RC, Picture, mpl
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 

@@ -9,12 +9,13 @@ import numpy as np
 
 from dh2urdf.dh import DHConvention
 from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.drawing.colours import AXIS, QUANTITY
 from dh2urdf.drawing.row import DHRowPicture, length_index, row_picture
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.labels import Label, Line, place_labels
 from dh2urdf.figures.projection import View
 from dh2urdf.figures.solid_paint import ToPoints
-from dh2urdf.figures.style import AXIS, QUANTITY, mix
+from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
 
 __all__ = ["DHMarks"]

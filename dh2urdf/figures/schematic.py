@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from dh2urdf.conversions.bodies import Body
+from dh2urdf.conversions.bodies import Body, frame_along
 from dh2urdf.dh import DHConvention, JointType
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.row import DHRowPicture, row_picture
@@ -100,10 +100,8 @@ def _rod(start: Array, end: Array, radius: float) -> list[tuple[Body, Array]]:
 
 def _along(centre: Array, z: Array) -> Array:
     """A pose whose z is a unit vector, shape (4, 4)."""
-    x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
-    x /= np.linalg.norm(x)
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = np.stack([x, np.cross(z, x), z], axis=1), centre
+    T[:3, :3], T[:3, 3] = frame_along(z), centre
     return T
 
 

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.exceptions import MissingExtraError
-from dh2urdf.grids import HTML_COLOURS
 
 try:
     import matplotlib as mpl
@@ -16,25 +15,7 @@ try:
 except ImportError:
     raise MissingExtraError("plot", "drawing a figure") from None
 
-__all__ = ["AXIS", "BRANCH_COLOURS", "QUANTITY", "RC", "Picture", "mix", "mpl"]
-
-AXIS = {"x": "#d62728", "y": "#2ca02c", "z": "#1f5fc8"}
-"""Colours of the frame axes."""
-
-QUANTITY = HTML_COLOURS
-"""Colours of theta, d, a and alpha."""
-
-BRANCH_COLOURS = (
-    "#e69f00",
-    "#56b4e9",
-    "#009e73",
-    "#d6c700",
-    "#0072b2",
-    "#d55e00",
-    "#cc79a7",
-    "#7f7f7f",
-)
-"""Colours of branches, told apart with any colour vision (Okabe and Ito)."""
+__all__ = ["FAINT", "INK", "MUTED", "RC", "Picture", "mix", "mpl"]
 
 INK = "#1b2333"
 MUTED = "#5c6470"

@@ -1,0 +1,71 @@
+"""``dh2urdf view``: the arm in the browser."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+
+__all__ = ["view_"]
+
+
+def view_(
+    robot: str | None = None,
+    /,
+    *,
+    q: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    deg: bool = False,
+    base: str | None = None,
+    tip: str | None = None,
+    host: str = "127.0.0.1",
+    port: int | None = None,
+    open: Annotated[bool, Parameter(negative="--no-open")] = True,
+    json: bool = False,
+) -> int:
+    """Look at an arm in the browser; Ctrl-C ends it.
+
+    Parameters
+    ----------
+    robot
+        A table file, the name of a table that ships, or a URDF; without it, a table with one
+        joint to build on.
+    q
+        Configuration to start from: --q=0,-pi/2,90deg.
+    deg
+        Bare angles are degrees.
+    base, tip
+        Links of a URDF to show the chain between.
+    host
+        Address to listen on; the default is reached from this machine only.
+    port
+        That port and no other, 0 for any; default: the next free one from 8080.
+    open
+        Open the page in the browser.
+    json
+        One JSON object with the address instead of text.
+    """
+    from dh2urdf.robot import Robot
+    from dh2urdf.viewer import view
+    from dh2urdf.viewer.table_tab import new_table
+
+    arm = robot_of(robot, base, tip) if robot else Robot.from_dh(new_table())
+    shown = view(arm, parse_configuration(q, arm, deg=deg) if q else None, host=host, port=port)
+    with shown:
+        if json:
+            emit_json("view", url=shown.url, host=host)
+        else:
+            emit(shown.url)
+        if host not in {"127.0.0.1", "localhost", "::1"}:
+            note(f"warning: listening on {host}: other machines can reach and move this view")
+        note("Ctrl-C ends the view")
+        import sys
+
+        sys.stdout.flush()
+        if open:
+            import webbrowser
+
+            webbrowser.open(shown.url)
+        shown.wait()
+    return 0

@@ -1,0 +1,177 @@
+"""The arm in the scene: one node a link, and its ghosts as one batch of meshes a link."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.drawing.colours import BRANCH_COLOURS, rgb
+from dh2urdf.drawing.surfaces import Drawing, merged
+from dh2urdf.transforms import Array
+
+__all__ = ["ArmScene", "Ghosts", "quaternions"]
+
+TRANSLUCENT = 0.25
+"""Opacity of the arm while a row is explained."""
+
+GHOST_OPACITY = 0.32
+"""Opacity of a ghost."""
+
+SLIM = 0.96
+"""Size of a ghost's bodies against the arm's, so that coinciding surfaces do not flicker."""
+
+
+def quaternions(R: Array) -> Array:
+    """Unit quaternions, w first as the scene wants them, of rotations (..., 3, 3).
+
+    The largest of the four components is taken from the diagonal, the others from sums and
+    differences across it (Shepperd, "Quaternion from rotation matrix", 1978).
+    """
+    m = np.asarray(R)
+    xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
+    squares = np.stack([1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz], -1)
+    wx, wy, wz = (
+        m[..., 2, 1] - m[..., 1, 2],
+        m[..., 0, 2] - m[..., 2, 0],
+        m[..., 1, 0] - m[..., 0, 1],
+    )
+    xy, xz, yz = (
+        m[..., 0, 1] + m[..., 1, 0],
+        m[..., 0, 2] + m[..., 2, 0],
+        m[..., 1, 2] + m[..., 2, 1],
+    )
+    w2, x2, y2, z2 = (squares[..., k] for k in range(4))
+    candidates = np.stack(
+        [
+            np.stack([w2, wx, wy, wz], -1),
+            np.stack([wx, x2, xy, xz], -1),
+            np.stack([wy, xy, y2, yz], -1),
+            np.stack([wz, xz, yz, z2], -1),
+        ],
+        -2,
+    )
+    best = np.argmax(squares, axis=-1)
+    chosen = np.take_along_axis(candidates, best[..., None, None], axis=-2)[..., 0, :]
+    out: Array = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
+    return out
+
+
+class ArmScene:
+    """The solid arm.
+
+    Parameters
+    ----------
+    server : viser server
+    drawing : Drawing
+    """
+
+    def __init__(self, server: Any, drawing: Drawing) -> None:
+        self.server, self.drawing = server, drawing
+        self.frames = [
+            server.scene.add_frame(f"/arm/{k}", show_axes=False) for k in range(len(drawing.nodes))
+        ]
+        self.translucent = False
+        self.meshes: list[Any] = []
+        self._add_meshes()
+
+    def _add_meshes(self) -> None:
+        opacity = TRANSLUCENT if self.translucent else None
+        self.meshes = [
+            self.server.scene.add_mesh_simple(
+                f"/arm/{k}/{m}",
+                surface.vertices.astype(np.float32),
+                surface.faces,
+                color=surface.colour,
+                opacity=opacity,
+                cast_shadow=not self.translucent,
+                receive_shadow=False,
+                side="front",
+            )
+            for k, node in enumerate(self.drawing.nodes)
+            for m, surface in enumerate(node.surfaces)
+        ]
+
+    def show(self, q: Array) -> None:
+        """Place every node at q (n,)."""
+        poses = self.drawing.poses(q)
+        turns = quaternions(poses[:, :3, :3])
+        for frame, pose, turn in zip(self.frames, poses, turns, strict=True):
+            frame.wxyz, frame.position = turn, pose[:3, 3]
+
+    def set_translucent(self, on: bool) -> None:
+        """See through the arm, or not."""
+        if on == self.translucent:
+            return
+        self.translucent = on
+        for mesh in self.meshes:
+            mesh.opacity = TRANSLUCENT if on else None
+            mesh.cast_shadow = not on
+
+    def remove(self) -> None:
+        """Take the arm out of the scene."""
+        for handle in [*self.meshes, *self.frames]:
+            handle.remove()
+
+
+class Ghosts:
+    """Other configurations of the arm, each in its colour: a batch of instances per link.
+
+    Parameters
+    ----------
+    server : viser server
+    drawing : Drawing
+    count : int
+        Most ghosts at a time.
+    on_click : callable
+        Called with the index of a ghost that was clicked.
+    """
+
+    def __init__(
+        self, server: Any, drawing: Drawing, count: int, on_click: Callable[[int], None]
+    ) -> None:
+        self.drawing, self.count = drawing, count
+        self.moving = [k for k, node in enumerate(drawing.nodes) if k and node.surfaces]
+        colours = [rgb(BRANCH_COLOURS[k % len(BRANCH_COLOURS)]) for k in range(count)]
+        self.colours = np.array(colours, np.uint8)
+        self.handles = [self._batch(server, k) for k in self.moving]
+        for handle in self.handles:
+            handle.on_click(lambda event: on_click(int(event.instance_index or 0)))
+
+    def _batch(self, server: Any, k: int) -> Any:
+        surface = merged(list(self.drawing.nodes[k].surfaces))
+        middle = surface.vertices.mean(axis=0)
+        slim = middle + SLIM * (surface.vertices - middle)
+        return server.scene.add_batched_meshes_simple(
+            f"/ghosts/{k}",
+            slim.astype(np.float32),
+            surface.faces,
+            batched_wxyzs=np.tile([1.0, 0.0, 0.0, 0.0], (self.count, 1)).astype(np.float32),
+            batched_positions=np.zeros((self.count, 3), np.float32),
+            batched_scales=np.zeros(self.count, np.float32),
+            batched_colors=self.colours,
+            opacity=GHOST_OPACITY,
+            cast_shadow=False,
+            receive_shadow=False,
+            lod="off",
+        )
+
+    def show(self, configurations: Sequence[Array], skip: int = -1) -> None:
+        """Show ghost k at configuration k; ``skip`` is the one where the arm itself stands."""
+        poses = np.tile(np.eye(4), (self.count, len(self.drawing.nodes), 1, 1))
+        scales = np.zeros(self.count, np.float32)
+        for k, q in enumerate(configurations[: self.count]):
+            poses[k] = self.drawing.poses(q)
+            scales[k] = float(k != skip)
+        turns = quaternions(poses[..., :3, :3]).astype(np.float32)
+        places = poses[..., :3, 3].astype(np.float32)
+        for handle, node in zip(self.handles, self.moving, strict=True):
+            handle.batched_scales = scales
+            handle.batched_wxyzs = turns[:, node]
+            handle.batched_positions = places[:, node]
+
+    def remove(self) -> None:
+        """Take the ghosts out of the scene."""
+        for handle in self.handles:
+            handle.remove()

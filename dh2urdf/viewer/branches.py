@@ -1,0 +1,173 @@
+"""What inverse kinematics answered, in words and as a table with the ghosts' colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from html import escape
+
+import numpy as np
+
+from dh2urdf.drawing.colours import BRANCH_COLOURS
+from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.viewer.html import FAINT, MARKED, NUMBERS, STYLE
+
+__all__ = ["Answer", "answer", "branch_table", "initials"]
+
+SAME = 1e-4
+"""Difference [rad or m] up to which the arm stands at a solution."""
+
+TIGHT = "text-align:right;padding:1px 3px;white-space:nowrap;font-size:11px;"
+MINUS = "\N{MINUS SIGN}"
+
+TO_BUTTON = (
+    "[...document.querySelectorAll('button')].find(b => b.textContent.trim() === '{0}')?.click()"
+)
+"""Script of a table row: press the button of that number."""
+
+
+@dataclass(frozen=True, eq=False)
+class Answer:
+    """All solutions of a target.
+
+    Parameters
+    ----------
+    words : str
+        What was found, or why nothing.
+    q : array, shape (k, n)
+    residual : array, shape (k,)
+    branch : tuple of str
+    free : tuple of tuples of int
+        Joints free along a singular family.
+    current : int
+        The solution where the arm stands, -1 for none.
+    nearest : array, shape (n,), or None
+        The solution nearest to the arm.
+    """
+
+    words: str
+    q: Array
+    residual: Array
+    branch: tuple[str, ...]
+    free: tuple[tuple[int, ...], ...]
+    current: int
+    nearest: Array | None
+
+    def at(self, q: Array) -> Answer:
+        """The same answer with the arm at another configuration."""
+        return replace(self, current=_standing(self.q, q))
+
+
+def answer(
+    robot: Robot,
+    T: Array,
+    q: Array,
+    *,
+    task: str,
+    within: bool,
+    locked: dict[int, float] | None,
+) -> Answer:
+    """All solutions of a target, or a word on why there is none."""
+    try:
+        found = robot.ik(T, within_limits=within, task=task, locked=locked)
+        nearest = found.nearest(q) if len(found) else None
+    except Dh2UrdfError as error:
+        return _none(robot, str(error).partition("\n")[0])
+    if nearest is None:
+        return _none(robot, _why(robot, T, task=task, within=within, locked=locked))
+    rows = np.array(found.q)
+    free = found.free_joints
+    return Answer(
+        _count_words(len(rows), free, robot),
+        rows,
+        np.array(found.residual),
+        found.branch,
+        free,
+        _standing(rows, q),
+        nearest,
+    )
+
+
+def _none(robot: Robot, words: str) -> Answer:
+    return Answer(words, np.empty((0, robot.n)), np.empty(0), (), (), -1, None)
+
+
+def _why(
+    robot: Robot, T: Array, *, task: str, within: bool, locked: dict[int, float] | None
+) -> str:
+    """Tell whether limits or reach stand in the way."""
+    if within:
+        outside = len(robot.ik(T, within_limits=False, task=task, locked=locked))
+        if outside:
+            many = "one solution lies" if outside == 1 else f"all {outside} solutions lie"
+            return f"Not within the joint limits: {many} outside them."
+    return "Out of reach: no configuration takes the tip there."
+
+
+def _count_words(count: int, free: tuple[tuple[int, ...], ...], robot: Robot) -> str:
+    words = "One solution." if count == 1 else f"{count} solutions."
+    joints = sorted({j for group in free for j in group})
+    if joints:
+        names = ", ".join(robot.joint_names[j] for j in joints)
+        words += f" Singular: {names} can move without moving the tip."
+    return words
+
+
+def _standing(rows: Array, q: Array) -> int:
+    """The row that is q up to full turns, -1 for none."""
+    if not len(rows):
+        return -1
+    away = np.abs(np.remainder(rows - q + np.pi, 2 * np.pi) - np.pi).max(axis=1)
+    best = int(np.argmin(away))
+    return best if float(away[best]) < SAME else -1
+
+
+def initials(branch: str) -> str:
+    """``shoulder left, elbow up, wrist no flip`` as ``L U N``."""
+    parts = [part.split() for part in branch.split(", ") if part]
+    return " ".join(part[1][0].upper() for part in parts if len(part) > 1)
+
+
+def branch_table(found: Answer, robot: Robot) -> str:
+    """A line a solution: colour, branch, joint values, residual; the arm's own is marked.
+
+    Values outside the limits are red, joints that are free at a singularity underlined.
+    """
+    named = any(found.branch)
+    units = ["mm" if s else "°" for s in robot.slides]
+    joints = [f"q{i + 1} [{unit}]" for i, unit in enumerate(units)]
+    head = ["", *(["branch"] if named else []), *joints, "residual"]
+    header = "".join(f'<th style="{TIGHT}font-weight:600">{h}</th>' for h in head)
+    lines = [_line(found, robot, k, named=named) for k in range(len(found.q))]
+    return (
+        f'<div style="{STYLE}"><table style="border-collapse:collapse" data-ik="branches">'
+        f"<thead><tr>{header}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
+    )
+
+
+def _shown(value: float, is_length: bool) -> float:
+    """Degrees or millimetres, without a negative zero."""
+    return round(value * 1000 if is_length else float(np.degrees(value)), 1) + 0.0
+
+
+def _line(found: Answer, robot: Robot, k: int, *, named: bool) -> str:
+    colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
+    square = (
+        f'<span style="display:inline-block;width:10px;height:10px;background:{colour}"></span>'
+    )
+    cells = [f'<td style="{TIGHT}">{square} {k + 1}</td>']
+    if named:
+        branch = escape(found.branch[k])
+        cells.append(f'<td style="{TIGHT}" title="{branch}">{initials(found.branch[k])}</td>')
+    for j, value in enumerate(found.q[k]):
+        outside = not robot.lower[j] - 1e-9 <= value <= robot.upper[j] + 1e-9
+        style = "color:#b3261e;" if outside else ""
+        style += "text-decoration:underline;" if j in found.free[k] else ""
+        text = f"{_shown(float(value), bool(robot.slides[j])):.1f}".replace("-", MINUS)
+        cells.append(f'<td style="{TIGHT}{NUMBERS}{style}">{text}</td>')
+    residual = f"{found.residual[k]:.0e}".replace("-", MINUS)
+    cells.append(f'<td style="{TIGHT}{NUMBERS}color:{FAINT}">{residual}</td>')
+    marked = MARKED if k == found.current else ""
+    script = TO_BUTTON.format(k + 1)
+    return f'<tr style="cursor:pointer;{marked}" onclick="{script}">{"".join(cells)}</tr>'

@@ -1,0 +1,205 @@
+"""DH frames, and one row of the table explained, in the scene."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.conversions.bodies import Body, frame_along
+from dh2urdf.dh import DHConvention
+from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb
+from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, row_picture, subscript, values
+from dh2urdf.drawing.surfaces import body_surface
+from dh2urdf.transforms import Array
+from dh2urdf.viewer.arm_scene import quaternions
+
+__all__ = ["FramesScene", "RowScene"]
+
+AXIS_LENGTH = 0.12
+"""Length of a frame's axes, as a share of the arm's size."""
+
+SHAFT = 0.006
+"""Radius of an arrow's shaft, as a share of the arm's size."""
+
+THICK = 4.5
+"""Width of arcs on the screen [px]."""
+
+TUBE = 1.7
+"""Radius of a measure against that of the arrows' shafts, which it covers."""
+
+
+def _arrows(server: Any, name: str, length: float, size: float) -> None:
+    """Three arrows along x, y and z under a scene name, in the colours of the axes."""
+    for k, letter in enumerate("xyz"):
+        tip = np.zeros(3)
+        tip[k] = length * (0.7 if letter == "y" else 1.0)
+        thin = 0.7 if letter == "y" else 1.0
+        server.scene.add_arrows(
+            f"{name}/{letter}",
+            np.array([[np.zeros(3), tip]], np.float32),
+            rgb(AXIS[letter]),
+            shaft_radius=thin * SHAFT * size,
+            head_radius=thin * 2.4 * SHAFT * size,
+            head_length=thin * 6.5 * SHAFT * size,
+        )
+
+
+class FramesScene:
+    """All DH frames with their names."""
+
+    def __init__(self, server: Any, arm: DrawnArm) -> None:
+        self.arm = arm
+        self.roots, self.labels = [], []
+        length = 0.8 * AXIS_LENGTH * arm.size
+        for i in range(arm.table.n + 1):
+            self.roots.append(server.scene.add_frame(f"/dh/{i}", show_axes=False))
+            _arrows(server, f"/dh/{i}", length, 0.7 * arm.size)
+            for letter, direction in (("x", 0), ("z", 2)):
+                place = np.zeros(3)
+                place[direction] = 1.15 * length
+                self.labels.append(
+                    server.scene.add_label(
+                        f"/dh/{i}/name_{letter}",
+                        subscript(letter, i),
+                        position=place,
+                        anchor="center-center",
+                        font_screen_scale=0.9,
+                    )
+                )
+        self.set_visible(False, False)
+
+    def show(self, q: Array) -> None:
+        """Place the frames at q (n,)."""
+        frames = self.arm.table.frames(q)
+        turns = quaternions(frames[:, :3, :3])
+        for root, frame, turn in zip(self.roots, frames, turns, strict=True):
+            root.wxyz, root.position = turn, frame[:3, 3]
+
+    def set_visible(self, axes: bool, names: bool) -> None:
+        """Show the frames, and their names."""
+        for root in self.roots:
+            root.visible = axes
+        for label in self.labels:
+            label.visible = axes and names
+
+    def remove(self) -> None:
+        """Take the frames out of the scene."""
+        for root in self.roots:
+            root.remove()
+
+
+class RowScene:
+    """Row i of the table between frames i - 1 and i: two measures, two arcs, their values."""
+
+    def __init__(self, server: Any, arm: DrawnArm, i: int) -> None:
+        self.server, self.arm, self.i = server, arm, i
+        self.root = server.scene.add_frame("/row", show_axes=False)
+        self.length = 1.6 * AXIS_LENGTH * arm.size
+        self.ends = [
+            server.scene.add_frame(f"/row/{name}", show_axes=False) for name in ("prev", "next")
+        ]
+        for name in ("prev", "next"):
+            _arrows(server, f"/row/{name}", self.length, 0.7 * arm.size)
+        self.picture: DHRowPicture | None = None
+
+    def show(self, q: Array) -> None:
+        """Draw the row at q (n,)."""
+        picture = row_picture(self.arm, q, self.i)
+        self.picture = picture
+        for end, T in zip(self.ends, (picture.T_prev, picture.T_next), strict=True):
+            end.wxyz, end.position = quaternions(T[:3, :3]), T[:3, 3]
+        words = values(self.arm.table, picture)
+        self._axes(picture)
+        for measure in (picture.d, picture.a):
+            self._measure(measure, words[measure.key])
+        for arc in (picture.theta, picture.alpha):
+            self._arc(arc, words[arc.key])
+        self._names(picture)
+
+    @property
+    def middle(self) -> Array:
+        """Where the row is, shape (3,)."""
+        assert self.picture is not None
+        middle: Array = (self.picture.T_prev[:3, 3] + self.picture.T_next[:3, 3]) / 2
+        return middle
+
+    def _axes(self, picture: DHRowPicture) -> None:
+        """Both z axes as long thin lines, and the common normal."""
+        reach = 1.8 * self.length
+        start, end = picture.a.segment
+        x = picture.T_reached[:3, 0] if self._standard else picture.T_prev[:3, 0]
+        lines = [
+            [T[:3, 3] - reach * T[:3, 2], T[:3, 3] + reach * T[:3, 2]]
+            for T in (picture.T_prev, picture.T_reached)
+        ]
+        lines.append([start - 0.5 * reach * x, end + 0.7 * reach * x])
+        self._segments("axes", np.array(lines), "#8a93a3", 1.2)
+
+    @property
+    def _standard(self) -> bool:
+        return self.arm.table.convention is DHConvention.STANDARD
+
+    def _measure(self, measure: Measure, text: str) -> None:
+        """A tube with its value; a length of zero has none."""
+        start, end = measure.segment
+        length = float(np.linalg.norm(end - start))
+        shown = length > 1e-9
+        pose = np.eye(4)
+        pose[:3, 3] = (start + end) / 2
+        if shown:
+            pose[:3, :3] = frame_along((end - start) / length)
+        size = (TUBE * 0.7 * SHAFT * self.arm.size, max(length, 1e-6))
+        tube = body_surface(Body("cylinder", size, pose, "link"), rgb(QUANTITY[measure.key]))
+        self.server.scene.add_mesh_simple(
+            f"/row/{measure.key}",
+            tube.vertices.astype(np.float32),
+            tube.faces,
+            color=tube.colour,
+            cast_shadow=False,
+            receive_shadow=False,
+            visible=shown,
+        )
+        self._label(measure.key, text, (start + end) / 2, visible=shown)
+
+    def _arc(self, arc: Arc, text: str) -> None:
+        """An arc with its value, from a thin line in its starting direction."""
+        radius = (0.72 if arc.key == "theta" else 0.86) * self.length
+        shown = abs(arc.value) > 1e-9
+        points = arc.points(radius)
+        pairs = np.stack([points[:-1], points[1:]], axis=1)
+        self._segments(arc.key, pairs, QUANTITY[arc.key], THICK, visible=shown)
+        rays = np.array([[arc.centre, arc.centre + 1.15 * radius * arc.start]])
+        self._segments(f"{arc.key}_from", rays, QUANTITY[arc.key], 1.5, visible=shown)
+        middle = points[len(points) // 2]
+        out = arc.centre + 1.18 * (middle - arc.centre)
+        self._label(arc.key, text, out, visible=shown)
+
+    def _names(self, picture: DHRowPicture) -> None:
+        i = self.i
+        for T, k in ((picture.T_prev, i - 1), (picture.T_next, i)):
+            for letter, direction in (("x", 0), ("z", 2)):
+                place = T[:3, 3] + 1.12 * self.length * T[:3, direction]
+                self._label(f"{letter}{'prev' if k < i else 'next'}", subscript(letter, k), place)
+
+    def _segments(
+        self, name: str, points: Array, colour: str, width: float, *, visible: bool = True
+    ) -> None:
+        self.server.scene.add_line_segments(
+            f"/row/{name}",
+            points.astype(np.float32),
+            rgb(colour),
+            thickness=width,
+            thickness_units="screen",
+            visible=visible,
+        )
+
+    def _label(self, name: str, text: str, place: Array, *, visible: bool = True) -> None:
+        self.server.scene.add_label(
+            f"/row/label_{name}", text, position=place, anchor="center-center", visible=visible
+        )
+
+    def remove(self) -> None:
+        """Take the row out of the scene."""
+        self.root.remove()

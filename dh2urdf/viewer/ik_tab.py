@@ -1,0 +1,228 @@
+"""Inverse kinematics: a target to drag, every solution as a ghost and as a line of a table."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.drawing.surfaces import Drawing
+from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.viewer import html
+from dh2urdf.viewer.arm_scene import Ghosts, quaternions
+from dh2urdf.viewer.branches import Answer, answer, branch_table
+from dh2urdf.viewer.redundancy import Redundancy
+
+__all__ = ["IKTab"]
+
+MOST_GHOSTS = 16
+"""Ghosts at a time: what a chain of six joints can have at most."""
+
+GIZMO = 0.22
+"""Size of the target's handles, as a share of the arm's size."""
+
+
+class IKTab:
+    """The target, its solutions, the redundant joint.
+
+    Parameters
+    ----------
+    server : viser server
+    tab : viser tab
+    lock : lock
+        Held while the arm is moved or rebuilt.
+    on_move : callable
+        Called with a configuration that the arm should take.
+    on_target : callable
+        Called with the visitor who switched the target on.
+    """
+
+    def __init__(
+        self,
+        server: Any,
+        tab: Any,
+        lock: threading.RLock,
+        on_move: Callable[[Array], None],
+        on_target: Callable[[Any], None],
+    ) -> None:
+        self.server, self.lock = server, lock
+        self.on_move, self.on_target = on_move, on_target
+        self.ghosts: Ghosts | None = None
+        self.target: Any = None
+        self.answer: Answer | None = None
+        self._wanted: Array | None = None
+        self._busy = threading.Lock()
+        gui = server.gui
+        with tab:
+            self.active = gui.add_checkbox("Target", False)
+            self.show_ghosts = gui.add_checkbox("Ghosts", True)
+            self.within = gui.add_checkbox("Within limits", True)
+            self.task = gui.add_dropdown("Reach", ("pose", "position+axis", "position"))
+            self.redundancy = Redundancy(gui, self._held)
+            self.status = gui.add_html(html.message("Switch the target on and drag it."))
+            self.listed = gui.add_html("")
+            self.go = gui.add_button_group("Move to", ("1",), visible=False)
+        for handle in (self.active, self.show_ghosts, self.within, self.task):
+            handle.on_update(self._switched)
+        self.go.on_click(self._pressed)
+
+    def build(self, robot: Robot, drawing: Drawing, q: Array) -> None:
+        """Prepare for another arm."""
+        self.robot, self.q = robot, np.array(q)
+        if self.ghosts:
+            self.ghosts.remove()
+        if self.target:
+            self.target.remove()
+        self.ghosts = Ghosts(self.server, drawing, MOST_GHOSTS, self._go)
+        size = max(robot.chain.size, 1e-3)
+        self.target = self.server.scene.add_transform_controls(
+            "/target", scale=GIZMO * size, line_width=3.0, depth_test=False, visible=False
+        )
+        self.target.on_update(self._dragged)
+        self.task.value = default_task(robot)
+        self.redundancy.build(robot, q)
+        self._place_target(robot.fk(q))
+        self._show_answer(None)
+        if self.active.value:
+            self.solve(robot.fk(q))
+        self.target.visible = self.active.value
+
+    def show(self, q: Array) -> None:
+        """Follow the arm to q (n,), which some other tab moved."""
+        self.q = np.array(q)
+        if not self.active.value:
+            self._place_target(self.robot.fk(q))
+            return
+        T = self.robot.fk(q)
+        if float(np.abs(T - self._T).max()) > 1e-7:
+            self._place_target(T)
+            self.solve(T)
+
+    def solve(self, T: Array, *, follow: bool = False) -> None:
+        """Solve for a target, show what there is; the arm follows to the nearest."""
+        self._T = T
+        found = answer(
+            self.robot,
+            T,
+            self.q,
+            task=self.task.value,
+            within=self.within.value,
+            locked=self.redundancy.locked,
+        )
+        if follow and found.nearest is not None:
+            self.q = found.nearest
+            found = found.at(self.q)
+        self._show_answer(found)
+        if follow and found.nearest is not None:
+            self.redundancy.show(self.q)
+            self.on_move(self.q)
+
+    def _show_answer(self, found: Answer | None) -> None:
+        self.answer = found
+        assert self.ghosts is not None
+        rows = found.q[:MOST_GHOSTS] if found is not None else np.empty((0, self.robot.n))
+        shown = rows if self.show_ghosts.value else rows[:0]
+        self.ghosts.show(list(shown), skip=found.current if found is not None else -1)
+        self.go.visible = len(rows) > 0
+        if found is None:
+            self.status.content = html.message("Switch the target on and drag it.")
+            self.listed.content = ""
+            return
+        if len(rows):
+            self.go.options = tuple(str(k + 1) for k in range(len(rows)))
+        self.status.content = html.message(found.words, "info" if len(rows) else "bad")
+        self.listed.content = branch_table(found, self.robot) if len(rows) else ""
+
+    def _place_target(self, T: Array) -> None:
+        self._T = np.array(T)
+        self.target.position, self.target.wxyz = T[:3, 3], quaternions(T[:3, :3])
+
+    def _switched(self, event: Any) -> None:
+        if event.client is None:
+            return
+        with self.lock:
+            self.target.visible = self.active.value
+            if not self.active.value:
+                self._show_answer(None)
+                return
+            if event.target is self.active:
+                self._place_target(self.robot.fk(self.q))
+                self.on_target(event.client)
+            self.solve(self._T)
+
+    def put_away(self) -> None:
+        """Switch the target and the ghosts off."""
+        if self.active.value:
+            self.active.value = False
+            self.target.visible = False
+            self._show_answer(None)
+
+    def _dragged(self, event: Any) -> None:
+        """Solve for the latest place of the target; places passed meanwhile are skipped."""
+        self._wanted = _pose(event.target)
+        while self._wanted is not None and self._busy.acquire(blocking=False):
+            try:
+                while (T := self._wanted) is not None:
+                    self._wanted = None
+                    with self.lock, self.server.atomic():
+                        self.solve(T, follow=True)
+            finally:
+                self._busy.release()
+
+    def _pressed(self, event: Any) -> None:
+        if event.client is not None:
+            self._go(int(self.go.value) - 1)
+
+    def _go(self, k: int) -> None:
+        """Move the arm to solution k."""
+        with self.lock, self.server.atomic():
+            if self.answer is None or not 0 <= k < len(self.answer.q):
+                return
+            self.q = np.array(self.answer.q[k])
+            self._show_answer(self.answer.at(self.q))
+            self.redundancy.show(self.q)
+            self.on_move(self.q)
+
+    def _held(self, locked: dict[int, float]) -> str:
+        """Move the arm through its self-motion; a word where that is not possible."""
+        with self.lock, self.server.atomic():
+            T = self._T if self.active.value else self.robot.fk(self.q)
+            try:
+                found = self.robot.ik(
+                    T, seed=self.q, within_limits=self.within.value, locked=locked
+                )
+            except Dh2UrdfError as error:
+                return str(error).partition("\n")[0]
+            if not len(found):
+                return "No configuration reaches the pose with the joint there."
+            self.q = np.array(found.q[0])
+            self._T = T
+            if self.active.value:
+                self.solve(T)
+            self.on_move(self.q)
+        return ""
+
+
+def default_task(robot: Robot) -> str:
+    """What an arm of so many joints can be asked to reach."""
+    if robot.n >= 6 or robot.n == 4:
+        return "pose"
+    return "position+axis" if robot.n == 5 else "position"
+
+
+def _pose(handle: Any) -> Array:
+    """Pose of a handle of the scene, its quaternion brought to unit length, shape (4, 4)."""
+    quaternion = np.array(handle.wxyz, float)
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    T = np.eye(4)
+    T[:3, :3] = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    T[:3, 3] = handle.position
+    return T

@@ -1,0 +1,61 @@
+"""Floor, light and the eye."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+
+__all__ = ["look_at", "set_stage"]
+
+FIELD_OF_VIEW = math.radians(38.0)
+DIRECTION = np.array([0.80, -1.0, 0.62])
+"""From the arm to the eye."""
+
+DISTANCE = 2.1
+"""From the arm to the eye, against the span of the arm as it stands."""
+
+
+def look_at(client: Any, point: Array, distance: float) -> None:
+    """Bring the eye of one visitor nearer to a point, from where it looks now."""
+    camera = client.camera
+    way = np.asarray(camera.position) - np.asarray(camera.look_at)
+    way = way / max(float(np.linalg.norm(way)), 1e-9)
+    with client.atomic():
+        camera.position = point + distance * way
+        camera.look_at = point
+
+
+def set_stage(server: Any, robot: Robot, arm: DrawnArm, q: Array) -> tuple[Array, float]:
+    """Lay the floor and put the eye of new visitors before the arm: where it looks, how far."""
+    points = arm.table.frames(robot.chain_configuration(q))[:, :3, 3]
+    points = np.concatenate([points, np.zeros((1, 3)), robot.fk(q)[None, :3, 3]])
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = (low + high) / 2
+    span = max(float(np.linalg.norm(high - low)), 0.8 * arm.size)
+    cell = 10.0 ** math.floor(math.log10(max(arm.size, 1e-3) / 3.0))
+    server.scene.add_grid(
+        "/floor",
+        infinite_grid=True,
+        cell_size=cell,
+        section_size=5.0 * cell,
+        cell_color=(232, 234, 238),
+        section_color=(206, 210, 216),
+        fade_distance=5.0 * span,
+        shadow_opacity=0.12,
+    )
+    server.scene.configure_default_lights(enabled=True, cast_shadow=True)
+    server.scene.configure_environment_map(hdri="studio", environment_intensity=0.24)
+    camera = server.initial_camera
+    eye = middle + DISTANCE * span * DIRECTION / float(np.linalg.norm(DIRECTION))
+    camera.position = eye
+    camera.look_at = middle
+    camera.fov = FIELD_OF_VIEW
+    camera.near = 0.01 * span
+    camera.far = 200.0 * span
+    return middle, DISTANCE * span

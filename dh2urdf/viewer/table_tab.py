@@ -1,0 +1,247 @@
+"""The DH table: a row explained, cells edited, the URDF to take away."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+from dh2urdf.conversions.write_urdf import verified_urdf
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh_io import Kind, Units, parse_cell, parse_table, table_to_text
+from dh2urdf.dh_print import degrees
+from dh2urdf.drawing.row import DHRowPicture, length_index, row_words, subscript
+from dh2urdf.exceptions import Dh2UrdfError, TableError
+from dh2urdf.grids import number
+from dh2urdf.viewer import html
+
+__all__ = ["TableTab"]
+
+NOTHING = "none"
+UNITS = Units("m", "deg")
+"""Units of the cells: bare lengths are metres, bare angles degrees."""
+
+
+class TableTab:
+    """Shows, explains and edits the table.
+
+    Parameters
+    ----------
+    gui : viser gui
+    tab : viser tab
+    on_explain : callable
+        Called with the row to explain, 0 for none, and the visitor who asked.
+    on_table : callable
+        Called with an edited table; it raises Dh2UrdfError where that is not possible.
+    """
+
+    def __init__(
+        self,
+        gui: Any,
+        tab: Any,
+        on_explain: Callable[[int, Any], None],
+        on_table: Callable[[DHTable], None],
+    ) -> None:
+        self.gui, self.on_explain, self.on_table = gui, on_explain, on_table
+        self.table: DHTable | None = None
+        self.row = 0
+        with tab:
+            self.shown = gui.add_html("")
+            self.choice = gui.add_dropdown("Explain row", (NOTHING,), initial_value=NOTHING)
+            self.words = gui.add_html("")
+            with gui.add_folder("Edit the row", expand_by_default=False) as self.row_folder:
+                self.cells = self._cells()
+            with gui.add_folder("Edit the whole table", expand_by_default=False):
+                self.text = gui.add_text("YAML", "", multiline=True)
+                self.rebuild = gui.add_button("Rebuild the arm")
+            self.note = gui.add_html("")
+            self.save_urdf = gui.add_button("Save the URDF")
+            self.save_table = gui.add_button("Save the table")
+        self._connect()
+
+    def _cells(self) -> dict[str, Any]:
+        gui = self.gui
+        cells = {
+            "joint_type": gui.add_dropdown("joint", ("revolute", "prismatic")),
+            "theta": gui.add_text("θ [deg]", ""),
+            "d": gui.add_text("d [m]", ""),
+            "a": gui.add_text("a [m]", ""),
+            "alpha": gui.add_text("α [deg]", ""),
+            "sign": gui.add_dropdown("sign of q", ("+1", "-1")),
+            "lower": gui.add_text("lower limit [deg or m]", ""),
+            "upper": gui.add_text("upper limit [deg or m]", ""),
+        }
+        self.apply = gui.add_button("Apply to the row")
+        self.rows = gui.add_button_group("Rows", ("Add below", "Remove"))
+        return cells
+
+    def _connect(self) -> None:
+        self.choice.on_update(self._chosen)
+        self.apply.on_click(lambda _: self._try(self._with_row_cells))
+        self.rows.on_click(lambda _: self._try(self._with_rows))
+        self.rebuild.on_click(lambda _: self._try(self._with_text))
+        self.save_urdf.on_click(self._save_urdf)
+        self.save_table.on_click(self._save_table)
+
+    def build(self, table: DHTable) -> None:
+        """Show another table; the row stays chosen where it still exists."""
+        self.table = table
+        options = (NOTHING, *[str(i) for i in range(1, table.n + 1)])
+        self.row = min(self.row, table.n)
+        self.choice.options = options
+        self.choice.value = str(self.row) if self.row else NOTHING
+        self.text.value = table_to_text(table, "yaml", UNITS)
+        self._refresh()
+
+    def explain(self, picture: DHRowPicture | None) -> None:
+        """Say what a row says, with its matrix; None says nothing."""
+        if picture is None or self.table is None:
+            self.words.content = html.message("Choose a row to see what its numbers measure.")
+            return
+        i = picture.i
+        name = f"T<sub>{i - 1},{i}</sub>"
+        self.words.content = html.message(row_words(self.table, picture)) + html.matrix(
+            picture.T_prev_next, name
+        )
+
+    def choose(self, row: int) -> None:
+        """Choose a row, 0 for none, as a visitor would."""
+        self.row = row
+        self.choice.value = str(row) if row else NOTHING
+        self._refresh()
+
+    def say(self, text: str, kind: str = "info") -> None:
+        """Put a note under the table."""
+        self.note.content = html.message(text, kind) if text else ""
+
+    def _refresh(self) -> None:
+        assert self.table is not None
+        self.shown.content = html.table(self.table, self.row)
+        self.row_folder.visible = self.row > 0
+        if not self.row:
+            return
+        row, slides = self._joint(self.row), self._slides(self.row)
+        bound = number if slides else degrees
+        shown = {
+            "joint_type": str(row.joint_type),
+            "theta": degrees(row.theta),
+            "d": number(row.d),
+            "a": number(row.a),
+            "alpha": degrees(row.alpha),
+            "sign": f"{row.sign:+d}",
+            "lower": "" if row.lower is None else bound(row.lower),
+            "upper": "" if row.upper is None else bound(row.upper),
+        }
+        for key, text in shown.items():
+            self.cells[key].value = text.replace("\N{MINUS SIGN}", "-")
+        j = subscript("", length_index(self.table, self.row))
+        i = subscript("", self.row)
+        for key, label in (("theta", f"θ{i} [deg]"), ("d", f"d{i} [m]"), ("a", f"a{j} [m]")):
+            self.cells[key].label = label
+        self.cells["alpha"].label = f"α{j} [deg]"
+
+    def _joint(self, i: int) -> DHRow:
+        assert self.table is not None
+        return self.table.joints[i - 1]
+
+    def _slides(self, i: int) -> bool:
+        return self._joint(i).joint_type is JointType.PRISMATIC
+
+    def _chosen(self, event: Any) -> None:
+        if event.client is None:
+            return
+        self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
+        self._refresh()
+        self.on_explain(self.row, event.client)
+
+    def _try(self, edit: Callable[[], DHTable]) -> None:
+        """Make the edited table the arm's, or say what is wrong and change nothing."""
+        try:
+            table = edit()
+            self.on_table(table)
+        except Dh2UrdfError as error:
+            self.say(f"{error}\nNothing was changed.", "bad")
+        else:
+            self.say(f"The arm was rebuilt: {table.n} joints.", "good")
+
+    def _with_row_cells(self) -> DHTable:
+        slides = self.cells["joint_type"].value == "prismatic"
+        bound = Kind.LENGTH if slides else Kind.ANGLE
+        kinds = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
+        found: dict[str, float | None] = {}
+        problems: list[str] = []
+        for key, kind in {**kinds, "lower": bound, "upper": bound}.items():
+            text = self.cells[key].value.strip()
+            if not text and key in {"lower", "upper"}:
+                found[key] = None
+                continue
+            try:
+                found[key] = parse_cell(text, kind, UNITS)
+            except TableError as error:
+                problems.append(f"{self.cells[key].label}: {text!r}: {error}")
+        if problems:
+            raise TableError(problems)
+        joint_type = JointType(self.cells["joint_type"].value)
+        row = replace(
+            self._joint(self.row),
+            joint_type=joint_type,
+            sign=int(self.cells["sign"].value),
+            **found,  # type: ignore[arg-type]
+        )
+        return self._with(self._place(), [row])
+
+    def _place(self) -> int:
+        """Index among all rows of the joint row that is chosen."""
+        assert self.table is not None
+        joints = [k for k, row in enumerate(self.table.rows) if row.is_joint]
+        return joints[self.row - 1]
+
+    def _with(self, at: int, rows: list[DHRow]) -> DHTable:
+        assert self.table is not None
+        return replace(self.table, rows=(*self.table.rows[:at], *rows, *self.table.rows[at + 1 :]))
+
+    def _with_rows(self) -> DHTable:
+        at, row = self._place(), self._joint(self.row)
+        if self.rows.value == "Remove":
+            return self._with(at, [])
+        return self._with(at, [row, DHRow(a=0.1, name=self._new_name())])
+
+    def _new_name(self) -> str:
+        assert self.table is not None
+        known = set(self.table.joint_names)
+        return next(f"joint_{k}" for k in range(1, 1000) if f"joint_{k}" not in known)
+
+    def _with_text(self) -> DHTable:
+        return parse_table(self.text.value, "yaml", "table").table
+
+    def _save_urdf(self, event: Any) -> None:
+        assert self.table is not None
+        try:
+            text, max_error, warnings = verified_urdf(self.table)
+        except Dh2UrdfError as error:
+            self.say(str(error), "bad")
+            return
+        name = f"{_file_name(self.table)}.urdf"
+        event.client.send_file_download(name, text.encode(), save_immediately=True)
+        notes = "".join(f"\n{warning}" for warning in warnings)
+        checked = f"largest difference between Pinocchio and the DH product {max_error:.1e}"
+        self.say(f"{name}: {checked}{notes}", "good")
+
+    def _save_table(self, event: Any) -> None:
+        assert self.table is not None
+        name = f"{_file_name(self.table)}.yaml"
+        text = table_to_text(self.table, "yaml")
+        event.client.send_file_download(name, text.encode(), save_immediately=True)
+        self.say(f"{name} was sent to your browser.", "good")
+
+
+def _file_name(table: DHTable) -> str:
+    """The table's name with only what file systems take."""
+    kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in table.name)
+    return kept.strip("_") or "robot"
+
+
+def new_table() -> DHTable:
+    """Where a table that is typed in from scratch begins: one joint."""
+    row = DHRow(a=0.5, name="joint_1")
+    return DHTable((row,), DHConvention.STANDARD, "my_arm")

@@ -1,0 +1,194 @@
+"""The visuals of a URDF, meshes included, where they are on disk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pinocchio as pin
+from lxml import etree
+
+from dh2urdf.conversions.bodies import Body
+from dh2urdf.conversions.urdf_to_model import parse_xml
+from dh2urdf.dh import Origin
+from dh2urdf.drawing.surfaces import Node, Surface, body_surface
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+
+__all__ = ["UrdfDrawing", "urdf_drawing"]
+
+GREY = (200, 204, 212)
+"""Colour of a visual that has none."""
+
+MESH_BYTES = 200_000_000
+"""Largest mesh file that is read."""
+
+
+class UrdfDrawing:
+    """Links of a URDF with their visuals, placed by Pinocchio.
+
+    Parameters
+    ----------
+    robot : Robot
+    nodes : list of Node
+        Each named as its link.
+    """
+
+    def __init__(self, robot: Robot, nodes: list[Node]) -> None:
+        self.robot, self.nodes = robot, tuple(nodes)
+        model = robot.model
+        self._data = model.createData()
+        self._ids = [model.getFrameId(node.name, pin.FrameType.BODY) for node in nodes]
+        self._base = model.getFrameId(robot.base)
+
+    def poses(self, q: Array) -> Array:
+        """``T_base_link`` at q (n,), shape (links, 4, 4)."""
+        model, data = self.robot.model, self._data
+        pin.framesForwardKinematics(model, data, self.robot.model_configuration(q))
+        M_base_world = data.oMf[self._base].inverse()
+        return np.stack([(M_base_world * data.oMf[i]).homogeneous for i in self._ids])
+
+
+def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
+    """The drawing of the robot's URDF, None where it has no visuals; and what is missing."""
+    source = robot.source
+    if source is None or source.suffix.lower() != ".urdf":
+        return None, []
+    root = parse_xml(source.read_bytes(), str(source))
+    missing: list[str] = []
+    nodes = []
+    known = {f.name for f in robot.model.frames if f.type == pin.FrameType.BODY}
+    colours = dict(_material_colours(root))
+    for link in root.iterfind("link"):
+        name = link.get("name", "")
+        surfaces: list[Surface] = []
+        for visual in link.iterfind("visual"):
+            surfaces += _visual(visual, colours, source, missing)
+        if surfaces and name in known:
+            nodes.append(Node(name, tuple(surfaces)))
+    return (UrdfDrawing(robot, nodes) if nodes else None), _notes(missing)
+
+
+def _notes(missing: list[str]) -> list[str]:
+    if not missing:
+        return []
+    names = ", ".join(sorted(set(missing))[:3])
+    more = f" and {len(set(missing)) - 3} more" if len(set(missing)) > 3 else ""
+    return [
+        f"Meshes not found or not readable: {names}{more}. Set ROS_PACKAGE_PATH to their folder."
+    ]
+
+
+def _material_colours(root: Any) -> Iterator[tuple[str, tuple[int, int, int]]]:
+    for material in root.iter("material"):
+        colour = material.find("color")
+        if colour is not None:
+            yield material.get("name", ""), _rgb(colour)
+
+
+def _rgb(colour: Any) -> tuple[int, int, int]:
+    r, g, b, _ = [round(255 * min(max(float(v), 0.0), 1.0)) for v in colour.get("rgba").split()]
+    return r, g, b
+
+
+def _visual(
+    visual: Any, colours: dict[str, tuple[int, int, int]], source: Path, missing: list[str]
+) -> list[Surface]:
+    """Surfaces of one ``<visual>`` in the frame of its link."""
+    geometry = visual.find("geometry")
+    shape = geometry[0] if geometry is not None and len(geometry) else None
+    if shape is None or not isinstance(shape, etree._Element):
+        return []
+    T_link_visual = _origin(visual.find("origin"))
+    material = visual.find("material")
+    colour = None
+    if material is not None:
+        own = material.find("color")
+        colour = _rgb(own) if own is not None else colours.get(material.get("name", ""))
+    if shape.tag == "mesh":
+        return _mesh(shape, T_link_visual, colour, source, missing)
+    keys = {"box": ("size",), "cylinder": ("radius", "length"), "sphere": ("radius",)}
+    if shape.tag not in keys:
+        return []
+    size = _numbers(" ".join(shape.get(key, "0") for key in keys[shape.tag]))
+    return [body_surface(Body(shape.tag, size, T_link_visual, "link"), colour or GREY)]
+
+
+def _numbers(text: str) -> tuple[float, ...]:
+    return tuple(float(v) for v in text.split())
+
+
+def _origin(element: Any) -> Array:
+    if element is None:
+        return np.eye(4)
+    xyz = _numbers(element.get("xyz", "0 0 0"))
+    rpy = _numbers(element.get("rpy", "0 0 0"))
+    return Origin(xyz, rpy).matrix  # type: ignore[arg-type]
+
+
+def _mesh(
+    shape: Any,
+    T_link_visual: Array,
+    colour: tuple[int, int, int] | None,
+    source: Path,
+    missing: list[str],
+) -> list[Surface]:
+    """Surfaces of a mesh file, scaled and placed."""
+    name = shape.get("filename", "")
+    path = find_mesh(name, source)
+    scene = _load(path) if path else None
+    if scene is None:
+        missing.append(name)
+        return []
+    scale = np.array(_numbers(shape.get("scale", "1 1 1")))
+    out = []
+    for mesh in scene:
+        vertices = np.asarray(mesh.vertices, float) * scale
+        placed = vertices @ T_link_visual[:3, :3].T + T_link_visual[:3, 3]
+        faces = np.asarray(mesh.faces, np.uint32)
+        out.append(Surface(placed, faces, colour or _mesh_colour(mesh)))
+    return out
+
+
+def _load(path: Path) -> list[Any] | None:
+    """Meshes of a file in metres, None where it cannot be read."""
+    import trimesh
+
+    if path.stat().st_size > MESH_BYTES:
+        return None
+    try:
+        loaded = trimesh.load(path, force="scene")
+        return [m for m in loaded.dump() if hasattr(m, "faces") and len(m.faces)]
+    except Exception:
+        return None
+
+
+def _mesh_colour(mesh: Any) -> tuple[int, int, int]:
+    try:
+        r, g, b = (int(v) for v in mesh.visual.main_color[:3])
+    except (AttributeError, TypeError, ValueError):
+        return GREY
+    return (r, g, b)
+
+
+def find_mesh(name: str, source: Path) -> Path | None:
+    """The file of a mesh: beside the URDF, under its package, or on ROS_PACKAGE_PATH."""
+    for prefix in ("package://", "model://"):
+        if name.startswith(prefix):
+            return _in_package(name.removeprefix(prefix), source)
+    plain = Path(name.removeprefix("file://"))
+    path = plain if plain.is_absolute() else source.parent / plain
+    return path if path.is_file() else None
+
+
+def _in_package(name: str, source: Path) -> Path | None:
+    package, _, rest = name.partition("/")
+    folders = [Path(p) for p in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if p]
+    for folder in [*source.resolve().parents, *folders]:
+        for candidate in (folder / package / rest, folder / rest):
+            if candidate.is_file():
+                return candidate
+    return None

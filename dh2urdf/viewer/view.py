@@ -1,0 +1,244 @@
+"""The view itself: one arm, one configuration, and the tabs that show and move it."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.dh import DHTable
+from dh2urdf.drawing.arm import drawn_arm, table_of, zero_configuration
+from dh2urdf.drawing.surfaces import Drawing, TableDrawing
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.viewer.arm_scene import ArmScene
+from dh2urdf.viewer.door import LOOPBACK, quietly, start_server
+from dh2urdf.viewer.frames_scene import FramesScene, RowScene
+from dh2urdf.viewer.ik_tab import IKTab
+from dh2urdf.viewer.joints_tab import JointsTab
+from dh2urdf.viewer.stage import look_at, set_stage
+from dh2urdf.viewer.table_tab import TableTab
+from dh2urdf.viewer.urdf_drawing import urdf_drawing
+
+__all__ = ["ArmView", "view"]
+
+CLOSE = 1.15
+"""From the row that is explained to the eye, against the arm's size."""
+
+logger = logging.getLogger("dh2urdf")
+
+
+def view(
+    robot: Robot,
+    q: ArrayLike | None = None,
+    *,
+    host: str = "127.0.0.1",
+    port: int | None = None,
+) -> ArmView:
+    """Show an arm in the browser.
+
+    Parameters
+    ----------
+    robot : Robot
+    q : array_like, shape (n,), optional
+        Configuration to start from [rad] or [m]; zero, or what the limits allow nearest to it.
+    host : str
+        Address to listen on; by default only this machine can reach the view.
+    port : int, optional
+        That port and no other, 0 for any; without it the next free one from 8080.
+
+    Returns
+    -------
+    ArmView
+        The server runs beside the program until :meth:`ArmView.stop`.
+
+    Raises
+    ------
+    MissingExtraError, ServerError, ConfigurationError
+    """
+    return ArmView(robot, q, host=host, port=port)
+
+
+class ArmView:
+    """An arm in the browser; everyone who looks sees and moves the same one.
+
+    Attributes
+    ----------
+    url : str
+        Where to look.
+    robot : Robot
+        The arm shown; another one after the table was edited.
+    q : array, shape (n,)
+        Its configuration; set it to move the arm.
+    """
+
+    def __init__(
+        self, robot: Robot, q: ArrayLike | None = None, *, host: str, port: int | None
+    ) -> None:
+        config = zero_configuration(robot, q)
+        self._lock = threading.RLock()
+        self._stopped = threading.Event()
+        self._server: Any = start_server(host, port)
+        shown = "localhost" if host in {*LOOPBACK, "0.0.0.0", "::"} else host
+        self.url = f"http://{shown}:{self._server.get_port()}"
+        if host not in LOOPBACK:
+            logger.warning("the view listens on %s: other machines can reach and move it", host)
+        self._row = 0
+        self._scenes: list[Any] = []
+        self._row_scene: RowScene | None = None
+        self._server.gui.main_panel.dock_right()
+        tabs = self._server.gui.add_tab_group()
+        self._joints = JointsTab(self._server.gui, tabs.add_tab("Joints"), self._moved)
+        table_tab = tabs.add_tab("DH table")
+        self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
+        self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
+        self._show_frames, self._show_names, self._show_meshes = self._options()
+        with self._lock:
+            self._build(robot, config)
+
+    @property
+    def q(self) -> Array:
+        """Configuration shown, shape (n,) [rad] or [m]."""
+        return self._q.copy()
+
+    @q.setter
+    def q(self, value: ArrayLike) -> None:
+        self._moved(zero_configuration(self.robot, value))
+
+    def wait(self) -> None:
+        """Wait until :meth:`stop` is called or the program is interrupted."""
+        while not self._stopped.wait(0.5):
+            pass
+
+    def stop(self) -> None:
+        """Stop the server; pages that are open lose their connection."""
+        if not self._stopped.is_set():
+            self._stopped.set()
+            quietly(self._server.stop)
+
+    def _options(self) -> tuple[Any, Any, Any]:
+        """Switches of what the scene shows, under the tabs."""
+        gui = self._server.gui
+        frames = gui.add_checkbox("DH frames", False)
+        names = gui.add_checkbox("Names of axes", True)
+        meshes = gui.add_checkbox("Meshes of the URDF", True, visible=False)
+        for handle, switch in (
+            (frames, self._switch_frames),
+            (names, self._switch_frames),
+            (meshes, self._switch_meshes),
+        ):
+            handle.on_update(lambda event, switch=switch: switch(event))
+        return frames, names, meshes
+
+    def _build(self, robot: Robot, q: Array) -> None:
+        """Show another arm."""
+        arm = drawn_arm(table_of(robot))
+        own, notes = urdf_drawing(robot)
+        drawing: Drawing = own if own and self._show_meshes.value else TableDrawing(arm)
+        with self._server.atomic():
+            for scene in self._scenes:
+                scene.remove()
+            self.robot, self._arm, self._q = robot, arm, q
+            self._show_meshes.visible = own is not None
+            self._scene = ArmScene(self._server, drawing)
+            self._frames = FramesScene(self._server, arm)
+            self._scenes = [self._scene, self._frames]
+            self._joints.build(robot, q)
+            self._table.build(arm.table)
+            self._ik.build(robot, drawing, q)
+            for note in notes:
+                self._table.say(note)
+            self._stage = set_stage(self._server, robot, arm, q)
+            self._show_row(self._table.row)
+            self._switch_frames()
+            self._redraw()
+
+    def _moved(self, q: Array) -> None:
+        """Move the arm to q (n,), whoever asked for it."""
+        with self._lock, self._server.atomic():
+            self._q = np.array(q)
+            self._redraw()
+
+    def _redraw(self) -> None:
+        q = self.robot.chain_configuration(self._q)
+        self._scene.show(self._scene_configuration(q))
+        if self._show_frames.value:
+            self._frames.show(q)
+        self._joints.show(self._q)
+        self._ik.show(self._q)
+        if self._row_scene:
+            self._row_scene.show(q)
+            self._table.explain(self._row_scene.picture)
+
+    def _scene_configuration(self, q: Array) -> Array:
+        """What the drawing wants: all joints of a table, or the values of a URDF robot."""
+        return q if isinstance(self._scene.drawing, TableDrawing) else self._q
+
+    def _explain(self, i: int, visitor: Any = None) -> None:
+        """Explain row i, 0 for none, and bring the eye of who asked near to it."""
+        with self._lock, self._server.atomic():
+            if i:
+                self._ik.put_away()
+            self._show_row(i)
+            self._redraw()
+        if visitor is None:
+            return
+        if self._row_scene is None or self._row_scene.picture is None:
+            look_at(visitor, *self._stage)
+        else:
+            look_at(visitor, self._row_scene.middle, CLOSE * self._arm.size)
+
+    def _target_on(self, visitor: Any) -> None:
+        """Put the explained row away when the target comes up."""
+        if self._table.row:
+            self._table.choose(0)
+            self._explain(0, visitor)
+
+    def _show_row(self, i: int) -> None:
+        if self._row_scene:
+            self._row_scene.remove()
+            self._row_scene = None
+        if i:
+            self._row_scene = RowScene(self._server, self._arm, i)
+        else:
+            self._table.explain(None)
+        self._scene.set_translucent(i > 0)
+
+    def _switch_frames(self, event: Any = None) -> None:
+        if event is not None and event.client is None:
+            return
+        with self._lock:
+            self._frames.set_visible(self._show_frames.value, self._show_names.value)
+            self._frames.show(self.robot.chain_configuration(self._q))
+
+    def _switch_meshes(self, event: Any) -> None:
+        if event.client is None:
+            return
+        with self._lock:
+            self._build(self.robot, self._q)
+
+    def _edited(self, table: DHTable) -> None:
+        """Rebuild the arm from an edited table; joints that it kept stay where they are."""
+        robot = Robot.from_dh(table)
+        with self._lock:
+            old = dict(zip(self.robot.joint_names, self._q.tolist(), strict=True))
+            q = np.array([old.get(name, 0.0) for name in robot.joint_names])
+            self._build(robot, np.clip(q, robot.lower, robot.upper))
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe src="{self.url}" style="width:100%;height:560px;border:0"></iframe>'
+            f'<p><a href="{self.url}">{self.url}</a></p>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<ArmView of {self.robot.model.name} at {self.url}>"
+
+    def __enter__(self) -> ArmView:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stop()
