@@ -15,7 +15,7 @@ from dh2urdf.ik.solver import Task
 from dh2urdf.ik.tolerances import ACCEPT, FAMILY_RANK, FAMILY_STEP
 from dh2urdf.transforms import Array
 
-__all__ = ["Family", "task_error"]
+__all__ = ["Family", "task_error", "task_jacobian"]
 
 MOST_STEPS = 100
 """Steps along a family before the search for its nearest member is given up."""
@@ -38,6 +38,26 @@ def task_error(T_found: Array, T: Array, task: Task) -> Array:
         behind = np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) < 1.0
     turn[behind] = np.pi, 0.0, 0.0
     return np.concatenate([position, turn], axis=1)
+
+
+def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
+    """Derivative of the task at configurations q (k, n), shape (k, 3 or 6, n).
+
+    For ``position+axis`` the turn about the tool's own z is taken out.
+    """
+    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
+
+    q = np.ascontiguousarray(q)
+    J = np.empty((len(q), 6, chain.n))
+    chain_jacobian_batch(chain.links, chain.prismatic, q, J)
+    if task is Task.POSITION:
+        return J[:, :3]
+    if task is Task.POSITION_AXIS:
+        T = np.empty((len(q), 4, 4))
+        chain_fk_batch(chain.links, chain.prismatic, q, T)
+        z = T[:, :3, 2]
+        J[:, 3:] -= z[:, :, None] * (z[:, None] @ J[:, 3:])
+    return J
 
 
 class Family:
@@ -135,16 +155,7 @@ class Family:
 
     def _jacobian(self, q: Array) -> Array:
         """Rows of the task, columns of the free joints: derivative of the pose."""
-        from dh2urdf.kernels.chain import chain_jacobian_batch
-
-        J = np.empty((1, 6, self.chain.n))
-        chain_jacobian_batch(self.chain.links, self.chain.prismatic, q[None], J)
-        columns: Array = J[0][:, self.free]
-        if self.task is Task.POSITION:
-            return columns[:3]
-        if self.task is Task.POSITION_AXIS:
-            z = self.T[:3, 2]
-            columns[3:] -= np.outer(z, z @ columns[3:])
+        columns: Array = task_jacobian(self.chain, self.task, q[None])[0][:, self.free]
         return columns
 
     def _tangent(self, q: Array) -> Array:

@@ -25,7 +25,7 @@ from dh2urdf.transforms import Array, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
 
-Locked = Mapping[int | str, float]
+Locked = Mapping[int, float] | Mapping[str, float] | Mapping[int | str, float]
 """Joints held at a value [rad] or [m], by index or name."""
 
 KEPT_PROBLEMS = 32

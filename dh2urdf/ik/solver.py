@@ -192,10 +192,34 @@ SOLVERS: tuple[SolverRow, ...] = (
         "ThreeParallelReversed",
     ),
     SolverRow(
+        "short chain",
+        "one to five joints of any kind, each of which moves the tool",
+        "dh2urdf.ik.short",
+        "ShortChain",
+    ),
+    SolverRow(
+        "position arm",
+        "task position: one to three joints of any kind, each of which moves the tool's origin",
+        "dh2urdf.ik.short_position",
+        "ShortPosition",
+    ),
+    SolverRow(
+        "tool axis",
+        "task position+axis: a virtual joint about the tool's z makes a chain that is covered",
+        "dh2urdf.ik.tool_axis",
+        "ToolAxis",
+    ),
+    SolverRow(
         "general 6R",
         "six revolute joints, any axes",
         "dh2urdf.ik.general_6r",
         "General6R",
+    ),
+    SolverRow(
+        "joints to spare",
+        "one or two joints that can move while the task stays satisfied; they are held",
+        "dh2urdf.ik.redundancy",
+        "RedundantChain",
     ),
 )
 """Families, best first; a chain gets the first that has no obstacle."""

@@ -1,0 +1,154 @@
+"""Joints to spare: arms with more joints than the task has dimensions, or idle ones.
+
+Where a joint can move in every configuration while the task stays satisfied, there is a
+one-parameter family through every solution. Joints are then held so that the rest determine the
+task, at rest or at the first of a row of values at which the pose is reached.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.families import task_jacobian
+from dh2urdf.ik.held import HeldJoints, hold
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.tolerances import FAMILY_RANK
+from dh2urdf.transforms import Array
+
+__all__ = ["RedundantChain", "spare_joints"]
+
+TRIALS = 4
+"""Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
+
+VALUES = (1, 24, 7)
+"""Values at which each of 0, 1, 2 joints is held: a turn in steps of 15 degrees, of 51 for two."""
+
+
+def random_configurations(chain: SerialChain, count: int) -> Array:
+    """Configurations anywhere, the same ones each time, shape (count, n)."""
+    rng = np.random.default_rng(2)
+    span = np.where(chain.prismatic, chain.size, np.pi)
+    return rng.uniform(-1.0, 1.0, (count, chain.n)) * span
+
+
+def spare_joints(chain: SerialChain, task: Task) -> int:
+    """Dimension of the motions that leave the task alone in every configuration."""
+    q = random_configurations(chain, TRIALS)
+    J = task_jacobian(chain, task, q)
+    if not chain.n:
+        return 0
+    if task is not Task.POSITION:
+        J[:, :3] /= chain.size
+    sigma = np.linalg.svd(J, compute_uv=False)
+    return chain.n - int((sigma > FAMILY_RANK * sigma[:, :1]).sum(axis=1).max())
+
+
+class RedundantChain(SolverBase):
+    """A chain with joints to spare: some are held, a family through every solution."""
+
+    name = "joints to spare"
+
+    idle: int
+    """Bits of the joints that take part in the motion to spare."""
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.held = _joints_to_hold(chain, task)
+        anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))
+        self.idle = int(np.bitwise_or.reduce(anywhere))
+        self._solvers: dict[tuple[float, ...], HeldJoints] = {}
+        self.values = list(
+            itertools.product(*(_values(chain, i, len(self.held)) for i in self.held))
+        )
+        self.kmax = self._solver(self.values[0]).kmax
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say why no joint is held; None if one has to be."""
+        spare = spare_joints(chain, task)
+        if not spare:
+            return "no joint can move while the tool stays"
+        if spare >= len(VALUES):
+            return f"{spare} joints to spare; hold some with locked="
+        return None
+
+    def details(self) -> str:
+        """Name the held joints and the solver of the others."""
+        names = ", ".join(self.chain.names[i] for i in self.held)
+        return f"{names} held at rest or where the pose is reached; {self._solver(self.values[0])}"
+
+    def _solver(self, values: tuple[float, ...]) -> HeldJoints:
+        """The solver with the joints held at some values, kept for the next call."""
+        if values not in self._solvers:
+            held = dict(zip(self.held, values, strict=True))
+            self._solvers[values] = HeldJoints(self.chain, held, self.task)
+        return self._solvers[values]
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
+        count_out[:] = 0
+        for values in self.values:
+            open_ = np.flatnonzero(count_out == 0)
+            if not len(open_):
+                break
+            q, residual, count = q_out[open_], residual_out[open_], count_out[open_]
+            branch, free = branch_out[open_], free_out[open_]
+            solver = self._solver(values)
+            solver.solve_batch(Ts[open_], within_limits, q, residual, count, branch, free)
+            q_out[open_], residual_out[open_], count_out[open_] = q, residual, count
+        used = np.arange(self.kmax) < count_out[:, None]
+        free_out[:] = 0
+        free_out[used] = self.idle | _moving_joints(self.chain, self.task, q_out[used])
+        branch_out[:] = -1
+
+
+def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:
+    """The last joints without which the others determine the task."""
+    spare = spare_joints(chain, task)
+    for joints in sorted(itertools.combinations(range(chain.n), spare), reverse=True):
+        if not spare_joints(hold(chain, dict.fromkeys(joints, 0.1)), task):
+            return joints
+    raise AssertionError("the rank of the Jacobian is reached by some of its columns")
+
+
+def _values(chain: SerialChain, joint: int, held: int) -> list[float]:
+    """Values at which a joint is held: rest, then spread over its range."""
+    lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
+    span = chain.size if chain.prismatic[joint] else np.pi
+    low, high = max(lower, -span), min(upper, span)
+    if low > high:
+        low, high = (lower, lower + span) if lower > span else (upper - span, upper)
+    rest = min(max(0.0, low), high)
+    count = VALUES[held]
+    grid = low + (high - low) * (np.arange(count) + 0.5) / count
+    return [rest, *sorted(grid.tolist(), key=lambda v: abs(v - rest))]
+
+
+def _moving_joints(chain: SerialChain, task: Task, q: Array) -> IntArray:
+    """Bits of the joints that move in the null space of the task at q (k, n)."""
+    J = task_jacobian(chain, task, q)
+    _, sigma, Vt = np.linalg.svd(J, full_matrices=True)
+    full = np.zeros((len(q), chain.n))
+    full[:, : sigma.shape[1]] = sigma
+    null = full <= FAMILY_RANK * full[:, :1]
+    motion = np.sqrt(((Vt * null[:, :, None]) ** 2).sum(axis=1))
+    bits = (motion > FAMILY_RANK).astype(np.int64) << np.arange(chain.n)
+    mask: IntArray = bits.sum(axis=1)
+    return mask

@@ -1,0 +1,187 @@
+"""Chains of one to five joints, any kinds and geometry: the closed loop as a linear system."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["ShortChain"]
+
+MOST_JOINTS = 5
+
+CUTS = (0, 1, 1, 3, 2, 5)
+"""Different ways to cut the loop of 0 to 5 joints."""
+
+PLACES = {
+    1: (0, -1, -1, -1, -1),
+    2: (0, -1, -1, 1, -1),
+    3: (0, 1, -1, 2, -1),
+    4: (0, 1, -1, 2, 3),
+    5: (0, 1, 2, 3, 4),
+}
+"""How n joints fill the places a, b, x, c, d of a cut loop; -1 stays empty."""
+
+TRIALS = 8
+"""Random configurations on which the cuts are compared."""
+
+VANISHED = 1e-9
+"""Singular value of a loop's matrix, columns of size about 1, that counts as zero."""
+
+
+class _Quality(NamedTuple):
+    """Rank of a cut, the smallest is best."""
+
+    blind: bool
+    """The determinant vanishes for every x."""
+    nullity: int
+    """Dimension of the null space at a solution."""
+    loss: float
+    """Minus the smallest singular value that does not vanish."""
+
+
+class ShortChain(SolverBase):
+    """All configurations of one to five joints that reach a full pose."""
+
+    name = "short chain"
+    kmax = 8
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.ends = inverse(self.links[[0, -1]])
+        self.unit = chain.size
+        self.loop = _loop_links(self.links, self.unit)
+        self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
+        cuts = 0 if chain.n == 5 and chain.prismatic.sum() == 3 else CUTS[chain.n]
+        shapes = np.array([_shape(chain.prismatic, s) for s in range(cuts)], np.int64)
+        used = np.array([_slots(chain.prismatic, shape) for shape in shapes])
+        qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
+        best = sorted(range(len(shapes)), key=lambda s: qualities[s])
+        rows = [[*shapes[s], qualities[s].nullity] for s in best]
+        self.shapes = np.array(rows, np.int64).reshape(-1, 8)
+        self.used = np.array([used[s] for s in best], np.int64).reshape(-1, 8)
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the loop equations from covering a chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n > MOST_JOINTS:
+            return f"it needs at most {MOST_JOINTS} joints, the chain has {chain.n}"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool stays"
+        return None
+
+    def details(self) -> str:
+        """Name the pairs of joints and what is solved."""
+        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
+        if not len(self.shapes):
+            return f"{kinds}; two joints from the orientation, three slides from a linear system"
+        a, b, x, c, d = (int(i) for i in self.shapes[0, :5])
+        pairs = [", ".join(str(i + 1) for i in pair if i >= 0) for pair in ((a, b), (c, d))]
+        text = f"{kinds}; the closed loop cut into joints {' | '.join(p for p in pairs if p)}"
+        if x >= 0:
+            return f"{text}, joint {x + 1} from a quartic, the others from a null vector"
+        equation = ", a quadratic equation" if self.shapes[0, 7] == 2 else ""
+        return f"{text}, linear in dual quaternions{equation}"
+
+    def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
+        """How well a cut of the loop finds random configurations."""
+        from dh2urdf.kernels import short_loop
+        from dh2urdf.kernels.short_chains import close_loop
+
+        rng = np.random.default_rng(1)
+        loop, columns, M, pose = (
+            self.loop.copy(),
+            np.empty((12, 8)),
+            np.empty((8, 8)),
+            np.empty((4, 4)),
+        )
+        blind, nullity, gap = False, 0, np.inf
+        for _ in range(TRIALS):
+            q = np.where(self.chain.prismatic, self.unit, np.pi) * rng.uniform(-1, 1, self.chain.n)
+            close_loop(self.ends, self.chain.fk(q), self.unit, pose, loop)
+            short_loop.loop_columns(loop, self.joints, shape, columns)
+            x = shape[2]
+            half = 0.0
+            if x >= 0:
+                half = np.arctan(0.5 * q[x] / self.unit) if self.chain.prismatic[x] else 0.5 * q[x]
+                short_loop.loop_matrix(columns, used, np.cos(half + 1.0), np.sin(half + 1.0), M)
+                blind = blind or bool(np.linalg.svd(M, compute_uv=False)[-1] < VANISHED)
+            size = short_loop.loop_matrix(columns, used, np.cos(half), np.sin(half), M)
+            sigma = np.linalg.svd(M[:size], compute_uv=False)
+            here = int((sigma < VANISHED).sum())
+            nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
+        return _Quality(blind, nullity, -gap)
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
+        from dh2urdf.kernels.certify import new_work
+        from dh2urdf.kernels.short_chains import solve_short_chains
+
+        solve_short_chains(
+            self.links,
+            self.joints,
+            self.ends,
+            self.loop,
+            self.shapes,
+            self.used,
+            self.rest_unit,
+            Ts,
+            within_limits,
+            q_out,
+            residual_out,
+            count_out,
+            branch_out,
+            free_out,
+            new_work(self.chain.n),
+        )
+
+
+def _loop_links(links: Array, unit: float) -> Array:
+    """Dual quaternions of the links between the joints, and a row for the closing one, (n, 8)."""
+    from dh2urdf.kernels.dual_quaternions import dual_of_pose
+
+    loop = np.zeros((len(links) - 1, 8))
+    for row, link in zip(loop[:-1], links[1:-1], strict=True):
+        dual_of_pose(np.ascontiguousarray(link), unit, row)
+    return loop
+
+
+def _shape(prismatic: NDArray[np.bool_], start: int) -> list[int]:
+    """Joints a, b, x, c, d of the loop cut before joint ``start``; which pairs have four slots."""
+    n = len(prismatic)
+    a, b, x, c, d = ((start + k) % n if k >= 0 else -1 for k in PLACES[n])
+    full = [i >= 0 and j >= 0 and not (prismatic[i] and prismatic[j]) for i, j in ((a, b), (c, d))]
+    return [a, b, x, c, d, int(full[0]), int(full[1])]
+
+
+def _slots(prismatic: NDArray[np.bool_], shape: NDArray[np.int64]) -> list[int]:
+    """Slots 0 to 7 of the pairs that a shape has, -1 after the last."""
+    slots = []
+    for at, i, j, full in ((0, shape[0], shape[1], shape[5]), (4, shape[3], shape[4], shape[6])):
+        slots += [at]
+        slots += [at + 1] if j >= 0 else []
+        slots += [at + 2] if i >= 0 else []
+        slots += [at + 3] if full else []
+    return slots + [-1] * (8 - len(slots))

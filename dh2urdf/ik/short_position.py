@@ -1,0 +1,118 @@
+"""One to three joints that put the tool's origin at a point: the task ``position``."""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["ShortPosition"]
+
+MOST_JOINTS = 3
+
+
+class ShortPosition(SolverBase):
+    """All configurations of one to three joints, turning or sliding, that reach a point."""
+
+    name = "position arm"
+    kmax = 4
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSITION,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        frames = _axis_frames(chain)
+        self.tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
+        steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
+        self.frames = np.ascontiguousarray(np.stack(steps))
+        self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION) -> str | None:
+        """Say what keeps the family from covering a chain; None if nothing does."""
+        if task is not Task.POSITION:
+            return f"it solves for the position, not for {task.value}"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool's origin stays"
+        return None
+
+    def details(self) -> str:
+        """Name the kinds of joints and what is solved."""
+        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
+        if self.chain.n < MOST_JOINTS:
+            return f"{kinds}; the distance and the height over an axis"
+        return f"{kinds}; joint 3 from Pieper's quartic, joints 1 and 2 from distance and height"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
+        from dh2urdf.kernels.certify import new_work
+        from dh2urdf.kernels.short_position import solve_short_positions
+
+        solve_short_positions(
+            self.links,
+            self.joints,
+            self.frames,
+            self.tip,
+            self.rest_unit,
+            Ts,
+            within_limits,
+            q_out,
+            residual_out,
+            count_out,
+            branch_out,
+            free_out,
+            new_work(self.chain.n),
+        )
+
+
+def _axis_frames(chain: SerialChain) -> list[Array]:
+    """Frames F_i on the axes at q = 0; the first two turning ones on their common normal."""
+    frames = [frame.copy() for frame in chain.joint_frames]
+    if chain.n > 1 and not chain.prismatic[:2].any():
+        frames[0], frames[1] = _on_common_normal(frames[0], frames[1])
+    return frames
+
+
+def _on_common_normal(first: Array, second: Array) -> tuple[Array, Array]:
+    """Frames moved along and turned about their z to the common normal, x from first to second."""
+    z1, z2 = first[:3, 2], second[:3, 2]
+    p1, p2 = first[:3, 3], second[:3, 3]
+    normal = np.cross(z1, z2)
+    square = float(normal @ normal)
+    gap = p2 - p1
+    if square > 1e-18:
+        foot1 = p1 + z1 * float(np.cross(gap, z2) @ normal) / square
+        foot2 = p2 + z2 * float(np.cross(gap, z1) @ normal) / square
+    else:
+        foot1, foot2 = p1, p2 - z2 * float(z2 @ gap)
+    x = foot2 - foot1
+    if np.linalg.norm(x) <= 1e-12 * max(1.0, float(np.linalg.norm(gap))):
+        x = normal
+    x = x / np.linalg.norm(x)
+    return _frame(x, z1, foot1), _frame(x, z2, foot2)
+
+
+def _frame(x: Array, z: Array, origin: Array) -> Array:
+    """Right-handed frame with the given z and, as near as it can be, x."""
+    x = x - z * float(x @ z)
+    x = x / np.linalg.norm(x)
+    out = np.eye(4)
+    out[:3, 0], out[:3, 1], out[:3, 2], out[:3, 3] = x, np.cross(z, x), z, origin
+    return out

@@ -1,0 +1,78 @@
+"""The task ``position+axis``: the tool may turn about its own z.
+
+A virtual joint about the tool's z makes it a full pose of a chain with one joint more.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.dh import JointType
+from dh2urdf.exceptions import NoSolverError
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solver import IntArray, Solver, SolverBase, Task, select_solver
+from dh2urdf.transforms import Array
+
+__all__ = ["ToolAxis", "with_tool_joint"]
+
+
+def with_tool_joint(chain: SerialChain) -> SerialChain:
+    """The chain with a joint about the tool's z at its end."""
+    return SerialChain(
+        np.concatenate([chain.links, np.eye(4)[None]]),
+        (*chain.joint_types, JointType.REVOLUTE),
+        (*chain.names, "about the tool"),
+        np.append(chain.lower, -np.inf),
+        np.append(chain.upper, np.inf),
+    )
+
+
+class ToolAxis(SolverBase):
+    """Position of the tool and direction of its z, by the full pose of a longer chain."""
+
+    name = "tool axis"
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSITION_AXIS,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.inner: Solver = select_solver(with_tool_joint(chain), Task.POSE)
+        self.kmax = self.inner.kmax
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION_AXIS) -> str | None:
+        """Say what keeps the virtual joint from helping; None if nothing does."""
+        if task is not Task.POSITION_AXIS:
+            return f"it solves for position and axis, not for {task.value}"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool's origin and axis stay"
+        try:
+            select_solver(with_tool_joint(chain), Task.POSE)
+        except NoSolverError:
+            return "with a joint about the tool's z no solver covers the full pose"
+        return None
+
+    def details(self) -> str:
+        """Name the solver of the longer chain."""
+        return f"with a virtual joint about the tool's z: {self.inner}"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays; the virtual joint is left out."""
+        n = self.chain.n
+        q = np.empty((len(Ts), self.kmax, n + 1))
+        self.inner.solve_batch(Ts, within_limits, q, residual_out, count_out, branch_out, free_out)
+        q_out[:] = q[:, :, :n]
+        free_out &= (1 << n) - 1

@@ -1,0 +1,102 @@
+"""Singular families: which joints can move while the tool stays."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import ACCEPT, _normal_equations, polish
+
+__all__ = ["free_joints"]
+
+SINGULAR = 1e-10
+"""Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
+
+WALK = 0.05
+"""Length of the trial walk [rad or m]."""
+
+MOVES = 1e-5
+"""Motion [rad or m] of a joint over the walk that makes it free."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _null_direction(work):
+    """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
+
+    Inverse iteration on a Cholesky factor with a shift of 1e-14; the vector is written to
+    ``work[:, 6]``. Returns the eigenvalue relative to the trace.
+    """
+    n = work.shape[0]
+    trace = 0.0
+    for i in range(n):
+        trace += work[i, 8 + i]
+    if trace <= 0.0:
+        for i in range(n):
+            work[i, 6] = 1.0 / math.sqrt(n)
+        return 0.0
+    shift = 1e-14 * trace
+    for i in range(n):
+        work[i, 6] = 1.0 + 0.3 * i
+        for j in range(i + 1):
+            part = work[i, 8 + j] + (shift if i == j else 0.0)
+            for k in range(j):
+                part -= work[i, 8 + k] * work[j, 8 + k]
+            if i == j:
+                work[i, 8 + i] = math.sqrt(max(part, shift))
+            else:
+                work[i, 8 + j] = part / work[j, 8 + j]
+    size = 1.0
+    for _ in range(3):
+        for i in range(n):
+            total = work[i, 6]
+            for k in range(i):
+                total -= work[i, 8 + k] * work[k, 6]
+            work[i, 6] = total / work[i, 8 + i]
+        size = 0.0
+        for i in range(n - 1, -1, -1):
+            total = work[i, 6]
+            for k in range(i + 1, n):
+                total -= work[k, 8 + i] * work[k, 6]
+            work[i, 6] = total / work[i, 8 + i]
+            size += work[i, 6] * work[i, 6]
+        size = math.sqrt(size)
+        for i in range(n):
+            work[i, 6] /= size
+    return 1.0 / (size * trace)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def free_joints(links, joints, T, q, trial, work):
+    """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
+
+    Where the Jacobian loses rank, a step is taken along its null direction and polished on the
+    exact chain. At a double root Newton comes back to q; on a family it stays away.
+
+    Parameters
+    ----------
+    links, joints, T
+        See :func:`dh2urdf.kernels.certify.finish_pose`.
+    q : array, shape (n,)
+        A solution.
+    trial : array, shape (n,), scratch
+    work : array
+        From :func:`dh2urdf.kernels.certify.new_work`.
+    """
+    n = q.shape[0]
+    _normal_equations(links, joints, T, q, work)
+    if _null_direction(work) > SINGULAR:
+        return np.int64(0)
+    for i in range(n):
+        trial[i] = q[i] + WALK * work[i, 6]
+    if not polish(links, joints, T, trial, work) <= ACCEPT:
+        return np.int64(0)
+    away = 0.0
+    mask = np.int64(0)
+    for i in range(n):
+        gap = abs(trial[i] - q[i])
+        away += gap * gap
+        if gap > MOVES:
+            mask |= np.int64(1) << np.int64(i)
+    return mask if away > 0.25 * WALK * WALK else np.int64(0)

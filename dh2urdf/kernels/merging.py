@@ -1,0 +1,70 @@
+"""Solutions that cannot be told apart at the accuracy of a residual become one."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from dh2urdf.kernels.certify import ACCEPT, TWO_PI, _move, polish, pose_residual
+
+__all__ = ["merge_solutions"]
+
+NEAR = 0.01
+"""Joint distance [rad or m] below which two solutions may be one."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _one(links, joints, T, q, p, middle, start, work):
+    """Whether q and p are near and the pose is reached half way between them, too.
+
+    Where branches meet, on the rim of the workspace, a residual of 1e-9 leaves the joints
+    undetermined by its square root or worse, and the way from one to the other is flat. Where
+    that way is curved the middle has to be polished; between two separate solutions it then runs
+    off to one of them.
+    """
+    longest = 0.0
+    for i in range(q.shape[0]):
+        gap = p[i] - q[i]
+        if joints[i, 0] == 0.0:
+            gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+        if abs(gap) > NEAR:
+            return False
+        middle[i] = q[i] + 0.5 * gap
+        start[i] = middle[i]
+        longest = max(longest, abs(gap))
+    if pose_residual(links, joints, T, middle) <= ACCEPT:
+        return True
+    if not polish(links, joints, T, middle, work) <= ACCEPT:
+        return False
+    for i in range(q.shape[0]):
+        if abs(middle[i] - start[i]) > 0.25 * longest:
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch, work):
+    """Keep one of each group of solutions that are one, the best; the new count.
+
+    Parameters
+    ----------
+    links, joints, T, q, residual, branch, free, count
+        See :func:`dh2urdf.kernels.certify.finish_pose`.
+    scratch : array, shape (2, n)
+    work : array
+        From :func:`dh2urdf.kernels.certify.new_work`.
+    """
+    kept = 0
+    for k in range(count):
+        twin = -1
+        for j in range(kept):
+            if _one(links, joints, T, q[j], q[k], scratch[0], scratch[1], work):
+                twin = j
+                break
+        if twin < 0:
+            _move(q, residual, branch, free, k, kept)
+            kept += 1
+        elif residual[k] < residual[twin]:
+            _move(q, residual, branch, free, k, twin)
+    return kept

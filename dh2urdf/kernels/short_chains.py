@@ -1,0 +1,259 @@
+"""All configurations of a chain of one to five joints that reach a pose.
+
+Candidates come from the closed loop (:mod:`dh2urdf.kernels.short_loop`), solutions from the exact
+chain (:mod:`dh2urdf.kernels.certify`). Where a solution lies on a singular family, the joints that
+move along it are found by walking a little, and one representative stays: the one whose first
+free joint is at rest.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import CLUSTER, TWO_PI, _move, finish_pose
+from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
+from dh2urdf.kernels.families import free_joints
+from dh2urdf.kernels.merging import merge_solutions
+from dh2urdf.kernels.short_candidates import add_candidates
+from dh2urdf.kernels.short_loop import (
+    determinant_series,
+    factor,
+    loop_columns,
+    loop_matrix,
+    null_basis,
+)
+from dh2urdf.kernels.three_slides import three_slides
+from dh2urdf.kernels.trig import trig_roots
+
+__all__ = ["close_loop", "solve_short_chains"]
+
+FEW = 48
+"""Room for the candidates of a pose."""
+
+FUZZY = 1e-4
+"""Pivot, relative to the first, below which a direction may belong to the null space: double
+roots of the determinant are known to the square root of rounding."""
+
+ZERO = 1e-11
+"""Determinant, relative to unit columns, that vanishes for every x within rounding."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def close_loop(ends, T, unit, pose, loop):
+    """Write the last link of the loop, ``(L_0^-1 T L_n^-1)^-1``, to the last row of loop."""
+    r = _joint_times_link(_load(ends[0]), False, 0.0, T)
+    _store(_joint_times_link(r, False, 0.0, ends[1]), pose)
+    last = loop[loop.shape[0] - 1]
+    dual_of_pose(pose, unit, last)
+    dual_conjugate(last, last)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q, count):
+    """Append the candidates of the matrix at x, for each nullity that it may have.
+
+    Returns
+    -------
+    count, nullity : int
+        Rows of q in use; largest nullity that was tried.
+    """
+    M, basis, raw = scratch[0:8], scratch[8:14], scratch[14:17]
+    size = loop_matrix(columns, used, x[0], x[1], M)
+    factor(M, size, order)
+    tried = 0
+    for nullity in range(1, min(4, size)):
+        if abs(M[size - nullity, size - nullity]) > FUZZY * abs(M[0, 0]):
+            break
+        null_basis(M, size, order, nullity, raw)
+        for k in range(nullity):
+            for i in range(8):
+                basis[k, i] = 0.0
+            for i in range(size):
+                basis[k, used[i]] = raw[k, i]
+        count = add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count)
+        tried = nullity
+    return count, tried
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q, count):
+    """Append all candidates that one cut of the loop gives.
+
+    Returns
+    -------
+    count : int
+    doubt : bool
+        The pose is singular for this cut, and another one may see more.
+    """
+    columns = scratch[17:29]
+    loop_columns(loop, joints, shape, columns)
+    x = shape[2]
+    if x < 0:
+        count, nullity = _from_matrix(
+            columns, shape, used, joints, (1.0, 0.0), rest, unit, scratch, order, q, count
+        )
+        return count, nullity > shape[7]
+    series = roots[0]
+    noise = determinant_series(columns, used, scratch[0:8], order, series)
+    largest = 0.0
+    for m in range(5):
+        largest = max(largest, abs(series[m]))
+    doubt = largest <= max(ZERO, 100.0 * noise)
+    if doubt:
+        slides = joints[x, 0] != 0.0
+        y = 2.0 * math.atan(0.5 * rest[x] / unit) if slides else rest[x]
+        roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
+        found = 1
+    else:
+        found = trig_roots(series, 2, roots[1], roots[2])
+    for k in range(found):
+        half = 0.5 * math.atan2(roots[2, k], roots[1, k])
+        here = (math.cos(half), math.sin(half))
+        count, nullity = _from_matrix(
+            columns, shape, used, joints, here, rest, unit, scratch, order, q, count
+        )
+        doubt = doubt or nullity > shape[7]
+    return count, doubt
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _one_of_each_family(joints, rest, q, residual, branch, free, count):
+    """Keep one representative of each singular family; the new count.
+
+    Solutions with the same free joints are taken for one family. The one whose first free joint
+    is at rest stays; without one, the first.
+    """
+    kept = 0
+    for k in range(count):
+        keep = True
+        for j in range(count):
+            if j == k or free[k] == 0 or free[j] != free[k]:
+                continue
+            mine, other = (
+                _at_rest(joints, rest, q[k], free[k]),
+                _at_rest(joints, rest, q[j], free[k]),
+            )
+            if (other and not mine) or (not other and not mine and j < k):
+                keep = False
+        if keep:
+            _move(q, residual, branch, free, k, kept)
+            kept += 1
+    return kept
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _at_rest(joints, rest, q, mask):
+    """Whether the first joint of a mask is at its rest value, up to full turns."""
+    first = 0
+    while not mask >> first & 1:
+        first += 1
+    gap = q[first] - rest[first]
+    if joints[first, 0] == 0.0:
+        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+    return abs(gap) <= CLUSTER
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_short_chains(
+    links,
+    joints,
+    ends,
+    loop_links,
+    shapes,
+    used,
+    rest_unit,
+    Ts,
+    within_limits,
+    q,
+    residual,
+    count,
+    branch,
+    free,
+    work,
+):
+    """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
+
+    Parameters
+    ----------
+    links : array, shape (n + 1, 4, 4)
+    joints : array, shape (n, 3)
+        Sliding, lower, upper.
+    ends : array, shape (2, 4, 4)
+        Inverses of the first and the last link.
+    loop_links : array, shape (n, 8)
+        Dual quaternions of the links between the joints; the last row is written here.
+    shapes : int64 array, shape (s, 8)
+        Cuts of the loop, best first, see ``add_candidates``; last the nullity to expect. None
+        for five joints of which three slide.
+    used : int64 array, shape (s, columns)
+        Slots that each way has.
+    rest_unit : array, shape (n + 1,)
+        Rest value of each joint, then the length of one dual unit [m].
+    Ts, within_limits, q, residual, count, branch, free
+        See :class:`dh2urdf.ik.solver.Solver`.
+    work : array
+        From :func:`dh2urdf.kernels.certify.new_work`.
+    """
+    n = joints.shape[0]
+    loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, 5))
+    pose, trial = np.empty((4, 4)), np.empty((2, n))
+    order, slides = np.empty(8, np.int64), np.empty((8, 3))
+    many_q, many_residual = np.empty((FEW, n)), np.empty(FEW)
+    many_branch, many_free = np.empty(FEW, np.int64), np.empty(FEW, np.int64)
+    rest, unit = rest_unit[:n], rest_unit[n]
+    for i in range(Ts.shape[0]):
+        T = Ts[i]
+        close_loop(ends, T, unit, pose, loop)
+        found, doubt = 0, False
+        if shapes.shape[0] == 0:
+            found = three_slides(links, joints, T, many_q[0], slides)
+            many_residual[0], many_branch[0], many_free[0] = -1.0, -1, 0
+            found = finish_pose(
+                links, joints, T, False, many_q, many_residual, many_branch, many_free, found, work
+            )
+        for s in range(shapes.shape[0]):
+            before = found
+            found, unclear = _candidates(
+                loop, shapes[s], used[s], joints, rest, unit, scratch, order, roots, many_q, found
+            )
+            for k in range(before, found):
+                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
+            found = finish_pose(
+                links, joints, T, False, many_q, many_residual, many_branch, many_free, found, work
+            )
+            doubt = doubt or unclear
+            if not doubt:
+                break
+        found = merge_solutions(
+            links, joints, T, many_q, many_residual, many_branch, many_free, found, trial, work
+        )
+        for k in range(found):
+            many_free[k] = free_joints(links, joints, T, many_q[k], trial[0], work)
+        found = _one_of_each_family(
+            joints, rest, many_q, many_residual, many_branch, many_free, found
+        )
+        kept = 0
+        for k in range(found):
+            if kept == q.shape[1]:
+                break
+            if within_limits and many_free[k] == 0 and not _inside(joints, many_q[k]):
+                continue
+            for j in range(n):
+                q[i, kept, j] = many_q[k, j]
+            residual[i, kept] = many_residual[k]
+            branch[i, kept], free[i, kept] = many_branch[k], many_free[k]
+            kept += 1
+        count[i] = kept
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _inside(joints, q):
+    """Whether q keeps its limits."""
+    for j in range(q.shape[0]):
+        if q[j] < joints[j, 1] or q[j] > joints[j, 2]:
+            return False
+    return True

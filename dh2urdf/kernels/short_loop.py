@@ -1,0 +1,210 @@
+"""One to five joints, any kinds, any geometry: the closed loop as a linear system.
+
+The loop ``Z_1 L_1 ... Z_n L_n = 1`` (the target is in L_n) is cut into two pairs of joints and,
+with five joints, one in between, x. As dual quaternions, with the joints linear in (u : v),
+
+    Z_a L_a Z_b L_b (u_x Z_x0 + v_x Z_x1) L_x  =  (Z_c L_c Z_d L_d)^-1
+
+is linear in the four products of (u_a, v_a), (u_b, v_b) and in those of c and d: an 8 x 8 matrix
+``M(x) = [A_0 u_x + A_1 v_x | -B]`` whose null vector holds both pairs of joints. With five joints
+``det M`` is a quartic in (u_x : v_x); with fewer M is constant. A null vector must consist of two
+products, each a 2 x 2 matrix of determinant zero; where the null space is a plane, that is a
+quadratic equation.
+
+The matrix is kept by columns: row k of an array is column k of M.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.dual_quaternions import dual_product, dual_times_joint
+
+__all__ = ["SAMPLES", "determinant_series", "factor", "loop_columns", "loop_matrix", "null_basis"]
+
+SAMPLES = 7
+"""Determinants that give the five coefficients and, by two that must vanish, their noise."""
+
+SAMPLE_ANGLE = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
+SAMPLE_HALF = np.stack([np.cos(0.5 * SAMPLE_ANGLE), np.sin(0.5 * SAMPLE_ANGLE)])
+SAMPLE_TABLE = np.stack(
+    [np.full(SAMPLES, 0.5)] + [f(m * SAMPLE_ANGLE) for m in (1, 2, 3) for f in (np.cos, np.sin)]
+) * (2.0 / SAMPLES)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _pair_columns(loop, joints, first, second, out):
+    """Products ``z_a L_a z_b L_b`` to out (4, 8), row 2 i + j with z_a the i-th factor of joint a.
+
+    Joint -1 is absent: its rows are not written.
+    """
+    out[0, 0] = 1.0
+    for i in range(1, 8):
+        out[0, i] = 0.0
+    if first >= 0:
+        dual_times_joint(out[0], joints[first, 0] != 0.0, out[2])
+        dual_product(out[0], loop[first], out[0])
+        dual_product(out[2], loop[first], out[2])
+    if second >= 0:
+        for k in range(0, 3, 2):
+            dual_times_joint(out[k], joints[second, 0] != 0.0, out[k + 1])
+            dual_product(out[k], loop[second], out[k])
+            dual_product(out[k + 1], loop[second], out[k + 1])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def loop_columns(loop, joints, order, out):
+    """Columns of A_0 (rows 0 to 3 of out), A_1 (4 to 7) and -B (8 to 11).
+
+    Parameters
+    ----------
+    loop : array, shape (n, 8)
+        Links of the closed loop, L_n with the target.
+    joints : array, shape (n, 3)
+    order : int64 array, shape (5,)
+        Joints a, b, x, c, d; -1 where there is none.
+    out : array, shape (12, 8)
+    """
+    x = order[2]
+    _pair_columns(loop, joints, order[0], order[1], out[0:4])
+    _pair_columns(loop, joints, order[3], order[4], out[8:12])
+    for k in range(4):
+        if x >= 0:
+            dual_times_joint(out[k], joints[x, 0] != 0.0, out[4 + k])
+            dual_product(out[k], loop[x], out[k])
+            dual_product(out[4 + k], loop[x], out[4 + k])
+        else:
+            for i in range(8):
+                out[4 + k, i] = 0.0
+        out[8 + k, 0], out[8 + k, 4] = -out[8 + k, 0], -out[8 + k, 4]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def loop_matrix(columns, used, u, v, M):
+    """M at (u_x : v_x), column ``used[k]`` of the pairs (0 to 3 left, 4 to 7 right) in row k.
+
+    Returns the number of columns; ``used`` is -1 after the last.
+    """
+    size = 0
+    for k in range(8):
+        j = used[k]
+        if j < 0:
+            break
+        size += 1
+        for i in range(8):
+            if j < 4:
+                M[k, i] = u * columns[j, i] + v * columns[j + 4, i]
+            else:
+                M[k, i] = columns[j + 4, i]
+    return size
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def factor(M, size, order):
+    """Householder's QR with column pivoting, in place; R in the leading entries of the rows.
+
+    Parameters
+    ----------
+    M : array, shape (>= size, 8)
+        A matrix by columns.
+    size : int
+        Columns.
+    order : int64 array, shape (>= size,), out
+        Which column each row holds afterwards.
+
+    Returns
+    -------
+    float
+        The determinant, where size is 8.
+    """
+    determinant = 1.0
+    for k in range(size):
+        order[k] = k
+    for k in range(size):
+        best, largest = k, -1.0
+        for j in range(k, size):
+            square = 0.0
+            for i in range(k, 8):
+                square += M[j, i] * M[j, i]
+            if square > largest:
+                best, largest = j, square
+        if best != k:
+            determinant = -determinant
+            order[k], order[best] = order[best], order[k]
+            for i in range(8):
+                M[k, i], M[best, i] = M[best, i], M[k, i]
+        if k == 7 or largest <= 0.0:
+            determinant *= M[k, k]
+            continue
+        norm = -math.copysign(math.sqrt(largest), M[k, k])
+        determinant *= -norm
+        head = M[k, k] - norm
+        scale = 1.0 / (norm * head)
+        for j in range(k + 1, size):
+            dot = head * M[j, k]
+            for i in range(k + 1, 8):
+                dot += M[k, i] * M[j, i]
+            dot *= scale
+            M[j, k] += dot * head
+            for i in range(k + 1, 8):
+                M[j, i] += dot * M[k, i]
+        M[k, k] = norm
+    return determinant
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def null_basis(M, size, order, nullity, basis):
+    """Vectors that a factored matrix takes to (nearly) zero, in the order of its columns.
+
+    ``R_11 y = -R_12``, taking the last ``nullity`` columns for dependent on the others.
+
+    Parameters
+    ----------
+    M, order
+        From :func:`factor`.
+    size, nullity : int
+    basis : array, shape (nullity, 8), out
+    """
+    rank = size - nullity
+    for k in range(nullity):
+        largest = 1.0
+        for i in range(size):
+            basis[k, order[i]] = 0.0
+        basis[k, order[rank + k]] = 1.0
+        for i in range(rank - 1, -1, -1):
+            total = -M[rank + k, i]
+            for j in range(i + 1, rank):
+                total -= M[j, i] * basis[k, order[j]]
+            pivot = M[i, i]
+            value = total / pivot if pivot != 0.0 else 0.0
+            basis[k, order[i]] = value
+            largest = max(largest, abs(value))
+        for i in range(size):
+            basis[k, i] /= largest
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def determinant_series(columns, used, M, order, series):
+    """``det M`` along x: coefficients of 1, cos y, sin y, cos 2y, sin 2y to series (5,).
+
+    ``(u : v) = (cos y/2 : sin y/2)``, so that y is the angle of a turning joint.
+
+    Returns
+    -------
+    float
+        Noise: the size of the third harmonic, which a quartic does not have.
+    """
+    for m in range(5):
+        series[m] = 0.0
+    third_cos, third_sin = 0.0, 0.0
+    for k in range(SAMPLES):
+        loop_matrix(columns, used, SAMPLE_HALF[0, k], SAMPLE_HALF[1, k], M)
+        f = factor(M, 8, order)
+        for m in range(5):
+            series[m] += f * SAMPLE_TABLE[m, k]
+        third_cos += f * SAMPLE_TABLE[5, k]
+        third_sin += f * SAMPLE_TABLE[6, k]
+    return abs(third_cos) + abs(third_sin)
