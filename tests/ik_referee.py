@@ -137,6 +137,16 @@ def draw(chain, m, seed):
     return q
 
 
+def near_one_singularity(chain, joint, value, rng):
+    """A configuration with one joint at a singular value, and no other singularity near."""
+    while True:
+        q = rng.uniform(-2, 2, chain.n)
+        q[joint] = value + 0.7
+        if np.linalg.svd(jacobians(chain, q), compute_uv=False)[-1] > 0.05:
+            q[joint] = value
+            return q
+
+
 def solve(chain, Ts, within_limits=False, solver=None):
     solver = solver or select_solver(chain)
     Ts = np.ascontiguousarray(Ts)
