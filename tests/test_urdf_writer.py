@@ -160,6 +160,16 @@ def test_options_are_honoured():
     assert "<collision>" in dh2urdf.urdf_text(table, dh2urdf.UrdfOptions(collision=True))
 
 
+@pytest.mark.parametrize("name", ["ur5", "gantry", "puma560"])
+def test_rounded_files_differ_by_what_rounding_explains(name, tmp_path):
+    """A file rounded to 3, 5 or 9 decimals is written, and its error says what that cost."""
+    table = dh2urdf.load_table(name)
+    for digits in (3, 5, 9):
+        options = dh2urdf.UrdfOptions(digits=digits)
+        report = dh2urdf.write_urdf(table, tmp_path / "rounded.urdf", options=options)
+        assert 10.0 ** -(digits + 2) < report.max_error < 2.0 * 10.0**-digits
+
+
 def test_names_that_xml_forbids_are_an_error():
     """A control character in a name, or a name of the file's own joints, is refused."""
     for bad in ("a\x00b", "tool0_fixed"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,13 @@ from lxml import etree
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.bodies import Body, LinkFrames, draw_bodies, link_frames
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
-from dh2urdf.conversions.inertia import Inertial, balanced, tensor, triangle_excess
+from dh2urdf.conversions.inertia import (
+    Inertial,
+    balanced,
+    tensor,
+    why_impossible,
+    without_noise,
+)
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
 from dh2urdf.transforms import Array, matrix_to_rpy
@@ -51,7 +58,8 @@ class UrdfOptions:
         Raise the small moments of published tensors that no body could have, so that every
         consumer accepts them (with a warning); off keeps them as published.
     digits : int or None
-        Round to so many decimals, for IKFast users; None writes the floats whole.
+        Round origins and limits to so many decimals, for IKFast users; None writes all floats
+        whole.
     embed_table : bool
         Keep the table itself in a ``<dh2urdf>`` element.
     """
@@ -147,8 +155,7 @@ class _Writer:
 
     def _base(self) -> None:
         etree.SubElement(self.robot, "link", name="base_link")
-        solid = Inertial.total(b.inertial(self.options.density) for b in self.bodies[0])
-        self._link("base_link_inertia", solid, self.bodies[0])
+        self._link("base_link_inertia", self._drawn(0), self.bodies[0])
         self._fixed_joint("base_link_inertia", "base_link", np.eye(4))
         self._dh_frame(0, "base_link")
 
@@ -205,22 +212,27 @@ class _Writer:
         self._origin(element, body.pose)
         geometry = etree.SubElement(element, "geometry")
         if body.shape == "box":
-            etree.SubElement(geometry, "box", size=self._numbers(body.size))
+            etree.SubElement(geometry, "box", size=_whole(body.size))
         elif body.shape == "sphere":
-            etree.SubElement(geometry, "sphere", radius=self._number(body.size[0]))
+            etree.SubElement(geometry, "sphere", radius=_whole(body.size))
         else:
-            radius, length = map(self._number, body.size)
+            radius, length = _whole(body.size).split()
             etree.SubElement(geometry, "cylinder", radius=radius, length=length)
         if tag == "visual":
             etree.SubElement(element, "material", name=body.material)
 
+    def _drawn(self, i: int) -> Inertial:
+        """Mass properties of the bodies drawn for link i."""
+        solids = (b.inertial(self.options.density) for b in self.bodies[i])
+        return Inertial.total(solids).rounded()
+
     def _inertial(self, i: int, row: DHRow) -> Inertial:
         """Mass properties of link i in its URDF frame: as given, or of the drawn bodies."""
-        drawn = Inertial.total(b.inertial(self.options.density) for b in self.bodies[i])
+        drawn = self._drawn(i)
         if row.mass is None:
             return drawn
         T_link_dh = self.frames.dh[i]
-        shape = drawn.scaled(row.mass)
+        shape = drawn.scaled(row.mass).rounded()
         com = shape.com
         if row.com is not None:
             com = (T_link_dh @ np.array([*row.com, 1.0]))[:3]
@@ -228,49 +240,48 @@ class _Writer:
             return Inertial(row.mass, com, shape.inertia)
         R = T_link_dh[:3, :3]
         given = R @ self._possible(i, tensor(row.inertia), shape.inertia) @ R.T
-        return Inertial(row.mass, com, 0.5 * (given + given.T))
+        return Inertial(row.mass, com, without_noise(0.5 * (given + given.T)))
 
     def _possible(self, i: int, inertia: Array, drawn: Array) -> Array:
         """The given tensor, or the nearest that a body could have."""
-        excess = triangle_excess(inertia)
-        low, _, high = np.linalg.eigvalsh(inertia)
-        if excess <= 0 and low > 0:
+        why = why_impossible(inertia)
+        if not why:
             return inertia
-        name = self.table.joint_names[i - 1]
+        problem = f"{self.table.joint_names[i - 1]}: no body has this inertia tensor, as {why}; "
         if not self.options.balance_inertia:
-            self.warnings.append(
-                f"{name}: no body has this inertia tensor (largest moment exceeds the sum of the "
-                f"others by {excess:.1%} of it); kept as given, MuJoCo will refuse it"
-            )
+            self.warnings.append(f"{problem}kept as given, MuJoCo and Drake will not take it")
             return inertia
-        if high <= 0:
-            self.warnings.append(f"{name}: inertia is zero; that of the drawn body is written")
+        if np.linalg.eigvalsh(inertia)[-1] <= 0:
+            self.warnings.append(f"{problem}that of the drawn body is written instead")
             return drawn
         self.warnings.append(
-            f"{name}: no body has this inertia tensor (largest moment exceeds the sum of the "
-            f"others by {excess:.1%} of it); its smaller moments were raised"
+            f"{problem}its two smaller moments were raised (balance_inertia=False, or "
+            "--no-balance-inertia, keeps it as given)"
         )
         return balanced(inertia)
 
     def _limit_warnings(self) -> None:
-        names = [
-            name
-            for name, row in zip(self.table.joint_names, self.table.joints, strict=True)
-            if row.lower is None or row.upper is None
-        ]
-        if names:
-            self.warnings.append(
-                f"{', '.join(names)}: no limits in the table; written: +-2 pi for revolute, "
-                f"+-{self.table.length or 1.0:.6g} m for prismatic joints"
-            )
+        reach = self.table.length or 1.0
+        for kind, written in (
+            (JointType.REVOLUTE, "+-2 pi rad"),
+            (JointType.PRISMATIC, f"+-{reach:.6g} m, as far as the table's lengths sum to"),
+        ):
+            names = [
+                name
+                for name, row in zip(self.table.joint_names, self.table.joints, strict=True)
+                if row.joint_type is kind and (row.lower is None or row.upper is None)
+            ]
+            if names:
+                self.warnings.append(
+                    f"{', '.join(names)}: no limits in the table; written as {written}"
+                )
 
     def _inertial_element(self, link: etree._Element, body: Inertial) -> None:
         inertial = etree.SubElement(link, "inertial")
-        xyz = self._numbers(body.com)
-        etree.SubElement(inertial, "origin", xyz=xyz, rpy="0.0 0.0 0.0")
-        etree.SubElement(inertial, "mass", value=self._number(body.mass))
+        etree.SubElement(inertial, "origin", xyz=_whole(body.com), rpy="0.0 0.0 0.0")
+        etree.SubElement(inertial, "mass", value=_whole([body.mass]))
         six = {
-            f"i{'xyz'[r]}{'xyz'[c]}": repr(float(body.inertia[r, c]) + 0.0)
+            f"i{'xyz'[r]}{'xyz'[c]}": _whole([body.inertia[r, c]])
             for r in range(3)
             for c in range(r, 3)
         }
@@ -288,3 +299,8 @@ class _Writer:
         if self.options.digits is not None:
             number = round(number, self.options.digits)
         return repr(number + 0.0)
+
+
+def _whole(values: Iterable[float]) -> str:
+    """Numbers with every digit, whatever is rounded elsewhere."""
+    return " ".join(repr(float(v) + 0.0) for v in values)

@@ -11,11 +11,14 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.transforms import Array
 
-__all__ = ["Inertial", "balanced", "tensor", "triangle_excess"]
+__all__ = ["Inertial", "balanced", "tensor", "why_impossible", "without_noise"]
 
 TRIANGLE_MARGIN = 1e-6
 """Relative margin by which a balanced tensor satisfies the triangle inequality: a consumer
 that reads seven digits must still accept it."""
+
+NOISE = 1e-15
+"""Entries of a rotated tensor below this share of its largest are rounding error."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +38,17 @@ class Inertial:
         """The same shape at another mass."""
         return Inertial(mass, self.com, self.inertia * (mass / self.mass))
 
+    def rounded(self, digits: int = 9) -> Inertial:
+        """Estimates need no more digits, and so read the same from every processor."""
+        reach = float(np.abs(self.com).max())
+        return Inertial(
+            _significant(self.mass, abs(self.mass), digits),
+            np.array([_significant(v, reach, digits) for v in self.com]),
+            np.array(
+                [[_significant(v, _size(self.inertia), digits) for v in r] for r in self.inertia]
+            ),
+        )
+
     @staticmethod
     def total(parts: Iterable[Inertial]) -> Inertial:
         """Several bodies of one frame as one (parallel axis theorem)."""
@@ -48,21 +62,42 @@ class Inertial:
         return Inertial(mass, com, inertia)
 
 
+def without_noise(inertia: Array) -> Array:
+    """The tensor with entries that are rounding error of a rotation set to 0."""
+    out: Array = np.where(np.abs(inertia) <= NOISE * _size(inertia), 0.0, inertia)
+    return out
+
+
+def _size(inertia: Array) -> float:
+    return float(np.abs(inertia).max())
+
+
+def _significant(value: float, scale: float, digits: int) -> float:
+    """The value rounded to so many digits of a number of the size of ``scale``."""
+    if scale == 0.0:
+        return 0.0
+    return round(float(value), digits - 1 - math.floor(math.log10(scale)))
+
+
 def tensor(six: ArrayLike) -> Array:
     """Symmetric tensor of ``(ixx, ixy, ixz, iyy, iyz, izz)``, shape (3, 3)."""
     ixx, ixy, ixz, iyy, iyz, izz = np.asarray(six, float)
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
 
 
-def triangle_excess(inertia: Array) -> float:
-    """How far the largest principal moment exceeds the sum of the others, relative to it.
-
-    Positive where no distribution of mass has this tensor; 0 or less where one has.
-    """
+def why_impossible(inertia: Array) -> str:
+    """Why no distribution of mass has this tensor, in words; empty where one has."""
     low, mid, high = np.linalg.eigvalsh(inertia)
-    if high <= 0:
-        return math.inf
-    return float(max((high - low - mid) / high, -low / high))
+    if not np.any(inertia):
+        return "it is zero"
+    if low <= 0:
+        return f"its smallest principal moment is {low:.4g} kg m^2"
+    if high > low + mid:
+        return (
+            f"its largest principal moment, {high:.6g} kg m^2, exceeds the sum of the other two, "
+            f"{low + mid:.6g}"
+        )
+    return ""
 
 
 def balanced(inertia: Array) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pinocchio as pin
 
@@ -10,10 +12,21 @@ from dh2urdf.dh import DHTable, JointType
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import Array, pose_error
 
-__all__ = ["LARGEST_ERROR", "random_configurations", "verify_urdf_text"]
+__all__ = ["LARGEST_ERROR", "allowed_error", "random_configurations", "verify_urdf_text"]
 
 LARGEST_ERROR = 1e-9
 """Largest FK difference [m and rad] with which a file may be written."""
+
+
+def allowed_error(table: DHTable, digits: int | None) -> float:
+    """Largest difference [m and rad] with which the file may be written.
+
+    1e-9 where floats are whole; where they are rounded on request, what rounding every origin
+    by half a last digit in each direction can add up to at the tip.
+    """
+    if digits is None:
+        return LARGEST_ERROR
+    return 0.5 * math.sqrt(3) * 10.0**-digits * (table.n + 2) * (2.0 + table.length) + LARGEST_ERROR
 
 
 def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
@@ -26,7 +39,9 @@ def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
     return rng.uniform(low, np.maximum(low, high), size=(count, table.n))
 
 
-def verify_urdf_text(text: str, table: DHTable, count: int = 16) -> float:
+def verify_urdf_text(
+    text: str, table: DHTable, count: int = 16, allowed: float = LARGEST_ERROR
+) -> float:
     """Largest difference [m and rad] between the file's frames and the DH product.
 
     Every ``dh_i`` frame that the file has, and ``tool0``, over ``count`` random configurations.
@@ -34,7 +49,7 @@ def verify_urdf_text(text: str, table: DHTable, count: int = 16) -> float:
     Raises
     ------
     VerificationError
-        The file does not load, or differs by more than 1e-9.
+        The file does not load, or differs by more than is allowed.
     """
     try:
         model = pin.buildModelFromXML(text)
@@ -56,9 +71,9 @@ def verify_urdf_text(text: str, table: DHTable, count: int = 16) -> float:
         expected = [*frames[present], frames[-1] @ table.tool.matrix]
         placed = [data.oMf[k].homogeneous for k in [*ids, tip]]
         largest = max(largest, pose_error(np.stack(placed), np.stack(expected)))
-    if not largest <= LARGEST_ERROR:
+    if not largest <= allowed:
         raise VerificationError(
             f"{table.name}: the written file differs from the DH product by {largest:.3g} "
-            f"(allowed {LARGEST_ERROR:.0e})"
+            f"(allowed {allowed:.0e})"
         )
     return largest

@@ -49,12 +49,15 @@ def verified_urdf(
     Raises
     ------
     VerificationError
-        Pinocchio's frames differ from the DH product by more than 1e-9.
+        Pinocchio's frames differ from the DH product by more than 1e-9, or, with numbers
+        rounded on request, by more than that can explain.
     """
-    from dh2urdf.conversions.verify import verify_urdf_text
+    from dh2urdf.conversions.verify import allowed_error, verify_urdf_text
 
-    text, warnings = urdf_text_and_warnings(table, options or UrdfOptions())
-    return text, verify_urdf_text(text, table), warnings
+    chosen = options or UrdfOptions()
+    text, warnings = urdf_text_and_warnings(table, chosen)
+    allowed = allowed_error(table, chosen.digits)
+    return text, verify_urdf_text(text, table, allowed=allowed), warnings
 
 
 def write_urdf(
