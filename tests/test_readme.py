@@ -34,7 +34,7 @@ def commands():
             yield from (line for line in block["text"].splitlines() if line.strip())
 
 
-@pytest.mark.parametrize("command", commands())
+@pytest.mark.parametrize("command", list(commands()))
 def test_command_runs(command, folder):
     """Each command ends with status 0 and prints something."""
     done = subprocess.run(
