@@ -108,7 +108,7 @@ def extract_dh(
         ``auto`` turns it round where that spares theta a half turn, as data sheets do.
     compact : bool
         Give axes that are nearly parallel a fixed step in place of a common normal that lies
-        more than twenty arm's lengths away.
+        far outside the arm.
     flip : sequence of str
         Joints whose z is to point against their positive direction; their rows get sign -1.
     embedded : bool

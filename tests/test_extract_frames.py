@@ -10,13 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import tables
 
-from dh2urdf import extract_dh
+from dh2urdf import extract_dh, urdf_text
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.axis_pairs import AxisCase
 from dh2urdf.conversions.chain_to_dh import chain_to_dh
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.dh_to_urdf import UrdfOptions
 from dh2urdf.conversions.frame_assignment import FAR, references
-from dh2urdf.dh import DHConvention, JointType
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 
 ALLOWED = 1e-10
 CONVENTIONS = list(DHConvention)
@@ -62,7 +63,7 @@ def test_every_z_lies_on_its_joint(convention, chain):
 @settings(max_examples=80)
 @given(chain=chains())
 def test_compact_tables_stay_at_the_arm(convention, chain):
-    """No length exceeds what the twenty arm's lengths on either side of an axis allow."""
+    """No length exceeds what twenty arm's lengths on either side of an axis allow."""
     assigned = chain_to_dh(chain, convention)
     reach = references(assigned.links).size + np.abs(chain.points).max() + 1.0
     lengths = [abs(v) for row in assigned.table.rows for v in (row.a, row.d)]
@@ -242,3 +243,33 @@ def test_four_parameters_are_kept_on_request(convention):
     assert all(row.is_joint for row in found.table.rows)
     assert max(abs(row.d) for row in found.table.rows) > 50
     assert found.max_error <= 1e-11
+
+
+FACTORY = DHTable(
+    rows=tuple(
+        DHRow(theta, d, a, alpha)
+        for theta, d, a, alpha in [
+            (2.1e-8, 0.127993, 4.7e-5, 1.5702),
+            (0.3241, 439.14072, 0.00411, 9.19e-4),
+            (5.8731, -446.0268, 0.00237, -1.06e-3),
+            (0.0859, 7.050214, 3.1e-5, 1.5704),
+            (1.2e-6, 0.115792, -2.9e-5, -1.5712),
+            (8.8e-7, 0.092143, 0, 0),
+        ]
+    ),
+    convention=DHConvention.STANDARD,
+    name="calibrated",
+)
+"""A six-axis arm as a factory calibration writes it: d_2 and d_3 hundreds of metres long."""
+
+
+@both
+def test_factory_calibrations_come_home(convention):
+    """From joint origins 439 m away to a table without a length above the arm's two metres."""
+    text = urdf_text(FACTORY, UrdfOptions(embed_table=False))
+    found = extract_dh(text, convention=convention)
+    assert max(abs(v) for row in found.table.rows for v in (row.a, row.d)) < 2.0
+    assert max(abs(v) for v in (*found.table.base.xyz, *found.table.tool.xyz)) < 2.0
+    for q in configurations(6):
+        assert difference(dh_frames(found.table, q)[-1], dh_frames(FACTORY, q)[-1]) <= 1e-12
+    assert any("far away" in warning for warning in found.warnings)

@@ -48,6 +48,12 @@ of metres away, and each of those metres costs a digit; below two degrees or so 
 with one extra rotation is shorter and exact.
 """
 
+NEARLY = 0.02
+"""Tilt [rad] below which axes were meant to be parallel: more than any calibration corrects."""
+
+FAR_NEARLY = 2.0
+"""Like :data:`FAR`, for axes that are nearly parallel: their common normal means nothing."""
+
 
 class XRule(StrEnum):
     """Which way x points along a common normal."""
@@ -113,8 +119,8 @@ class FrameAssigner:
     prismatic : sequence of n bool
         True where a joint slides.
     compact : bool
-        Slide the frames of pairs whose common normal is :data:`FAR` away back to the arm and
-        leave the rest to one rotation ``beta``.
+        Slide the frames of pairs whose common normal is far away back to the arm and leave the
+        rest to one rotation ``beta``.
     """
 
     def __init__(
@@ -191,7 +197,8 @@ class FrameAssigner:
         if normal is not None:
             heights = self.ref.heights
             reach = max(abs(normal.s1 - heights[i]), abs(-normal.s2 - heights[i + 1]))
-            if not self.compact or reach <= FAR * self.ref.size:
+            limit = (FAR_NEARLY if pair.tilt < NEARLY else FAR) * self.ref.size
+            if not self.compact or reach <= limit:
                 return pair, normal, False
         height = self._own_height(i, s) if i == 0 or s is None else -s
         return pair, across(L, pair, height, 0.0, self.convention), not pair.parallel
