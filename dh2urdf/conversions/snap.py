@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.axis_pairs import across, classify, common_normal, compose
+from dh2urdf.conversions.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.frame_assignment import references
 from dh2urdf.conversions.referee import table_poses
 from dh2urdf.conversions.rounding import near_angle
@@ -112,46 +112,37 @@ def snap_chain(chain: SerialChain, tolerance: float, qs: Array) -> tuple[SerialC
     changes: list[Change] = []
     poses = chain_poses(chain, qs)
     for i, L in enumerate(chain.links):
-        found, fixed = _snap_link(L, heights[i], ref.size, tolerance)
-        noted = [
-            (f"{key} between {names[i]} and {names[i + 1]}", before, after)
-            for key, before, after in found
-        ]
-        if not noted:
-            continue
-        links = chain.links.copy()
-        links[i] = fixed
-        chain = replace(chain, links=links)
-        moved = chain_poses(chain, qs)
-        cost = pose_error(moved, poses)
-        changes += [Change(where, before, after, cost) for where, before, after in noted]
-        poses = moved
+        for key, before, after, fixed in _snap_link(L, heights[i], ref.size, tolerance):
+            links = chain.links.copy()
+            links[i] = fixed
+            chain = replace(chain, links=links)
+            moved = chain_poses(chain, qs)
+            where = f"{key} between {names[i]} and {names[i + 1]}"
+            changes.append(Change(where, before, after, pose_error(moved, poses)))
+            poses = moved
     return chain, changes
 
 
 def _snap_link(
     L: Array, height: float, size: float, tolerance: float
-) -> tuple[list[tuple[str, float, float]], Array]:
-    """What is set right between two axes, and the link with it."""
+) -> Iterator[tuple[str, float, float, Array]]:
+    """What is set right between two axes, one after the other, and the link with it."""
     pair = classify(L, size)
     standard = DHConvention.STANDARD
-    found: list[tuple[str, float, float]] = []
     if pair.parallel or pair.tilt <= tolerance:
         n = across(L, pair, height, 0.0, standard)
         straight = math.pi if pair.opposed else 0.0
+        fixed = n._replace(alpha=straight, beta=0.0)
         if pair.tilt > 0:
             before = math.pi - pair.tilt if pair.opposed else pair.tilt
-            found.append(("angle", before, straight))
-        fixed = n._replace(alpha=straight, beta=0.0)
+            yield "angle", before, straight, compose(fixed, standard)
     else:
         n = common_normal(L, pair)
         fixed = n._replace(alpha=near_angle(n.alpha, tolerance))
-        if fixed.alpha != n.alpha and abs(fixed.alpha - n.alpha) > 1e-14:
-            found.append(("angle", n.alpha, fixed.alpha))
+        if abs(fixed.alpha - n.alpha) > PARALLEL:
+            yield "angle", n.alpha, fixed.alpha, compose(fixed, standard)
     if 0 < abs(n.a) <= tolerance:
-        found.append(("distance", n.a, 0.0))
-        fixed = fixed._replace(a=0.0)
-    return found, compose(fixed, standard) if found else L
+        yield "distance", n.a, 0.0, compose(fixed._replace(a=0.0), standard)
 
 
 def snap_table(table: DHTable, tolerance: float, qs: Array) -> tuple[DHTable, list[Change]]:
