@@ -62,7 +62,10 @@ class Extraction:
             f"DH frames of {self.table.name} from {self.base} to {self.tip}, "
             f"{self.table.convention} convention."
         )
-        return "\n\n".join([head, *map(str, self.steps), str(self)])
+        steps = list(map(str, self.steps)) or [
+            "The file carries the table that it was written from; embedded=False assigns frames."
+        ]
+        return "\n\n".join([head, *steps, str(self)])
 
     def __str__(self) -> str:
         lines = [str(self.table)]

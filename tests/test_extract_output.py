@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_extract_sources import BROKEN, URDF
 
-from dh2urdf import extract_dh, load_table
+from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.cli import main
 from dh2urdf.conversions.chain_to_dh import chain_to_dh
 from dh2urdf.conversions.constructors import matlab_corke, matlab_rst, rtb_python
@@ -322,3 +322,12 @@ def test_stdin_and_stdout(capsys, monkeypatch):
 def test_a_base_beside_the_arm():
     """A base that nothing hangs on is reached through the root: the chain of UR's base frame."""
     assert extract_dh(UR5, base="base").tip == "tool0"
+
+
+def test_our_own_files_are_explained_too(tmp_path, capsys):
+    """--explain assigns frames even where the file carries its table."""
+    path = tmp_path / "denso.urdf"
+    path.write_text(urdf_text(load_table("denso_vs6556")))
+    assert run(path, "--explain") == 0
+    assert "Frame 6." in capsys.readouterr().out
+    assert "carries the table" in extract_dh(path).explain()

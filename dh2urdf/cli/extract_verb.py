@@ -82,7 +82,7 @@ def extract_(
     flip
         Joint whose z is to point against its positive direction; repeat for several.
     embedded
-        Return the table that a file of dh2urdf carries.
+        Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
     json
         One JSON object instead of text.
     """
@@ -95,7 +95,7 @@ def extract_(
         x_axis=x_axis,
         compact=compact,
         flip=flip,
-        embedded=embedded,
+        embedded=embedded and not explain,
     )
     if output is not None or format is not None:
         _write(found, output, format, force=force)
