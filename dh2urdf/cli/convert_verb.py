@@ -16,9 +16,10 @@ __all__ = ["convert_"]
 
 
 def convert_(
-    tables: list[str],
+    tables: list[str] | None = None,
     /,
     *,
+    shipped: bool = False,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)
     ] = None,
@@ -40,6 +41,9 @@ def convert_(
     tables
         Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, or - for YAML on
         stdin.
+    shipped
+        All tables that ship with the package; `convert --shipped --out-dir urdf` made the folder
+        urdf/ of the repository.
     output
         The URDF to write; - for stdout. Default: the table's name beside you.
     out_dir
@@ -60,6 +64,10 @@ def convert_(
     options = UrdfOptions(
         dh_frames=dh_frames, collision=collision, digits=digits, balance_inertia=balance_inertia
     )
+    if shipped:
+        from dh2urdf.robots import list_tables
+
+        tables = [*(tables or []), *list_tables()]
     if not tables:
         raise Dh2UrdfError("convert: name at least one table; `dh2urdf list` shows those that ship")
     if output is not None and len(tables) > 1:

@@ -126,15 +126,15 @@ class _Writer:
 
     def write(self) -> tuple[str, tuple[str, ...]]:
         self._preamble()
-        self._base()
+        etree.SubElement(self.robot, "link", name="base_link")
         parent = "base_link"
         for i, row in enumerate(self.table.joints, 1):
             link = f"link_{i}"
             self._link(link, self._inertial(i, row), self.bodies[i])
             self._joint(self.table.joint_names[i - 1], row, parent, link, i)
-            self._dh_frame(i, link)
             parent = link
-        self._fixed_link("tool0", parent, self.frames.tool, massless=True)
+        self._massless_link("tool0", parent, self.frames.tool)
+        self._side_links()
         self._limit_warnings()
         etree.indent(self.robot, space="  ")
         text = etree.tostring(self.robot, encoding="unicode")
@@ -153,20 +153,17 @@ class _Writer:
                 material = etree.SubElement(self.robot, "material", name=name)
                 etree.SubElement(material, "color", rgba=rgba)
 
-    def _base(self) -> None:
-        etree.SubElement(self.robot, "link", name="base_link")
+    def _side_links(self) -> None:
+        """What hangs beside the chain; behind it, as ikpy follows the first joint of a link."""
         self._link("base_link_inertia", self._drawn(0), self.bodies[0])
         self._fixed_joint("base_link_inertia", "base_link", np.eye(4))
-        self._dh_frame(0, "base_link")
-
-    def _dh_frame(self, i: int, parent: str) -> None:
         if self.options.dh_frames:
-            self._fixed_link(f"dh_{i}", parent, self.frames.dh[i], massless=True)
+            for i, T_link_dh in enumerate(self.frames.dh):
+                self._massless_link(f"dh_{i}", f"link_{i}" if i else "base_link", T_link_dh)
 
-    def _fixed_link(self, name: str, parent: str, T: Array, *, massless: bool) -> None:
+    def _massless_link(self, name: str, parent: str, T: Array) -> None:
         link = etree.SubElement(self.robot, "link", name=name)
-        if massless:
-            self._inertial_element(link, Inertial(0.0, np.zeros(3), np.zeros((3, 3))))
+        self._inertial_element(link, Inertial(0.0, np.zeros(3), np.zeros((3, 3))))
         self._fixed_joint(name, parent, T)
 
     def _fixed_joint(self, child: str, parent: str, T: Array) -> None:
