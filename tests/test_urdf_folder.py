@@ -192,8 +192,9 @@ def test_drake_loads_it(name, caplog, capfd):
     table = dh2urdf.load_table(name)
     q = random_configurations(table, 1)[0]
     context = plant.CreateDefaultContext()
-    for joint, value in zip(table.joint_names, q, strict=True):
-        plant.GetJointByName(joint, arm).SetPositions(context, [value])
+    q_plant = np.empty(plant.num_positions())
+    q_plant[[plant.GetJointByName(joint, arm).position_start() for joint in table.joint_names]] = q
+    plant.SetPositions(context, q_plant)
     tip = plant.GetFrameByName("tool0").CalcPoseInWorld(context).GetAsMatrix4()
     assert difference(tip, dh_frames(table, q)[-1]) <= 1e-12 * max(1.0, table.length)
 
