@@ -10,7 +10,7 @@ from pathlib import Path
 from benchmarks import machine
 from benchmarks.results import LATEST, Results
 
-WORK = ("forward", "inverse", "edges", "building", "scaling", "memory", "processes")
+WORK = ("forward", "inverse", "edges", "building", "scaling", "sweep", "memory", "processes")
 
 
 def main() -> int:

@@ -132,7 +132,7 @@ def _ikpy(arm: Arm) -> FKContestant:
     pad = len(chain.links) - arm.n - 1
     return FKContestant(
         "ikpy",
-        lambda q: chain.forward_kinematics(q),
+        chain.forward_kinematics,
         encode=lambda q: np.pad(q, ((0, 0), (1, pad))),
     )
 

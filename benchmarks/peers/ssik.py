@@ -14,7 +14,7 @@ from benchmarks.arms import Arm
 from benchmarks.contestant import IKContestant, NotCoveredError
 from benchmarks.peers.poe import product_form
 
-__all__ = ["SsikAxes", "SsikPrebuilt"]
+__all__ = ["SsikAxes", "SsikPrebuilt", "prebuilt_module"]
 
 Array = NDArray[np.float64]
 
@@ -33,6 +33,11 @@ TURN = {"ur5": np.pi}
 """Turn of joint 1 [rad]: the prebuilt one's base is the URDF's, turned from the controller's."""
 
 
+def prebuilt_module(arm: Arm) -> Any:
+    """The module of a prebuilt arm."""
+    return import_module(f"ssik.prebuilt.{PREBUILT[arm.key]}")
+
+
 class SsikPrebuilt(IKContestant):
     """``ssik.prebuilt.<arm>.solve`` without limits, native backend."""
 
@@ -44,7 +49,7 @@ class SsikPrebuilt(IKContestant):
             raise NotCoveredError("not among its prebuilt arms")
         if arm.held:
             raise NotCoveredError("samples the redundancy, takes no held joint")
-        self.module = import_module(f"ssik.prebuilt.{PREBUILT[arm.key]}")
+        self.module = prebuilt_module(arm)
         self.turn = np.zeros(arm.n)
         self.turn[0] = TURN.get(arm.key, 0.0)
         self.T_own_base, T_tool = np.eye(4), np.eye(4)

@@ -19,7 +19,7 @@ def run(results: Results) -> None:
         if results.quick and arm.key not in QUICK:
             continue
         blocks = {type(c).name: _block(type(c), arm) for c in contestants(arm, results.left_out)}
-        for name, timing in interleaved(blocks, 0.5 if results.quick else 3.0, most=20).items():
+        for name, timing in interleaved(blocks, 0.1 if results.quick else 3.0, most=20).items():
             results.add(Row.timed("build", arm.key, name, timing))
 
 

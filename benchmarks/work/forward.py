@@ -38,8 +38,9 @@ def _right(contestant: FKContestant, arm: Arm) -> bool:
 
 def _single(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
     q, _ = arm.draw(500)
-    blocks = {c.name: each(c.one, list(c.encode(q))) for c in contestants if c.one}
-    for name, timing in interleaved(blocks, 1.0 if results.quick else 6.0).items():
+    length, budget = (0.003, 0.2) if results.quick else (0.03, 6.0)
+    blocks = {c.name: each(c.one, list(c.encode(q)), length) for c in contestants if c.one}
+    for name, timing in interleaved(blocks, budget).items():
         results.add(Row.timed("fk one", arm.key, name, timing, size=1))
 
 
@@ -59,5 +60,5 @@ def _batch(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
             return m
 
         blocks[c.name] = block
-    for name, timing in interleaved(blocks, 2.0 if results.quick else 10.0, most=25).items():
+    for name, timing in interleaved(blocks, 0.2 if results.quick else 10.0, most=25).items():
         results.add(Row.timed("fk batch", arm.key, name, timing, threads=2, residual=errors[name]))

@@ -1,4 +1,4 @@
-"""Inverse kinematics: one pose a call and many at once, with recall and residual beside the time."""
+"""Inverse kinematics: one pose a call and many at once; recall and residual beside the time."""
 
 from __future__ import annotations
 
@@ -50,9 +50,9 @@ def _single(results: Results, arm: Arm, entrants: Sequence[IKContestant]) -> Non
             results.left_out[f"{c.name}, {arm.key}"] = f"no solution on {len(T)} poses"
     entrants = [c for c in entrants if verdicts[c.name].found]
     poses = {c.name: list(c.encode(T)) for c in entrants}
-    bare = {f"{c.name}|bare": each(c.solve, poses[c.name]) for c in entrants}
-    public = {f"{c.name}|public": each(c.public, poses[c.name]) for c in entrants}
-    budget = 2.0 if results.quick else 12.0
+    length, budget = (0.003, 0.5) if results.quick else (0.03, 12.0)
+    bare = {f"{c.name}|bare": each(c.solve, poses[c.name], length) for c in entrants}
+    public = {f"{c.name}|public": each(c.public, poses[c.name], length) for c in entrants}
     for key, timing in interleaved(bare | public, budget, most=40).items():
         name, call = key.split("|")
         own = next(c for c in entrants if c.name == name)
@@ -106,7 +106,7 @@ def _batch(results: Results, arm: Arm, entrants: Sequence[BatchContestant]) -> N
         for threads in (1, 2):
             blocks[f"{c.name}|{threads}"] = _batch_block(c, T[:share], threads)
     known = referee.truth(list(verdicts.values()), q[:2_000])
-    for key, timing in interleaved(blocks, 3.0 if results.quick else 15.0, most=15).items():
+    for key, timing in interleaved(blocks, 0.5 if results.quick else 15.0, most=15).items():
         name, threads = key.split("|")
         own = next(c for c in entrants if c.name == name)
         judged = _judged(verdicts[name], known, arm, own)

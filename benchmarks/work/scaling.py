@@ -17,11 +17,9 @@ MOST = {"puma560": 1_000_000, "ur5": 1_000_000, "fanuc_crx10ia": 10_000}
 def run(results: Results) -> None:
     """Ours, and EAIK where it is there, up to 100,000 poses."""
     for key, most in MOST.items():
-        most = min(most, 1_000) if results.quick else most
-        m = 1
-        while m <= most:
-            _one_size(results, key, m)
-            m *= 10
+        for m in (10**k for k in range(7)):
+            if m <= (min(most, 100) if results.quick else most):
+                _one_size(results, key, m)
 
 
 def _one_size(results: Results, key: str, m: int) -> None:
@@ -31,7 +29,7 @@ def _one_size(results: Results, key: str, m: int) -> None:
     for own in _solvers(key, m):
         for threads in (1, 2):
             blocks[f"{own.name}|{threads}"] = _block(own, T, threads)
-    budget = 0.2 if results.quick else 1.5
+    budget = 0.05 if results.quick else 1.5
     for name, timing in interleaved(blocks, budget, least=3).items():
         contestant, threads = name.split("|")
         results.add(Row.timed("scaling", key, contestant, timing, size=m, threads=int(threads)))

@@ -1,0 +1,86 @@
+"""7R arms with nothing held: samples along the redundant joint, time and number of solutions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks import referee
+from benchmarks.arms import Arm, arm_named
+from benchmarks.clock import each, interleaved
+from benchmarks.peers.ours import OURS
+from benchmarks.results import Results, Row
+from dh2urdf import Robot
+
+__all__ = ["run"]
+
+Array = NDArray[np.float64]
+Answer = Callable[[Array], Sequence[Array]]
+
+SAMPLES = 16
+"""Held values a pose, evenly over the joint's range."""
+
+
+def run(results: Results) -> None:
+    """Time per pose; the number of distinct solutions that hold is beside it."""
+    for key in ("franka_fer", "kuka_iiwa14"):
+        arm = arm_named(key)
+        _, T = arm.draw(2 if results.quick else 20, seed=2)
+        answers = {OURS: _ours(arm), **_peers(arm, results.left_out)}
+        blocks = {name: each(answer, list(T), 0.05) for name, answer in answers.items()}
+        timings = interleaved(blocks, 0.2 if results.quick else 6.0, most=20)
+        for name, answer in answers.items():
+            verdict = referee.judge(arm.table, T, [np.array(answer(pose)) for pose in T])
+            results.add(
+                Row.timed(
+                    "7R sweep",
+                    key,
+                    name,
+                    timings[name],
+                    size=1,
+                    wrong=verdict.wrong,
+                    residual=verdict.worst,
+                    extra={"solutions": verdict.found / len(T)},
+                )
+            )
+
+
+def _ours(arm: Arm) -> Answer:
+    """One ``ik`` a held value, the values never seen before."""
+    robot, joint = Robot.from_dh(arm.table), (arm.held or (0, 0.0))[0]
+    low, high = robot.lower[joint], robot.upper[joint]
+    rng = np.random.default_rng(0)
+
+    def answer(pose: Array) -> list[Array]:
+        values = low + (high - low) * (np.arange(SAMPLES) + rng.uniform()) / SAMPLES
+        found: list[Array] = []
+        for value in values:
+            found += list(robot.ik(pose, locked={joint: value}))
+        return found
+
+    return answer
+
+
+def _peers(arm: Arm, left_out: dict[str, str]) -> dict[str, Answer]:
+    """ssik's prebuilt arms and frankik, by their own sampling, within limits."""
+    answers: dict[str, Answer] = {}
+    try:
+        from benchmarks.peers.ssik import prebuilt_module
+
+        module = prebuilt_module(arm)
+        answers["ssik prebuilt"] = lambda pose: [s.q for s in module.solve(pose)]
+    except ImportError as error:
+        left_out["ssik prebuilt"] = f"not installed ({error})"
+    if arm.key == "franka_fer":
+        try:
+            import frankik
+
+            start = np.array(frankik.FrankaKinematics("panda").q_home)
+            answers["frankik"] = lambda pose: frankik.ik_sample_q7(
+                pose, start, sample_size=SAMPLES, sample_interval=332.0, full_ik=True
+            )
+        except ImportError as error:
+            left_out["frankik"] = f"not installed ({error})"
+    return answers
