@@ -126,7 +126,7 @@ class SolverBase:
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         self.chain, self.task, self.others = chain, task, others
-        self.links = np.ascontiguousarray(chain.links)
+        self.links = np.array(chain.links)
         self.joints = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
 
     @classmethod
@@ -190,6 +190,12 @@ SOLVERS: tuple[SolverRow, ...] = (
         "six revolute joints, axes 3, 4, 5 or 4, 5, 6 parallel",
         "dh2urdf.ik.reversed_chain",
         "ThreeParallelReversed",
+    ),
+    SolverRow(
+        "planar arm",
+        "two or three revolute joints with parallel axes",
+        "dh2urdf.ik.planar",
+        "PlanarArm",
     ),
     SolverRow(
         "short chain",

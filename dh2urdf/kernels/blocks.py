@@ -14,15 +14,13 @@ import math
 from numba import njit
 
 from dh2urdf.kernels.certify import CLUSTER, POLISH, TWO_PI
-from dh2urdf.kernels.trig import atan2_array
+from dh2urdf.kernels.trig import arctangent
 
 __all__ = [
-    "ANGLES",
     "BLOCK",
     "CLEAR",
     "COS",
     "DIRTY",
-    "FEW",
     "POSE",
     "RESIDUAL",
     "ROWS",
@@ -32,22 +30,18 @@ __all__ = [
 __all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure"]
 
 BLOCK = 32
-FEW = 8
-"""Poses below which a block does not pay."""
-
 CLEAR = 1e-6
 """Relative distance from a rim, or sine of an angle, from which a lane is clean."""
 
 POSE, DIRTY, COS = 0, 12, 13
 SIN = COS + 40
-ANGLES = SIN + 40
-VALUES = ANGLES + 40
+VALUES = SIN + 40
 INSIDE = VALUES + 40
 VALID = INSIDE + 40
 RESIDUAL = VALID + 8
 WORK = RESIDUAL + 8
 ROWS = WORK + 64
-"""Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 40 angles, the angles,
+"""Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 40 angles, their
 joint values, whether these are inside their limits, and for eight solutions whether they exist
 and their residual; the rest belongs to the family."""
 
@@ -199,9 +193,10 @@ def _values(form, joints, joint_of, within_limits, rows, n, S):
         j = joint_of[r]
         sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
         middle = 0.5 * (lower + upper) if upper - lower < math.inf else 0.0
-        source, target, flag = BLOCK * (ANGLES + r), BLOCK * (VALUES + r), BLOCK * (INSIDE + r)
+        target, flag = BLOCK * (VALUES + r), BLOCK * (INSIDE + r)
         for i in range(n):
-            value = sign * (S[source + i] - constant)
+            angle = arctangent(S[BLOCK * (SIN + r) + i], S[BLOCK * (COS + r) + i])
+            value = sign * (angle - constant)
             value -= TWO_PI * math.floor((value - middle) / TWO_PI + 0.5)
             S[target + i] = value
             S[flag + i] = 1.0
@@ -225,7 +220,6 @@ def emit(form, joints, table, within_limits, first, n, S, q, residual, count, br
     """
     joint_of, row_of = table
     rows = joint_of.shape[0]
-    atan2_array(S[BLOCK * SIN :], S[BLOCK * COS :], S[BLOCK * ANGLES :], BLOCK * rows)
     _values(form, joints, joint_of, within_limits, rows, n, S)
     for k in range(8):
         for j in range(6):

@@ -16,7 +16,6 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
-    FEW,
     ROWS,
     SIN,
     VALID,
@@ -160,21 +159,18 @@ def solve_common_wrist(
     """:func:`dh2urdf.kernels.spherical_wrist.solve_turning_arm` for the common geometry."""
     scratch = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
     m = Ts.shape[0]
-    S = np.zeros(ROWS * BLOCK if m >= FEW else 1)
+    S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
-        if n < FEW:
-            count[first : first + n] = -1
-        else:
-            load_poses(ends, form[0, 3], Ts, first, n, S)
-            _shoulders(form, n, S)
-            _elbows(form, n, S)
-            _wrists(form, n, S)
-            for k in range(8):
-                arm = k & 3
-                measure(form, ends[2], n, S, k, k & 1, 2 + arm, 6 + arm, 10 + k, 18 + k, 26 + k)
-            table = JOINT_OF, ROW_OF
-            emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
+        load_poses(ends, form[0, 3], Ts, first, n, S)
+        _shoulders(form, n, S)
+        _elbows(form, n, S)
+        _wrists(form, n, S)
+        for k in range(8):
+            arm = k & 3
+            measure(form, ends[2], n, S, k, k & 1, 2 + arm, 6 + arm, 10 + k, 18 + k, 26 + k)
+        table = JOINT_OF, ROW_OF
+        emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]

@@ -14,7 +14,7 @@ from numba import njit
 
 __all__ = [
     "add_square",
-    "atan2_array",
+    "arctangent",
     "circle_pair",
     "linear_trig",
     "real_quadratic",
@@ -340,28 +340,27 @@ def _two_ellipses(M, N, d, det, slack, scratch, out):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def atan2_array(y, x, out, n):
-    """``out[i] = atan2(y[i], x[i])`` for i < n, as vector code, within 5e-16.
+def arctangent(y, x):
+    """``atan2(y, x)`` without branches, for loops that become vector code; within 5e-16.
 
     The quotient is brought below ``tan(pi / 8)`` by ``atan(t) = pi/4 + atan((t-1) / (t+1))``
     with one division; then the least maximum polynomial of degree 25. (0, 0) gives 0.
     """
-    for i in range(n):
-        ax, ay = abs(x[i]), abs(y[i])
-        big, small = max(ax, ay), min(ax, ay)
-        far = small > TAN_EIGHTH * big
-        top = small - big if far else small
-        bottom = small + big if far else big
-        bottom = bottom if bottom > 0.0 else 1.0
-        t = top / bottom
-        z = t * t
-        z2 = z * z
-        z4 = z2 * z2
-        p = (A8 + A9 * z) + (A10 + A11 * z) * z2
-        p = ((A4 + A5 * z) + (A6 + A7 * z) * z2) + z4 * p
-        p = ((A0 + A1 * z) + (A2 + A3 * z) * z2) + z4 * p
-        r = t + t * z * p
-        r = r + 0.25 * math.pi if far else r
-        r = 0.5 * math.pi - r if ay > ax else r
-        r = math.pi - r if x[i] < 0.0 else r
-        out[i] = math.copysign(r, y[i])
+    ax, ay = abs(x), abs(y)
+    big, small = max(ax, ay), min(ax, ay)
+    far = small > TAN_EIGHTH * big
+    top = small - big if far else small
+    bottom = small + big if far else big
+    bottom = bottom if bottom > 0.0 else 1.0
+    t = top / bottom
+    z = t * t
+    z2 = z * z
+    z4 = z2 * z2
+    p = (A8 + A9 * z) + (A10 + A11 * z) * z2
+    p = ((A4 + A5 * z) + (A6 + A7 * z) * z2) + z4 * p
+    p = ((A0 + A1 * z) + (A2 + A3 * z) * z2) + z4 * p
+    r = t + t * z * p
+    r = r + 0.25 * math.pi if far else r
+    r = 0.5 * math.pi - r if ay > ax else r
+    r = math.pi - r if x < 0.0 else r
+    return math.copysign(r, y)
