@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+import numpy as np
+
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, moves_freely
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.transforms import Array
 
+if TYPE_CHECKING:
+    from dh2urdf.kernels.general_6r import Plan
+
 __all__ = ["General6R"]
+
+TRIALS = 6
+"""Random poses by which a plan is tried."""
+
+SAME = 1e-4
+"""Joint distance [rad] at which a solution is the configuration that was asked for."""
 
 
 class General6R(SolverBase):
@@ -21,13 +34,34 @@ class General6R(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
+        plan: Plan | None = None,
     ) -> None:
         super().__init__(chain, task, others)
         from dh2urdf.kernels.finish import finish_batch
         from dh2urdf.kernels.general_6r import plan_general_6r, solve_general_6r_batch
 
-        self.plan = plan_general_6r(self.links)
+        self.plan = plan or plan_general_6r(self.links)
         self._solve, self._finish = solve_general_6r_batch, finish_batch
+
+    def like(self, chain: SerialChain) -> General6R:
+        """The solver of a chain that differs little, with the same eliminations if they do."""
+        from dh2urdf.kernels.held_general import replan_general_6r
+
+        plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
+        solver = General6R(chain, self.task, plan=plan)
+        return solver if solver.finds_itself() else General6R(chain, self.task)
+
+    def finds_itself(self) -> bool:
+        """Whether the configurations of a few random poses are among their solutions."""
+        rng = np.random.default_rng(0)
+        q = rng.uniform(-np.pi, np.pi, (TRIALS, 6))
+        poses = np.stack([self.chain.fk(row) for row in q])
+        found, residual = np.empty((TRIALS, self.kmax, 6)), np.empty((TRIALS, self.kmax))
+        count = np.zeros(TRIALS, np.int64)
+        self._solve(*self.plan, poses, found, residual, count)
+        gap = np.abs(np.remainder(found - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)
+        gap[np.arange(self.kmax) >= count[:, None]] = np.inf
+        return bool((gap.min(axis=1) < SAME).all())
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:

@@ -8,10 +8,11 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.ik.solutions import branch_words_of
 from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
 from dh2urdf.transforms import Array, rot_z, trans
 
-__all__ = ["HeldJoints", "hold"]
+__all__ = ["HeldJoints", "hold", "without_end"]
 
 
 def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
@@ -23,13 +24,23 @@ def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
             links[-1] = links[-1] @ Z @ chain.links[i + 1]
         else:
             links.append(chain.links[i + 1])
-    moving = [i for i in range(chain.n) if i not in held]
+    return _part(chain, np.stack(links), [i for i in range(chain.n) if i not in held])
+
+
+def without_end(chain: SerialChain, joint: int) -> SerialChain:
+    """The chain without its first or last joint and the link beyond it, the same at any value."""
+    rest = [i for i in range(chain.n) if i != joint]
+    return _part(chain, chain.links[1:] if joint == 0 else chain.links[:-1], rest)
+
+
+def _part(chain: SerialChain, links: Array, joints: list[int]) -> SerialChain:
+    """Some of the joints of a chain between other links."""
     return SerialChain(
-        np.stack(links),
-        tuple(chain.joint_types[i] for i in moving),
-        tuple(chain.names[i] for i in moving),
-        chain.lower[moving],
-        chain.upper[moving],
+        links,
+        tuple(chain.joint_types[i] for i in joints),
+        tuple(chain.names[i] for i in joints),
+        chain.lower[joints],
+        chain.upper[joints],
     )
 
 
@@ -43,15 +54,24 @@ class HeldJoints:
     held : mapping of int to float
         Value of each held joint [rad] or [m].
     task : Task
+    inner : Solver, optional
+        Solver of the chain without the held joints; the best one without it.
     """
 
-    def __init__(self, chain: SerialChain, held: Mapping[int, float], task: Task) -> None:
+    def __init__(
+        self,
+        chain: SerialChain,
+        held: Mapping[int, float],
+        task: Task,
+        inner: Solver | None = None,
+    ) -> None:
         if len(held) == chain.n:
             raise ConfigurationError(f"locked: all {chain.n} joints are held, none is left to move")
         self.chain, self.held = chain, dict(held)
-        self.inner: Solver = select_solver(hold(chain, held), task)
+        self.inner: Solver = inner or select_solver(hold(chain, held), task)
         self.moving = np.array([i for i in range(chain.n) if i not in held])
         self.kmax = self.inner.kmax
+        self.branch_words = branch_words_of(self.inner)
 
     @property
     def name(self) -> str:

@@ -7,21 +7,27 @@ from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
 
-__all__ = ["invert_poses", "turn_back"]
+__all__ = ["invert_pose", "invert_poses", "turn_back"]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def invert_pose(T, out):
+    """``out = T^-1`` for a rigid pose (4, 4)."""
+    for j in range(3):
+        total = 0.0
+        for k in range(3):
+            out[j, k] = T[k, j]
+            total -= T[k, j] * T[k, 3]
+        out[j, 3] = total
+        out[3, j] = 0.0
+    out[3, 3] = 1.0
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def invert_poses(Ts, out):
     """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
     for i in range(Ts.shape[0]):
-        for j in range(3):
-            total = 0.0
-            for k in range(3):
-                out[i, j, k] = Ts[i, k, j]
-                total -= Ts[i, k, j] * Ts[i, k, 3]
-            out[i, j, 3] = total
-            out[i, 3, j] = 0.0
-        out[i, 3, 3] = 1.0
+        invert_pose(Ts[i], out[i])
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -1,0 +1,56 @@
+"""What a solver with held joints is: the held values are an argument, not a part of it."""
+
+from __future__ import annotations
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.solver import IntArray
+from dh2urdf.transforms import Array
+
+__all__ = ["HeldSolver"]
+
+
+class HeldSolver:
+    """All solutions of many poses of a chain, each pose with its own values of the held joints.
+
+    Parameters
+    ----------
+    chain : SerialChain
+        The whole chain.
+    held : tuple of int
+        Indices of the held joints.
+    """
+
+    name: str
+    kmax: int
+
+    def __init__(self, chain: SerialChain, held: tuple[int, ...]) -> None:
+        self.chain, self.held = chain, held
+
+    def details(self) -> str:
+        """Say how the joints that move are solved for."""
+        raise NotImplementedError
+
+    def solve_held(
+        self,
+        Ts: Array,
+        values: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4), each with its held values (m, h) [rad] or [m].
+
+        Outputs as in :class:`dh2urdf.ik.solver.Solver`, with all joints of the chain.
+        """
+        raise NotImplementedError
+
+    def explain(self) -> str:
+        """Name the held joints and say how the others are solved for."""
+        names = ", ".join(self.chain.names[i] for i in self.held)
+        return f"held, at any value: {names}\n{self.details()}"
+
+    def __str__(self) -> str:
+        return self.name

@@ -1,0 +1,158 @@
+"""Which solver a chain with held joints gets, and those that are not a spherical triple."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.general_6r import General6R
+from dh2urdf.ik.held import HeldJoints, hold, without_end
+from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.held_wrist import TRIAL_VALUE, HeldWrist
+from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
+from dh2urdf.transforms import Array
+
+__all__ = ["select_held"]
+
+KEPT_VALUES = 64
+"""Solvers for single held values kept ready, the latest ones."""
+
+
+class HeldEnd(HeldSolver):
+    """The first or the last joint is held: the rest is one arm, and the pose moves."""
+
+    def __init__(self, chain: SerialChain, joint: int) -> None:
+        super().__init__(chain, (joint,))
+        self.inner = select_solver(without_end(chain, joint))
+        self.name, self.kmax = self.inner.name, self.inner.kmax
+        self.links = np.ascontiguousarray(chain.links)
+        self.slides = bool(chain.prismatic[joint])
+
+    def details(self) -> str:
+        """Say how the joints that move are solved for."""
+        return self.inner.explain()
+
+    def solve_held(
+        self,
+        Ts: Array,
+        values: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Move the poses, solve for the rest, put the held joint in its place."""
+        from dh2urdf.kernels.held_joint import held_poses, insert_held_batch
+
+        joint = self.held[0]
+        poses = np.empty_like(Ts)
+        held_poses(self.links, self.slides, joint, values[:, 0], Ts, poses)
+        q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(free_out)
+        self.inner.solve_batch(poses, within_limits, q, residual_out, count_out, branch_out, free)
+        insert_held_batch(joint, values[:, 0], q, free, q_out, count_out, free_out)
+
+
+class HeldOneByOne(HeldSolver):
+    """A solver is made for every value, and the latest ones are kept: any chain, any task."""
+
+    def __init__(self, chain: SerialChain, held: tuple[int, ...], task: Task) -> None:
+        super().__init__(chain, held)
+        self.task = task
+        self._kept: dict[tuple[float, ...], Solver] = {}
+        first = self.at(tuple(np.clip(TRIAL_VALUE, chain.lower, chain.upper)[list(held)].tolist()))
+        self.name, self.kmax, self._first = first.name, first.kmax, first
+
+    def details(self) -> str:
+        """Say how the joints that move are solved for."""
+        return self._first.explain()
+
+    def make(self, values: tuple[float, ...]) -> Solver:
+        """The solver for some held values."""
+        held = dict(zip(self.held, values, strict=True))
+        return HeldJoints(self.chain, held, self.task)
+
+    def at(self, values: tuple[float, ...]) -> Solver:
+        """The solver for some held values, made or kept."""
+        solver = self._kept.pop(values, None) or self.make(values)
+        self._kept[values] = solver
+        if len(self._kept) > KEPT_VALUES:
+            del self._kept[next(iter(self._kept))]
+        return solver
+
+    def solve_held(
+        self,
+        Ts: Array,
+        values: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve the poses of one set of values after the other."""
+        order = np.lexsort(values.T)
+        breaks = np.flatnonzero(np.any(np.diff(values[order], axis=0), axis=1)) + 1
+        for rows in np.split(order, breaks):
+            if not len(rows):
+                continue
+            solver = self.at(tuple(values[rows[0]].tolist()))
+            k = min(solver.kmax, self.kmax)
+            q, residual, count, branch, free = new_outputs(len(rows), solver.kmax, self.chain.n)
+            solver.solve_batch(
+                np.ascontiguousarray(Ts[rows]), within_limits, q, residual, count, branch, free
+            )
+            count_out[rows] = np.minimum(count, k)
+            q_out[rows, :k], residual_out[rows, :k] = q[:, :k], residual[:, :k]
+            branch_out[rows, :k], free_out[rows, :k] = branch[:, :k], free[:, :k]
+
+
+class HeldGeneral(HeldOneByOne):
+    """Any 6R arm is left: its eliminations are chosen once, the rest of its plan for a value."""
+
+    def __init__(self, chain: SerialChain, joint: int, model: General6R) -> None:
+        self.model = model
+        super().__init__(chain, (joint,), Task.POSE)
+
+    def make(self, values: tuple[float, ...]) -> Solver:
+        """The solver for one value; eliminations chosen anew where those of the model fail."""
+        rest = hold(self.chain, {self.held[0]: values[0]})
+        held = {self.held[0]: values[0]}
+        return HeldJoints(self.chain, held, self.task, self.model.like(rest))
+
+
+def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSolver:
+    """The fastest solver that covers a chain with some held joints at any of their values.
+
+    Raises
+    ------
+    NoSolverError, ConfigurationError
+    """
+    if len(held) == 1 and task is Task.POSE:
+        joint = held[0]
+        wrist = HeldWrist(chain, joint) if HeldWrist.covers(chain, joint) else None
+        if wrist is not None and wrist.one_by_one:
+            return wrist
+        if joint in (0, chain.n - 1) and chain.n > 1:
+            return HeldEnd(chain, joint)
+        if wrist is not None:
+            return wrist
+        if chain.n == 7 and not np.delete(chain.prismatic, joint).any():
+            model = select_solver(hold(chain, {joint: TRIAL_VALUE}))
+            if isinstance(model, General6R):
+                return HeldGeneral(chain, joint, model)
+    return HeldOneByOne(chain, held, task)
+
+
+def new_outputs(m: int, kmax: int, n: int) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
+    """Arrays for the solutions of m poses: q, residual, count, branch, free."""
+    codes = np.zeros((2, m, kmax), np.int64)
+    return (
+        np.empty((m, kmax, n)),
+        np.empty((m, kmax)),
+        np.zeros(m, np.int64),
+        codes[0],
+        codes[1],
+    )

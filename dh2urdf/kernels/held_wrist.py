@@ -1,0 +1,211 @@
+"""Seven joints, one of them held: arms whose other axes end or begin in a spherical triple.
+
+The chain is seen from the base or from the tool, so that the triple comes last ("oriented"), and
+written as ``T = base Z1 S0 Z2 S1 Z3 S2 wrist tool`` with constant links S. A joint held between
+the first and the wrist makes one of them ``S(v) = X Z(v) Y``; one held at an end moves the pose.
+
+Constants of an arm, packed for a cheap call:
+
+``frames`` (24, 4, 4)
+    0 to 7 links of the exact chain; 8 to 15 those of the oriented chain; 16, 17, 18 S0, S1, S2;
+    19, 20 X and Y; 21 to 23 inverse of the base, inverse of the tool, tool.
+``which`` (5,)
+    Held joint; whether it slides; whether the oriented chain is the reversed one; held joint of
+    the oriented chain; which S depends on it, -1: none.
+``form`` (6, 7)
+    Denavit-Hartenberg rows of the oriented arm, of which the wrist's are used, and the signs.
+``joints`` (6, 3)
+    Sliding, lower, upper of the moving joints.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
+from dh2urdf.kernels.position_arm import (
+    FREE,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    _elbow_on_axis,
+    tool_to_wrist,
+)
+from dh2urdf.kernels.reverse import invert_pose
+from dh2urdf.kernels.spherical_wrist import append_wrist
+from dh2urdf.kernels.trig import circle_pair
+
+__all__ = ["make_scratch", "oriented_pose", "solve_held_pose", "solve_held_wrist"]
+
+HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
+ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS = 8, 16, 19, 20, 21
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def make_scratch():
+    """Arrays that one pose is worked out in."""
+    return (
+        np.empty((2, 4, 4)),  # 0 poses
+        np.empty((3, 4)),  # 1 frame 6 in frame 0
+        np.empty((3, 4, 4)),  # 2 S0, S1, S2
+        np.empty((3, 3)),  # 3 orientation left to the wrist
+        np.empty((8, 5)),  # 4 position solutions
+        np.empty((6, 14)),  # 5 certification
+        np.empty((7, 4, 4)),  # 6 links of the moving joints
+        np.empty((8, 6)),  # 7 candidates
+        np.empty((3, 2, 2)),  # 8 two equations
+        np.empty((3, 5)),  # 9 a quartic
+        np.empty((4, 4)),  # 10 its pairs
+    )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def oriented_pose(frames, which, value, T, scratch):
+    """The target of the oriented chain, into ``scratch[1]``; S0, S1, S2 into ``scratch[2]``."""
+    poses, D, S = scratch[0], scratch[1], scratch[2]
+    slides, k = which[SLIDES] != 0, which[ORIENTED]
+    target = T
+    if which[REVERSED] != 0:
+        invert_pose(T, poses[0])
+        target = poses[0]
+    if k == 0 or k == 6:
+        held_pose(frames[ORIENTED_LINKS : ORIENTED_LINKS + 8], slides, k, value, target, poses[1])
+        target = poses[1]
+    tool_to_wrist(frames[ENDS:], target, D)
+    for i in range(3):
+        if i == which[VARIES]:
+            r = _joint_times_link(_load(frames[BEFORE]), slides, value, frames[AFTER])
+            _store(r, S[i])
+        else:
+            _store(_load(frames[LINK + i]), S[i])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _place_wrist(form, D, S, slack, scratch):
+    """Joints 1, 2, 3 that put the wrist centre where D has it: rows of ``arm``; how many.
+
+    Seen from axis 2, ``y(q1) = S0^-1 Z1^-1 p`` and ``u(q3) = S1 Z3 w`` have one height and one
+    length: a subproblem 6 in q1 and q3. Subproblem 1 gives q2. The rows are as in
+    :mod:`dh2urdf.kernels.position_arm`, without names of branches.
+    """
+    arm, equations, series, pairs = scratch[4], scratch[8], scratch[9], scratch[10]
+    M, N, d = equations[0], equations[1], equations[2, 0]
+    S0, S1, reach = S[0], S[1], form[3, 3]
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3]
+    wx, wy = S[2, 0, 2] * reach + S[2, 0, 3], S[2, 1, 2] * reach + S[2, 1, 3]
+    wz = S[2, 2, 2] * reach + S[2, 2, 3]
+    tx, ty, tz, ux, uy, uz = S0[0, 3], S0[1, 3], S0[2, 3], S1[0, 3], S1[1, 3], S1[2, 3]
+    nx = S1[0, 0] * ux + S1[1, 0] * uy + S1[2, 0] * uz
+    ny = S1[0, 1] * ux + S1[1, 1] * uy + S1[2, 1] * uz
+    nz = S1[0, 2] * ux + S1[1, 2] * uy + S1[2, 2] * uz
+    gx, gy, gz, hx, hy, hz = S0[0, 2], S0[1, 2], S0[2, 2], S1[2, 0], S1[2, 1], S1[2, 2]
+    M[0, 0], M[0, 1] = gx * px + gy * py, gx * py - gy * px
+    N[0, 0], N[0, 1] = -hx * wx - hy * wy, hx * wy - hy * wx
+    d[0] = hz * wz + uz - gz * pz + gx * tx + gy * ty + gz * tz
+    M[1, 0], M[1, 1] = -2.0 * (tx * px + ty * py), -2.0 * (tx * py - ty * px)
+    N[1, 0], N[1, 1] = -2.0 * (nx * wx + ny * wy), -2.0 * (ny * wx - nx * wy)
+    square = px * px + py * py
+    d[1] = wx * wx + wy * wy + wz * wz + ux * ux + uy * uy + uz * uz + 2.0 * nz * wz
+    d[1] -= square + pz * pz + tx * tx + ty * ty + tz * tz - 2.0 * tz * pz
+    free = square <= FREE * FREE
+    if free:
+        count = _elbow_on_axis(N, d, 0.0, slack, pairs)
+    else:
+        count = circle_pair(M, N, d, slack, series, pairs)
+    for k in range(count):
+        c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
+        x, y, z = c1 * px + s1 * py - tx, c1 * py - s1 * px - ty, pz - tz
+        yx = S0[0, 0] * x + S0[1, 0] * y + S0[2, 0] * z
+        yy = S0[0, 1] * x + S0[1, 1] * y + S0[2, 1] * z
+        x, y = c3 * wx - s3 * wy, s3 * wx + c3 * wy
+        vx = S1[0, 0] * x + S1[0, 1] * y + S1[0, 2] * wz + ux
+        vy = S1[1, 0] * x + S1[1, 1] * y + S1[1, 2] * wz + uy
+        upper_free = vx * vx + vy * vy <= FREE * FREE
+        arm[k, 0] = math.atan2(s1, c1)
+        arm[k, 1] = 0.0 if upper_free else math.atan2(vx * yy - vy * yx, vx * yx + vy * yy)
+        arm[k, 2] = math.atan2(s3, c3)
+        arm[k, 3] = -1.0
+        arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
+    return max(count, 0)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _orientation_left(D, S, values, R):
+    """``R_36 = S2^T Z3^T S1^T Z2^T S0^T Z1^T R_06``, to R (3, 3)."""
+    for j in range(3):
+        x, y, z = D[0, j], D[1, j], D[2, j]
+        for i in range(3):
+            c, s = math.cos(values[i]), math.sin(values[i])
+            x, y = c * x + s * y, c * y - s * x
+            L = S[i]
+            x, y, z = (
+                L[0, 0] * x + L[1, 0] * y + L[2, 0] * z,
+                L[0, 1] * x + L[1, 1] * y + L[2, 1] * z,
+                L[0, 2] * x + L[1, 2] * y + L[2, 2] * z,
+            )
+        R[0, j], R[1, j], R[2, j] = x, y, z
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def held_candidates(form, frames, which, slack, value, T, q, branch, free, scratch):
+    """Candidates of one pose, q (8, 6) in the chain's order without the held joint; how many."""
+    oriented_pose(frames, which, value, T, scratch)
+    D, S, R, arm = scratch[1], scratch[2], scratch[3], scratch[4]
+    rows = _place_wrist(form, D, S, slack, scratch)
+    found = 0
+    for k in range(rows):
+        _orientation_left(D, S, arm[k], R)
+        found = append_wrist(form, arm[k], R, slack, q, branch, free, found)
+    if which[REVERSED] != 0:
+        for k in range(found):
+            for j in range(3):
+                q[k, j], q[k, 5 - j] = q[k, 5 - j], q[k, j]
+            mask = 0
+            for j in range(6):
+                mask |= (free[k] >> j & 1) << (5 - j)
+            free[k] = mask
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_held_pose(
+    frames, which, form, joints, slack, value, T, within_limits, q, residual, branch, free, scratch
+):
+    """All solutions of one pose at one held value, q (8, 7); returns the count."""
+    work, links, rest = scratch[5], scratch[6], scratch[7]
+    found = held_candidates(form, frames, which, slack, value, T, rest, branch, free, scratch)
+    for k in range(found):
+        residual[k] = -1.0
+    held_links(frames[:8], which[SLIDES] != 0, which[HELD], value, links)
+    found = finish_pose(links, joints, T, within_limits, rest, residual, branch, free, found, work)
+    for k in range(found):
+        for j in range(6):
+            q[k, j] = rest[k, j]
+    insert_held(which[HELD], value, q, free, found)
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_held_wrist(
+    frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
+):
+    """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7)."""
+    scratch = make_scratch()
+    for i in range(Ts.shape[0]):
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = solve_held_pose(
+            frames,
+            which,
+            form,
+            joints,
+            slack,
+            values[i],
+            Ts[i],
+            within_limits,
+            *out,
+            scratch,
+        )
