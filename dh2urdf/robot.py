@@ -17,9 +17,7 @@ from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
 from dh2urdf.conversions.model_to_chain import (
     chain_path,
-    default_tip,
     frame_id,
-    frame_names,
     is_continuous,
     model_to_chain,
 )
@@ -117,17 +115,14 @@ class Robot(RobotIK, RobotPictures):
         ----------
         path : path
         base, tip : str, optional
-            Links anywhere in the tree. Without them: the root, and the tip with most joints.
+            Links anywhere in the tree. Without them: the root, and the end of the longest chain.
 
         Raises
         ------
         UrdfError, NameNotFoundError
         """
-        model, mimics = load_model(path)
-        root = base or frame_names(model)[0]
-        if tip is None:
-            tip = model.frames[default_tip(model, frame_id(model, root))].name
-        robot = cls(model, root, tip, mimics=mimics)
+        loaded = load_model(path, base, tip)
+        robot = cls(loaded.model, loaded.base, loaded.tip, mimics=loaded.mimics)
         robot.source = Path(path)
         return robot
 

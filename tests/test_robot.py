@@ -186,8 +186,8 @@ def test_bad_requests_are_explained():
         Robot.from_urdf(path, "panda_link0", "panda_link9")
     with pytest.raises(UrdfError, match="no joint moves between"):
         Robot.from_urdf(path, "panda_link7", "panda_link8")
-    with pytest.raises(UrdfError, match="panda_leftfinger, panda_rightfinger"):
-        Robot.from_urdf(path)
+    with pytest.raises(UrdfError, match="choose the tip, one of"):
+        Robot.from_urdf(example("talos_reduced.urdf"))
     with pytest.raises(UrdfError, match="No such file"):
         Robot.from_urdf("missing.urdf")
 

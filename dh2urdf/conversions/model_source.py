@@ -7,13 +7,14 @@ import pinocchio as pin
 
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.kinematic_tree import TIP_NAMES
 from dh2urdf.conversions.model_to_chain import (
     ChainPath,
     chain_path,
-    default_tip,
     frame_id,
     frame_names,
     model_to_chain,
+    tip_names,
 )
 from dh2urdf.conversions.tree_to_chain import Actuation, ChainSource
 from dh2urdf.exceptions import UrdfError
@@ -35,7 +36,7 @@ def model_source(
     if not links:
         raise UrdfError(f"{model.name}: the model has no links")
     base_id = frame_id(model, base or links[0])
-    tip_id = default_tip(model, base_id) if tip is None else frame_id(model, tip)
+    tip_id = _default_tip(model, base_id) if tip is None else frame_id(model, tip)
     path = chain_path(model, base_id, tip_id)
     chain = model_to_chain(model, path)
     T_world_base = _neutral_frames(model, base_id)
@@ -94,3 +95,32 @@ def _drive(model: pin.Model, i: int) -> Actuation:
         value = float(values[v])
         found.append(value if np.isfinite(value) and 0 < value < 1e10 else None)
     return Actuation(*found)
+
+
+def _default_tip(model: pin.Model, base: int) -> int:
+    """The tip with the most joints from the base.
+
+    Among tips on the same last joint a usual name wins, then the last in the file.
+
+    Raises
+    ------
+    UrdfError
+        Tips of different branches with equally many joints; the message lists them.
+    """
+    found: dict[tuple[int, ...], list[int]] = {}
+    for name in tip_names(model):
+        tip = frame_id(model, name)
+        try:
+            found.setdefault(chain_path(model, base, tip).ids, []).append(tip)
+        except UrdfError:
+            continue
+    if not found:
+        raise UrdfError("the model has no chain of revolute and prismatic joints")
+    most = max(map(len, found))
+    longest = [tips for ids, tips in found.items() if len(ids) == most]
+    if len(longest) > 1:
+        names = ", ".join(model.frames[t].name for tips in longest for t in tips)
+        raise UrdfError(f"several chains of {most} joints; name the tip, one of: {names}")
+    tips = {model.frames[t].name: t for t in longest[0]}
+    usual = [tips[name] for name in TIP_NAMES if name in tips]
+    return usual[0] if usual else longest[0][-1]

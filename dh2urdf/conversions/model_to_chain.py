@@ -149,36 +149,3 @@ def frame_with_z(axis: Array) -> Array:
         x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
         x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)
-
-
-TIP_NAMES = ("tool0", "tcp", "tool", "flange", "ee_link", "end_effector")
-"""Names by which URDFs call the end of an arm, tried in this order among equal chains."""
-
-
-def default_tip(model: pin.Model, base: int) -> int:
-    """The tip with the most joints from the base.
-
-    Among tips on the same last joint a usual name wins, then the last in the file.
-
-    Raises
-    ------
-    UrdfError
-        Tips of different branches with equally many joints; the message lists them.
-    """
-    found: dict[tuple[int, ...], list[int]] = {}
-    for name in tip_names(model):
-        tip = frame_id(model, name)
-        try:
-            found.setdefault(chain_path(model, base, tip).ids, []).append(tip)
-        except UrdfError:
-            continue
-    if not found:
-        raise UrdfError("the model has no chain of revolute and prismatic joints")
-    most = max(map(len, found))
-    longest = [tips for ids, tips in found.items() if len(ids) == most]
-    if len(longest) > 1:
-        names = ", ".join(model.frames[t].name for tips in longest for t in tips)
-        raise UrdfError(f"several chains of {most} joints; name the tip, one of: {names}")
-    tips = {model.frames[t].name: t for t in longest[0]}
-    usual = [tips[name] for name in TIP_NAMES if name in tips]
-    return usual[0] if usual else longest[0][-1]

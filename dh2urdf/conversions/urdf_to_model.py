@@ -9,9 +9,11 @@ from pathlib import Path
 import pinocchio as pin
 from lxml import etree
 
+from dh2urdf.conversions.kinematic_tree import choose_ends
+from dh2urdf.conversions.read_urdf import parse_xml, read_urdf
 from dh2urdf.exceptions import MissingExtraError, UrdfError
 
-__all__ = ["Mimic", "load_model", "read_mimics"]
+__all__ = ["LoadedModel", "Mimic", "load_model"]
 
 
 @dataclass(frozen=True)
@@ -23,53 +25,59 @@ class Mimic:
     offset: float
 
 
-def load_model(path: str | os.PathLike[str]) -> tuple[pin.Model, dict[str, Mimic]]:
-    """Pinocchio's model of a file, and which of its joints mimic another.
+@dataclass(frozen=True, eq=False)
+class LoadedModel:
+    """Pinocchio's model of a file, the ends of the chain in it, and which joints mimic another.
 
     Mimicking joints are joints of their own in the model.
+    """
+
+    model: pin.Model
+    base: str
+    tip: str
+    mimics: dict[str, Mimic]
+
+
+def load_model(path: str | os.PathLike[str], base: str | None, tip: str | None) -> LoadedModel:
+    """Read a file; without base and tip take the root and the end of the longest chain.
 
     Raises
     ------
     UrdfError
-        The file cannot be read or is no robot.
+        The file cannot be read or is no robot; the message names the line and the element.
+    NameNotFoundError
+        No link of that name.
     MissingExtraError
-        A xacro file without the ``xacro`` extra.
+        A xacro file without the ``xacro`` extra, an MJCF without ``mjcf``.
     """
     source = Path(path)
     try:
-        head = source.read_bytes()
-    except OSError as error:
-        raise UrdfError(f"{source}: {error.strerror or error}") from None
+        data = source.read_bytes()
+    except (OSError, ValueError) as error:
+        raise UrdfError(f"{source}: {getattr(error, 'strerror', None) or error}") from None
     if source.suffix == ".xacro":
-        head = expand_xacro(source).encode()
-    root = parse_xml(head, str(source))
+        data = expand_xacro(source).encode()
+    root = parse_xml(data, str(source))
     if root.tag == "mujoco":
-        return pin.buildModelFromMJCF(os.fspath(source)), {}
-    if root.tag != "robot":
-        raise UrdfError(f"{source}:{root.sourceline}: root element is <{root.tag}>, not <robot>")
+        return _from_mjcf(source, base, tip)
+    ends = choose_ends(read_urdf(root, str(source)), base, tip)
     try:
-        model = pin.buildModelFromXML(head.decode("utf-8", "replace"))
+        model = pin.buildModelFromXML(etree.tostring(root, encoding="unicode"))
     except (ValueError, RuntimeError) as error:
         raise UrdfError(f"{source}: Pinocchio does not load it: {error}") from None
-    return model, read_mimics(root)
+    return LoadedModel(model, *ends, read_mimics(root))
 
 
-def parse_xml(data: bytes, name: str) -> etree._Element:
-    """The root element, entities and network off.
+def _from_mjcf(source: Path, base: str | None, tip: str | None) -> LoadedModel:
+    from dh2urdf.conversions.read_mjcf import read_mjcf
 
-    Raises
-    ------
-    UrdfError
-        Not XML; the message names the line.
-    """
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    tree, _ = read_mjcf(source)
+    start, end = choose_ends(tree, base, tip)
     try:
-        root = etree.fromstring(data, parser)
-    except etree.XMLSyntaxError as error:
-        raise UrdfError(f"{name}: not XML: {error.msg}") from None
-    if root.getroottree().docinfo.doctype:
-        raise UrdfError(f"{name}: a document type or entities are not allowed in a URDF")
-    return root
+        model = pin.buildModelFromMJCF(os.fspath(source))
+    except (ValueError, RuntimeError) as error:
+        raise UrdfError(f"{source}: Pinocchio does not load it: {error}") from None
+    return LoadedModel(model, model.frames[0].name if start == tree.root else start, end, {})
 
 
 def expand_xacro(source: Path) -> str:

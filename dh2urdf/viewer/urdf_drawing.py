@@ -12,7 +12,7 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.conversions.bodies import Body
-from dh2urdf.conversions.urdf_to_model import parse_xml
+from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh import Origin
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
