@@ -13,10 +13,10 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family, task_error
 from dh2urdf.ik.solutions import (
-    BRANCH_WORDS,
     IKBatch,
     IKSolutions,
     as_configuration,
+    branch_words_of,
     joints_of_mask,
 )
 from dh2urdf.ik.solver import Solver, Task
@@ -62,8 +62,8 @@ class Problem:
     ) -> None:
         self.chain, self.solver, self.task = chain, solver, task
         self.moving, self.referee = moving, referee
-        self.branch_words = getattr(solver, "branch_words", BRANCH_WORDS)
-        self._shape = (1, solver.kmax, chain.n)
+        self.branch_words = branch_words_of(solver)
+        self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
         self._solve = solver.solve_batch
         from dh2urdf.kernels.poses import first_bad_pose
 
@@ -71,15 +71,12 @@ class Problem:
 
     def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
         """All solutions of one checked pose Ts (1, 4, 4)."""
-        shape = self._shape
-        q, residual = np.empty(shape), np.empty(shape[:2])
-        codes = np.zeros((2, 1, shape[1]), np.int64)
+        q, residual = np.empty(self._shape), np.empty(self._rows)
+        branch, free = np.zeros(self._rows, np.int64), np.zeros(self._rows, np.int64)
         count = np.empty(1, np.int64)
-        branch, free = codes[0], codes[1]
         self._solve(Ts, within_limits, q, residual, count, branch, free)
-        k = int(count[0])
-        found = IKSolutions(self, Ts[0], q[0, :k], residual[0, :k], branch[0, :k], free[0, :k])
-        if any(free[0].tolist()):
+        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, int(count[0]))
+        if any(free.tolist()[0]):
             return self._families_inside(found, within_limits)
         return found
 
@@ -167,7 +164,7 @@ class Problem:
         poses = np.empty((len(q), 4, 4))
         chain_fk_batch(self.chain.links, self.chain.prismatic, q, poses)
         residual = residual_of_poses(poses, found.T, self.task)
-        return IKSolutions(self, found.T, q, residual, *found.codes)
+        return IKSolutions.of(self, found.T, q, residual, *found.codes)
 
     def measure(self, q: Array, T: Array) -> Array:
         """Residuals of configurations q (k, n) by the independent forward kinematics."""

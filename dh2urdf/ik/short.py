@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]
@@ -59,6 +59,9 @@ class ShortChain(SolverBase):
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         super().__init__(chain, task, others)
+        from dh2urdf.kernels.short_chains import solve_short_chains
+
+        self._kernel: BatchKernel = solve_short_chains
         self.ends = inverse(self.links[[0, -1]])
         self.unit = chain.size
         self.loop = _loop_links(self.links, self.unit)
@@ -136,10 +139,7 @@ class ShortChain(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        from dh2urdf.kernels.certify import new_work
-        from dh2urdf.kernels.short_chains import solve_short_chains
-
-        solve_short_chains(
+        self._kernel(
             self.links,
             self.joints,
             self.ends,
@@ -154,7 +154,6 @@ class ShortChain(SolverBase):
             count_out,
             branch_out,
             free_out,
-            new_work(self.chain.n),
         )
 
 

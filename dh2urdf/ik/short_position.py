@@ -8,10 +8,10 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["ShortPosition"]
+__all__ = ["ShortPosition", "axis_frames"]
 
 MOST_JOINTS = 3
 
@@ -29,7 +29,10 @@ class ShortPosition(SolverBase):
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         super().__init__(chain, task, others)
-        frames = _axis_frames(chain)
+        from dh2urdf.kernels.short_position import solve_short_positions
+
+        self._kernel: BatchKernel = solve_short_positions
+        frames = axis_frames(chain)
         self.tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
         steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
         self.frames = np.ascontiguousarray(np.stack(steps))
@@ -62,10 +65,7 @@ class ShortPosition(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        from dh2urdf.kernels.certify import new_work
-        from dh2urdf.kernels.short_position import solve_short_positions
-
-        solve_short_positions(
+        self._kernel(
             self.links,
             self.joints,
             self.frames,
@@ -78,11 +78,10 @@ class ShortPosition(SolverBase):
             count_out,
             branch_out,
             free_out,
-            new_work(self.chain.n),
         )
 
 
-def _axis_frames(chain: SerialChain) -> list[Array]:
+def axis_frames(chain: SerialChain) -> list[Array]:
     """Frames F_i on the axes at q = 0; the first two turning ones on their common normal."""
     frames = [frame.copy() for frame in chain.joint_frames]
     if chain.n > 1 and not chain.prismatic[:2].any():

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem
     from dh2urdf.transforms import Array
 
-__all__ = ["IKBatch", "IKSolutions", "branch_name", "joints_of_mask"]
+    Arrays = tuple[Array, Array, "IntArray", "IntArray"]
+
+__all__ = ["IKBatch", "IKSolutions", "branch_name", "branch_words_of", "joints_of_mask"]
 
 BRANCH_WORDS = (
     ("shoulder left", "shoulder right"),
@@ -29,7 +31,16 @@ BRANCH_WORDS = (
 """Names of the bits of a branch code, value 0 first."""
 
 
-def branch_name(code: int, words: Sequence[tuple[str, str] | None] = BRANCH_WORDS) -> str:
+BranchWords = Sequence[tuple[str, str] | None]
+
+
+def branch_words_of(solver: object) -> BranchWords:
+    """Names of the bits of a solver's branch codes; None for a bit without meaning."""
+    words: BranchWords = getattr(solver, "branch_words", BRANCH_WORDS)
+    return words
+
+
+def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
     """Readable name of a branch code; empty where the family has no names (-1)."""
     if code < 0:
         return ""
@@ -39,6 +50,9 @@ def branch_name(code: int, words: Sequence[tuple[str, str] | None] = BRANCH_WORD
 def joints_of_mask(mask: int) -> tuple[int, ...]:
     """Indices of the joints whose bits are set."""
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
+
+
+IntArray = NDArray[np.int64]
 
 
 class IKSolutions:
@@ -58,52 +72,46 @@ class IKSolutions:
         The target.
     """
 
-    __slots__ = ("_branch", "_free", "_problem", "_q", "_residual", "_target")
+    __slots__ = ("_arrays", "_index", "_problem", "_targets", "count")
 
     def __init__(
-        self,
-        problem: Problem,
-        target: Array,
-        q: Array,
-        residual: Array,
-        branch: NDArray[np.int64],
-        free: NDArray[np.int64],
+        self, problem: Problem, targets: Array, arrays: Arrays, index: int, count: int
     ) -> None:
-        self._problem, self._target = problem, target
-        self._q, self._residual, self._branch, self._free = q, residual, branch, free
+        self._problem, self._targets, self._arrays = problem, targets, arrays
+        self._index, self.count = index, count
 
     @property
     def q(self) -> Array:
         """Configurations, shape (k, n), read-only."""
-        self._q.flags.writeable = False
-        return self._q
+        return _read_only(self._arrays[0][self._index, : self.count])
 
     @property
     def residual(self) -> Array:
         """Residual of each solution [m and rad], shape (k,), read-only."""
-        self._residual.flags.writeable = False
-        return self._residual
+        return _read_only(self._arrays[1][self._index, : self.count])
 
     @property
     def branch(self) -> tuple[str, ...]:
         """Name of each solution's branch."""
         words = self._problem.branch_words
-        return tuple(branch_name(int(code), words) for code in self._branch)
+        return tuple(branch_name(code, words) for code in self.codes[0].tolist())
 
     @property
     def free_joints(self) -> tuple[tuple[int, ...], ...]:
         """Joints that can move along a singular family, one tuple per solution."""
-        return tuple(joints_of_mask(int(mask)) for mask in self._free)
+        return tuple(joints_of_mask(mask) for mask in self.codes[1].tolist())
 
     @property
     def T(self) -> Array:
         """The target pose, shape (4, 4)."""
-        return self._target
+        target: Array = self._targets[self._index]
+        return target
 
     @property
-    def codes(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    def codes(self) -> tuple[IntArray, IntArray]:
         """Branch codes and masks of free joints, two arrays of shape (k,)."""
-        return self._branch, self._free
+        _, _, branch, free = self._arrays
+        return branch[self._index, : self.count], free[self._index, : self.count]
 
     def nearest(self, q: ArrayLike) -> Array:
         """The solution with the least joint motion from q, shape (n,).
@@ -123,13 +131,13 @@ class IKSolutions:
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""
-        return self._problem.measure(self.q, self._target)
+        return self._problem.measure(self.q, self.T)
 
     def __len__(self) -> int:
-        return len(self._q)
+        return self.count
 
     def __bool__(self) -> bool:
-        return len(self._q) > 0
+        return self.count > 0
 
     @overload
     def __getitem__(self, index: int) -> Array: ...
@@ -144,29 +152,37 @@ class IKSolutions:
     def __iter__(self) -> Iterator[Array]:
         return iter(self.q)
 
-    def select(self, rows: NDArray[np.int64] | NDArray[np.bool_]) -> IKSolutions:
+    def select(self, rows: IntArray | NDArray[np.bool_]) -> IKSolutions:
         """The solutions of some rows, in that order."""
-        return IKSolutions(
-            self._problem,
-            self._target,
-            self._q[rows],
-            self._residual[rows],
-            self._branch[rows],
-            self._free[rows],
-        )
+        branch, free = self.codes
+        q, residual = self.q[rows], self.residual[rows]
+        return IKSolutions.of(self._problem, self.T, q, residual, branch[rows], free[rows])
+
+    @classmethod
+    def of(
+        cls,
+        problem: Problem,
+        target: Array,
+        q: Array,
+        residual: Array,
+        branch: IntArray,
+        free: IntArray,
+    ) -> IKSolutions:
+        """Solutions of one target (4, 4) from arrays with a row for each."""
+        arrays = q[None], residual[None], branch[None], free[None]
+        return cls(problem, target[None], arrays, 0, len(q))
 
     def __repr__(self) -> str:
-        k = len(self)
-        if not k:
+        if not self:
             return "<IKSolutions: none>"
-        worst = float(self._residual.max())
-        return f"<IKSolutions: {k} of {self._q.shape[1]} joints, residual <= {worst:.1e}>"
+        worst = float(self.residual.max())
+        return f"<IKSolutions: {len(self)} of {self.q.shape[1]} joints, residual <= {worst:.1e}>"
 
     def __str__(self) -> str:
         if not self:
             return "no solution"
         lines = []
-        rows = zip(self._q, self._residual, self.branch, self.free_joints, strict=True)
+        rows = zip(self.q + 0.0, self.residual, self.branch, self.free_joints, strict=True)
         for i, (q, residual, branch, free) in enumerate(rows):
             values = " ".join(f"{v:9.5f}" for v in q)
             notes = [note for note in (branch, free and f"free joints {free}") if note]
@@ -196,21 +212,14 @@ class IKBatch:
     targets: Array
     q: Array
     residual: Array
-    count: NDArray[np.int64]
-    branch_code: NDArray[np.int64]
-    free_mask: NDArray[np.int64]
+    count: IntArray
+    branch_code: IntArray
+    free_mask: IntArray
 
     def solutions(self, i: int) -> IKSolutions:
         """The solutions of pose i."""
-        k = int(self.count[i])
-        return IKSolutions(
-            self.problem,
-            self.targets[i],
-            self.q[i, :k],
-            self.residual[i, :k],
-            self.branch_code[i, :k],
-            self.free_mask[i, :k],
-        )
+        arrays = self.q, self.residual, self.branch_code, self.free_mask
+        return IKSolutions(self.problem, self.targets, arrays, i, int(self.count[i]))
 
     @cached_property
     def solved(self) -> NDArray[np.bool_]:
@@ -228,13 +237,19 @@ class IKBatch:
         if isinstance(index, int):
             if not -len(self) <= index < len(self):
                 raise IndexError(f"pose {index} of a batch of {len(self)}")
-            return self.solutions(index)
+            return self.solutions(index % len(self))
         keys = ("targets", "q", "residual", "count", "branch_code", "free_mask")
         return replace(self, **{key: getattr(self, key)[index] for key in keys})
 
     def __repr__(self) -> str:
         total = int(self.count.sum())
         return f"<IKBatch: {len(self)} poses, {int(self.solved.sum())} reached, {total} solutions>"
+
+
+def _read_only(view: Array) -> Array:
+    """The view, protected from writing."""
+    view.flags.writeable = False
+    return view
 
 
 def as_configuration(q: ArrayLike, n: int, what: str) -> Array:

@@ -11,6 +11,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solutions import branch_words_of
 from dh2urdf.ik.solver import IntArray, Solver, SolverBase, Task, select_solver
 from dh2urdf.transforms import Array
 
@@ -42,6 +43,7 @@ class ToolAxis(SolverBase):
         super().__init__(chain, task, others)
         self.inner: Solver = select_solver(with_tool_joint(chain), Task.POSE)
         self.kmax = self.inner.kmax
+        self.branch_words = branch_words_of(self.inner)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION_AXIS) -> str | None:

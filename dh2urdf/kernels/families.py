@@ -9,7 +9,7 @@ from numba import njit
 
 from dh2urdf.kernels.certify import ACCEPT, _normal_equations, polish
 
-__all__ = ["free_joints"]
+__all__ = ["free_joints", "work_array"]
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
@@ -19,6 +19,12 @@ WALK = 0.05
 
 MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def work_array(n):
+    """Scratch as :func:`dh2urdf.kernels.certify.new_work` makes it, for jitted callers."""
+    return np.empty((n, n + 8))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -16,7 +16,7 @@ from numba import njit
 from dh2urdf.kernels.certify import CLUSTER, TWO_PI, _move, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
-from dh2urdf.kernels.families import free_joints
+from dh2urdf.kernels.families import free_joints, work_array
 from dh2urdf.kernels.merging import merge_solutions
 from dh2urdf.kernels.short_candidates import add_candidates
 from dh2urdf.kernels.short_loop import (
@@ -173,7 +173,6 @@ def solve_short_chains(
     count,
     branch,
     free,
-    work,
 ):
     """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 
@@ -195,10 +194,9 @@ def solve_short_chains(
         Rest value of each joint, then the length of one dual unit [m].
     Ts, within_limits, q, residual, count, branch, free
         See :class:`dh2urdf.ik.solver.Solver`.
-    work : array
-        From :func:`dh2urdf.kernels.certify.new_work`.
     """
     n = joints.shape[0]
+    work = work_array(n)
     loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, 5))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order, slides = np.empty(8, np.int64), np.empty((8, 3))

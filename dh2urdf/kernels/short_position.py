@@ -18,6 +18,7 @@ import math
 import numpy as np
 from numba import njit
 
+from dh2urdf.kernels.families import work_array
 from dh2urdf.kernels.position_task import finish_position
 from dh2urdf.kernels.short_loop import SAMPLE_ANGLE, SAMPLE_TABLE, SAMPLES
 from dh2urdf.kernels.trig import trig_roots
@@ -282,7 +283,7 @@ def _candidates(slides, frames, tip, T, rest, unit, roots, work, pairs, q):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def solve_short_positions(
-    links, joints, frames, tip, rest_unit, Ts, within_limits, q, residual, count, branch, free, work
+    links, joints, frames, tip, rest_unit, Ts, within_limits, q, residual, count, branch, free
 ):
     """Solve the origins of poses Ts (m, 4, 4) of a chain of n <= 3 joints.
 
@@ -297,10 +298,9 @@ def solve_short_positions(
         Rest values, then the size of the arm [m].
     Ts, within_limits, q, residual, count, branch, free
         See :class:`dh2urdf.ik.solver.Solver`.
-    work : array
-        From :func:`dh2urdf.kernels.certify.new_work`.
     """
     n = joints.shape[0]
+    work = work_array(n)
     slides = joints[:, 0] != 0.0
     rest, unit = rest_unit[:n], rest_unit[n]
     roots, scratch, pairs, trial = np.empty((3, 5)), np.empty((5, 3)), np.empty((2, 2)), np.empty(n)

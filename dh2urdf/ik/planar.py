@@ -1,0 +1,215 @@
+"""The inverse kinematics of the lecture notes, section 8, as functions to call and to read.
+
+:func:`planar_rr_ik` and :func:`planar_rrr_ik` are 8.2, :func:`wrist_centre` is equation (5) of 8.3;
+the ZYZ angles of its last step are :func:`dh2urdf.transforms.matrix_to_zyz`. ``Robot.ik`` runs the
+same kernels on arms with two or three parallel axes (:class:`PlanarArm`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.short_position import axis_frames
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.tolerances import SNAP
+from dh2urdf.transforms import Array, check_pose, inverse
+
+__all__ = [
+    "PlanarArm",
+    "planar_reach",
+    "planar_rr_ik",
+    "planar_rrr_ik",
+    "wrist_centre",
+]
+
+RIM = 1e-12
+"""Relative excess over the rim of the annulus that is rounding of the point or the lengths."""
+
+
+def planar_reach(l1: float, l2: float) -> tuple[float, float]:
+    """Inner and outer radius [m] of the annulus that the planar RR arm reaches.
+
+    ``(l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2`` is the workspace.
+    """
+    return abs(l1 - l2), l1 + l2
+
+
+def planar_rr_ik(l1: float, l2: float, x: float, y: float) -> Array:
+    """Joint angles of the planar RR arm that reach a point.
+
+    Parameters
+    ----------
+    l1, l2 : float
+        Link lengths [m].
+    x, y : float
+        The point [m].
+
+    Returns
+    -------
+    array, shape (k, 2)
+        Rows (theta_1, theta_2) [rad]: elbow up (theta_2 < 0), elbow down. One row on the rim of
+        the annulus, none outside it. At ``x = y = 0`` with ``l1 = l2`` theta_1 is free; the one
+        row has theta_1 = 0.
+
+    Examples
+    --------
+    >>> planar_rr_ik(1.0, 1.0, 1.0, 1.0).round(4) + 0.0
+    array([[ 1.5708, -1.5708],
+           [ 0.    ,  1.5708]])
+    """
+    from dh2urdf.kernels.planar import planar_rr
+
+    _check_lengths((l1, l2), (x, y))
+    out = np.empty((2, 2))
+    count, _ = planar_rr(float(l1), float(l2), float(x), float(y), RIM, 0.0, out)
+    return _principal(out[:count])
+
+
+def planar_rrr_ik(l1: float, l2: float, l3: float, x: float, y: float, phi: float) -> Array:
+    """Joint angles of the planar RRR arm that reach a point in a direction.
+
+    The wrist stands at ``(x - l3 cos phi, y - l3 sin phi)``; the first two joints take it there,
+    and ``theta_3 = phi - theta_1 - theta_2``.
+
+    Parameters
+    ----------
+    l1, l2, l3 : float
+        Link lengths [m].
+    x, y : float
+        The point [m].
+    phi : float
+        Direction of the last link [rad].
+
+    Returns
+    -------
+    array, shape (k, 3)
+        As for :func:`planar_rr_ik`.
+    """
+    _check_lengths((l1, l2, l3), (x, y, phi))
+    upper = planar_rr_ik(l1, l2, x - l3 * math.cos(phi), y - l3 * math.sin(phi))
+    return _principal(np.column_stack([upper, phi - upper.sum(axis=1)]))
+
+
+def wrist_centre(T: ArrayLike, d6: float) -> Array:
+    """Wrist centre of a pose, ``o_c = o - d6 R e_3``, shape (3,) or (..., 3) [m].
+
+    Parameters
+    ----------
+    T : array_like, shape (4, 4) or (..., 4, 4)
+        Pose of frame 6; with a tool on it, take the tool off first.
+    d6 : float
+        Distance of frame 6 from the wrist centre along its z [m].
+    """
+    pose = check_pose(T)
+    centre: Array = pose[..., :3, 3] - d6 * pose[..., :3, 2]
+    return centre
+
+
+class PlanarArm(SolverBase):
+    """Two or three turning joints with parallel axes: lecture notes 8.2."""
+
+    name = "planar arm"
+    kmax = 2
+    branch_words = (None, ("elbow up", "elbow down"))
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        from dh2urdf.kernels.planar import solve_planar
+
+        self._kernel: BatchKernel = solve_planar
+        frames = axis_frames(chain)
+        T_first_base = inverse(frames[0])
+        last = chain.tool if chain.n == 2 else frames[2]
+        point = (inverse(chain.tool) @ last)[:3, 3]
+        link1 = (T_first_base @ frames[1])[0, 3]
+        link2 = ((T_first_base @ last)[:3, 3])[:2] - (link1, 0.0)
+        signs = np.sign(chain.axes @ chain.axes[0])
+        self.plane = np.stack([T_first_base, inverse(chain.tool) @ frames[0]])
+        self.form = np.array(
+            [
+                link1,
+                math.hypot(*link2),
+                math.atan2(link2[1], link2[0]),
+                signs[1],
+                signs[-1],
+                *point,
+                float(np.clip(0.0, chain.lower[0], chain.upper[0])),
+            ]
+        )
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps the notes' planar arm from covering a chain; None if nothing does."""
+        if chain.prismatic.any() or chain.n not in (2, 3):
+            return "it needs two or three revolute joints"
+        if np.abs(np.cross(chain.axes[0], chain.axes)).max() > SNAP:
+            return "the axes are not parallel"
+        if task is Task.POSITION_AXIS or (task is Task.POSITION and chain.n == 3):
+            return f"it does not solve for {task.value} with {chain.n} joints"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool stays"
+        return None
+
+    def details(self) -> str:
+        """Name the lengths and the reach."""
+        l1, l2 = self.form[:2]
+        inner, outer = planar_reach(l1, l2)
+        what = "the tool" if self.chain.n == 2 else "axis 3"
+        return (
+            f"parallel axes (lecture notes 8.2), l1 = {l1:.4g} m, l2 = {l2:.4g} m; "
+            f"{what} reaches an annulus from {inner:.4g} to {outer:.4g} m"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
+        self._kernel(
+            self.links,
+            self.joints,
+            self.plane,
+            self.form,
+            self.task is Task.POSE,
+            Ts,
+            within_limits,
+            q_out,
+            residual_out,
+            count_out,
+            branch_out,
+            free_out,
+        )
+
+
+def _check_lengths(lengths: Sequence[float], others: Sequence[float]) -> None:
+    """Raise for negative lengths and for anything that is not a finite number."""
+    for value in (*lengths, *others):
+        if not isinstance(value, (int, float, np.number)) or not math.isfinite(value):
+            raise PoseError(f"expected finite numbers, got {value!r}")
+    if min(lengths) < 0.0:
+        raise ConfigurationError(
+            f"link lengths must not be negative: {', '.join(map(str, lengths))}"
+        )
+
+
+def _principal(q: Array) -> Array:
+    """Angles in [-pi, pi]."""
+    return np.where(np.abs(q) <= math.pi, q, q - 2.0 * math.pi * np.round(q / (2.0 * math.pi)))

@@ -1,0 +1,152 @@
+"""The planar RR and RRR arms of lecture notes 8.2.
+
+``x = l1 cos t1 + l2 cos(t1 + t2)``, ``y = l1 sin t1 + l2 sin(t1 + t2)``, ``phi = t1 + t2 + t3``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.families import work_array
+from dh2urdf.kernels.position_task import finish_position
+from dh2urdf.kernels.trig import elbow_angle
+
+__all__ = ["planar_rr", "solve_planar"]
+
+ON_AXIS = 1e-10
+"""Distance of the point from axis 1, relative to the reach, that leaves no direction."""
+
+SLACK = 1e-6
+"""Relative excess over a rim that is clamped; the residual decides."""
+
+ELBOW_UP = 0
+ELBOW_DOWN = 2
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def planar_rr(l1, l2, x, y, slack, rest, out):
+    """Both elbows of the planar RR arm.
+
+    ``cos t2 = (x^2 + y^2 - l1^2 - l2^2) / (2 l1 l2)`` with its sine of either sign, and
+    ``t1 = atan2(y, x) - atan2(l2 sin t2, l1 + l2 cos t2)``. A solution exists for
+    ``(l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2``; on either rim the elbows are one.
+
+    Parameters
+    ----------
+    l1, l2, x, y : float
+        Link lengths, not negative, and the point [m].
+    slack : float
+        Relative excess over a rim that is clamped.
+    rest : float
+        t1 [rad] where ``x = y = 0``, which leaves it free.
+    out : array, shape (2, 2)
+        Rows t1, t2 [rad]: elbow up (t2 negative), elbow down.
+
+    Returns
+    -------
+    count : int
+    free : bool
+        t1 is free.
+    """
+    if l1 <= 0.0 or l2 <= 0.0:
+        return _one_link(l1, l2, x, y, slack, rest, out)
+    square = x * x + y * y
+    count, c2, s2 = elbow_angle(l1, l2, square, slack)
+    free = count > 0 and math.sqrt(square) <= ON_AXIS * (l1 + l2)
+    if free:
+        out[0, 0], out[0, 1] = rest, math.pi
+        return 1, True
+    for k in range(count):
+        sine = -s2 if k == 0 else s2
+        out[k, 0] = math.atan2(y, x) - math.atan2(l2 * sine, l1 + l2 * c2)
+        out[k, 1] = math.atan2(sine, c2)
+    return count, False
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _one_link(l1, l2, x, y, slack, rest, out):
+    """The arm with a link of no length: a circle, and one angle free."""
+    length, distance = l1 + l2, math.hypot(x, y)
+    if abs(distance - length) > slack * length:
+        return 0, False
+    out[0, 0], out[0, 1] = math.atan2(y, x), rest
+    if l1 <= 0.0:
+        out[0, 0], out[0, 1] = rest, math.atan2(y, x) - rest
+    return 1, True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_planar(
+    links, joints, plane, form, pose, Ts, within_limits, q, residual, count, branch, free
+):
+    """Solve poses Ts (m, 4, 4) of two or three turning joints with parallel axes.
+
+    Parameters
+    ----------
+    links, joints
+        See :func:`dh2urdf.kernels.certify.finish_pose`.
+    plane : array, shape (2, 4, 4)
+        Base to the frame on axis 1, x to axis 2; what takes the tool's pose at q = 0 back to it.
+    form : array, shape (9,)
+        l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3, the point on the last
+        axis (the tool's origin for two joints) in the tool frame [m], rest value of joint 1.
+    pose : bool
+        The full pose, or the position only (two joints).
+    Ts, within_limits, q, residual, count, branch, free
+        See :class:`dh2urdf.ik.solver.Solver`.
+    """
+    n = joints.shape[0]
+    work = work_array(n)
+    trial, pairs = np.empty(n), np.empty((2, 2))
+    l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
+    for i in range(Ts.shape[0]):
+        T = Ts[i]
+        px = T[0, 0] * form[5] + T[0, 1] * form[6] + T[0, 2] * form[7] + T[0, 3]
+        py = T[1, 0] * form[5] + T[1, 1] * form[6] + T[1, 2] * form[7] + T[1, 3]
+        pz = T[2, 0] * form[5] + T[2, 1] * form[6] + T[2, 2] * form[7] + T[2, 3]
+        F = plane[0]
+        x = F[0, 0] * px + F[0, 1] * py + F[0, 2] * pz + F[0, 3]
+        y = F[1, 0] * px + F[1, 1] * py + F[1, 2] * pz + F[1, 3]
+        rows, no_direction = planar_rr(l1, l2, x, y, SLACK, rest, pairs)
+        for k in range(rows):
+            t1, t2 = pairs[k, 0], pairs[k, 1]
+            q[i, k, 0], q[i, k, 1] = t1, sign2 * (t2 - lean)
+            if n == 3:
+                q[i, k, 2] = sign3 * (_heading(F, T, plane[1]) - t1 - t2 + lean)
+            residual[i, k], free[i, k] = -1.0, 0
+            branch[i, k] = ELBOW_UP if k == 0 else ELBOW_DOWN
+            if no_direction:
+                free[i, k] = 0b101 if n == 3 else 0b01
+        if pose:
+            count[i] = finish_pose(
+                links, joints, T, within_limits, q[i], residual[i], branch[i], free[i], rows, work
+            )
+        else:
+            count[i] = finish_position(
+                links,
+                joints,
+                T,
+                within_limits,
+                q[i],
+                residual[i],
+                branch[i],
+                free[i],
+                rows,
+                trial,
+                work,
+            )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _heading(F, T, N):
+    """Angle about the axes from the tool at q = 0 to T: that of ``F R N``."""
+    g0, g1 = 0.0, 0.0
+    for j in range(3):
+        across = T[j, 0] * N[0, 0] + T[j, 1] * N[1, 0] + T[j, 2] * N[2, 0]
+        g0 += F[0, j] * across
+        g1 += F[1, j] * across
+    return math.atan2(g1, g0)
