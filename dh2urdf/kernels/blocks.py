@@ -21,6 +21,7 @@ __all__ = [
     "CLEAR",
     "COS",
     "DIRTY",
+    "MERGED",
     "POSE",
     "RESIDUAL",
     "ROWS",
@@ -31,7 +32,11 @@ __all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure"]
 
 BLOCK = 32
 CLEAR = 1e-6
-"""Relative distance from a rim, or sine of an angle, from which a lane is clean."""
+"""Sine of an angle from which a lane is clean."""
+
+MERGED = CLEAR * CLEAR
+"""Relative distance inside a rim from which a lane is clean; outside it, it is the slack that the
+careful kernel allows."""
 
 POSE, DIRTY, COS = 0, 12, 13
 SIN = COS + 40

@@ -16,6 +16,7 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    MERGED,
     ROWS,
     SIN,
     VALID,
@@ -37,7 +38,7 @@ PLANE = WORK
 
 
 @block_kernel
-def _shoulders(form, n, S):
+def _shoulders(form, slack, n, S):
     """Joint 1, and the pose seen from the arm's plane, for both shoulders."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
     lateral = form[2, 1] * form[3, 3] + form[1, 3] + form[2, 3]
@@ -58,7 +59,7 @@ def _shoulders(form, n, S):
             S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i] = c, s
             S[rows + i], S[rows + BLOCK + i] = reach - a1, y
             S[BLOCK * (VALID + shoulder) + i] = 1.0 if reach2 > 0.0 else 0.0
-            dirty = abs(reach2) < CLEAR * CLEAR * size or square < CLEAR * CLEAR * size
+            dirty = -slack * size < reach2 < MERGED * size or square < MERGED * size
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
         for j in range(3):
             for i in range(n):
@@ -72,7 +73,7 @@ def _shoulders(form, n, S):
 
 
 @block_kernel
-def _elbows(form, n, S):
+def _elbows(form, slack, n, S):
     """Joints 2 and 3 of all four arms: planar RR (lecture notes 8.2)."""
     upper = form[1, 0]
     wx, wy = form[2, 0], -form[2, 2] * form[3, 3]
@@ -100,7 +101,8 @@ def _elbows(form, n, S):
             exists = S[BLOCK * (VALID + shoulder) + i] if product > 0.0 else 0.0
             S[BLOCK * (VALID + 4 + arm) + i] = exists
             size = square + abs(scale)
-            dirty = abs(product) < CLEAR * CLEAR * size * size or square < CLEAR * CLEAR * size
+            touching = -slack * size * size < product < MERGED * size * size
+            dirty = touching or square < MERGED * size
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
@@ -163,8 +165,8 @@ def solve_common_wrist(
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
-        _shoulders(form, n, S)
-        _elbows(form, n, S)
+        _shoulders(form, slack, n, S)
+        _elbows(form, slack, n, S)
         _wrists(form, n, S)
         for k in range(8):
             arm = k & 3

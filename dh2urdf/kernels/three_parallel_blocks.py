@@ -16,6 +16,7 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    MERGED,
     ROWS,
     SIN,
     VALID,
@@ -42,7 +43,7 @@ PLANE = WORK
 
 
 @block_kernel
-def _shoulders(form, n, S):
+def _shoulders(form, slack, n, S):
     """Joint 1 from the offset of the arm's plane, joint 5 from the slope of axis 6."""
     ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
     constant = form[1, 3] + form[2, 3] + form[3, 3]
@@ -73,7 +74,7 @@ def _shoulders(form, n, S):
             S[BLOCK * (COS + 6 + flip) + i], S[BLOCK * (SIN + 6 + flip) + i] = -c6, -s6
             S[BLOCK * (VALID + shoulder) + i] = exists
             size = square + d * d
-            dirty = abs(gap) < CLEAR * CLEAR * size or (s5 < CLEAR and exists > 0.0)
+            dirty = -slack * size < gap < MERGED * size or (s5 < CLEAR and exists > 0.0)
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
@@ -108,7 +109,7 @@ def _planes(form, n, S):
 
 
 @block_kernel
-def _elbows(form, n, S):
+def _elbows(form, slack, n, S):
     """Joints 2, 3 and 4 of all eight arms: planar RRR (lecture notes 8.2)."""
     upper, fore = form[1, 0], form[2, 0]
     scale = 2.0 * upper * fore
@@ -135,7 +136,8 @@ def _elbows(form, n, S):
             S[BLOCK * (SIN + 26 + k) + i] = hy * c - hx * s
             exists = S[BLOCK * (VALID + shoulder) + i]
             size = square + abs(scale)
-            dirty = abs(product) < CLEAR * CLEAR * size * size or square < CLEAR * CLEAR * size
+            touching = -slack * size * size < product < MERGED * size * size
+            dirty = touching or square < MERGED * size
             S[BLOCK * DIRTY + i] += exists if dirty else 0.0
             S[BLOCK * (VALID + k) + i] = exists if product > 0.0 else 0.0
 
@@ -151,9 +153,9 @@ def solve_common_parallel(
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
-        _shoulders(form, n, S)
+        _shoulders(form, slack, n, S)
         _planes(form, n, S)
-        _elbows(form, n, S)
+        _elbows(form, slack, n, S)
         for k in range(8):
             pair = (k & 1) + 2 * (k >> 2)
             measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
