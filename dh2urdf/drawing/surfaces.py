@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -32,11 +32,21 @@ class Surface:
     faces : array, shape (f, 3)
     colour : tuple of 3 ints
         0 to 255.
+    solids : tuple of int
+        Where the vertices of each solid end; empty for one.
     """
 
     vertices: Array
     faces: Faces
     colour: tuple[int, int, int]
+    solids: tuple[int, ...] = ()
+
+    def shrunk(self, share: float) -> Surface:
+        """The same with every solid shrunk about its own middle."""
+        ends = self.solids or (len(self.vertices),)
+        parts = np.split(self.vertices, ends[:-1])
+        small = [part.mean(axis=0) + share * (part - part.mean(axis=0)) for part in parts]
+        return replace(self, vertices=np.concatenate(small))
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +55,11 @@ class Node:
 
     name: str
     surfaces: tuple[Surface, ...]
+
+    def slim(self, share: float) -> Surface:
+        """All of it as one surface, each part shrunk about its middle."""
+        shrunk = [s.shrunk(share) for s in self.surfaces]
+        return merged(shrunk)
 
 
 class Drawing(Protocol):
@@ -87,7 +102,13 @@ def merged(surfaces: list[Surface]) -> Surface:
     offsets = np.cumsum([0, *[len(s.vertices) for s in surfaces[:-1]]])
     faces = [s.faces + np.uint32(at) for s, at in zip(surfaces, offsets, strict=True)]
     vertices = np.concatenate([s.vertices for s in surfaces])
-    return Surface(vertices, np.concatenate(faces).astype(np.uint32), surfaces[0].colour)
+    ends = [
+        int(at) + end
+        for s, at in zip(surfaces, offsets, strict=True)
+        for end in (s.solids or (len(s.vertices),))
+    ]
+    triangles = np.concatenate(faces).astype(np.uint32)
+    return Surface(vertices, triangles, surfaces[0].colour, tuple(ends))
 
 
 def body_surface(body: Body, colour: tuple[int, int, int]) -> Surface:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.drawing.colours import BRANCH_COLOURS, rgb
-from dh2urdf.drawing.surfaces import Drawing, merged
+from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.transforms import Array
 
 __all__ = ["ArmScene", "Ghosts", "quaternions"]
@@ -19,7 +19,7 @@ TRANSLUCENT = 0.25
 GHOST_OPACITY = 0.32
 """Opacity of a ghost."""
 
-SLIM = 0.96
+SLIM = 0.93
 """Size of a ghost's bodies against the arm's, so that coinciding surfaces do not flicker."""
 
 
@@ -140,12 +140,10 @@ class Ghosts:
             handle.on_click(lambda event: on_click(int(event.instance_index or 0)))
 
     def _batch(self, server: Any, k: int) -> Any:
-        surface = merged(list(self.drawing.nodes[k].surfaces))
-        middle = surface.vertices.mean(axis=0)
-        slim = middle + SLIM * (surface.vertices - middle)
+        surface = self.drawing.nodes[k].slim(SLIM)
         return server.scene.add_batched_meshes_simple(
             f"/ghosts/{k}",
-            slim.astype(np.float32),
+            surface.vertices.astype(np.float32),
             surface.faces,
             batched_wxyzs=np.tile([1.0, 0.0, 0.0, 0.0], (self.count, 1)).astype(np.float32),
             batched_positions=np.zeros((self.count, 3), np.float32),

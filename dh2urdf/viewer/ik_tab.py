@@ -87,9 +87,16 @@ class IKTab:
         self.redundancy.build(robot, q)
         self._place_target(robot.fk(q))
         self._show_answer(None)
+        self.target.visible = self.active.value
         if self.active.value:
             self.solve(robot.fk(q))
-        self.target.visible = self.active.value
+        else:
+            threading.Thread(target=self._warm_up, args=(robot, q), daemon=True).start()
+
+    def _warm_up(self, robot: Robot, q: Array) -> None:
+        """Load or compile what solves this arm before anybody asks."""
+        locked = self.redundancy.locked
+        answer(robot, robot.fk(q), q, task=self.task.value, within=False, locked=locked)
 
     def show(self, q: Array) -> None:
         """Follow the arm to q (n,), which some other tab moved."""
@@ -105,6 +112,8 @@ class IKTab:
     def solve(self, T: Array, *, follow: bool = False) -> None:
         """Solve for a target, show what there is; the arm follows to the nearest."""
         self._T = T
+        if self.answer is None:
+            self.status.content = html.message("Solving. The first time takes some seconds.")
         found = answer(
             self.robot,
             T,
