@@ -16,6 +16,7 @@ from dh2urdf.exceptions import NoSolverError
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
+    from dh2urdf.ik.held_solver import HeldSolver
     from dh2urdf.ik.path import IKPath
     from dh2urdf.ik.problem import Progress
     from dh2urdf.ik.solutions import IKBatch, IKSolutions
@@ -36,7 +37,9 @@ class RobotIK:
         """The solver of the full pose; prints as its name, ``explain()`` says why it was chosen."""
         return self._ik.solver
 
-    def solver_for(self, *, task: Task | str = "pose", locked: Locked | None = None) -> Solver:
+    def solver_for(
+        self, *, task: Task | str = "pose", locked: Locked | None = None
+    ) -> Solver | HeldSolver:
         """The solver of a task with joints held, see :meth:`ik`.
 
         Raises
@@ -103,7 +106,7 @@ class RobotIK:
         ----------
         Ts : array_like, shape (m, 4, 4)
         within_limits, locked, task
-            As for :meth:`ik`.
+            As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
         threads : int, optional
             Threads to use; by default one per processor.
         progress : callable, optional

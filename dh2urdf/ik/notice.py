@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 __all__ = ["notice_if_slow"]
 
-PATIENCE = 1.0
+PATIENCE = 2.0
 """Seconds of silence: loading from the cache takes less, compiling takes more."""
 
 logger = logging.getLogger("dh2urdf")

@@ -159,12 +159,18 @@ def _next_stage(
     step = q - last.q[:, None]
     cost = last.cost[:, None] + np.linalg.norm(step, axis=2)
     cost = cost + BREAK * (np.abs(step).max(axis=2) > jump)
-    parent = np.repeat(np.arange(len(last.q)), len(targets))
-    flat_q, flat_cost = q.reshape(-1, q.shape[2]), cost.ravel()
-    order = np.argsort(flat_cost, kind="stable")
-    _, first = np.unique(np.round(flat_q[order], 9), axis=0, return_index=True)
+    order = np.argsort(cost, axis=None, kind="stable")
+    _, first = np.unique(_turn_keys(q, targets).ravel()[order], return_index=True)
     keep = order[np.sort(first)[:MOST_STATES]]
-    return _Stage(pose, flat_q[keep], flat_cost[keep], parent[keep])
+    source, target = np.unravel_index(keep, cost.shape)
+    return _Stage(pose, q[source, target], cost[source, target], source.astype(np.int64))
+
+
+def _turn_keys(q: Array, targets: Array) -> Array:
+    """One number for each target and its turns, of configurations q (f, k, n), shape (f, k)."""
+    turns = np.round((q - targets) / limits.TWO_PI)
+    keys: Array = np.arange(len(targets)) + turns @ (len(targets) * 64.0 ** np.arange(q.shape[2]))
+    return keys
 
 
 def _with_members(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family, task_error
+from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.solutions import (
     IKBatch,
     IKSolutions,
@@ -33,6 +35,8 @@ Progress = Callable[[int, int], None]
 CHUNK = 4096
 """Most poses of one call into a kernel: a few ms, so that progress and Ctrl-C are prompt."""
 
+ALL = slice(None)
+
 SMALL = 256
 """Poses below which a thread costs more than it saves."""
 
@@ -44,27 +48,27 @@ class Problem:
     ----------
     chain : SerialChain
         The whole chain, held joints included.
-    solver : Solver
+    solver : Solver or HeldSolver
     task : Task
-    moving : tuple of int
-        Indices of the joints that are not held.
     referee : callable
         Forward kinematics that is independent of the kernels.
+    values : array, shape (1, h) or (m, h), optional
+        Values of the held joints, for all poses or for each; with a ``HeldSolver`` only.
     """
 
     def __init__(
         self,
         chain: SerialChain,
-        solver: Solver,
+        solver: Solver | HeldSolver,
         task: Task,
-        moving: tuple[int, ...],
         referee: ForwardKinematics,
+        values: Array | None = None,
     ) -> None:
         self.chain, self.solver, self.task = chain, solver, task
-        self.moving, self.referee = moving, referee
+        self.referee, self.values = referee, values
         self.branch_words = branch_words_of(solver)
         self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
-        self._solve = solver.solve_batch
+        self._solve = self._solve_held if isinstance(solver, HeldSolver) else solver.solve_batch
         from dh2urdf.kernels.poses import first_bad_pose
 
         self.first_bad_pose: Callable[[Array], int] = first_bad_pose
@@ -96,16 +100,37 @@ class Problem:
         )
         workers = max(1, threads if threads is not None else os.cpu_count() or 1)
         step = max(SMALL, min(CHUNK, -(-m // workers)))
-        chunks = [batch[i : i + step] for i in range(0, m, step)]
-        _run(lambda part: self._solve_chunk(part, within_limits), chunks, workers, progress, m)
+        chunks = [slice(i, i + step) for i in range(0, m, step)]
+
+        def work(rows: slice) -> int:
+            return self._solve_chunk(batch[rows], rows, within_limits)
+
+        _run(work, chunks, workers, progress, m)
         return batch
 
-    def _solve_chunk(self, part: IKBatch, within_limits: bool) -> int:
+    def _solve_held(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        *arrays: Any,
+        rows: slice = ALL,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) at the held values of these rows of the whole batch."""
+        assert isinstance(self.solver, HeldSolver)
+        assert self.values is not None
+        values = self.values if len(self.values) == 1 else self.values[rows]
+        values = np.ascontiguousarray(np.broadcast_to(values, (len(Ts), values.shape[1])))
+        self.solver.solve_held(Ts, values, within_limits, *arrays)
+
+    def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
         """Fill the arrays of a part of a batch; the number of its poses."""
         from dh2urdf.kernels.poses import pad_solutions
 
         arrays = (part.q, part.residual, part.count, part.branch_code, part.free_mask)
-        self._solve(part.targets, within_limits, *arrays)
+        if self.values is None:
+            self._solve(part.targets, within_limits, *arrays)
+        else:
+            self._solve_held(part.targets, within_limits, *arrays, rows=rows)
         singular = pad_solutions(*arrays, np.nan)
         for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular else ():
             found = self._families_inside(part.solutions(int(i)), within_limits)
@@ -179,8 +204,8 @@ def residual_of_poses(poses: Array, T: Array, task: Task) -> Array:
 
 
 def _run(
-    work: Callable[[IKBatch], int],
-    chunks: list[IKBatch],
+    work: Callable[[slice], int],
+    chunks: list[slice],
     workers: int,
     progress: Progress | None,
     total: int,

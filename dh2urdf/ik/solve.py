@@ -6,7 +6,6 @@ joints that was asked for.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,7 +15,8 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
 from dh2urdf.ik import path
-from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.solutions import IKBatch, IKSolutions
@@ -25,11 +25,10 @@ from dh2urdf.transforms import Array, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
 
-Locked = Mapping[int, float] | Mapping[str, float] | Mapping[int | str, float]
-"""Joints held at a value [rad] or [m], by index or name."""
+Held = float | Array
 
-KEPT_PROBLEMS = 32
-"""Problems (task and held values) kept ready, the latest ones."""
+Locked = Mapping[int, Held] | Mapping[str, Held] | Mapping[int | str, Held]
+"""Joints held at a value [rad] or [m], by index or name; in a batch also at a value per pose."""
 
 
 class InverseKinematics:
@@ -44,16 +43,18 @@ class InverseKinematics:
 
     def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
         self.chain, self.referee = chain, referee
-        self._problems: dict[tuple[Any, ...], Problem] = {}
+        self._solvers: dict[tuple[Any, ...], Solver | HeldSolver] = {}
         self._plain: Problem | None = None
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_problems": {}, "_plain": None}
+        return {**self.__dict__, "_solvers": {}, "_plain": None}
 
     @property
     def solver(self) -> Solver:
         """The solver of the full pose with no joint held."""
-        return self.problem().solver
+        solver = self.problem().solver
+        assert not isinstance(solver, HeldSolver)
+        return solver
 
     def solve(
         self,
@@ -121,7 +122,7 @@ class InverseKinematics:
         ----------
         Ts : array_like, shape (m, 4, 4)
         within_limits, locked, task
-            As for a single pose.
+            As for a single pose; a joint may be held at a value for each pose, shape (m,).
         threads : int, optional
             Threads to use; by default one per processor.
         progress : callable, optional
@@ -153,47 +154,66 @@ class InverseKinematics:
         locked: Locked | None = None,
         within_limits: bool = False,
     ) -> Problem:
-        """The problem of a task and held joints, built when first asked for."""
-        held = self._held(locked or {}, within_limits)
+        """The problem of a task and held joints; its solver is built when first asked for."""
         try:
             wanted = Task(task)
         except ValueError:
             allowed = ", ".join(repr(t.value) for t in Task)
             raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
-        key = (wanted, *sorted(held.items()))
-        problem = self._problems.pop(key, None) or self._build(wanted, held)
-        self._problems[key] = problem
-        if len(self._problems) > KEPT_PROBLEMS:
-            del self._problems[next(iter(self._problems))]
-        if not held and wanted is Task.POSE:
-            self._plain = problem
-        return problem
+        if not locked:
+            problem = Problem(self.chain, self._solver(wanted, ()), wanted, self.referee)
+            if wanted is Task.POSE:
+                self._plain = problem
+            return problem
+        held = self._held(locked, within_limits)
+        joints = tuple(sorted(held))
+        try:
+            values = np.column_stack(np.broadcast_arrays(*(held[i] for i in joints)))
+        except ValueError:
+            lengths = sorted({len(v) for v in held.values()})
+            raise ConfigurationError(f"locked: different numbers of values, {lengths}") from None
+        solver = self._solver(wanted, joints)
+        return Problem(self.chain, solver, wanted, self.referee, values)
 
-    def _build(self, task: Task, held: dict[int, float]) -> Problem:
-        """Select a solver and run it once, so that its kernels are compiled."""
-        with notice_if_slow():
-            solver = HeldJoints(self.chain, held, task) if held else select_solver(self.chain, task)
-            moving = tuple(i for i in range(self.chain.n) if i not in held)
-            problem = Problem(self.chain, solver, task, moving, self.referee)
-            problem.solve_many(self.chain.tool[None], False, 1, None)
-        return problem
+    def _solver(self, task: Task, joints: tuple[int, ...]) -> Solver | HeldSolver:
+        """The solver of a task with some joints held, run once so that it is compiled."""
+        key = (task, *joints)
+        if key not in self._solvers:
+            if len(joints) == self.chain.n:
+                raise ConfigurationError("locked: all joints are held, none is left to move")
+            with notice_if_slow():
+                solver = (
+                    select_held(self.chain, joints, task)
+                    if joints
+                    else select_solver(self.chain, task)
+                )
+                values = np.zeros((1, len(joints))) if joints else None
+                trial = Problem(self.chain, solver, task, self.referee, values)
+                trial.solve_many(self.chain.tool[None], False, 1, None)
+            self._solvers[key] = solver
+        return self._solvers[key]
 
-    def _held(self, locked: Locked, within_limits: bool) -> dict[int, float]:
-        """Check held joints: index to value."""
-        held: dict[int, float] = {}
+    def _held(self, locked: Locked, within_limits: bool) -> dict[int, Array]:
+        """Check held joints: index to values, shape (1,) or (m,)."""
+        held: dict[int, Array] = {}
         for key, value in locked.items():
             i = self._joint_index(key)
             if i in held:
                 raise ConfigurationError(f"locked: joint {self.chain.names[i]!r} is held twice")
-            if not isinstance(value, (int, float, np.number)) or not math.isfinite(value):
-                raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r}")
+            try:
+                values = np.atleast_1d(np.asarray(value, float))
+            except (TypeError, ValueError):
+                values = np.array([np.nan])
+            if values.ndim != 1 or not np.isfinite(values).all():
+                raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r:.60}")
             lower, upper = self.chain.lower[i], self.chain.upper[i]
-            if within_limits and not lower <= value <= upper:
+            outside = (values < lower) | (values > upper)
+            if within_limits and outside.any():
                 raise ConfigurationError(
-                    f"locked[{key!r}]: {value:g} is outside the limits {lower:g} to {upper:g} "
-                    "of the joint; within_limits=False allows it"
+                    f"locked[{key!r}]: {values[outside][0]:g} is outside the limits {lower:g} to "
+                    f"{upper:g} of the joint; within_limits=False allows it"
                 )
-            held[i] = float(value)
+            held[i] = values
         return held
 
     def _joint_index(self, key: int | str) -> int:
@@ -219,6 +239,8 @@ def _one_pose(T: ArrayLike, problem: Problem) -> Array:
     if m.shape == (1, 4, 4):
         if problem.first_bad_pose(m) >= 0:
             check_pose(m[0])
+        if problem.values is not None and len(problem.values) != 1:
+            raise ConfigurationError(f"locked: {len(problem.values)} values for one pose")
         return m
     if problem.task is Task.POSITION and m.shape == (1, 1, 3):
         pose = np.eye(4)
@@ -240,4 +262,6 @@ def _poses(Ts: ArrayLike, problem: Problem) -> Array:
         raise PoseError(f"poses: expected shape (m, 4, 4), got {m.shape}")
     if problem.first_bad_pose(m) >= 0:
         check_pose(m, what="poses")
+    if problem.values is not None and len(problem.values) not in (1, len(m)):
+        raise ConfigurationError(f"locked: {len(problem.values)} values for {len(m)} poses")
     return m
