@@ -21,11 +21,13 @@ __all__ = [
     "CLEAR",
     "COS",
     "DIRTY",
+    "MASK",
     "MERGED",
     "POSE",
     "RESIDUAL",
     "ROWS",
     "SIN",
+    "TURN",
     "VALID",
 ]
 __all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure"]
@@ -38,8 +40,16 @@ MERGED = CLEAR * CLEAR
 """Relative distance inside a rim from which a lane is clean; outside it, it is the slack that the
 careful kernel allows."""
 
+MASK = 0xFFFFF
+"""Changes no offset, and tells the compiler that it is not negative (a negative one would count
+from the end, which forbids vector code)."""
+
+ROUND = 1.5 * 2.0**52
+"""Added to a number and taken away again, it rounds it to an integer."""
+
 POSE, DIRTY, COS = 0, 12, 13
 SIN = COS + 40
+TURN = BLOCK * (SIN - COS)
 VALUES = SIN + 40
 INSIDE = VALUES + 40
 VALID = INSIDE + 40
@@ -89,13 +99,16 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     a4, ca4, sa4, d4 = form[3, 0], form[3, 1], form[3, 2], form[3, 3]
     a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
     u, v, w = tool[0, 3], tool[1, 3], tool[2, 3]
+    t1, t2, t3 = BLOCK * (COS + t1) & MASK, BLOCK * (COS + t2) & MASK, BLOCK * (COS + t3) & MASK
+    t4, t5, t6 = BLOCK * (COS + t4) & MASK, BLOCK * (COS + t5) & MASK, BLOCK * (COS + t6) & MASK
+    valid, result = BLOCK * (VALID + solution) & MASK, BLOCK * (RESIDUAL + solution) & MASK
     for i in range(n):
-        c, s = S[BLOCK * (COS + t1) + i], S[BLOCK * (SIN + t1) + i]
+        c, s = S[t1 + i], S[TURN + t1 + i]
         x0, x1, x2 = c, s, 0.0
         y0, y1, y2 = -ca1 * s, ca1 * c, sa1
         z0, z1, z2 = sa1 * s, -sa1 * c, ca1
         p0, p1, p2 = a1 * c + d2 * z0, a1 * s + d2 * z1, d2 * z2
-        c, s = S[BLOCK * (COS + t2) + i], S[BLOCK * (SIN + t2) + i]
+        c, s = S[t2 + i], S[TURN + t2 + i]
         x0, x1, x2, y0, y1, y2 = (
             c * x0 + s * y0,
             c * x1 + s * y1,
@@ -113,7 +126,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
             ca2 * z2 - sa2 * y2,
         )
         p0, p1, p2 = p0 + a2 * x0 + d3 * z0, p1 + a2 * x1 + d3 * z1, p2 + a2 * x2 + d3 * z2
-        c, s = S[BLOCK * (COS + t3) + i], S[BLOCK * (SIN + t3) + i]
+        c, s = S[t3 + i], S[TURN + t3 + i]
         x0, x1, x2, y0, y1, y2 = (
             c * x0 + s * y0,
             c * x1 + s * y1,
@@ -131,7 +144,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
             ca3 * z2 - sa3 * y2,
         )
         p0, p1, p2 = p0 + a3 * x0 + d4 * z0, p1 + a3 * x1 + d4 * z1, p2 + a3 * x2 + d4 * z2
-        c, s = S[BLOCK * (COS + t4) + i], S[BLOCK * (SIN + t4) + i]
+        c, s = S[t4 + i], S[TURN + t4 + i]
         x0, x1, x2, y0, y1, y2 = (
             c * x0 + s * y0,
             c * x1 + s * y1,
@@ -149,7 +162,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
             ca4 * z2 - sa4 * y2,
         )
         p0, p1, p2 = p0 + a4 * x0 + d5 * z0, p1 + a4 * x1 + d5 * z1, p2 + a4 * x2 + d5 * z2
-        c, s = S[BLOCK * (COS + t5) + i], S[BLOCK * (SIN + t5) + i]
+        c, s = S[t5 + i], S[TURN + t5 + i]
         x0, x1, x2, y0, y1, y2 = (
             c * x0 + s * y0,
             c * x1 + s * y1,
@@ -167,7 +180,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
             ca5 * z2 - sa5 * y2,
         )
         p0, p1, p2 = p0 + a5 * x0, p1 + a5 * x1, p2 + a5 * x2
-        c, s = S[BLOCK * (COS + t6) + i], S[BLOCK * (SIN + t6) + i]
+        c, s = S[t6 + i], S[TURN + t6 + i]
         x0, x1, x2, y0, y1, y2 = (
             c * x0 + s * y0,
             c * x1 + s * y1,
@@ -185,8 +198,8 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
         turn = x0 * x0 + x1 * x1 + x2 * x2 + y0 * y0 + y1 * y1 + y2 * y2
         turn += z0 * z0 + z1 * z1 + z2 * z2
         error = math.sqrt(max(p0 * p0 + p1 * p1 + p2 * p2, 0.5 * turn))
-        S[BLOCK * (RESIDUAL + solution) + i] = error
-        exists = S[BLOCK * (VALID + solution) + i] > 0.0
+        S[result + i] = error
+        exists = S[valid + i] > 0.0
         rounding = error <= POLISH
         S[BLOCK * DIRTY + i] += 1.0 if exists and not rounding else 0.0
 
@@ -198,12 +211,14 @@ def _values(form, joints, joint_of, within_limits, rows, n, S):
         j = joint_of[r]
         sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
         middle = 0.5 * (lower + upper) if upper - lower < math.inf else 0.0
-        target, flag = BLOCK * (VALUES + r), BLOCK * (INSIDE + r)
+        sine, cosine = BLOCK * (SIN + r) & MASK, BLOCK * (COS + r) & MASK
+        target, flag = BLOCK * (VALUES + r) & MASK, BLOCK * (INSIDE + r) & MASK
         for i in range(n):
-            angle = arctangent(S[BLOCK * (SIN + r) + i], S[BLOCK * (COS + r) + i])
-            value = sign * (angle - constant)
-            value -= TWO_PI * math.floor((value - middle) / TWO_PI + 0.5)
-            S[target + i] = value
+            S[target + i] = arctangent(S[sine + i], S[cosine + i])
+        for i in range(n):
+            value = sign * (S[target + i] - constant)
+            turns = (value - middle) / TWO_PI
+            S[target + i] = value - TWO_PI * ((turns + ROUND) - ROUND)
             S[flag + i] = 1.0
         if within_limits and (lower > middle - math.pi or upper < middle + math.pi):
             for i in range(n):
@@ -228,9 +243,9 @@ def emit(form, joints, table, within_limits, first, n, S, q, residual, count, br
     _values(form, joints, joint_of, within_limits, rows, n, S)
     for k in range(8):
         for j in range(6):
-            flag = BLOCK * (INSIDE + row_of[k, j])
+            flag, valid = BLOCK * (INSIDE + row_of[k, j]) & MASK, BLOCK * (VALID + k) & MASK
             for i in range(n):
-                S[BLOCK * (VALID + k) + i] *= S[flag + i]
+                S[valid + i] *= S[flag + i]
     for i in range(n):
         if S[BLOCK * DIRTY + i] != 0.0:
             count[first + i] = -1

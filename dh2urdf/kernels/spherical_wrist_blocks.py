@@ -16,6 +16,7 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    MASK,
     MERGED,
     ROWS,
     SIN,
@@ -45,7 +46,8 @@ def _shoulders(form, slack, n, S):
     scale = a1 * a1 + form[1, 0] * form[1, 0] + form[2, 0] * form[2, 0] + form[3, 3] * form[3, 3]
     for shoulder in range(2):
         side = 1.0 - 2.0 * shoulder
-        rows = BLOCK * (PLANE + 11 * shoulder)
+        rows, valid = BLOCK * (PLANE + 11 * shoulder) & MASK, BLOCK * (VALID + shoulder) & MASK
+        cosine, sine = BLOCK * (COS + shoulder) & MASK, BLOCK * (SIN + shoulder) & MASK
         for i in range(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             y = (pz - ca1 * lateral) / sa1
@@ -56,14 +58,14 @@ def _shoulders(form, slack, n, S):
             reach = side * math.sqrt(max(reach2, 0.0))
             inverse = 1.0 / max(square, 1e-30)
             c, s = (px * reach + py * offset) * inverse, (py * reach - px * offset) * inverse
-            S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i] = c, s
+            S[cosine + i], S[sine + i] = c, s
             S[rows + i], S[rows + BLOCK + i] = reach - a1, y
-            S[BLOCK * (VALID + shoulder) + i] = 1.0 if reach2 > 0.0 else 0.0
+            S[valid + i] = 1.0 if reach2 > 0.0 else 0.0
             dirty = -slack * size < reach2 < MERGED * size or square < MERGED * size
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
         for j in range(3):
             for i in range(n):
-                c, s = S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i]
+                c, s = S[cosine + i], S[sine + i]
                 r0, r1 = S[BLOCK * j + i], S[BLOCK * (3 + j) + i]
                 r2 = S[BLOCK * (6 + j) + i]
                 x, y = c * r0 + s * r1, c * r1 - s * r0
@@ -82,7 +84,9 @@ def _elbows(form, slack, n, S):
     scale = 2.0 * upper * fore
     for arm in range(4):
         shoulder, elbow = arm & 1, arm >> 1
-        rows = BLOCK * (PLANE + 11 * shoulder)
+        rows, valid = BLOCK * (PLANE + 11 * shoulder) & MASK, BLOCK * (VALID + shoulder) & MASK
+        cosine, sine = BLOCK * (COS + arm) & MASK, BLOCK * (SIN + arm) & MASK
+        result = BLOCK * (VALID + 4 + arm) & MASK
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
         for i in range(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
@@ -90,16 +94,16 @@ def _elbows(form, slack, n, S):
             outer = (upper + fore) * (upper + fore) - square
             inner = square - (upper - fore) * (upper - fore)
             product = outer * inner
-            cosine = 0.5 * (inner - outer) / scale
-            sine = side * math.sqrt(max(product, 0.0)) / abs(scale)
-            along, across = upper + fore * cosine, fore * sine
+            c3 = 0.5 * (inner - outer) / scale
+            s3 = side * math.sqrt(max(product, 0.0)) / abs(scale)
+            along, across = upper + fore * c3, fore * s3
             inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
-            S[BLOCK * (COS + 2 + arm) + i] = (x * along + y * across) * inverse
-            S[BLOCK * (SIN + 2 + arm) + i] = (y * along - x * across) * inverse
-            S[BLOCK * (COS + 6 + arm) + i] = cosine * lean_c + sine * lean_s
-            S[BLOCK * (SIN + 6 + arm) + i] = sine * lean_c - cosine * lean_s
-            exists = S[BLOCK * (VALID + shoulder) + i] if product > 0.0 else 0.0
-            S[BLOCK * (VALID + 4 + arm) + i] = exists
+            S[cosine + BLOCK * 2 + i] = (x * along + y * across) * inverse
+            S[sine + BLOCK * 2 + i] = (y * along - x * across) * inverse
+            S[cosine + BLOCK * 6 + i] = c3 * lean_c + s3 * lean_s
+            S[sine + BLOCK * 6 + i] = s3 * lean_c - c3 * lean_s
+            exists = S[valid + i] if product > 0.0 else 0.0
+            S[result + i] = exists
             size = square + abs(scale)
             touching = -slack * size * size < product < MERGED * size * size
             dirty = touching or square < MERGED * size
@@ -111,11 +115,11 @@ def _wrists(form, n, S):
     """ZYZ angles of what is left of the rotation, for all four arms and both wrists."""
     ca3, sa3, sa4, sa5 = form[2, 1], form[2, 2], form[3, 2], form[4, 2]
     for arm in range(4):
-        rows = BLOCK * (PLANE + 11 * (arm & 1))
-        flip = arm + 4
+        rows, valid = BLOCK * (PLANE + 11 * (arm & 1)) & MASK, BLOCK * (VALID + arm) & MASK
+        cosine, sine = BLOCK * (COS + arm) & MASK, BLOCK * (SIN + arm) & MASK
         for i in range(n):
-            c2, s2 = S[BLOCK * (COS + 2 + arm) + i], S[BLOCK * (SIN + 2 + arm) + i]
-            c3, s3 = S[BLOCK * (COS + 6 + arm) + i], S[BLOCK * (SIN + 6 + arm) + i]
+            c2, s2 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
+            c3, s3 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
             c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
             x0, x1, x2 = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i], S[rows + BLOCK * 4 + i]
             y0, y1, y2 = S[rows + BLOCK * 5 + i], S[rows + BLOCK * 6 + i], S[rows + BLOCK * 7 + i]
@@ -142,14 +146,14 @@ def _wrists(form, n, S):
             c4, s4 = x2 * inverse, y2 * inverse
             c6 = c5 * (c4 * x0 + s4 * y0) + s5 * sa4 * z0
             s6 = -c5 * (c4 * x1 + s4 * y1) - s5 * sa4 * z1
-            S[BLOCK * (COS + 10 + arm) + i], S[BLOCK * (SIN + 10 + arm) + i] = c4, s4
-            S[BLOCK * (COS + 18 + arm) + i], S[BLOCK * (SIN + 18 + arm) + i] = c5, s5
-            S[BLOCK * (COS + 26 + arm) + i], S[BLOCK * (SIN + 26 + arm) + i] = c6, s6
-            S[BLOCK * (COS + 10 + flip) + i], S[BLOCK * (SIN + 10 + flip) + i] = -c4, -s4
-            S[BLOCK * (COS + 18 + flip) + i], S[BLOCK * (SIN + 18 + flip) + i] = c5, -s5
-            S[BLOCK * (COS + 26 + flip) + i], S[BLOCK * (SIN + 26 + flip) + i] = -c6, -s6
-            exists = S[BLOCK * (VALID + flip) + i]
-            S[BLOCK * (VALID + arm) + i] = exists
+            S[cosine + BLOCK * 10 + i], S[sine + BLOCK * 10 + i] = c4, s4
+            S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c5, s5
+            S[cosine + BLOCK * 26 + i], S[sine + BLOCK * 26 + i] = c6, s6
+            S[cosine + BLOCK * 14 + i], S[sine + BLOCK * 14 + i] = -c4, -s4
+            S[cosine + BLOCK * 22 + i], S[sine + BLOCK * 22 + i] = c5, -s5
+            S[cosine + BLOCK * 30 + i], S[sine + BLOCK * 30 + i] = -c6, -s6
+            exists = S[valid + BLOCK * 4 + i]
+            S[valid + i] = exists
             dirty = s5 < CLEAR and exists > 0.0
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 

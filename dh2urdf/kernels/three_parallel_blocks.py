@@ -16,9 +16,11 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    MASK,
     MERGED,
     ROWS,
     SIN,
+    TURN,
     VALID,
     WORK,
     block_kernel,
@@ -49,7 +51,8 @@ def _shoulders(form, slack, n, S):
     constant = form[1, 3] + form[2, 3] + form[3, 3]
     for shoulder in range(2):
         side = (1.0 if sa1 < 0.0 else -1.0) * (1.0 - 2.0 * shoulder)
-        flip = shoulder + 2
+        cosine, sine = BLOCK * (COS + shoulder) & MASK, BLOCK * (SIN + shoulder) & MASK
+        valid = BLOCK * (VALID + shoulder) & MASK
         for i in range(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
@@ -67,12 +70,12 @@ def _shoulders(form, slack, n, S):
             c5 = -rz * sa4 * sa5
             inverse = sa4 / max(s5, 1e-30)
             c6, s6 = rx * inverse, -ry * inverse
-            S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i] = c, s
-            S[BLOCK * (COS + 2 + shoulder) + i], S[BLOCK * (SIN + 2 + shoulder) + i] = c5, s5
-            S[BLOCK * (COS + 2 + flip) + i], S[BLOCK * (SIN + 2 + flip) + i] = c5, -s5
-            S[BLOCK * (COS + 6 + shoulder) + i], S[BLOCK * (SIN + 6 + shoulder) + i] = c6, s6
-            S[BLOCK * (COS + 6 + flip) + i], S[BLOCK * (SIN + 6 + flip) + i] = -c6, -s6
-            S[BLOCK * (VALID + shoulder) + i] = exists
+            S[cosine + i], S[sine + i] = c, s
+            S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i] = c5, s5
+            S[cosine + BLOCK * 4 + i], S[sine + BLOCK * 4 + i] = c5, -s5
+            S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i] = c6, s6
+            S[cosine + BLOCK * 8 + i], S[sine + BLOCK * 8 + i] = -c6, -s6
+            S[valid + i] = exists
             size = square + d * d
             dirty = -slack * size < gap < MERGED * size or (s5 < CLEAR and exists > 0.0)
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
@@ -85,11 +88,12 @@ def _planes(form, n, S):
     a4, sa5, d5 = form[3, 0], form[4, 2], form[4, 3]
     for pair in range(4):
         shoulder = pair & 1
-        rows = BLOCK * (PLANE + 4 * pair)
+        rows, first = BLOCK * (PLANE + 4 * pair) & MASK, BLOCK * (COS + shoulder) & MASK
+        cosine, sine = BLOCK * (COS + pair) & MASK, BLOCK * (SIN + pair) & MASK
         for i in range(n):
-            c1, s1 = S[BLOCK * (COS + shoulder) + i], S[BLOCK * (SIN + shoulder) + i]
-            c5, s5 = S[BLOCK * (COS + 2 + pair) + i], S[BLOCK * (SIN + 2 + pair) + i]
-            c6, s6 = S[BLOCK * (COS + 6 + pair) + i], S[BLOCK * (SIN + 6 + pair) + i]
+            c1, s1 = S[first + i], S[first + TURN + i]
+            c5, s5 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
+            c6, s6 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
             x, y, z = c5 * a4, sa5 * d5, sa5 * s5 * a4
             x, y = c6 * x + s6 * y, c6 * y - s6 * x
             u, v, w = c6 * c5, -s6 * c5, sa5 * s5
@@ -115,7 +119,9 @@ def _elbows(form, slack, n, S):
     scale = 2.0 * upper * fore
     for k in range(7, -1, -1):
         shoulder, elbow, pair = k & 1, k >> 1 & 1, (k & 1) + 2 * (k >> 2)
-        rows = BLOCK * (PLANE + 4 * pair)
+        rows, valid = BLOCK * (PLANE + 4 * pair) & MASK, BLOCK * (VALID + shoulder) & MASK
+        cosine, sine = BLOCK * (COS + k) & MASK, BLOCK * (SIN + k) & MASK
+        result = BLOCK * (VALID + k) & MASK
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
         for i in range(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
@@ -130,16 +136,16 @@ def _elbows(form, slack, n, S):
             inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
             c2, s2 = (x * along + y * across) * inverse, (y * along - x * across) * inverse
             c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
-            S[BLOCK * (COS + 10 + k) + i], S[BLOCK * (SIN + 10 + k) + i] = c2, s2
-            S[BLOCK * (COS + 18 + k) + i], S[BLOCK * (SIN + 18 + k) + i] = c3, s3
-            S[BLOCK * (COS + 26 + k) + i] = hx * c + hy * s
-            S[BLOCK * (SIN + 26 + k) + i] = hy * c - hx * s
-            exists = S[BLOCK * (VALID + shoulder) + i]
+            S[cosine + BLOCK * 10 + i], S[sine + BLOCK * 10 + i] = c2, s2
+            S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c3, s3
+            S[cosine + BLOCK * 26 + i] = hx * c + hy * s
+            S[sine + BLOCK * 26 + i] = hy * c - hx * s
+            exists = S[valid + i]
             size = square + abs(scale)
             touching = -slack * size * size < product < MERGED * size * size
             dirty = touching or square < MERGED * size
             S[BLOCK * DIRTY + i] += exists if dirty else 0.0
-            S[BLOCK * (VALID + k) + i] = exists if product > 0.0 else 0.0
+            S[result + i] = exists if product > 0.0 else 0.0
 
 
 @block_kernel
