@@ -23,7 +23,8 @@ class Row:
     """One figure of one contestant.
 
     ``seconds`` (median, with the 10 % and 90 % quantiles ``low`` and ``high``) are per unit:
-    a pose, a configuration, a construction, a process.
+    a pose, a configuration, a construction, a process. ``processor`` is the median processor
+    time of this process per unit, all threads together: a busy machine does not stretch it.
     """
 
     work: str
@@ -32,6 +33,7 @@ class Row:
     seconds: float | None = None
     low: float | None = None
     high: float | None = None
+    processor: float | None = None
     rounds: int = 0
     size: int = 1
     threads: int = 1
@@ -50,6 +52,7 @@ class Row:
             timing.median,
             timing.low,
             timing.high,
+            timing.processor,
             timing.rounds,
             **{"size": timing.units, **more},
         )

@@ -38,9 +38,9 @@ def _right(contestant: FKContestant, arm: Arm) -> bool:
 
 def _single(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
     q, _ = arm.draw(500)
-    length, budget = (0.003, 0.2) if results.quick else (0.03, 6.0)
-    blocks = {c.name: each(c.one, list(c.encode(q)), length) for c in contestants if c.one}
-    for name, timing in interleaved(blocks, budget).items():
+    blocks = {c.name: each(c.one, list(c.encode(q))) for c in contestants if c.one}
+    timings = interleaved(blocks, 0.2 if results.quick else 6.0, most=400)
+    for name, timing in timings.items():
         results.add(Row.timed("fk one", arm.key, name, timing, size=1))
 
 

@@ -39,7 +39,7 @@ def run(results: Results) -> None:
 
 def _single(results: Results, arm: Arm, entrants: Sequence[IKContestant]) -> None:
     """Recall on the same poses for all, then the bare and the public call, interleaved."""
-    q, T = arm.draw(20 if results.quick else 200)
+    q, T = arm.draw(10 if results.quick else 200)
     verdicts = {
         c.name: referee.judge(arm.table, T, [c.configurations(c.solve(p)) for p in c.encode(T)])
         for c in entrants
@@ -50,10 +50,10 @@ def _single(results: Results, arm: Arm, entrants: Sequence[IKContestant]) -> Non
             results.left_out[f"{c.name}, {arm.key}"] = f"no solution on {len(T)} poses"
     entrants = [c for c in entrants if verdicts[c.name].found]
     poses = {c.name: list(c.encode(T)) for c in entrants}
-    length, budget = (0.003, 0.5) if results.quick else (0.03, 12.0)
-    bare = {f"{c.name}|bare": each(c.solve, poses[c.name], length) for c in entrants}
-    public = {f"{c.name}|public": each(c.public, poses[c.name], length) for c in entrants}
-    for key, timing in interleaved(bare | public, budget, most=40).items():
+    bare = {f"{c.name}|bare": each(c.solve, poses[c.name]) for c in entrants}
+    public = {f"{c.name}|public": each(c.public, poses[c.name]) for c in entrants}
+    budget = 0.5 if results.quick else 12.0
+    for key, timing in interleaved(bare | public, budget, most=400).items():
         name, call = key.split("|")
         own = next(c for c in entrants if c.name == name)
         results.add(

@@ -1,0 +1,163 @@
+"""The benchmarks: the short run answers rightly, the referee is strict, the README shows a run."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks import referee
+from benchmarks.arms import ARMS, arm_named
+from benchmarks.clock import interleaved
+from benchmarks.render import BEGIN, END, block, fastest, seconds
+from benchmarks.results import LATEST, Results, Row
+from benchmarks.work.edges import EDGES
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def quick(tmp_path_factory):
+    """Results of ``python -m benchmarks --quick``."""
+    out = tmp_path_factory.mktemp("benchmarks") / "quick.json"
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks", "--quick", "--out", str(out)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return Results.load(out)
+
+
+def ours(results, work):
+    """Our rows of a piece of work."""
+    return [r for r in results.of(work) if r.contestant == "dh2urdf"]
+
+
+@pytest.mark.parametrize("work", ["ik one, public", "ik one, bare", "ik batch"])
+def test_quick_run_finds_every_solution(quick, work):
+    """Ours finds all that anybody finds, nothing wrong, with residuals at rounding."""
+    rows = ours(quick, work)
+    assert rows
+    for row in rows:
+        assert (row.recall, row.wrong) == (1.0, 0), row
+        assert row.residual < 1e-9, row
+
+
+def test_quick_run_covers_every_class(quick):
+    """One arm a class is solved, by one call and in a batch."""
+    for work in ("ik one, public", "ik batch"):
+        solved = {arm_named(r.arm).family for r in ours(quick, work)}
+        assert solved >= {a.family for a in ARMS} - {"any 6R"}
+
+
+def test_quick_run_places_batches_rightly(quick):
+    """FK of a batch differs from the referee by rounding only."""
+    assert ours(quick, "fk batch")
+    for row in ours(quick, "fk batch"):
+        assert row.residual < 1e-13
+
+
+def test_quick_run_solves_the_edges(quick):
+    """Every edge pose has solutions, as many as ever anybody returned for isolated ones."""
+    counts = {r.arm: r.extra["solutions"] for r in ours(quick, "ik edge")}
+    assert set(counts) == {e.key for e in EDGES}
+    least = {
+        "ur5 home": 1,
+        "ur5 elbow straight": 5,
+        "ur5 wrist at zero": 6,
+        "puma560 stretched": 4,
+        "puma560 wrist at 1e-6": 8,
+        "puma560 wrist at zero": 7,
+        "puma560 all zero": 7,
+    }
+    assert all(counts[key] >= value for key, value in least.items()), counts
+
+
+def test_import_loads_neither_numba_nor_pinocchio(quick):
+    """What comes with ``import dh2urdf`` is NumPy."""
+    (row,) = ours(quick, "import")
+    assert row.extra.get("loaded", []) == []
+
+
+def test_results_name_machine_versions_and_commit(quick):
+    """A figure can be traced to what it was measured on."""
+    assert set(quick.about) == {"commit", "machine", "versions", "load_average", "seconds"}
+    assert quick.about["versions"].keys() >= {"numpy", "numba", "pin"}
+
+
+def test_referee_rejects_and_counts():
+    """A wrong row is wrong, a doubled one and one a full turn away count once."""
+    arm = arm_named("ur5")
+    q, T = arm.draw(1)
+    answer = np.vstack([q, q + 1e-9, q + 2 * np.pi, q + 1e-3])
+    verdict = referee.judge(arm.table, T, [answer])
+    assert (verdict.claimed, verdict.wrong, verdict.found) == (4, 1, 1)
+    known = referee.truth([verdict], q)
+    assert verdict.recall(known) == 1.0
+    assert referee.judge(arm.table, T, [answer[3:]]).recall(known) == 0.0
+
+
+def test_referee_measures_small_and_large_turns():
+    """The residual of a turned pose is the angle, up to half a turn."""
+    for angle in (1e-12, 1e-3, 1.0, np.pi):
+        c, s = np.cos(angle), np.sin(angle)
+        T = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+        found = float(referee.residuals(T[None], np.eye(4))[0])
+        assert found == pytest.approx(angle, rel=1e-3)
+
+
+def test_every_contestant_has_its_turn_in_every_round():
+    """Interleaved blocks run equally often, once more for warming up."""
+    runs = {"a": 0, "b": 0}
+
+    def block_of(name):
+        def run():
+            runs[name] += 1
+            return 1
+
+        return run
+
+    timings = interleaved({name: block_of(name) for name in runs}, 0.0, least=4, most=4)
+    assert runs == {"a": 5, "b": 5}
+    assert all(t.rounds == 4 and t.low <= t.median <= t.high for t in timings.values())
+
+
+def test_a_peer_that_misses_solutions_is_not_the_fastest():
+    """Speed counts only with nine of ten known solutions."""
+    rows = [
+        Row("w", "a", "careless", 1e-6, recall=0.5),
+        Row("w", "a", "careful", 1e-5, recall=0.99),
+        Row("w", "a", "dh2urdf", 1e-7, recall=1.0),
+    ]
+    assert fastest(rows).contestant == "careful"
+
+
+def test_durations_have_three_digits_and_a_unit():
+    """The unit fits the size."""
+    assert [seconds(v) for v in (3.21e-8, 4.5e-6, 0.0123, 7.0, None)] == [
+        "32.1 ns",
+        "4.5 µs",
+        "12.3 ms",
+        "7 s",
+        "–",
+    ]
+
+
+def test_results_come_back_from_their_file(tmp_path):
+    """A results file holds all that a run found."""
+    results = Results(True, [Row("w", "a", "b", 1.0, extra={"k": 2})], {"x": "not there"})
+    results.save(tmp_path / "r.json")
+    again = Results.load(tmp_path / "r.json")
+    assert (again.rows, again.left_out, again.quick) == (results.rows, results.left_out, True)
+
+
+def test_readme_shows_the_latest_results():
+    """The README's block is what the results file renders to, letter by letter."""
+    text = (ROOT / "README.md").read_text()
+    assert not json.loads(LATEST.read_text())["quick"]
+    assert text.split(BEGIN)[1].split(END)[0] == f"\n{block(Results.load(LATEST))}"
