@@ -153,6 +153,25 @@ class RobotIK:
             max_jump=max_jump,
         )
 
+    def why_unreachable(
+        self,
+        T: ArrayLike,
+        *,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+    ) -> str:
+        """Say why a pose has no solution, and by how much; empty if it has one.
+
+        ``the wrist centre lies 1.080 m outside the reach of joints 1 to 3``
+
+        Parameters
+        ----------
+        T, within_limits, locked, task
+            As for :meth:`ik`.
+        """
+        return self._ik.why_none(T, within_limits=within_limits, locked=locked, task=task)
+
     @cached_property
     def _ik(self) -> InverseKinematics:
         from dh2urdf.ik.solve import InverseKinematics

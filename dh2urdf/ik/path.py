@@ -169,7 +169,9 @@ def _next_stage(
 def _turn_keys(q: Array, targets: Array) -> Array:
     """One number for each target and its turns, of configurations q (f, k, n), shape (f, k)."""
     turns = np.round((q - targets) / limits.TWO_PI)
-    keys: Array = np.arange(len(targets)) + turns @ (len(targets) * 64.0 ** np.arange(q.shape[2]))
+    keys: Array = np.arange(float(len(targets))) + turns @ (
+        len(targets) * 64.0 ** np.arange(q.shape[2])
+    )
     return keys
 
 

@@ -13,7 +13,9 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family, task_error
+from dh2urdf.ik.held import hold
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.solutions import (
     IKBatch,
     IKSolutions,
@@ -22,6 +24,7 @@ from dh2urdf.ik.solutions import (
     joints_of_mask,
 )
 from dh2urdf.ik.solver import Solver, Task
+from dh2urdf.ik.tolerances import LIMIT_SLACK
 from dh2urdf.transforms import Array
 
 __all__ = ["ForwardKinematics", "Problem", "Progress"]
@@ -190,6 +193,26 @@ class Problem:
         chain_fk_batch(self.chain.links, self.chain.prismatic, q, poses)
         residual = residual_of_poses(poses, found.T, self.task)
         return IKSolutions.of(self, found.T, q, residual, *found.codes)
+
+    def why_none(self, T: Array, within_limits: bool) -> str:
+        """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""
+        if within_limits:
+            anywhere = self.solve_one(T[None], within_limits=False)
+            if anywhere:
+                _, joint, excess = beyond_limits(self.chain, anywhere.q)
+                if excess <= LIMIT_SLACK:
+                    return ""
+                unit = "m" if self.chain.prismatic[joint] else "rad"
+                return (
+                    f"all {len(anywhere)} solutions are outside the joint limits, the nearest by "
+                    f"{excess:.4g} {unit} at {self.chain.names[joint]}"
+                )
+        elif self.solve_one(T[None], within_limits=False):
+            return ""
+        if not isinstance(self.solver, HeldSolver) or self.values is None:
+            return shortfall(self.chain, T, self.task)
+        held = dict(zip(self.solver.held, self.values[0].tolist(), strict=True))
+        return shortfall(hold(self.chain, held), T, self.task)
 
     def measure(self, q: Array, T: Array) -> Array:
         """Residuals of configurations q (k, n) by the independent forward kinematics."""

@@ -148,6 +148,18 @@ class InverseKinematics:
         batch = problem.solve_many(_poses(Ts, problem), within_limits, None, None)
         return path.find_path(problem, batch, start, within_limits, max_jump)
 
+    def why_none(
+        self,
+        T: ArrayLike,
+        *,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = Task.POSE,
+    ) -> str:
+        """Say why a pose has no solution, and by how much; empty if it has one."""
+        problem = self.problem(task, locked, within_limits)
+        return problem.why_none(_one_pose(T, problem)[0], within_limits)
+
     def problem(
         self,
         task: Task | str = Task.POSE,

@@ -1,0 +1,113 @@
+"""Why a pose has no solution, and by how much: a sentence for the user.
+
+The arm's closest approach is found by damped least squares from many starts; this explains an
+empty result and is no part of finding solutions.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.families import task_error, task_jacobian
+from dh2urdf.ik.geometry import AxisLines
+from dh2urdf.ik.solver import Task
+from dh2urdf.ik.tolerances import ACCEPT
+from dh2urdf.transforms import Array, inverse
+
+__all__ = ["beyond_limits", "closest", "shortfall"]
+
+STARTS = 64
+STEPS = 60
+
+STIFF = 1e3
+"""Weight of the position against the orientation where the position comes first."""
+
+
+def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
+    """Say what part of a pose T (4, 4) a chain cannot reach, limits aside, and by how much."""
+    if chain.n == 6 and task is Task.POSE and AxisLines(chain).spherical(3):
+        centre = AxisLines(chain).points[4]
+        point = T[:3, :3] @ (inverse(chain.tool)[:3] @ np.append(centre, 1.0)) + T[:3, 3]
+        gap, _ = closest(_arm_to(chain, 3, centre), _at(point), Task.POSITION)
+        if gap > ACCEPT:
+            return f"the wrist centre lies {_metres(gap)} outside the reach of joints 1 to 3"
+    gap, _ = closest(chain, T, Task.POSITION)
+    if gap > ACCEPT:
+        return f"the point lies {_metres(gap)} outside the reach of the tool"
+    _, turn = closest(chain, T, task)
+    what = "axis" if task is Task.POSITION_AXIS else "orientation"
+    return (
+        f"the tool reaches the point, but not with this {what}; the closest found is "
+        f"{math.degrees(turn):.3g} deg away"
+    )
+
+
+def beyond_limits(chain: SerialChain, q: Array) -> tuple[int, int, float]:
+    """The configuration of q (k, n) that breaks its limits least: its row, joint and excess."""
+    excess = np.maximum(chain.lower - q, q - chain.upper)
+    worst = excess.max(axis=1)
+    row = int(worst.argmin())
+    return row, int(excess[row].argmax()), float(worst[row])
+
+
+def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:
+    """Least position error [m] that is found, and least orientation error [rad] there.
+
+    Levenberg's method from ``STARTS`` random configurations side by side.
+    """
+    rng = np.random.default_rng(3)
+    q = rng.uniform(-1.0, 1.0, (STARTS, chain.n)) * np.where(chain.prismatic, chain.size, np.pi)
+    weight = np.ones(3 if task is Task.POSITION else 6)
+    weight[:3] = STIFF / chain.size if task is not Task.POSITION else 1.0 / chain.size
+    error = _weighted(chain, q, T, task, weight)
+    damping = np.full(STARTS, 1e-2)
+    for _ in range(STEPS):
+        J = task_jacobian(chain, task, q) * weight[:, None]
+        normal = J.transpose(0, 2, 1) @ J
+        size = np.einsum("kii->k", normal) * damping + 1e-12
+        normal += size[:, None, None] * np.eye(chain.n)
+        step = np.linalg.solve(normal, (J.transpose(0, 2, 1) @ error[:, :, None]))[:, :, 0]
+        step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        trial = _weighted(chain, q + step, T, task, weight)
+        better = (trial**2).sum(axis=1) < (error**2).sum(axis=1)
+        q[better] += step[better]
+        error[better] = trial[better]
+        damping = np.where(better, damping * 0.2, np.minimum(damping * 10.0, 1e3))
+    best = error[(error**2).sum(axis=1).argmin()] / weight
+    return float(np.linalg.norm(best[:3])), float(np.linalg.norm(best[3:]))
+
+
+def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
+    """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
+    from dh2urdf.kernels.chain import chain_fk_batch
+
+    poses = np.empty((len(q), 4, 4))
+    chain_fk_batch(chain.links, chain.prismatic, q, poses)
+    return task_error(poses, T, task) * weight
+
+
+def _arm_to(chain: SerialChain, joints: int, point: Array) -> SerialChain:
+    """The first joints of a chain, with a point of the next link at q = 0 as the tool's origin."""
+    last = inverse(chain.joint_frames[joints - 1]) @ _at(point)
+    return SerialChain(
+        np.concatenate([chain.links[:joints], last[None]]),
+        chain.joint_types[:joints],
+        chain.names[:joints],
+        chain.lower[:joints],
+        chain.upper[:joints],
+    )
+
+
+def _at(point: Array) -> Array:
+    """A pose with its origin at a point."""
+    T = np.eye(4)
+    T[:3, 3] = point
+    return T
+
+
+def _metres(gap: float) -> str:
+    """A distance with as many digits as mean something."""
+    return f"{gap:.3f} m" if gap >= 5e-4 else f"{gap:.2g} m"
