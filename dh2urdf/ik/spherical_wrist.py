@@ -9,14 +9,18 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
-from dh2urdf.ik.tolerances import SLACK
+from dh2urdf.ik.tolerances import SLACK, SLACK_OF_NOISE, SNAP
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
 
 
 class SphericalWrist(SolverBase):
-    """Closed form by kinematic decoupling, with the notes' frames found from the axes."""
+    """Closed form by kinematic decoupling, with the notes' frames found from the axes.
+
+    ``tolerance`` is what is snapped: with a larger one an arm that is nearly of this family gets
+    the nominal arm's solutions as seeds, and Newton's method on the exact chain the answers.
+    """
 
     name = "spherical wrist"
     kmax = 8
@@ -26,21 +30,24 @@ class SphericalWrist(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
-        nominal: SerialChain | None = None,
+        tolerance: float = SNAP,
     ) -> None:
         super().__init__(chain, task, others)
-        self.lines = AxisLines(nominal or chain)
+        self.lines = AxisLines(chain, tolerance)
         self.form = DHForm(self.lines)
-        self.constants = self.links, self.joints, self.form.rows, self.form.ends, SLACK
+        slack = max(SLACK, SLACK_OF_NOISE * tolerance)
+        self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = SNAP
+    ) -> str | None:
         """Say what keeps decoupling from covering the chain; None if nothing does."""
         if task is not Task.POSE:
             return f"it solves for the full pose, not for {task.value}"
         if chain.n != 6:
             return f"it needs 6 joints, the chain has {chain.n}"
-        lines = AxisLines(chain)
+        lines = AxisLines(chain, tolerance)
         if not lines.spherical(3):
             return "axes 4, 5 and 6 do not meet in one point"
         if not _places_wrist(DHForm(lines)):
@@ -49,7 +56,30 @@ class SphericalWrist(SolverBase):
 
     def details(self) -> str:
         """Name the subproblems of the position arm and of the wrist."""
-        return f"axes 4, 5, 6 meet ({self.lines.describe()})"
+        rows = self.form.rows
+        orthogonal = rows[3, 1] == rows[4, 1] == 0.0
+        wrist = "ZYZ angles" if orthogonal else "subproblem 4 for joint 5, 1 for joints 4 and 6"
+        return (
+            f"axes 4, 5, 6 meet ({self.lines.describe()}); the wrist centre fixes joints 1, 2, 3 "
+            f"({self._position_arm()}), the orientation the wrist ({wrist})"
+        )
+
+    def _position_arm(self) -> str:
+        """The equations that the first three joints are found from."""
+        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic[:3])
+        if kinds == "PPP":
+            return "three slides: linear equations"
+        if kinds.count("P") == 2:
+            return f"{kinds}: subproblem 4 for the joint that turns, then linear equations"
+        if kinds != "RRR":
+            return f"{kinds}: the slide eliminated, one equation in an angle, then subproblem 1"
+        if self.lines.parallel(1):
+            return "2 || 3: subproblem 4 for joint 1, 3 for the elbow, 1 for joint 2"
+        if self.lines.parallel(0):
+            return "1 || 2: subproblem 4 for joint 3, 3 for joint 1, 1 for joint 2"
+        if self.lines.meet(0):
+            return "1 meets 2: subproblem 3 for joint 3, 4 for joint 1, 1 for joint 2"
+        return "skew: subproblem 5, Pieper's quartic"
 
     @cached_property
     def kernel(self) -> BatchKernel:

@@ -7,14 +7,14 @@ from functools import cached_property
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
-from dh2urdf.ik.tolerances import SLACK
+from dh2urdf.ik.tolerances import SLACK, SLACK_OF_NOISE, SNAP
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeParallel"]
 
 
 class ThreeParallel(SolverBase):
-    """Closed form in the plane of the three axes."""
+    """Closed form in the plane of the three axes; ``tolerance`` as in ``SphericalWrist``."""
 
     name = "three parallel axes"
     kmax = 8
@@ -24,21 +24,24 @@ class ThreeParallel(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
-        nominal: SerialChain | None = None,
+        tolerance: float = SNAP,
     ) -> None:
         super().__init__(chain, task, others)
-        self.lines = AxisLines(nominal or chain)
+        self.lines = AxisLines(chain, tolerance)
         self.form = DHForm(self.lines)
-        self.constants = self.links, self.joints, self.form.rows, self.form.ends, SLACK
+        slack = max(SLACK, SLACK_OF_NOISE * tolerance)
+        self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = SNAP
+    ) -> str | None:
         """Say what keeps the family from covering the chain; None if nothing does."""
         if task is not Task.POSE:
             return f"it solves for the full pose, not for {task.value}"
         if chain.n != 6 or chain.prismatic.any():
             return "it needs 6 revolute joints"
-        lines = AxisLines(chain)
+        lines = AxisLines(chain, tolerance)
         if not (lines.three_parallel(0) or lines.three_parallel(1)):
             return "no three neighbouring axes are parallel"
         if not moves_freely(chain):

@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 __all__ = ["ACCEPT", "EXACT", "FAMILY_RANK", "FAMILY_STEP", "FORM_ERROR", "LIMIT_SLACK"]
-__all__ += ["PATH_JUMP", "REGULAR", "SLACK", "SNAP"]
+__all__ += ["INTERVAL_END", "PATH_JUMP", "REGULAR", "SHARP", "SLACK", "SNAP"]
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certify.py``."""
+
+INTERVAL_END = 1e-11
+"""Distance [rad or m] to which the end of an interval of reach is halved; 1e-9 is promised."""
+
+SHARP = 1e-12
+"""Residual [m and rad], relative to the size of an arm of over a metre, up to which a pose counts as
+reached when the end of an interval is sought. With ``ACCEPT`` the end would be off by as much
+divided by the lever arm."""
 
 LIMIT_SLACK = 1e-12
 """Excess over a joint limit [rad or m] that is rounding of a full turn, clipped away."""
@@ -41,3 +49,7 @@ EXACT = 1e-12
 SLACK = 1e-6
 """Relative amount by which an equation may miss its rim before the branch is given up. The residual
 decides at 1e-9; this only has to be larger."""
+
+SLACK_OF_NOISE = 30.0
+"""Slack of an arm that is nearly of a family, per unit of its distance from it: a branch of the
+exact arm that the nominal one just misses still gets a seed."""

@@ -31,8 +31,14 @@ CLUSTER = 1e-6
 HOPELESS = 0.3
 """Residual [m and rad] of a candidate that Newton is not asked to repair."""
 
-MAX_STEPS = 12
-"""Newton steps before a candidate is given up; a sound one needs two or three."""
+PLAIN_STEPS = 5
+"""Plain Newton steps; a sound candidate needs two or three."""
+
+DAMPED_FAILURES = 4
+"""Damped steps that may fail to halve the residual before a candidate is given up."""
+
+TINY_DAMPING = 1e-18
+"""Damping that only keeps rounding from dividing by zero."""
 
 MAX_TURN = 0.3
 """Longest Newton step of one joint [rad or m]."""
@@ -162,34 +168,51 @@ def _damped_step(work, damping):
 def polish(links, joints, T, q, work):
     """Newton's method on the exact chain, q (n,) in place; returns the residual.
 
-    Levenberg's damped step where the plain one does not help: at a singularity the residual
-    falls linearly instead of quadratically, and q stays near where it was.
+    First plain steps, which near a singularity may go uphill once before they converge; where
+    they do not, Levenberg's damped steps from the best point, each of which must go downhill.
     """
     n = q.shape[0]
     residual = pose_residual(links, joints, T, q)
-    if residual > HOPELESS:
+    if residual <= POLISH or not residual <= HOPELESS:
         return residual
-    damping, failures = 1e-18, 0
-    for _ in range(MAX_STEPS):
-        if residual <= POLISH or failures > 3:
-            break
+    best, kept = residual, np.empty(n)
+    for i in range(n):
+        kept[i] = q[i]
+    for _ in range(PLAIN_STEPS):
         _normal_equations(links, joints, T, q, work)
-        longest = _damped_step(work, damping)
-        step = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
-        for i in range(n):
-            q[i] += step * work[i, 7]
-        after = pose_residual(links, joints, T, q)
-        if after < 0.5 * residual:
-            damping *= 0.01
-        else:
-            failures += 1
-            damping = max(100.0 * damping, 1e-3 * residual)
-        if after < residual:
-            residual = after
+        _move_along(q, work, _damped_step(work, TINY_DAMPING))
+        residual = pose_residual(links, joints, T, q)
+        if residual < best:
+            best = residual
+            for i in range(n):
+                kept[i] = q[i]
+        if residual <= POLISH or not residual <= HOPELESS:
+            break
+    damping, failures = 1e-3 * best, 0
+    for i in range(n):
+        q[i] = kept[i]
+    while best > POLISH and failures < DAMPED_FAILURES and damping > TINY_DAMPING:
+        _normal_equations(links, joints, T, q, work)
+        _move_along(q, work, _damped_step(work, damping))
+        residual = pose_residual(links, joints, T, q)
+        damping = 0.01 * damping if residual < 0.5 * best else 100.0 * damping
+        failures += 1 if residual > 0.5 * best else 0
+        if residual < best:
+            best = residual
+            for i in range(n):
+                kept[i] = q[i]
         else:
             for i in range(n):
-                q[i] -= step * work[i, 7]
-    return residual
+                q[i] = kept[i]
+    return best
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _move_along(q, work, longest):
+    """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN``."""
+    scale = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
+    for i in range(q.shape[0]):
+        q[i] += scale * work[i, 7]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
