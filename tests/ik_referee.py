@@ -188,10 +188,10 @@ def search(chain, T, seed, starts=400, steps=40):
         A = J @ J.swapaxes(-1, -2) + damping * np.eye(6)
         dq = (J.swapaxes(-1, -2) @ np.linalg.solve(A, e[..., None]))[..., 0]
         q = q + np.clip(dq, -0.5, 0.5)
-    q = q[residuals(chain, q, T) < 1e-10]
+    q = q[residuals(chain, q, T) < 1e-12]
     distinct = []
     for candidate in q:
-        if not distinct or gaps(chain, candidate, np.array(distinct)).min() > 1e-5:
+        if not distinct or gaps(chain, candidate, np.array(distinct)).min() > 1e-4:
             distinct.append(candidate)
     return np.array(distinct).reshape(-1, chain.n)
 
