@@ -122,7 +122,7 @@ def test_every_contestant_has_its_turn_in_every_round():
 
         return run
 
-    timings = interleaved({name: block_of(name) for name in runs}, 0.0, least=4, most=4)
+    timings = interleaved({name: block_of(name) for name in runs}, 1.0, least=4, most=4)
     assert runs == {"a": 5, "b": 5}
     assert all(t.rounds == 4 and t.low <= t.median <= t.high for t in timings.values())
 

@@ -48,11 +48,10 @@ def contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[IKContestant]:
     """Solvers built for an arm; ``left_out`` learns of those that are not there or refuse."""
     for entry in IK_PEERS:
         try:
-            cls = entry.load()
-        except ImportError as error:
-            left_out[entry.name] = f"not installed ({error})"
-            continue
-        try:
-            yield cls(arm)
+            yield entry.load()(arm)
         except NotCoveredError as reason:
             left_out[f"{entry.name}, {arm.key}"] = str(reason)
+        except ModuleNotFoundError as error:
+            if entry is IK_PEERS[0]:
+                raise
+            left_out[entry.name] = f"not installed ({error})"

@@ -25,7 +25,7 @@ def forward_contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[FKContes
     for name, build in BUILDERS.items():
         try:
             contestant = build(arm)
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             left_out[name] = f"not installed ({error})"
             continue
         if contestant is not None:

@@ -44,7 +44,7 @@ def _solvers(key: str, m: int) -> list[BatchContestant]:
             from benchmarks.peers.eaik import Eaik
 
             found.append(Eaik(arm))
-    except (ImportError, NotCoveredError):
+    except (ModuleNotFoundError, NotCoveredError):
         pass
     return found
 

@@ -17,7 +17,7 @@ from dh2urdf import Robot
 __all__ = ["run"]
 
 Array = NDArray[np.float64]
-Answer = Callable[[Array], Sequence[Array]]
+Answer = Callable[[Array], Sequence[Array] | Array]
 
 SAMPLES = 16
 """Held values a pose, evenly over the joint's range."""
@@ -48,17 +48,17 @@ def run(results: Results) -> None:
 
 
 def _ours(arm: Arm) -> Answer:
-    """One ``ik`` a held value, the values never seen before."""
+    """One ``ik_batch``: the same pose at new values of the held joint, within limits."""
     robot, joint = Robot.from_dh(arm.table), (arm.held or (0, 0.0))[0]
     low, high = robot.lower[joint], robot.upper[joint]
     rng = np.random.default_rng(0)
 
-    def answer(pose: Array) -> list[Array]:
+    def answer(pose: Array) -> Array:
         values = low + (high - low) * (np.arange(SAMPLES) + rng.uniform()) / SAMPLES
-        found: list[Array] = []
-        for value in values:
-            found += list(robot.ik(pose, locked={joint: value}))
-        return found
+        poses = np.broadcast_to(pose, (SAMPLES, 4, 4))
+        found = robot.ik_batch(poses, locked={joint: values}, threads=1)
+        rows: Array = found.q[np.arange(found.q.shape[1]) < found.count[:, None]]
+        return rows
 
     return answer
 
@@ -71,7 +71,7 @@ def _peers(arm: Arm, left_out: dict[str, str]) -> dict[str, Answer]:
 
         module = prebuilt_module(arm)
         answers["ssik prebuilt"] = lambda pose: [s.q for s in module.solve(pose)]
-    except ImportError as error:
+    except ModuleNotFoundError as error:
         left_out["ssik prebuilt"] = f"not installed ({error})"
     if arm.key == "franka_fer":
         try:
@@ -81,6 +81,6 @@ def _peers(arm: Arm, left_out: dict[str, str]) -> dict[str, Answer]:
             answers["frankik"] = lambda pose: frankik.ik_sample_q7(
                 pose, start, sample_size=SAMPLES, sample_interval=332.0, full_ik=True
             )
-        except ImportError as error:
+        except ModuleNotFoundError as error:
             left_out["frankik"] = f"not installed ({error})"
     return answers
