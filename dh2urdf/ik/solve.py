@@ -45,9 +45,10 @@ class InverseKinematics:
         self.chain, self.referee = chain, referee
         self._solvers: dict[tuple[Any, ...], Solver | HeldSolver] = {}
         self._plain: Problem | None = None
+        self._run_once: set[int] = set()
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_solvers": {}, "_plain": None}
+        return {**self.__dict__, "_solvers": {}, "_plain": None, "_run_once": set()}
 
     @property
     def solver(self) -> Solver:
@@ -96,7 +97,7 @@ class InverseKinematics:
         """
         problem = self._plain
         if problem is None or locked is not None or task != "pose":
-            problem = self.problem(task, locked, within_limits)
+            problem = self._compiled(task, locked, within_limits)
         found = problem.solve_one(_one_pose(T, problem), within_limits)
         if seed is not None:
             found = problem.arranged(found, seed, within_limits)
@@ -130,7 +131,7 @@ class InverseKinematics:
         """
         if threads is not None and threads < 1:
             raise ConfigurationError(f"threads: at least 1, not {threads}")
-        problem = self.problem(task, locked, within_limits)
+        problem = self._compiled(task, locked, within_limits)
         return problem.solve_many(_poses(Ts, problem), within_limits, threads, progress)
 
     def solve_path(
@@ -144,7 +145,7 @@ class InverseKinematics:
         max_jump: float | None = None,
     ) -> path.IKPath:
         """A continuous joint path through a sequence of poses, see :func:`path.find_path`."""
-        problem = self.problem(task, locked, within_limits)
+        problem = self._compiled(task, locked, within_limits)
         batch = problem.solve_many(_poses(Ts, problem), within_limits, None, None)
         return path.find_path(problem, batch, start, within_limits, max_jump)
 
@@ -173,10 +174,7 @@ class InverseKinematics:
             allowed = ", ".join(repr(t.value) for t in Task)
             raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
         if not locked:
-            problem = Problem(self.chain, self._solver(wanted, ()), wanted, self.referee)
-            if wanted is Task.POSE:
-                self._plain = problem
-            return problem
+            return Problem(self.chain, self._solver(wanted, ()), wanted, self.referee)
         held = self._held(locked, within_limits)
         joints = tuple(sorted(held))
         try:
@@ -187,22 +185,28 @@ class InverseKinematics:
         solver = self._solver(wanted, joints)
         return Problem(self.chain, solver, wanted, self.referee, values)
 
+    def _compiled(self, task: Task | str, locked: Locked | None, within_limits: bool) -> Problem:
+        """The problem, its kernels run once so that only the first call has to wait for them."""
+        problem = self.problem(task, locked, within_limits)
+        if id(problem.solver) not in self._run_once:
+            with notice_if_slow():
+                values = None if problem.values is None else problem.values[:1]
+                trial = Problem(self.chain, problem.solver, problem.task, self.referee, values)
+                trial.solve_many(self.chain.tool[None], False, 1, None)
+            self._run_once.add(id(problem.solver))
+        if problem.values is None and problem.task is Task.POSE:
+            self._plain = problem
+        return problem
+
     def _solver(self, task: Task, joints: tuple[int, ...]) -> Solver | HeldSolver:
-        """The solver of a task with some joints held, run once so that it is compiled."""
+        """The solver of a task with some joints held, built when it is first asked for."""
         key = (task, *joints)
         if key not in self._solvers:
             if len(joints) == self.chain.n:
                 raise ConfigurationError("locked: all joints are held, none is left to move")
-            with notice_if_slow():
-                solver = (
-                    select_held(self.chain, joints, task)
-                    if joints
-                    else select_solver(self.chain, task)
-                )
-                values = np.zeros((1, len(joints))) if joints else None
-                trial = Problem(self.chain, solver, task, self.referee, values)
-                trial.solve_many(self.chain.tool[None], False, 1, None)
-            self._solvers[key] = solver
+            self._solvers[key] = (
+                select_held(self.chain, joints, task) if joints else select_solver(self.chain, task)
+            )
         return self._solvers[key]
 
     def _held(self, locked: Locked, within_limits: bool) -> dict[int, Array]:
