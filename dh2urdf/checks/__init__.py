@@ -1,0 +1,23 @@
+"""What the consumers of a URDF would say of it: rules, and the consumers' own words.
+
+:func:`check_urdf` walks the table of rules, each of which knows who breaks on what;
+:func:`ask_all` loads the file in every consumer that is installed.
+"""
+
+from dh2urdf.checks.consumers import Testimony, ask, ask_all, installed
+from dh2urdf.checks.findings import Consumer, Effect, Finding, Severity, Verdict
+from dh2urdf.checks.rules import RULES, check_urdf
+
+__all__ = [
+    "RULES",
+    "Consumer",
+    "Effect",
+    "Finding",
+    "Severity",
+    "Testimony",
+    "Verdict",
+    "ask",
+    "ask_all",
+    "check_urdf",
+    "installed",
+]

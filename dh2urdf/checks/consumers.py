@@ -1,0 +1,152 @@
+"""The real parsers asked for their own words, each in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+from dh2urdf.checks.document import Document
+from dh2urdf.checks.findings import Consumer, Verdict
+from dh2urdf.exceptions import UrdfError
+
+__all__ = ["Testimony", "ask", "ask_all", "installed"]
+
+MODULES = {
+    Consumer.PINOCCHIO: "pinocchio",
+    Consumer.YOURDFPY: "yourdfpy",
+    Consumer.MUJOCO: "mujoco",
+    Consumer.PYBULLET: "pybullet",
+    Consumer.DRAKE: "pydrake",
+    Consumer.IKPY: "ikpy",
+}
+
+PATIENCE = 30.0
+"""Seconds after which a consumer counts as hanging."""
+
+LONGEST = 8
+"""Lines of a consumer's words that are kept."""
+
+NOISE = re.compile(
+    r"^\s*at line \d+ in /project/|^pybullet build time|^argv\[|^b3Warning\[.*\]:$|^\s*$"
+)
+"""Lines that say nothing of the file."""
+
+
+@dataclass(frozen=True)
+class Testimony:
+    """What a consumer made of a file.
+
+    Parameters
+    ----------
+    consumer : Consumer
+    version : str
+        Empty where it did not get so far as to tell.
+    verdict : Verdict
+        ``ACCEPTS``, ``COMPLAINS`` or ``REFUSES``.
+    words : str
+        Its own.
+    """
+
+    consumer: Consumer
+    version: str
+    verdict: Verdict
+    words: str
+
+
+def installed() -> tuple[Consumer, ...]:
+    """The consumers that can be asked here."""
+    found = [consumer for consumer, module in MODULES.items() if find_spec(module)]
+    if _check_urdf():
+        found.insert(1, Consumer.CHECK_URDF)
+    return tuple(found)
+
+
+def ask_all(
+    path: str | os.PathLike[str], consumers: Iterable[Consumer] | None = None
+) -> tuple[Testimony, ...]:
+    """What each consumer makes of a file; by default all that are installed."""
+    chosen = installed() if consumers is None else tuple(consumers)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return tuple(pool.map(lambda consumer: ask(consumer, path), chosen))
+
+
+def ask(consumer: Consumer, path: str | os.PathLike[str]) -> Testimony:
+    """What a consumer makes of a file, asked in a process that may crash or hang."""
+    file = os.path.abspath(path)
+    if consumer is Consumer.CHECK_URDF:
+        command = [_check_urdf() or "check_urdf", file]
+    else:
+        command = [sys.executable, "-m", "dh2urdf.checks.probe", str(consumer), file]
+    with tempfile.TemporaryDirectory() as scratch:
+        try:
+            run = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                errors="replace",
+                timeout=PATIENCE,
+                check=False,
+                cwd=scratch,
+                stdin=subprocess.DEVNULL,
+            )
+        except subprocess.TimeoutExpired:
+            return Testimony(consumer, "", Verdict.REFUSES, f"no answer within {PATIENCE:.0f} s")
+    version = run.stdout.rstrip().rpartition("\n")[2] if run.returncode == 0 else ""
+    text = run.stderr
+    if consumer is Consumer.PYBULLET:
+        text = f"{_pybullet_words(run.stdout, _root_of(file))}\n{text}"
+    words = _words(text)
+    if run.returncode < 0:
+        return Testimony(
+            consumer, "", Verdict.REFUSES, f"crashes (signal {-run.returncode})\n{words}".rstrip()
+        )
+    if run.returncode:
+        return Testimony(consumer, "", Verdict.REFUSES, words)
+    verdict = Verdict.COMPLAINS if words else Verdict.ACCEPTS
+    return Testimony(consumer, "" if consumer is Consumer.CHECK_URDF else version, verdict, words)
+
+
+def _words(text: str) -> str:
+    lines = list(
+        dict.fromkeys(line.rstrip() for line in text.splitlines() if not NOISE.match(line))
+    )
+    if len(lines) > LONGEST:
+        lines[LONGEST:] = [f"(and {len(lines) - LONGEST} lines more)"]
+    return "\n".join(lines)
+
+
+def _pybullet_words(out: str, root: str) -> str:
+    """Its warnings and errors, without the one that every massless root link brings about."""
+    marks = re.sub(r"b3(Warning|Error)\[[^\]]*\]:\n?", r"\n\1: ", out)
+    words = [line for line in marks.splitlines() if line.startswith(("Warning: ", "Error: "))]
+    notice = "Warning: No inertial data for link"
+    said = []
+    for line, following in zip(words, [*words[1:], ""], strict=True):
+        if line.startswith(notice):
+            name = following.removeprefix("Warning: ")
+            said += [] if name == root else [f"{notice}, using mass=1: {name}"]
+        elif not (said and said[-1].endswith(line.removeprefix("Warning: "))):
+            said.append(line)
+    return "\n".join(line for line in said if line != f"Warning: {root}")
+
+
+def _root_of(path: str) -> str:
+    try:
+        return next(iter(Document.read(path).roots), "")
+    except UrdfError:
+        return ""
+
+
+def _check_urdf() -> str | None:
+    """Path of urdfdom's checker, which comes with Pinocchio's wheel."""
+    beside = str(Path(sys.executable).parent)
+    return shutil.which("check_urdf", path=os.pathsep.join([beside, os.environ.get("PATH", "")]))

@@ -1,0 +1,115 @@
+"""What is found in a URDF: where, how bad, who breaks on it, how to mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+
+__all__ = ["URDFDOM", "Consumer", "Effect", "Finding", "Severity", "Verdict"]
+
+
+class Consumer(StrEnum):
+    """A program that reads URDF files."""
+
+    PINOCCHIO = "Pinocchio"
+    CHECK_URDF = "check_urdf"
+    YOURDFPY = "yourdfpy"
+    MUJOCO = "MuJoCo"
+    PYBULLET = "PyBullet"
+    DRAKE = "Drake"
+    IKPY = "ikpy"
+    KDL = "KDL"
+    GAZEBO = "Gazebo"
+    MOVEIT = "MoveIt"
+    IKFAST = "IKFast"
+    RVIZ = "RViz"
+
+
+URDFDOM = (
+    Consumer.CHECK_URDF,
+    Consumer.PINOCCHIO,
+    Consumer.KDL,
+    Consumer.GAZEBO,
+    Consumer.MOVEIT,
+    Consumer.RVIZ,
+)
+"""Those that read a file through the library urdfdom, and so refuse the same ones."""
+
+
+class Verdict(StrEnum):
+    """What a consumer makes of a file."""
+
+    ACCEPTS = "accepts"
+    MISREADS = "misreads"
+    """Takes the file without a word and makes something else of it."""
+    COMPLAINS = "complains"
+    """Takes the file, with words of its own or with numbers that are none."""
+    REFUSES = "refuses"
+    """Gives no model: an error, a crash, or no answer at all."""
+
+
+class Severity(StrEnum):
+    """How much a finding matters; the worst verdict among its effects decides."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    ADVICE = "advice"
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What some consumers make of a finding."""
+
+    consumers: tuple[Consumer, ...]
+    verdict: Verdict
+    text: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One thing found.
+
+    Parameters
+    ----------
+    rule : str
+        Name of the rule in ``RULES``.
+    line : int
+        Line of the element in the file.
+    element : str
+        The element, such as ``<link name="arm">``.
+    message : str
+        What is wrong with it.
+    effects : tuple of Effect
+        Who breaks on it, and how.
+    mend : str
+        What to do about it.
+    """
+
+    rule: str
+    line: int
+    element: str
+    message: str
+    effects: tuple[Effect, ...]
+    mend: str
+
+    @property
+    def severity(self) -> Severity:
+        """Error where someone refuses the file, warning where someone misreads it."""
+        verdicts = {effect.verdict for effect in self.effects}
+        if Verdict.REFUSES in verdicts:
+            return Severity.ERROR
+        if verdicts & {Verdict.COMPLAINS, Verdict.MISREADS}:
+            return Severity.WARNING
+        return Severity.ADVICE
+
+    @property
+    def consumers(self) -> tuple[Consumer, ...]:
+        """Everyone whom it concerns, each once."""
+        return tuple(dict.fromkeys(c for effect in self.effects for c in effect.consumers))
+
+
+def effect(consumers: Iterable[Consumer] | Consumer, verdict: Verdict, text: str = "") -> Effect:
+    """An effect on one consumer or several."""
+    everyone = (consumers,) if isinstance(consumers, Consumer) else tuple(consumers)
+    return Effect(everyone, verdict, text)

@@ -1,0 +1,69 @@
+"""Mesh files: where a name in a URDF points, and how large the mesh is."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from urllib.parse import unquote, urlparse
+
+import numpy as np
+
+__all__ = ["is_remote", "locate", "stl_extent"]
+
+LARGEST = 50_000_000
+"""Bytes of a mesh that is still looked into."""
+
+RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+"""A triangle of a binary STL file."""
+
+
+def locate(filename: str, urdf: Path) -> Path | None:
+    """The file that a mesh's name means; None where there is none.
+
+    ``package://`` and ``model://`` are looked for in ``ROS_PACKAGE_PATH`` and in the folders
+    above the URDF, a plain path from the URDF's own folder.
+    """
+    scheme, rest = _split(filename)
+    folders = list(urdf.resolve().parents)
+    if scheme in ("package", "model"):
+        search = [Path(p) for p in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if p]
+        package, _, inside = rest.partition("/")
+        candidates = [folder / rest for folder in (*search, *folders)]
+        candidates += [folder / inside for folder in (*search, *folders) if folder.name == package]
+    elif scheme == "file":
+        candidates = [Path(unquote(rest))]
+    else:
+        candidates = [folders[0] / filename]
+    return next((path for path in candidates if path.is_file()), None)
+
+
+def is_remote(filename: str) -> bool:
+    """True for a name that only the network can resolve."""
+    return _split(filename)[0] in ("http", "https")
+
+
+def _split(filename: str) -> tuple[str, str]:
+    parts = urlparse(filename)
+    if not re.match(r"[a-z]+://", filename):
+        return "", filename
+    return parts.scheme, filename.partition("://")[2]
+
+
+def stl_extent(path: Path) -> float | None:
+    """Longest side [file's unit] of the box around an STL mesh; None for any other file."""
+    if path.suffix.lower() != ".stl" or not 84 <= path.stat().st_size <= LARGEST:
+        return None
+    data = path.read_bytes()
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) == 84 + 50 * count and count:
+        points = np.frombuffer(data, RECORD, count, 84)["corners"].reshape(-1, 3)
+    else:
+        found = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data)
+        try:
+            points = np.array(found, float).reshape(-1, 3)
+        except ValueError:
+            return None
+    if not len(points):
+        return None
+    return float(np.ptp(points, axis=0).max())

@@ -1,0 +1,40 @@
+"""What a rule yields: the element and what is to be said of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lxml import etree
+
+from dh2urdf.checks.findings import Effect, Finding
+
+__all__ = ["Found"]
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A finding before it is placed in its file; the fields are those of ``Finding``."""
+
+    at: etree._Element
+    message: str
+    effects: tuple[Effect, ...]
+    mend: str
+
+    def placed(self, rule: str) -> Finding:
+        """The finding of a rule."""
+        line = self.at.sourceline or 1
+        return Finding(rule, line, _label(self.at), self.message, self.effects, self.mend)
+
+
+def _label(element: etree._Element) -> str:
+    """``<link name="arm">``; an element without a name says whose it is."""
+    tag = etree.QName(element).localname
+    name = element.get("name")
+    if name is not None:
+        return f'<{tag} name="{name}">'
+    owner = element.getparent()
+    while owner is not None and owner.get("name") is None:
+        owner = owner.getparent()
+    if owner is None or owner.getparent() is None:
+        return f"<{tag}>"
+    return f'<{tag}> of <{etree.QName(owner).localname} name="{owner.get("name")}">'

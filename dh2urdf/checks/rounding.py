@@ -1,0 +1,161 @@
+"""The rule of rounded angles, and what they cost in forward kinematics."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from lxml import etree
+
+from dh2urdf import transforms as tf
+from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.findings import Consumer, Verdict, effect
+from dh2urdf.checks.report import Found
+from dh2urdf.transforms import Array
+
+__all__ = ["meant_angle", "rounded_angle"]
+
+EXACT = 1e-9
+"""Angle [rad] below which a rounding is of no account: ten written digits."""
+
+COUNT = 64
+"""Random configurations over which the cost is measured."""
+
+STEPS = {2: math.pi / 2, 3: math.pi / 4}
+"""Multiples of what an angle of so few decimals is taken to stand for; 15 degrees beyond."""
+
+
+def meant_angle(word: str) -> float | None:
+    """The multiple of 15 degrees that a number [rad] was rounded or cut off from, if it was."""
+    value, decimals = float(word), len(word.partition(".")[2])
+    step = STEPS.get(decimals, math.pi / 12)
+    k = round(value / step)
+    if decimals < 2 or k == 0 or "e" in word.lower():
+        return None
+    exact = (k // 6) * (math.pi / 2) if step == math.pi / 12 and k % 6 == 0 else k * step
+    last = 10.0**-decimals
+    off = abs(exact) - abs(value)
+    return exact if -0.5 * last <= off < last and abs(off) > EXACT else None
+
+
+def rounded_angle(doc: Document) -> Iterator[Found]:
+    """Right angles are written with every digit."""
+    mended: dict[etree._Element, list[float]] = {}
+    for _, _, joint in doc.edges:
+        origin = joint.find("origin")
+        rpy = doc.numbers(origin, "rpy")
+        if rpy is not None and origin is not None:
+            meant = [meant_angle(word) for word in origin.get("rpy", "").split()]
+            if any(angle is not None for angle in meant):
+                mended[joint] = [v if m is None else m for v, m in zip(rpy, meant, strict=True)]
+    if not mended:
+        return
+    first = next(iter(mended))
+    names = [str(joint.get("name")) for joint in mended]
+    shown = ", ".join(names[:6]) + (f" and {len(names) - 6} more" if len(names) > 6 else "")
+    text = first.find("origin").get("rpy")
+    yield Found(
+        first.find("origin"),
+        f'rpy="{text}" is rounded; joints: {shown}. {_cost(doc, mended)}',
+        (
+            effect(
+                (Consumer.IKFAST, Consumer.MOVEIT),
+                Verdict.MISREADS,
+                "closed-form solvers see axes that are nearly parallel or nearly meet, not ones "
+                "that do",
+            ),
+        ),
+        f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such angles "
+        "right and prints what each costs",
+    )
+
+
+def _cost(doc: Document, mended: Mapping[etree._Element, list[float]]) -> str:
+    q = np.random.default_rng(0).uniform(-math.pi, math.pi, size=(len(doc.edges), COUNT))
+    written, exact = _positions(doc, {}, q), _positions(doc, mended, q)
+    if written is None or exact is None:
+        return "What it costs cannot be measured in this file"
+    moved = {name: _farthest(exact[name] - written[name]) for name in written}
+    link = max(moved, key=lambda name: moved[name])
+    return f"That moves {link!r} by up to {_length(moved[link])} (measured)"
+
+
+def _farthest(offsets: Array) -> float:
+    return float(np.linalg.norm(offsets, axis=-1).max())
+
+
+def _length(metres: float) -> str:
+    for unit, size in (("m", 1.0), ("mm", 1e-3), ("um", 1e-6)):
+        if metres >= size:
+            return f"{metres / size:.3g} {unit}"
+    return f"{metres * 1e9:.3g} nm"
+
+
+def _positions(
+    doc: Document, mended: Mapping[etree._Element, list[float]], q: Array
+) -> dict[str, Array] | None:
+    """Position of every link at many configurations, (m, 3) each; None for no sound tree.
+
+    Parameters
+    ----------
+    mended : mapping of joint elements to rpy
+        Angles to take in place of those in the file.
+    q : array, shape (joints, m)
+        Values within the limits are drawn from these by folding.
+    """
+    index = {id(joint): k for k, (_, _, joint) in enumerate(doc.edges)}
+    if len(doc.roots) != 1 or len(doc.edges) != len(doc.links) - 1:
+        return None
+    poses = {doc.roots[0]: np.broadcast_to(np.eye(4), (q.shape[1], 4, 4))}
+    for name in list(poses):
+        todo = [name]
+        for parent in todo:
+            for child, joint in doc.children[parent]:
+                step = _step(doc, joint, mended.get(joint), q[index[id(joint)]])
+                if step is None:
+                    return None
+                poses[child] = poses[parent] @ step
+                todo.append(child)
+    return {name: T[:, :3, 3] for name, T in poses.items()}
+
+
+def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Array) -> Array | None:
+    """``T_parent_child`` of a joint, shape (m, 4, 4)."""
+    origin = joint.find("origin")
+    xyz = [0.0] * 3 if origin is None or not origin.get("xyz") else doc.numbers(origin, "xyz")
+    if rpy is None:
+        rpy = [0.0] * 3 if origin is None or not origin.get("rpy") else doc.numbers(origin, "rpy")
+    if xyz is None or rpy is None:
+        return None
+    T = tf.origin_matrix(xyz, rpy)
+    if doc.kind(joint) not in MOVING:
+        return np.broadcast_to(T, (len(q), 4, 4))
+    axis = np.array(doc.numbers(joint.find("axis"), "xyz") or (1.0, 0.0, 0.0))
+    length = float(np.linalg.norm(axis))
+    if not length:
+        return None
+    return T @ _motion(doc.kind(joint) == "prismatic", axis / length, _within(doc, joint, q))
+
+
+def _within(doc: Document, joint: etree._Element, q: Array) -> Array:
+    """The random values brought into the joint's limits, where it has some."""
+    limit = joint.find("limit")
+    lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
+    if lower is None or upper is None or doc.kind(joint) == "continuous":
+        return q
+    return lower + (q + math.pi) / (2 * math.pi) * (upper - lower)
+
+
+def _motion(slides: bool, axis: Array, q: Array) -> Array:
+    """Turn about or slide along a unit axis, shape (m, 4, 4) (Rodrigues' formula)."""
+    out = np.zeros((len(q), 4, 4))
+    out[:] = np.eye(4)
+    if slides:
+        out[:, :3, 3] = q[:, None] * axis
+        return out
+    x, y, z = axis
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    s, c = np.sin(q)[:, None, None], np.cos(q)[:, None, None]
+    out[:, :3, :3] += s * K + (1 - c) * (K @ K)
+    return out

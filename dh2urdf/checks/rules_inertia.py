@@ -1,0 +1,275 @@
+"""Rules of mass: what moves needs some, and a tensor that a body could have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from lxml import etree
+
+from dh2urdf.checks.document import MOVING, TENSOR, Document
+from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.report import Found
+from dh2urdf.conversions.inertia import tensor, why_impossible
+from dh2urdf.transforms import Array
+
+__all__ = [
+    "inertia_not_positive",
+    "inertia_triangle",
+    "inertia_zero",
+    "inertial_incomplete",
+    "mass_negative",
+    "massless",
+    "massless_frame",
+    "massless_part",
+    "root_inertia",
+]
+
+ESTIMATE = "dh2urdf convert estimates masses from the drawn bodies of a DH table"
+
+
+def _mass(doc: Document, link: str) -> float | None:
+    """Mass of a link [kg]; None where there is no <inertial>, or none that can be read."""
+    inertial = doc.link_by_name[link].find("inertial")
+    return None if inertial is None else doc.number(inertial.find("mass"), "value")
+
+
+def _tensor(doc: Document, inertial: etree._Element) -> Array | None:
+    """Tensor (3, 3) [kg m^2] of an <inertial>; None where it cannot be read."""
+    element = inertial.find("inertia")
+    six = [value for key in TENSOR if (value := doc.number(element, key)) is not None]
+    return tensor(six) if len(six) == len(TENSOR) else None
+
+
+def _is_last(doc: Document, link: str) -> bool:
+    """True where nothing with a mass moves beyond the link."""
+    todo, heavy = [link], False
+    part = set(doc.rigid_part(link))
+    for name in todo:
+        todo += [c for c, _ in doc.children[name] if c not in todo]
+        heavy |= name not in part and bool(_mass(doc, name))
+    return not heavy
+
+
+def massless(doc: Document) -> Iterator[Found]:
+    """What a joint moves has a mass."""
+    for name in doc.moving:
+        link, part = doc.link_by_name[name], doc.rigid_part(name)
+        if any(_mass(doc, member) for member in part) or _unreadable(doc, part):
+            continue
+        empty = link.find("inertial") is None
+        shells = any(doc.link_by_name[m].find("collision") is not None for m in part)
+        effects = [
+            *([] if shells else [effect(Consumer.MUJOCO, Verdict.REFUSES)]),
+            *(
+                [effect(Consumer.PINOCCHIO, Verdict.COMPLAINS, "forward dynamics give NaN")]
+                if _is_last(doc, name)
+                else []
+            ),
+            effect(Consumer.GAZEBO, Verdict.MISREADS, "drops the link and all that hangs on it"),
+        ]
+        if empty:
+            effects.append(effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes it for 1 kg"))
+        yield Found(
+            link,
+            "moves, and has no <inertial>" if empty else "moves, and has no mass",
+            tuple(effects),
+            f"give it a mass and a tensor; {ESTIMATE}",
+        )
+
+
+def _unreadable(doc: Document, part: list[str]) -> bool:
+    """True where an <inertial> is there but incomplete or no number, which other rules say."""
+    for member in part:
+        inertial = doc.link_by_name[member].find("inertial")
+        if inertial is not None and _mass(doc, member) is None:
+            return True
+    return False
+
+
+def massless_part(doc: Document) -> Iterator[Found]:
+    """A moving link has its mass itself, not in a part fixed to it."""
+    for name in doc.moving:
+        link = doc.link_by_name[name]
+        others = [m for m in doc.rigid_part(name)[1:] if _mass(doc, m)]
+        if link.find("inertial") is None and others:
+            yield Found(
+                link,
+                f"has no <inertial>; its mass is in {', '.join(map(repr, others))}",
+                (
+                    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "adds 1 kg"),
+                    effect(Consumer.GAZEBO, Verdict.MISREADS, "may drop the link"),
+                ),
+                "move the mass to this link",
+            )
+
+
+def massless_frame(doc: Document) -> Iterator[Found]:
+    """A frame on a fixed joint says that it weighs nothing."""
+    silent = [
+        name
+        for name in doc.link_by_name
+        if name in doc.moved
+        and doc.kind(doc.joint_above[name]) == "fixed"
+        and doc.link_by_name[name].find("inertial") is None
+    ]
+    if silent:
+        yield Found(
+            doc.link_by_name[silent[0]],
+            f"has no <inertial>{_and_others(silent)}",
+            (effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes each for 1 kg"),),
+            "give it an <inertial> with mass 0 and a zero tensor",
+        )
+
+
+def _and_others(names: list[str]) -> str:
+    return f"; nor has {', '.join(map(repr, names[1:]))}" if len(names) > 1 else ""
+
+
+def mass_negative(doc: Document) -> Iterator[Found]:
+    """No mass is negative."""
+    for name, link in doc.link_by_name.items():
+        mass = _mass(doc, name)
+        if mass is not None and mass < 0:
+            yield Found(
+                link,
+                f"has a mass of {mass:g} kg",
+                (
+                    *_by_mujoco(doc, name),
+                    effect(Consumer.DRAKE, Verdict.COMPLAINS),
+                    effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
+                ),
+                "mend the sign",
+            )
+
+
+def _by_mujoco(doc: Document, link: str) -> list[Effect]:
+    """MuJoCo looks at the mass of what moves."""
+    return [effect(Consumer.MUJOCO, Verdict.REFUSES)] if link in doc.moving else []
+
+
+def inertial_incomplete(doc: Document) -> Iterator[Found]:
+    """An <inertial> has a mass and all six numbers of its tensor."""
+    for link in doc.links:
+        inertial = link.find("inertial")
+        if inertial is None:
+            continue
+        mass, element = inertial.find("mass"), inertial.find("inertia")
+        missing = [] if mass is not None and mass.get("value") is not None else ["mass"]
+        if element is None:
+            missing.append("tensor")
+        else:
+            missing += [key for key in TENSOR if element.get(key) is None]
+        if missing:
+            yield Found(
+                inertial,
+                f"has no {', '.join(missing)}",
+                (
+                    effect(Consumer.PYBULLET, Verdict.REFUSES),
+                    *(
+                        []
+                        if missing[0] in ("ixy", "ixz", "iyz")
+                        else [effect(Consumer.MUJOCO, Verdict.REFUSES)]
+                    ),
+                    effect(URDFDOM, Verdict.COMPLAINS, "leave the whole <inertial> out"),
+                ),
+                "write what is missing, zeros where they are meant",
+            )
+
+
+def inertia_zero(doc: Document) -> Iterator[Found]:
+    """What a joint moves and has a mass has a tensor too."""
+    for name in doc.moving:
+        inertial = doc.link_by_name[name].find("inertial")
+        if inertial is None or not _mass(doc, name):
+            continue
+        alone = not any(_mass(doc, member) for member in doc.rigid_part(name)[1:])
+        inertia = _tensor(doc, inertial)
+        if alone and inertia is not None and not inertia.any():
+            yield Found(
+                inertial,
+                "is a point: a mass without a tensor",
+                (
+                    effect(Consumer.MUJOCO, Verdict.REFUSES),
+                    *(
+                        [effect(Consumer.PINOCCHIO, Verdict.COMPLAINS, "may compute NaN")]
+                        if _is_last(doc, name) and _on_axis(doc, name, inertial)
+                        else []
+                    ),
+                ),
+                f"write the tensor of a body of that size; {ESTIMATE}",
+            )
+
+
+def _on_axis(doc: Document, name: str, inertial: etree._Element) -> bool:
+    """True where the centre of mass lies on the axis: turning it takes no torque."""
+    joint = doc.joint_above[name]
+    if doc.kind(joint) not in MOVING or doc.kind(joint) == "prismatic":
+        return False
+    com = np.array(doc.numbers(inertial.find("origin"), "xyz") or (0.0, 0.0, 0.0))
+    axis = np.array(doc.numbers(joint.find("axis"), "xyz") or (1.0, 0.0, 0.0))
+    return bool(np.allclose(np.cross(com, axis), 0.0))
+
+
+def _impossible(doc: Document) -> Iterator[tuple[str, etree._Element, Array, str]]:
+    """``(link, inertial, tensor, why)`` of the tensors, but zeros, that no body has."""
+    for name, link in doc.link_by_name.items():
+        inertial = link.find("inertial")
+        inertia = None if inertial is None else _tensor(doc, inertial)
+        if inertia is not None and inertia.any():
+            why = why_impossible(inertia)
+            if why:
+                yield name, inertial, inertia, why
+
+
+def _by_tensor_readers(doc: Document, name: str) -> tuple[Effect, ...]:
+    kept = name in doc.moved or doc.mujoco.get("fusestatic") == "false"
+    return (
+        *([effect(Consumer.MUJOCO, Verdict.REFUSES)] if kept else []),
+        effect(Consumer.DRAKE, Verdict.COMPLAINS),
+        effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes the tensor for zero"),
+        effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
+    )
+
+
+def inertia_not_positive(doc: Document) -> Iterator[Found]:
+    """The principal moments of a tensor are positive."""
+    for name, inertial, inertia, why in _impossible(doc):
+        if np.linalg.eigvalsh(inertia)[0] <= 0:
+            yield Found(
+                inertial,
+                f"no body has this tensor: {why}",
+                _by_tensor_readers(doc, name),
+                "mend the signs of the products of inertia, or the units",
+            )
+
+
+def inertia_triangle(doc: Document) -> Iterator[Found]:
+    """No principal moment of a tensor exceeds the sum of the other two."""
+    for name, inertial, inertia, why in _impossible(doc):
+        if np.linalg.eigvalsh(inertia)[0] > 0:
+            yield Found(
+                inertial,
+                f"no body has this tensor: {why}",
+                _by_tensor_readers(doc, name),
+                "raise the smaller moments; MuJoCo does it itself with "
+                '<mujoco><compiler balanceinertia="true"/></mujoco>',
+            )
+
+
+def root_inertia(doc: Document) -> Iterator[Found]:
+    """The root link has no mass."""
+    for name in doc.roots[:1]:
+        if doc.moving and _mass(doc, name):
+            yield Found(
+                doc.link_by_name[name],
+                "is the root and has an <inertial>",
+                (
+                    effect(
+                        Consumer.KDL,
+                        Verdict.COMPLAINS,
+                        "takes no root with inertia: leaves it out with a warning",
+                    ),
+                ),
+                "hang the mass on a child of the root by a fixed joint",
+            )

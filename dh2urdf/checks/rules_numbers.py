@@ -1,0 +1,178 @@
+"""Rules of numbers: xacro, text, how many, finite, minus zero."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lxml import etree
+
+from dh2urdf.checks.document import NUMBER, Document
+from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.report import Found
+
+__all__ = ["negative_zero", "not_finite", "number", "number_count", "xacro"]
+
+XACRO = "http://www.ros.org/wiki/xacro"
+
+NO_NUMBER = re.compile(r"[+-]?(inf(inity)?|nan)", re.IGNORECASE)
+
+PYTHON = re.compile(r"[+-]?(\d(_?\d)*\.?(\d(_?\d)*)?|\.\d(_?\d)*)([eE][+-]?\d(_?\d)*)?")
+"""What Python's float reads; C++ and MuJoCo stop at an underscore."""
+
+
+DIGIT = re.compile(r"[+-]?[.\d]")
+"""How a word begins of which Drake reads the number and drops the rest."""
+
+
+def xacro(doc: Document) -> Iterator[Found]:
+    """Nothing is left of xacro."""
+    everyone = (*URDFDOM, Consumer.MUJOCO, Consumer.YOURDFPY, Consumer.DRAKE, Consumer.IKPY)
+    for element in doc.root.iter(etree.Element):
+        name = etree.QName(element)
+        if name.namespace == XACRO:
+            effects: tuple[Effect, ...] = (
+                effect((*URDFDOM, Consumer.MUJOCO), Verdict.MISREADS, "skip the element"),
+            )
+            message = "is an element of xacro"
+        else:
+            left = [v for v in element.attrib.values() if "${" in v or "$(" in v]
+            if not left:
+                continue
+            message = f"holds {left[0]!r}, an expression of xacro"
+            keys = [k for k, v in element.attrib.items() if v == left[0]]
+            in_joint = element.getparent() in doc.joints and (element.tag, keys[0]) in NUMERIC
+            effects = (effect(everyone, Verdict.REFUSES),) if in_joint else ()
+            effects += (effect(Consumer.PYBULLET, Verdict.MISREADS, "reads 0"),)
+        yield Found(
+            element, message, effects, "expand the file first: xacro robot.xacro > robot.urdf"
+        )
+
+
+NUMERIC = {("origin", "xyz"), ("origin", "rpy"), ("axis", "xyz")}
+
+
+def _words(doc: Document) -> Iterator[tuple[etree._Element, str, int, list[str]]]:
+    for element, key, count in doc.with_numbers():
+        text = element.get(key, "")
+        if "${" not in text and "$(" not in text:
+            yield element, key, count, text.split()
+
+
+def _owner(element: etree._Element) -> str:
+    """``joint``, ``inertial``, ``visual``, ``collision`` or ``material``."""
+    while element.tag not in ("joint", "inertial", "visual", "collision", "material"):
+        element = element.getparent()
+    return str(element.tag)
+
+
+def number(doc: Document) -> Iterator[Found]:
+    """Where a number belongs there is one."""
+    for element, key, _, words in _words(doc):
+        bad = [w for w in words if not NUMBER.fullmatch(w) and not NO_NUMBER.fullmatch(w)]
+        if bad:
+            yield Found(
+                element,
+                f'{key}="{element.get(key)}": {bad[0]!r} is no number',
+                _text_effects(doc, element, bad[0]),
+                "write it out; URDF has no expressions, units, commas or underscores",
+            )
+
+
+def _text_effects(doc: Document, element: etree._Element, word: str) -> tuple[Effect, ...]:
+    owner = _owner(element)
+    python = bool(PYTHON.fullmatch(word))
+    readers: tuple[Consumer, ...] = () if python else (Consumer.YOURDFPY,)
+    zero = effect(Consumer.PYBULLET, Verdict.MISREADS, "reads what it can, 0 otherwise")
+    if owner == "joint":
+        if not python and element.tag in ("origin", "axis"):
+            readers += (Consumer.IKPY,)
+        if not DIGIT.match(word):
+            readers += (Consumer.DRAKE,)
+        return effect((*URDFDOM, *readers, Consumer.MUJOCO), Verdict.REFUSES), zero
+    if owner == "inertial":
+        return (
+            effect((*readers, Consumer.MUJOCO), Verdict.REFUSES),
+            effect(URDFDOM, Verdict.COMPLAINS, "leave the whole <inertial> out"),
+            zero,
+        )
+    if owner in ("visual", "collision") and doc.mujoco_reads(element):
+        return (
+            effect((*readers, Consumer.MUJOCO), Verdict.REFUSES),
+            effect(URDFDOM, Verdict.COMPLAINS, f"leave the {owner} out"),
+        )
+    return (
+        effect(readers, Verdict.REFUSES),
+        effect(URDFDOM, Verdict.COMPLAINS, f"leave the {owner} out"),
+    )
+
+
+def number_count(doc: Document) -> Iterator[Found]:
+    """There are as many numbers as there should be."""
+    for element, key, count, words in _words(doc):
+        if len(words) != count and all(NUMBER.fullmatch(word) for word in words):
+            few = len(words) < count
+            in_joint = _owner(element) == "joint"
+            readers = (*((Consumer.YOURDFPY,) if few else ()), Consumer.DRAKE, Consumer.IKPY)
+            yield Found(
+                element,
+                f'{key}="{element.get(key)}": {len(words)} numbers, {count} belong there',
+                (
+                    effect((*URDFDOM, Consumer.MUJOCO, *readers), Verdict.REFUSES)
+                    if in_joint
+                    else effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out"),
+                ),
+                f"write {count}",
+            )
+
+
+def not_finite(doc: Document) -> Iterator[Found]:
+    """No number is infinite or NaN."""
+    for element, key, _, words in _words(doc):
+        bad = [w for w in words if NO_NUMBER.fullmatch(w) or _overflows(w)]
+        if not bad:
+            continue
+        limit = element.tag == "limit"
+        mend = "write the value; an unlimited joint has wide limits" if limit else "write the value"
+        message = f'{key}="{element.get(key)}": {bad[0]} is not finite'
+        yield Found(element, message, tuple(_infinite_effects(element, bad[0])), mend)
+
+
+def _infinite_effects(element: etree._Element, word: str) -> Iterator[Effect]:
+    in_joint = _owner(element) == "joint"
+    yield effect((*(URDFDOM if in_joint else ()), Consumer.DRAKE), Verdict.REFUSES)
+    if not in_joint:
+        yield effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out")
+    if _overflows(word) or element.tag == "mass":
+        yield effect(Consumer.MUJOCO, Verdict.REFUSES)
+    elif element.tag == "origin" or "nan" in word.lower():
+        yield effect(Consumer.MUJOCO, Verdict.COMPLAINS, "computes NaN")
+    if in_joint and element.tag == "origin":
+        yield effect(Consumer.IKPY, Verdict.COMPLAINS, "computes NaN")
+        if "nan" not in word.lower():
+            yield effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "computes NaN")
+    yield effect((Consumer.PYBULLET, Consumer.YOURDFPY), Verdict.MISREADS, "compute with it")
+
+
+def _overflows(word: str) -> bool:
+    return bool(NUMBER.fullmatch(word)) and abs(float(word)) == float("inf")
+
+
+def negative_zero(doc: Document) -> Iterator[Found]:
+    """No number is a minus zero."""
+    for element, key, _, words in _words(doc):
+        minus = [w for w in words if w.startswith("-") and NUMBER.fullmatch(w) and float(w) == 0]
+        if minus:
+            yield Found(
+                element,
+                f'{key}="{element.get(key)}": {minus[0]} is zero',
+                (
+                    effect(
+                        Consumer.IKFAST,
+                        Verdict.ACCEPTS,
+                        "programs that generate code may carry the sign along: "
+                        "atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi",
+                    ),
+                ),
+                "write 0",
+            )

@@ -1,0 +1,389 @@
+"""Rules of the tree: names, what joints join, roots and loops."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.report import Found
+
+__all__ = [
+    "duplicate_joint",
+    "duplicate_link",
+    "joins_itself",
+    "joint_ends",
+    "joint_named_as_link",
+    "joint_type",
+    "loop",
+    "many_degrees",
+    "name_characters",
+    "no_links",
+    "no_name",
+    "robot_name",
+    "several_roots",
+    "side_frame_first",
+    "two_parents",
+    "unknown_child",
+    "unknown_parent",
+    "version",
+]
+
+KINDS = (*MOVING, "fixed", "floating", "planar")
+
+STRICT = (*URDFDOM, Consumer.MUJOCO, Consumer.PYBULLET, Consumer.DRAKE)
+
+
+def _refuse(*consumers: Consumer, text: str = "") -> Effect:
+    return effect(consumers, Verdict.REFUSES, text)
+
+
+def _misread(*consumers: Consumer, text: str) -> Effect:
+    return effect(consumers, Verdict.MISREADS, text)
+
+
+def robot_name(doc: Document) -> Iterator[Found]:
+    """<robot> has a name."""
+    if not doc.root.get("name"):
+        refusing = (*URDFDOM, Consumer.YOURDFPY, Consumer.PYBULLET, Consumer.DRAKE)
+        yield Found(
+            doc.root,
+            "the robot has no name",
+            (_refuse(*refusing),),
+            'write <robot name="...">',
+        )
+
+
+def version(doc: Document) -> Iterator[Found]:
+    """The version of the format is one that urdfdom knows."""
+    text = doc.root.get("version")
+    if text is not None and text not in ("1.0", "1.1", "1.2", "1"):
+        yield Found(
+            doc.root,
+            f'version="{text}" is no version of URDF',
+            (
+                _refuse(*URDFDOM),
+                effect(Consumer.DRAKE, Verdict.COMPLAINS, "ignores the attribute"),
+            ),
+            "leave the attribute out, or write 1.0",
+        )
+
+
+def no_links(doc: Document) -> Iterator[Found]:
+    """There are links."""
+    if not doc.links:
+        yield Found(
+            doc.root,
+            "the robot has no links",
+            (_refuse(*URDFDOM, Consumer.PYBULLET, Consumer.IKPY),),
+            "is this the right file, or a xacro that was not expanded?",
+        )
+
+
+def no_name(doc: Document) -> Iterator[Found]:
+    """Every link and joint has a name."""
+    everyone = (*STRICT, Consumer.YOURDFPY, Consumer.IKPY)
+    for element in (*doc.links, *doc.joints):
+        if element.get("name") is None:
+            effects: tuple[Effect, ...] = (_refuse(*everyone),)
+        elif not element.get("name"):
+            effects = (
+                _refuse(Consumer.PYBULLET),
+                effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
+            )
+        else:
+            continue
+        yield Found(element, "has no name", effects, 'write name="..."')
+
+
+def _repeated(elements: list[etree._Element]) -> Iterator[etree._Element]:
+    seen: set[str] = set()
+    for element in elements:
+        name = element.get("name")
+        if name and name in seen:
+            yield element
+        seen.add(str(name))
+
+
+def duplicate_link(doc: Document) -> Iterator[Found]:
+    """No two links share a name."""
+    for link in _repeated(doc.links):
+        yield Found(
+            link,
+            "a second link of this name",
+            (
+                _refuse(*STRICT),
+                _misread(Consumer.YOURDFPY, Consumer.IKPY, text="take one and drop the other"),
+            ),
+            "rename one of them",
+        )
+
+
+def duplicate_joint(doc: Document) -> Iterator[Found]:
+    """No two joints share a name."""
+    for joint in _repeated(doc.joints):
+        yield Found(
+            joint,
+            "a second joint of this name",
+            (
+                _refuse(*URDFDOM, Consumer.DRAKE),
+                _refuse(Consumer.PYBULLET, text="crashes"),
+                _misread(
+                    Consumer.YOURDFPY, Consumer.MUJOCO, text="take the file; one shadows the other"
+                ),
+            ),
+            "rename one of them",
+        )
+
+
+def joint_named_as_link(doc: Document) -> Iterator[Found]:
+    """No joint has the name of a link."""
+    for joint in doc.joints:
+        if joint.get("name") in doc.link_by_name:
+            yield Found(
+                joint,
+                "a link has this name too",
+                (
+                    effect(
+                        Consumer.PINOCCHIO,
+                        Verdict.ACCEPTS,
+                        "getFrameId without a FrameType raises on the name",
+                    ),
+                ),
+                "name the joint otherwise, such as ..._joint",
+            )
+
+
+def joint_ends(doc: Document) -> Iterator[Found]:
+    """Every joint names a parent and a child."""
+    everyone = (*STRICT, Consumer.YOURDFPY, Consumer.IKPY)
+    for joint in doc.joints:
+        for tag in ("parent", "child"):
+            if not doc.end(joint, tag):
+                yield Found(
+                    joint,
+                    f"has no <{tag}>",
+                    (_refuse(*everyone),),
+                    f'write <{tag} link="..."/>',
+                )
+
+
+def _unknown(doc: Document, tag: str) -> Iterator[tuple[etree._Element, str]]:
+    for joint in doc.joints:
+        name = doc.end(joint, tag)
+        if name and name not in doc.link_by_name:
+            yield joint, f"its {tag} {name!r} is no link of the file"
+
+
+def unknown_child(doc: Document) -> Iterator[Found]:
+    """The child of every joint is a link of the file."""
+    for joint, message in _unknown(doc, "child"):
+        yield Found(
+            joint,
+            message,
+            (
+                _refuse(*STRICT, Consumer.YOURDFPY),
+                _misread(Consumer.IKPY, text="takes the joint as a link of its chain"),
+            ),
+            "mend the name, or add the link",
+        )
+
+
+def unknown_parent(doc: Document) -> Iterator[Found]:
+    """The parent of every joint is a link of the file."""
+    for joint, message in _unknown(doc, "parent"):
+        yield Found(
+            joint,
+            message,
+            (
+                _refuse(*STRICT),
+                _misread(Consumer.YOURDFPY, Consumer.IKPY, text="take the file all the same"),
+            ),
+            "mend the name, or add the link",
+        )
+
+
+def joins_itself(doc: Document) -> Iterator[Found]:
+    """No joint joins a link to itself."""
+    for joint in doc.joints:
+        if doc.end(joint, "parent") == doc.end(joint, "child") != "":
+            yield Found(
+                joint,
+                f"joins {doc.end(joint, 'child')!r} to itself",
+                (
+                    _refuse(Consumer.CHECK_URDF, Consumer.IKPY, text="do not come back"),
+                    _refuse(Consumer.PYBULLET, text="crashes"),
+                    _refuse(Consumer.PINOCCHIO, Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                ),
+                "mend its parent or its child",
+            )
+
+
+def two_parents(doc: Document) -> Iterator[Found]:
+    """No link hangs on two joints."""
+    above: dict[str, str] = {}
+    for joint in doc.joints:
+        child = doc.end(joint, "child")
+        if child in above and doc.end(joint, "parent") != child:
+            yield Found(
+                joint,
+                f"{child!r} hangs on joint {above[child]!r} already; a URDF is a tree",
+                (
+                    _refuse(Consumer.PYBULLET, text="crashes"),
+                    _refuse(Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                    _refuse(Consumer.PINOCCHIO, text="or misreads, as the names fall"),
+                    _misread(Consumer.CHECK_URDF, text="takes the file as a tree without a word"),
+                ),
+                "cut one of the joints; closed loops need SDF or MJCF",
+            )
+        above.setdefault(child, str(joint.get("name")))
+
+
+def loop(doc: Document) -> Iterator[Found]:
+    """Links do not hang on themselves in a circle."""
+    reached: set[str] = set()
+    todo = list(doc.roots)
+    while todo:
+        name = todo.pop()
+        if name not in reached:
+            reached.add(name)
+            todo += [child for child, _ in doc.children[name]]
+    circle = [joint for _, child, joint in doc.edges if child not in reached]
+    if circle:
+        names = ", ".join(str(joint.get("name")) for joint in circle)
+        yield Found(
+            circle[0],
+            f"joints form a loop: {names}",
+            (
+                _refuse(*STRICT, Consumer.IKPY),
+                _misread(Consumer.YOURDFPY, text="takes the file all the same"),
+            ),
+            "cut one of the joints; closed loops need SDF or MJCF",
+        )
+
+
+def several_roots(doc: Document) -> Iterator[Found]:
+    """One link only hangs on nothing."""
+    hung = {doc.end(joint, "child") for joint in doc.joints}
+    loose = [name for name in doc.roots if name not in hung]
+    for name in loose[1:]:
+        yield Found(
+            doc.link_by_name[name],
+            f"hangs on nothing, and so does {loose[0]!r}",
+            (
+                _refuse(*URDFDOM),
+                _refuse(Consumer.PYBULLET, text="crashes"),
+                effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "hangs it on the base"),
+                _misread(Consumer.DRAKE, text="leaves it floating"),
+                _misread(Consumer.MUJOCO, text="welds it to the world"),
+            ),
+            "join it by a fixed joint, or drop it",
+        )
+
+
+def joint_type(doc: Document) -> Iterator[Found]:
+    """Every joint is of a type that URDF has."""
+    for joint in doc.joints:
+        kind = doc.kind(joint)
+        if kind not in KINDS:
+            yield Found(
+                joint,
+                f"type {kind!r} is none of {', '.join(KINDS)}" if kind else "has no type",
+                (
+                    _refuse(*STRICT, Consumer.IKPY)
+                    if kind != "spherical"
+                    else _refuse(*URDFDOM, Consumer.DRAKE, Consumer.IKPY),
+                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
+                ),
+                "a ball joint is three revolute joints; all else is one of the types above",
+            )
+
+
+def many_degrees(doc: Document) -> Iterator[Found]:
+    """No joint has more than one degree of freedom."""
+    for joint in doc.joints:
+        if doc.kind(joint) == "floating":
+            yield Found(
+                joint,
+                "has six degrees of freedom",
+                (
+                    _refuse(Consumer.IKPY),
+                    *([] if doc.end(joint, "parent") in doc.roots else [_below_top()]),
+                    effect(Consumer.DRAKE, Verdict.COMPLAINS, "leaves the child a free body"),
+                    _misread(Consumer.KDL, Consumer.PYBULLET, text="make it a fixed joint"),
+                ),
+                "fix the base, and let the program that loads the file free it",
+            )
+        elif doc.kind(joint) == "planar":
+            yield Found(
+                joint,
+                "has three degrees of freedom",
+                (
+                    _refuse(Consumer.IKPY),
+                    _misread(Consumer.KDL, text="makes it a fixed joint"),
+                ),
+                "write two prismatic joints and a revolute one",
+            )
+
+
+def _below_top() -> Effect:
+    return _refuse(Consumer.MUJOCO, text="refuses one below the top of the tree")
+
+
+def name_characters(doc: Document) -> Iterator[Found]:
+    """Names are of letters, digits and underscores."""
+    for element in (*doc.links, *doc.joints):
+        name = str(element.get("name", ""))
+        odd = [c for c in dict.fromkeys(name) if not (c.isascii() and (c.isalnum() or c in "_-."))]
+        if odd:
+            yield Found(
+                element,
+                f"the name holds {' '.join(map(repr, odd))}",
+                (
+                    effect(
+                        (Consumer.MOVEIT, Consumer.IKFAST),
+                        Verdict.ACCEPTS,
+                        "names become ROS parameters, topics and C++ identifiers",
+                    ),
+                    effect(Consumer.RVIZ, Verdict.ACCEPTS, "frame names of tf hold no slashes"),
+                ),
+                "keep to ASCII letters, digits and underscores",
+            )
+
+
+def side_frame_first(doc: Document) -> Iterator[Found]:
+    """The first joint of each link leads on along the longest chain."""
+    order = list(doc.roots)
+    for name in order:
+        order += [child for child, _ in doc.children[name]]
+        if len(order) > len(doc.link_by_name):
+            return
+    below: dict[str, int] = {}
+    for name in reversed(order):
+        below[name] = max(
+            (_moving_below(doc, below, c, j) for c, j in doc.children[name]), default=0
+        )
+    for link, children in doc.children.items():
+        if len(children) > 1 and link in doc.moved | set(doc.roots):
+            ways = [_moving_below(doc, below, child, joint) for child, joint in children]
+            if ways[0] < max(ways):
+                child, joint = children[0]
+                yield Found(
+                    joint,
+                    f"stands before the joint of {link!r} that leads on along the arm",
+                    (
+                        effect(
+                            Consumer.IKPY,
+                            Verdict.ACCEPTS,
+                            f"follows the first joint of each link, and so ends at {child!r} "
+                            "unless told every element of its way",
+                        ),
+                    ),
+                    "write joints of side frames behind those of the arm",
+                )
+
+
+def _moving_below(doc: Document, below: dict[str, int], child: str, joint: etree._Element) -> int:
+    return below.get(child, 0) + (doc.kind(joint) in MOVING)

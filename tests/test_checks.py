@@ -1,0 +1,234 @@
+"""`check` says beforehand what each consumer will make of a file, and the consumers agree."""
+
+import logging
+import warnings
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from urdf_faults import BODY, FAULTS, KEEP, SOUND, TOOL, arm, fixed, joint, write_meshes
+
+import dh2urdf
+from dh2urdf.checks import RULES, Consumer, Severity, Verdict, ask, check_urdf, consumers
+from dh2urdf.checks.probe import probe
+from dh2urdf.checks.rounding import meant_angle
+from dh2urdf.exceptions import UrdfError
+
+HERE = (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.YOURDFPY, Consumer.MUJOCO)
+ELSEWHERE = (Consumer.PYBULLET, Consumer.DRAKE, Consumer.IKPY)
+ORDER = (Verdict.ACCEPTS, Verdict.MISREADS, Verdict.COMPLAINS, Verdict.REFUSES)
+
+CASES = [
+    pytest.param(rule, text, id=f"{rule}-{k}")
+    for rule, texts in FAULTS.items()
+    for k, text in enumerate(texts)
+]
+every_case = pytest.mark.parametrize(("rule", "text"), CASES)
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write a URDF beside some meshes; its path."""
+    write_meshes(tmp_path)
+
+    def write(text):
+        path = tmp_path / "arm.urdf"
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def predicted(findings, consumer):
+    """The worst that the findings say of a consumer; it accepts what they do not mention."""
+    said = [e.verdict for f in findings for e in f.effects if consumer in e.consumers]
+    worst = max(said, key=ORDER.index, default=Verdict.ACCEPTS)
+    return Verdict.ACCEPTS if worst is Verdict.MISREADS else worst
+
+
+def verdict_here(consumer, path, capfd, caplog):
+    """What a consumer makes of a file, loaded in this process where it cannot harm it."""
+    if consumer is Consumer.CHECK_URDF:
+        return ask(consumer, path).verdict
+    capfd.readouterr()
+    caplog.clear()
+    with warnings.catch_warnings(record=True) as caught, caplog.at_level(logging.WARNING):
+        warnings.simplefilter("always")
+        refused = probe(consumer, str(path))
+    if refused:
+        return Verdict.REFUSES
+    said = caught or caplog.records or capfd.readouterr().err.strip()
+    return Verdict.COMPLAINS if said else Verdict.ACCEPTS
+
+
+def test_every_rule_has_a_file_that_breaks_it():
+    """The table of rules and the table of faults name the same rules; each rule says what holds."""
+    assert set(FAULTS) == set(RULES)
+    assert all(rule.__doc__ for rule in RULES.values())
+
+
+@every_case
+def test_the_fault_is_found(rule, text, written):
+    """The rule of a fault finds it, on a line of the file, says whom it concerns and the cure."""
+    path = written(text)
+    found = [f for f in check_urdf(path) if f.rule == rule]
+    assert found
+    lines = text.splitlines()
+    for finding in found:
+        tag = finding.element.split()[0].strip("<>")
+        assert tag in "".join(lines[finding.line - 1 :])
+        assert finding.message
+        assert finding.mend
+        assert finding.consumers
+
+
+def test_sound_files_have_no_findings(written):
+    """A sound arm, with and without frames, has none, and everyone here accepts it."""
+    frame = TOOL.replace('"tool0"/>', '"tool0"><inertial><mass value="0"/><inertia ixx="0" '
+        'ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>', 1)  # fmt: skip
+    for text in (SOUND, arm(extra=KEEP + frame)):
+        assert check_urdf(written(text)) == ()
+        assert [ask(c, written(text)).verdict for c in HERE] == [Verdict.ACCEPTS] * 4
+
+
+@pytest.mark.parametrize("name", dh2urdf.list_tables())
+def test_own_files_have_no_findings(name, tmp_path):
+    """What dh2urdf writes passes every rule."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(dh2urdf.urdf_text(dh2urdf.load_table(name)))
+    assert check_urdf(path) == ()
+
+
+@pytest.mark.parametrize("consumer", HERE)
+@every_case
+def test_consumers_do_as_predicted(rule, text, consumer, written, capfd, caplog, monkeypatch):
+    """Each consumer refuses, complains or accepts exactly as the findings say."""
+    monkeypatch.setattr(consumers, "PATIENCE", 3.0)
+    path = written(text)
+    assert verdict_here(consumer, path, capfd, caplog) == predicted(check_urdf(path), consumer)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("consumer", ELSEWHERE)
+@every_case
+def test_other_consumers_do_as_predicted(rule, text, consumer, written, monkeypatch):
+    """The same of PyBullet, Drake and ikpy, each in a process of its own."""
+    pytest.importorskip(consumers.MODULES[consumer])
+    monkeypatch.setattr(consumers, "PATIENCE", 10.0)
+    path = written(text)
+    assert ask(consumer, path).verdict == predicted(check_urdf(path), consumer)
+
+
+def test_severity_is_that_of_the_worst_effect(written):
+    """No mass: MuJoCo refuses, an error. Root with mass: KDL complains, a warning."""
+    (finding,) = check_urdf(written(arm(fore="")))
+    assert finding.severity is Severity.ERROR
+    (finding,) = check_urdf(written(arm(base=BODY)))
+    assert finding.severity is Severity.WARNING
+    (finding,) = check_urdf(written(arm(elbow=joint(kind="continuous", limit=""))))
+    assert finding.severity is Severity.ADVICE
+
+
+def test_continuous_joints_have_two_numbers_in_pinocchio(written):
+    """As the advice says: model.nq exceeds model.nv."""
+    model = pin.buildModelFromUrdf(str(written(arm(elbow=joint(kind="continuous", limit="")))))
+    assert (model.nq, model.nv) == (3, 2)
+
+
+def test_mujoco_fuses_links_on_fixed_joints(written):
+    """As the advice says: tool0 is gone, and stays where fusestatic is false."""
+    import mujoco
+
+    (text,) = FAULTS["fused-frames"]
+    model = mujoco.MjModel.from_xml_path(str(written(text)))
+    assert "tool0" not in {model.body(i).name for i in range(model.nbody)}
+    model = mujoco.MjModel.from_xml_path(str(written(text.replace("</robot>", f"{KEEP}</robot>"))))
+    assert "tool0" in {model.body(i).name for i in range(model.nbody)}
+
+
+def test_pinocchio_does_not_follow_mimics(written):
+    """As the advice says: a mimicking joint is free, unless asked for."""
+    (text,) = FAULTS["mimic"]
+    path = str(written(text))
+    assert pin.buildModelFromUrdf(path).nv == 2
+    assert pin.buildModelFromUrdf(path, True).nv == 1
+
+
+def test_frames_of_two_kinds_share_a_name_in_pinocchio(written):
+    """As the advice says: getFrameId raises on a name that a link and a joint have."""
+    (text,) = FAULTS["joint-named-as-link"]
+    model = pin.buildModelFromUrdf(str(written(text)))
+    with pytest.raises(ValueError, match="Several frames"):
+        model.getFrameId("fore")
+
+
+def test_bounds_left_out_read_as_zero_in_pinocchio(written):
+    """As the warning says: the joint has nowhere to go."""
+    (text,) = FAULTS["limit-without-bounds"]
+    model = pin.buildModelFromUrdf(str(written(text)))
+    k = model.joints[model.getJointId("elbow")].idx_q
+    assert model.lowerPositionLimit[k] == model.upperPositionLimit[k] == 0
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("1.5708", np.pi / 2),
+        ("-1.5707", -np.pi / 2),
+        ("1.57", np.pi / 2),
+        ("3.14159265", np.pi),
+        ("0.785398", np.pi / 4),
+        ("0.2618", np.pi / 12),
+        ("1.5707963267948966", None),
+        ("1.570796327", None),
+        ("0.26", None),
+        ("1.58", None),
+        ("0", None),
+        ("0.0001", None),
+        ("2", None),
+        ("1.0", None),
+    ],
+)
+def test_rounded_angles_are_told_from_others(word, meant):
+    """A rounding of a multiple of 15 degrees is one; other numbers, and exact ones, are not."""
+    found = meant_angle(word)
+    assert found == (None if meant is None else pytest.approx(meant, abs=1e-15))
+
+
+def test_cost_of_a_rounded_angle_is_measured(written):
+    """An angle off by e turns the rest of the arm, 1 m long, about by 2 sin(e / 2) m."""
+    tip = '<link name="tip"/>' + fixed("t", "fore", "tip").replace(
+        "<parent", '<origin xyz="0 1 0"/><parent'
+    )
+    text = arm(elbow=joint(rpy="1.5708 0 0", kind="fixed", axis="", limit=""), extra=KEEP + tip)
+    (finding,) = [f for f in check_urdf(written(text)) if f.rule == "rounded-angle"]
+    assert "'tip' by up to 3.67 um" in finding.message
+    assert "1.5707963267948966 0.0 0.0" in finding.mend
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "not XML"),
+        (b"\x00\x01", "not XML"),
+        (b"<robot>", "not XML"),
+        (b"<mujoco/>", "MJCF"),
+        (b"<sdf/>", "SDF"),
+        (b"<!DOCTYPE r [<!ENTITY a 'b'>]><robot name='&a;'/>", "DOCTYPE"),
+    ],
+)
+def test_what_is_no_urdf_is_an_error_of_one_line(content, message, tmp_path):
+    """Unreadable files raise UrdfError with the file's name."""
+    path = tmp_path / "arm.urdf"
+    path.write_bytes(content)
+    with pytest.raises(UrdfError, match=message) as caught:
+        check_urdf(path)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_an_error(tmp_path):
+    """So is a folder."""
+    for path in (tmp_path / "nowhere.urdf", tmp_path):
+        with pytest.raises(UrdfError, match=str(path)):
+            check_urdf(path)
