@@ -15,7 +15,6 @@ from dh2urdf.kernels.certify import (
     ACCEPT,
     CLUSTER,
     HOPELESS,
-    MAX_STEPS,
     MAX_TURN,
     POLISH,
     TWO_PI,
@@ -27,6 +26,9 @@ from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, _null_direction
 from dh2urdf.kernels.merging import NEAR
 
 __all__ = ["finish_position", "position_residual"]
+
+MAX_STEPS = 12
+"""Newton steps before a candidate is given up; a sound one needs two or three."""
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
