@@ -32,7 +32,7 @@ class Visitor:
         self.context.route("**/*", self._route)
         before = set(view._server.get_clients())
         self.page = self.context.new_page()
-        self.page.set_default_timeout(90_000)
+        self.page.set_default_timeout(45_000)
         self.page.goto(view.url)
         self.page.get_by_text("Names of axes").wait_for()
         wait_for(lambda: set(view._server.get_clients()) - before, 60)
@@ -50,15 +50,19 @@ class Visitor:
             route.abort()
 
     def tab(self, name):
+        """Open a tab."""
         self.page.get_by_role("tab", name=name).click()
         time.sleep(0.5)
 
     def field(self, label):
         """The visible input with a label."""
-        shown = self.page.locator("label:visible").get_by_text(label, exact=True)
-        return self.page.locator(f"[id='{shown.first.get_attribute('for')}']")
+        shown = self.page.locator("label:visible").get_by_text(label, exact=True).first
+        return shown.locator(
+            "xpath=ancestor::div[2]//*[self::textarea or self::input[not(@type='hidden')]]"
+        ).last
 
     def fill(self, label, text):
+        """Type a text into a field."""
         field = self.field(label)
         field.fill(text)
         field.press("Enter")
@@ -66,12 +70,14 @@ class Visitor:
         time.sleep(0.4)
 
     def choose(self, label, option):
+        """Choose an option of a dropdown."""
         self.field(label).click()
         time.sleep(0.3)
         self.page.get_by_role("option", name=option, exact=True).click()
         time.sleep(0.5)
 
     def button(self, name):
+        """A button by its text."""
         return self.page.get_by_role("button", name=name, exact=True)
 
     def pixel(self, point):
@@ -103,11 +109,13 @@ class Visitor:
         time.sleep(0.5)
 
     def screenshot(self, name):
+        """Keep a picture of the page among the artefacts."""
         ARTIFACTS.mkdir(exist_ok=True)
         time.sleep(1.5)
         self.page.screenshot(path=ARTIFACTS / f"{name}.png")
 
     def close(self):
+        """Close the page."""
         self.context.close()
 
 

@@ -64,9 +64,9 @@ def figure_(
         One JSON object instead of text.
     """
     from dh2urdf.figures import figure, save_picture
-    from dh2urdf.figures.save import format_of
+    from dh2urdf.figures.save import check_target
 
-    format_of(output)
+    check_target(output, force=force)
     if not 10 <= dpi <= 2400:
         raise ConfigurationError(f"--dpi: {dpi:g} is not between 10 and 2400")
     arm = robot_of(robot, base, tip)

@@ -10,7 +10,7 @@ from dh2urdf.dh_io import atomic_write
 from dh2urdf.exceptions import OutputError, OutputExistsError
 from dh2urdf.figures.style import RC, Picture, mpl
 
-__all__ = ["FORMATS", "picture_bytes", "save_picture"]
+__all__ = ["FORMATS", "check_target", "picture_bytes", "save_picture"]
 
 FORMATS = ("png", "svg", "pdf")
 """Formats written, by suffix."""
@@ -47,6 +47,25 @@ def format_of(path: Path) -> str:
     return suffix
 
 
+def check_target(path: str | os.PathLike[str], *, force: bool) -> str:
+    """Format of a path at which a figure may be written.
+
+    Raises
+    ------
+    OutputError
+        A format that is not written here.
+    OutputExistsError
+        Without ``force``: somebody else's file is in the way.
+    """
+    target = Path(path)
+    format = format_of(target)
+    if not force and target.is_file() and MARK.encode() not in target.read_bytes():
+        raise OutputExistsError(
+            f"{target}: exists and was not drawn by dh2urdf; --force (force=True) replaces it"
+        )
+    return format
+
+
 def save_picture(
     figure: Picture, path: str | os.PathLike[str], *, dpi: float = 180.0, force: bool = True
 ) -> Path:
@@ -68,10 +87,5 @@ def save_picture(
     OutputExistsError
         Without ``force``: somebody else's file is in the way.
     """
-    target = Path(path)
-    format = format_of(target)
-    if not force and target.is_file() and MARK.encode() not in target.read_bytes():
-        raise OutputExistsError(
-            f"{target}: exists and was not drawn by dh2urdf; --force (force=True) replaces it"
-        )
-    return atomic_write(target, picture_bytes(figure, format, dpi=dpi))
+    format = check_target(path, force=force)
+    return atomic_write(path, picture_bytes(figure, format, dpi=dpi))

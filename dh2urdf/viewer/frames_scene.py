@@ -125,6 +125,12 @@ class RowScene:
         middle: Array = (self.picture.T_prev[:3, 3] + self.picture.T_next[:3, 3]) / 2
         return middle
 
+    @property
+    def extent(self) -> float:
+        """Distance between the two frames [m]."""
+        assert self.picture is not None
+        return float(np.linalg.norm(self.picture.T_next[:3, 3] - self.picture.T_prev[:3, 3]))
+
     def _axes(self, picture: DHRowPicture) -> None:
         """Both z axes as long thin lines, and the common normal."""
         reach = 1.8 * self.length

@@ -189,7 +189,8 @@ class ArmView:
         if self._row_scene is None or self._row_scene.picture is None:
             look_at(visitor, *self._stage)
         else:
-            look_at(visitor, self._row_scene.middle, CLOSE * self._arm.size)
+            scene = self._row_scene
+            look_at(visitor, scene.middle, max(CLOSE * self._arm.size, 2.2 * scene.extent))
 
     def _target_on(self, visitor: Any) -> None:
         """Put the explained row away when the target comes up."""

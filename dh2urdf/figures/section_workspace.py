@@ -1,0 +1,170 @@
+"""A section through an arm's reach: how many branches, and from how many sides."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.drawing.arm import zero_configuration
+from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.workspace import Section, Task, caption, task_of
+
+__all__ = ["section_picture"]
+
+Counts = NDArray[np.int64]
+
+LEVELS = (0.25, 0.5, 0.75, 0.95)
+"""Shares at which white contours are drawn."""
+
+EMPTY = "#f1f2f4"
+"""Colour of no solution."""
+
+
+def section_picture(
+    robot: Robot,
+    counts: tuple[Section, Counts] | None,
+    shares: tuple[Section, Array, int] | None,
+    R: Array,
+    *,
+    within_limits: bool = True,
+) -> Picture:
+    """Draw the maps of a section side by side.
+
+    Parameters
+    ----------
+    robot : Robot
+    counts : (Section, array), optional
+        Number of branches with the tip turned to R.
+    shares : (Section, array, int), optional
+        Share of orientations reached, and how many were tried.
+    R : array, shape (3, 3)
+    """
+    panels = [p for p in (counts, shares) if p is not None]
+    with mpl.rc_context(RC):
+        figure = Picture(figsize=(5.4 * len(panels) + 0.2, 5.5))
+        width = 1.0 / len(panels)
+        for k, panel in enumerate(panels):
+            left = k * width
+            axes = figure.add_axes((left + 0.125 * width, 0.15, 0.69 * width, 0.75))
+            bar = figure.add_axes((left + 0.835 * width, 0.22, 0.03 * width, 0.61))
+            if panel is counts:
+                _counts(axes, bar, *counts, task_of(robot), R)
+            else:
+                assert shares is not None
+                _shares(axes, bar, *shares, task_of(robot))
+            _frame(axes, panel[0], _used(panels))
+            if k == 0:
+                _silhouette(axes, robot, panel[0], R, within_limits)
+        text = caption(robot, f"Slice {panels[0][0].name}", within_limits=within_limits)
+        figure.text(0.02, 0.02, text, color=MUTED, size=9)
+        return figure
+
+
+def _used(panels: list[Any]) -> Array:
+    """Corners of a square around everything reached and the origin, with a margin, (2, 2)."""
+    low, high = np.zeros(2), np.zeros(2)
+    for panel in panels:
+        grid, values = panel[0], panel[1]
+        rows, columns = np.nonzero(values)
+        if len(rows):
+            found = np.stack([grid.u[columns], grid.v[rows]])
+            low, high = np.minimum(low, found.min(axis=1)), np.maximum(high, found.max(axis=1))
+    middle, half = (low + high) / 2, 0.56 * max(float((high - low).max()), 1e-3)
+    return np.stack([middle - half, middle + half])
+
+
+def _frame(axes: Any, grid: Section, corners: Array) -> None:
+    u, v = "xyz"[grid.plane.u], "xyz"[grid.plane.v]
+    axes.set(xlabel=f"${u}$ / m", ylabel=f"${v}$ / m")
+    axes.set_aspect("equal")
+    axes.set(xlim=corners[:, 0], ylim=corners[:, 1], facecolor=EMPTY)
+    axes.axhline(0.0, color=INK, lw=0.6, ls=":", alpha=0.6)
+
+
+def _counts(axes: Any, bar: Any, grid: Section, counts: Counts, task: Task, R: Array) -> None:
+    """One colour a number of branches, white lines between them."""
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    numbers = np.unique(np.concatenate([[0], counts.ravel()]))
+    blues = mpl.colormaps["Blues"](np.linspace(0.28, 0.92, max(len(numbers) - 1, 1)))
+    colours = ListedColormap([EMPTY, *blues[: len(numbers) - 1]])
+    index = np.searchsorted(numbers, counts)
+    norm = BoundaryNorm(np.arange(len(numbers) + 1) - 0.5, len(numbers))
+    mesh = axes.pcolormesh(grid.u, grid.v, index, cmap=colours, norm=norm, rasterized=True)
+    for number in numbers[1:]:
+        axes.contour(grid.u, grid.v, counts >= number, levels=[0.5], colors="white", linewidths=1.2)
+    drawn = axes.figure.colorbar(mesh, cax=bar, ticks=np.arange(len(numbers)))
+    drawn.ax.set_yticklabels([str(n) for n in numbers])
+    drawn.ax.tick_params(length=0, which="both")
+    drawn.outline.set_visible(False)
+    axes.set_title(f"IK branches, {_turned(task, R)}", weight="bold", size=11, loc="left")
+
+
+def _turned(task: Task, R: Array) -> str:
+    if task.name == "position":
+        return "any orientation"
+    z = R[:, 2]
+    for axis, word in (((0, 0, -1), "down"), ((0, 0, 1), "up")):
+        if float(z @ np.array(axis)) > 1 - 1e-9 and task.sides == "rotations":
+            return f"tool pointing {word}"
+    return "tool turned as at q = 0" if task.sides == "turns" else "tool turned as asked"
+
+
+def _shares(axes: Any, bar: Any, grid: Section, share: Array, tried: int, task: Task) -> None:
+    """Filled contours of the share, white lines at a few of them."""
+    steps = [1e-3, *np.linspace(0.05, 1.0, 20)]
+    filled = axes.contourf(grid.u, grid.v, share, levels=steps, cmap="viridis")
+    filled.set_rasterized(True)
+    lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
+    axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
+    drawn = axes.figure.colorbar(filled, cax=bar, ticks=[1e-3, 0.25, 0.5, 0.75, 1.0])
+    drawn.ax.set_yticklabels(["0", "25", "50", "75", "100"])
+    drawn.set_label("orientations reached / %")
+    drawn.outline.set_visible(False)
+    what = "turns" if task.sides == "turns" else "uniform rotations"
+    if task.name == "position+axis":
+        what = "directions of the tool"
+    axes.set_title(f"Dexterity ({tried} {what})", weight="bold", size=11, loc="left")
+
+
+def _silhouette(axes: Any, robot: Robot, grid: Section, R: Array, within_limits: bool) -> None:
+    """The arm as bones, at a solution in the plane where there is one."""
+    q, target = _posed(robot, grid, R, within_limits)
+    frames = robot.frames(q)[:, :3, 3]
+    points = np.concatenate([np.zeros((1, 3)), frames, robot.fk(q)[None, :3, 3]])
+    bones = points[:, [grid.plane.u, grid.plane.v]]
+    axes.plot(*bones.T, color="white", lw=6.5, solid_capstyle="round", solid_joinstyle="round")
+    axes.plot(*bones.T, color=INK, lw=3.6, solid_capstyle="round", solid_joinstyle="round")
+    axes.plot(*bones[:-1].T, "o", ms=5.5, mfc="white", mec=INK, mew=1.4, ls="none")
+    if target is not None:
+        spot = target[[grid.plane.u, grid.plane.v]]
+        axes.plot(*spot, "x", ms=10, mew=2.8, color="#d62728", zorder=9)
+
+
+def _posed(
+    robot: Robot, grid: Section, R: Array, within_limits: bool
+) -> tuple[Array, Array | None]:
+    """A configuration that reaches a point right of the middle; zero where none does."""
+    zero = zero_configuration(robot, None)
+    middle = np.array([np.median(grid.u), np.median(grid.v)])
+    half = (grid.u[-1] - grid.u[0]) / 2
+    for share in (0.55, 0.45, 0.35, 0.65, 0.25):
+        point = np.zeros(3)
+        point[grid.plane.normal] = grid.at
+        point[grid.plane.u] = middle[0] + share * half
+        point[grid.plane.v] = middle[1] + 0.15 * half
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = R, point
+        try:
+            found = robot.ik(T, within_limits=within_limits, task=task_of(robot).name)
+        except Dh2UrdfError:
+            return zero, None
+        if len(found):
+            heights = robot.frames(found.q)[..., :3, 3].mean(axis=1)[:, grid.plane.v]
+            return found.q[int(np.argmax(heights))], point
+    return zero, None

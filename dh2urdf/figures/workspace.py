@@ -1,0 +1,98 @@
+"""Pictures of what an arm reaches, chosen by its kind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.figures.planar_workspace import planar_picture
+from dh2urdf.figures.section_workspace import section_picture
+from dh2urdf.figures.style import Picture
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import rpy_to_matrix
+from dh2urdf.workspace import (
+    branch_counts,
+    default_orientation,
+    dexterity,
+    planar_arm,
+    section,
+    task_of,
+)
+
+__all__ = ["workspace_figure"]
+
+FINE, COARSE = 221, 61
+"""Points along a side of the map of branches and of the map of orientations."""
+
+
+def workspace_figure(
+    robot: Robot,
+    *,
+    plane: str = "",
+    at: float | None = None,
+    rpy: ArrayLike | None = None,
+    points: int | None = None,
+    orientations: int = 150,
+    within_limits: bool = True,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> Picture:
+    """Draw what an arm reaches.
+
+    A planar RR arm: the surface of its poses and its annulus. Any other: a section with the
+    number of branches and the share of orientations reached.
+
+    Parameters
+    ----------
+    robot : Robot
+    plane : {"xz", "yz", "xy"}, optional
+        Plane of the section; that of a planar arm, else xz.
+    at : float, optional
+        Where the plane stands along its normal [m].
+    rpy : array_like, shape (3,), optional
+        Orientation in which branches are counted [rad]; the tool pointing down.
+    points : int, optional
+        Points along a side of the map of branches; the other map has three tenths of them.
+    orientations : int
+        Orientations tried at each point.
+    within_limits : bool
+    progress : callable, optional
+        Called with what is computed, the number of poses done, and their total.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    NoSolverError, ConfigurationError
+    """
+    if orientations < 1:
+        raise ConfigurationError(f"orientations: at least 1, not {orientations}")
+    flat = planar_arm(robot)
+    if flat is not None and not plane and rpy is None:
+        return planar_picture(robot, flat, within_limits=within_limits)
+
+    def telling(what: str) -> Callable[[int, int], None] | None:
+        return None if progress is None else lambda done, total: progress(what, done, total)
+
+    task = task_of(robot)
+    R = default_orientation(robot, task)
+    if rpy is not None:
+        r, p, y = np.asarray(rpy, float).tolist()
+        R = rpy_to_matrix((r, p, y))
+    counts = shares = None
+    spare = robot.n > 6
+    if not spare:
+        grid = section(robot, plane, at, points or FINE)
+        told = telling("branches")
+        found = branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
+        counts = grid, found
+    if task.sides != "none":
+        grid = section(robot, plane, at, max(9, round(0.3 * points)) if points else COARSE)
+        told = telling("orientations")
+        share = dexterity(robot, grid, orientations, within_limits=within_limits, progress=told)
+        shares = grid, share, orientations
+    return section_picture(robot, counts, shares, R, within_limits=within_limits)
