@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.solver import IntArray
 from dh2urdf.transforms import Array
@@ -46,6 +48,20 @@ class HeldSolver:
         Outputs as in :class:`dh2urdf.ik.solver.Solver`, with all joints of the chain.
         """
         raise NotImplementedError
+
+    def points_on_curves(self, T: Array, values: Array) -> Array:
+        """Solutions of a pose (4, 4) at or near values (m,) of the one held joint, (k, n).
+
+        Limits do not count here.
+        """
+        m, n = len(values), self.chain.n
+        q, count = np.empty((m, self.kmax, n)), np.zeros(m, np.int64)
+        codes = np.zeros((2, m, self.kmax), np.int64)
+        residual, Ts = np.empty((m, self.kmax)), np.repeat(T[None], m, axis=0)
+        held = np.ascontiguousarray(values[:, None])
+        self.solve_held(Ts, held, False, q, residual, count, codes[0], codes[1])
+        points: Array = q[np.arange(self.kmax) < count[:, None]]
+        return points
 
     def explain(self) -> str:
         """Name the held joints and say how the others are solved for."""

@@ -132,7 +132,7 @@ def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSo
     """
     if len(held) == 1 and task is Task.POSE:
         joint = held[0]
-        wrist = HeldWrist(chain, joint) if HeldWrist.covers(chain, joint) else None
+        wrist = HeldWrist.of(chain, joint)
         if wrist is not None and wrist.one_by_one:
             return wrist
         if joint in (0, chain.n - 1) and chain.n > 1:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,10 @@ __all__ = ["HeldWrist"]
 TRIAL_VALUE = 0.731
 """Value of the held joint [rad or m] at which the geometry of the rest is looked at: one that
 means nothing to any arm."""
+
+
+MISS = 0.1
+"""Relative amount by which an equation may miss its rim where a curve is only looked for."""
 
 
 class _Oriented(NamedTuple):
@@ -50,13 +55,13 @@ class HeldWrist(HeldSolver):
         The whole chain.
     joint : int
         Index of the held joint.
+    oriented : _Oriented
+        How the family sees them, see :meth:`of`.
     """
 
     kmax = 8
 
-    def __init__(self, chain: SerialChain, joint: int) -> None:
-        oriented = self._oriented(chain, joint)
-        assert oriented is not None
+    def __init__(self, chain: SerialChain, joint: int, oriented: _Oriented) -> None:
         super().__init__(chain, (joint,))
         self.name = "spherical shoulder" if oriented.reversed else "spherical wrist"
         rest = oriented.rest(TRIAL_VALUE)
@@ -83,31 +88,26 @@ class HeldWrist(HeldSolver):
         moving = [i for i in range(chain.n) if i != joint]
         self.joints = np.column_stack([np.zeros(6), chain.lower[moving], chain.upper[moving]])
 
-    @staticmethod
-    def _oriented(chain: SerialChain, joint: int) -> _Oriented | None:
-        """How to see the chain so that the family covers it; None: it does not."""
-        if chain.n != 7 or chain.prismatic[[i for i in range(7) if i != joint]].any():
-            return None
-        lines = AxisLines(chain)
-        for seen, first in (
-            (_Oriented(chain, joint, False), 4 if joint < 4 else 3),
-            (_Oriented(chain.reversed(), 6 - joint, True), 0 if joint > 2 else 1),
-        ):
-            if seen.joint in (4, 5) or not lines.spherical(first):
-                continue
-            if SphericalWrist.obstacle(seen.rest(TRIAL_VALUE)) is None:
-                return seen
-        return None
-
     @classmethod
-    def covers(cls, chain: SerialChain, joint: int) -> bool:
-        """Whether the other joints have a spherical wrist or shoulder whatever the value."""
-        return cls._oriented(chain, joint) is not None
+    def of(cls, chain: SerialChain, joint: int) -> HeldWrist | None:
+        """The solver; None where the other joints have no spherical triple at one end."""
+        if chain.n != 7 or np.delete(chain.prismatic, joint).any():
+            return None
+        lines = _lines(chain)
+        for reversed_, first in ((False, 4 if joint < 4 else 3), (True, 0 if joint > 2 else 1)):
+            seen_joint = 6 - joint if reversed_ else joint
+            if seen_joint in (4, 5) or not lines.spherical(first):
+                continue
+            seen = _Oriented(chain.reversed() if reversed_ else chain, seen_joint, reversed_)
+            if SphericalWrist.obstacle(seen.rest(TRIAL_VALUE)) is None:
+                return cls(chain, joint, seen)
+        return None
 
     @property
     def one_by_one(self) -> bool:
         """Whether the first two axes meet, so that the elbow is found first, the others after."""
-        return bool(self.form.rows[0, 0] == 0.0 and self.form.rows[0, 2] != 0.0)
+        meet = self.form.rows[0, 0] == 0.0 and self.form.rows[0, 2] != 0.0
+        return bool(meet and self.which[4] != 0)
 
     def details(self) -> str:
         """Name the family and its axes."""
@@ -143,6 +143,25 @@ class HeldWrist(HeldSolver):
             branch_out,
             free_out,
         )
+
+    def points_on_curves(self, T: Array, values: Array) -> Array:
+        """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
+        from dh2urdf.kernels.held_wrist import points_on_curves
+
+        chain, m = self.chain, len(values)
+        q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)
+        joints = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
+        points_on_curves(
+            self.frames, self.which, self.rows, joints, MISS, values, T, chain.size, q, count
+        )
+        points: Array = q[np.arange(self.kmax) < count[:, None]]
+        return points
+
+
+@lru_cache(maxsize=4)
+def _lines(chain: SerialChain) -> AxisLines:
+    """The axes of a chain, which is looked at for one joint after the other."""
+    return AxisLines(chain)
 
 
 def _row_transform(row: Array) -> Array:

@@ -25,8 +25,9 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import ACCEPT, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.damped import make_damped, restore
 from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
 from dh2urdf.kernels.position_arm import (
     FREE,
@@ -39,7 +40,7 @@ from dh2urdf.kernels.reverse import invert_pose
 from dh2urdf.kernels.spherical_wrist import append_wrist
 from dh2urdf.kernels.trig import circle_pair
 
-__all__ = ["make_scratch", "oriented_pose", "solve_held_pose", "solve_held_wrist"]
+__all__ = ["make_scratch", "points_on_curves", "solve_held_pose", "solve_held_wrist"]
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS = 8, 16, 19, 20, 21
@@ -209,3 +210,35 @@ def solve_held_wrist(
             *out,
             scratch,
         )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, count):
+    """Solutions of one pose T (4, 4) on its curves near the held values (m,); q (m, 8, 7).
+
+    With a large slack also a value that just misses a curve gives a candidate. All seven joints
+    take part in putting it on the curve, so that a loop between two values is found.
+
+    Parameters
+    ----------
+    joints : array, shape (7, 3)
+        Sliding, lower, upper of all joints.
+    unit : float
+        Size of the arm [m].
+    count : int64 array, shape (m,), out
+    """
+    scratch, damped, work = make_scratch(), make_damped(7), np.empty(7)
+    branch, free = np.empty(8, np.int64), np.empty(8, np.int64)
+    rest = scratch[7]
+    for i in range(values.shape[0]):
+        found = held_candidates(
+            form, frames, which, slack, values[i], T, rest, branch, free, scratch
+        )
+        kept = 0
+        for k in range(found):
+            for j in range(7):
+                source = j if j < which[HELD] else j - 1
+                q[i, kept, j] = values[i] if j == which[HELD] else rest[k, source]
+            if restore(frames[:8], joints, T, unit, q[i, kept], work, damped) <= ACCEPT:
+                kept += 1
+        count[i] = kept

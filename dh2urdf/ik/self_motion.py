@@ -1,0 +1,188 @@
+"""What an arm with one joint to spare can do while its tool stays.
+
+The solutions of a pose are curves in joint space, each running through many values of the swept
+joint. Here they are followed: to the member nearest to a seed, into the joint limits, and to the
+ends of the intervals of the swept joint in which the pose is reached.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.ik import limits
+from dh2urdf.ik.held_values import new_outputs
+from dh2urdf.ik.swept import SweptJoint, sample_values
+from dh2urdf.ik.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
+from dh2urdf.transforms import Array
+
+__all__ = ["inside_members", "nearest_members", "reach_intervals"]
+
+VALUES = 128
+"""Values of the swept joint at which curves are looked for."""
+
+STARTS = 64
+"""Solutions that are followed towards a seed, the nearest ones of those found inside and of those
+found outside the limits. Neighbouring ones lead to the same member."""
+
+FAR = 1.5
+"""Excess over a limit [rad or m] from which a solution is not followed inwards."""
+
+SAME = 1e-5
+"""Joint distance [rad or m] at which two nearest members are one."""
+
+GRID = 720
+"""Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
+
+
+def inside_members(solver: SweptJoint, T: Array, goal: Array, most: int) -> Array:
+    """Members inside the limits of the curves of a pose, shape (k, n).
+
+    The curves are looked for in sweeps of two joints over a whole turn, for one that is short in
+    one joint is seldom short in the other; those found outside the limits are followed inwards.
+
+    Parameters
+    ----------
+    solver : SweptJoint
+    T : array, shape (4, 4)
+    goal : array, shape (n,)
+        Configuration by which full turns are chosen; members come in the order of their
+        distance from it.
+    most : int
+        Most solutions that are followed inwards: those nearest to the goal and the limits.
+    """
+    from dh2urdf.kernels.self_motion import enter_limits
+
+    chain = solver.chain
+    q = limits.turned_to(chain, _on_curves(solver, T), goal)
+    outside = (q < chain.lower - LIMIT_SLACK) | (q > chain.upper + LIMIT_SLACK)
+    other_turn = np.where(outside, limits.turned_to(chain, q, limits.middle(chain)), q)
+    q = np.concatenate([q, other_turn[np.any(other_turn != q, axis=1)]])
+    clipped = np.clip(q, chain.lower, chain.upper)
+    excess = np.abs(q - clipped).max(axis=1, initial=0.0)
+    order = np.argsort(np.linalg.norm(clipped - goal, axis=1) + 2.0 * excess, kind="stable")
+    q, excess = q[order], excess[order]
+    inside = excess <= LIMIT_SLACK
+    outer = np.ascontiguousarray(q[(excess > LIMIT_SLACK) & (excess < FAR)][:most])
+    entered = np.zeros(len(outer), np.bool_)
+    enter_limits(solver.links, solver.joints, T, chain.size, outer, entered)
+    members = np.concatenate([q[inside], outer[entered]])
+    order = np.argsort(np.linalg.norm(members - goal, axis=1), kind="stable")
+    ordered: Array = members[order]
+    return ordered
+
+
+def _on_curves(solver: SweptJoint, T: Array) -> Array:
+    """Solutions of a pose at values over a whole turn of two joints, limits or not, (k, n)."""
+    return np.concatenate(
+        [
+            held.points_on_curves(T, sample_values(solver.chain, held.held[0], VALUES, False))
+            for held in solver.sweeps
+        ]
+    )
+
+
+def nearest_members(
+    solver: SweptJoint, T: Array, seed: Array, within_limits: bool
+) -> tuple[Array, Array]:
+    """Solutions of a pose that are nearer to a seed than their neighbours on the self-motion.
+
+    Parameters
+    ----------
+    solver : SweptJoint
+    T : array, shape (4, 4)
+    seed : array, shape (n,)
+    within_limits : bool
+
+    Returns
+    -------
+    q : array, shape (k, n)
+        Nearest first; the first is the nearest of all, on every curve that was found.
+    residual : array, shape (k,)
+    """
+    from dh2urdf.kernels import self_motion
+
+    chain = solver.chain
+    if within_limits:
+        q = inside_members(solver, T, seed, STARTS)
+    else:
+        q = limits.turned_to(chain, _on_curves(solver, T), seed)
+        q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
+    q = np.ascontiguousarray(q[:STARTS])
+    residual = np.empty(len(q))
+    self_motion.nearest_members(
+        solver.links, solver.joints, T, chain.size, within_limits, q, seed, residual
+    )
+    order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
+    kept: list[int] = []
+    for k in order:
+        if all(np.abs(q[k] - q[j]).max() > SAME for j in kept):
+            kept.append(int(k))
+    return q[kept], residual[kept]
+
+
+def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
+    """Intervals of the swept joint in which a pose is reached, shape (k, 2), ascending.
+
+    Reach is tried at ``GRID`` values a turn and at the members of narrow curves; between a value
+    that has a solution and one that has none the end is found by halving.
+
+    Parameters
+    ----------
+    solver : SweptJoint
+    T : array, shape (4, 4)
+    within_limits : bool
+        The whole range of the joint, with all joints inside their limits; without it one turn.
+    """
+    values = _grid(solver, within_limits)
+    reached = _reached(solver, T, values, within_limits)
+    if within_limits:
+        middle = limits.middle(solver.chain)
+        extra = inside_members(solver, T, middle, 16 * VALUES)[:, solver.joint]
+        extra = extra[_reached(solver, T, extra, True)]
+        values = np.concatenate([values, extra])
+        reached = np.concatenate([reached, np.ones(len(extra), np.bool_)])
+        order = np.argsort(values, kind="stable")
+        values, reached = values[order], reached[order]
+    change = np.flatnonzero(reached[1:] != reached[:-1])
+    ends = _ends(solver, T, values[change], values[change + 1], reached[change], within_limits)
+    if reached[0]:
+        ends = np.concatenate([values[:1], ends])
+    if reached[-1]:
+        ends = np.concatenate([ends, values[-1:]])
+    return ends.reshape(-1, 2)
+
+
+def _grid(solver: SweptJoint, within_limits: bool) -> Array:
+    """Values at which reach is tried, both bounds of the range among them."""
+    one_turn = sample_values(solver.chain, solver.joint, 2, False)
+    step = (one_turn[1] - one_turn[0]) * 2.0 / GRID
+    lower, upper = one_turn[0] - 0.25 * GRID * step, one_turn[1] + 0.25 * GRID * step
+    if within_limits:
+        low, high = solver.chain.lower[solver.joint], solver.chain.upper[solver.joint]
+        lower = float(low) if np.isfinite(low) else lower
+        upper = float(high) if np.isfinite(high) else upper
+    grid: Array = np.linspace(lower, upper, max(2, int(np.ceil((upper - lower) / step)) + 1))
+    return grid
+
+
+def _reached(solver: SweptJoint, T: Array, values: Array, within_limits: bool) -> Array:
+    """Whether the pose has a sharp solution at each of the values (s,), bool shape (s,)."""
+    m = len(values)
+    _, residual, count, _, _ = outputs = new_outputs(m, solver.held.kmax, solver.chain.n)
+    Ts = np.repeat(T[None], m, axis=0)
+    solver.held.solve_held(Ts, np.ascontiguousarray(values[:, None]), within_limits, *outputs)
+    residual[np.arange(solver.held.kmax) >= count[:, None]] = np.inf
+    sharp: Array = residual.min(axis=1) <= SHARP * max(1.0, solver.chain.size)
+    return sharp
+
+
+def _ends(
+    solver: SweptJoint, T: Array, left: Array, right: Array, reached: Array, within_limits: bool
+) -> Array:
+    """Ends between values of which the pose is reached at one, halved until they are known."""
+    left, right = left.copy(), right.copy()
+    while np.any(right - left > INTERVAL_END):
+        middle = 0.5 * (left + right)
+        as_left = _reached(solver, T, middle, within_limits) == reached
+        left, right = np.where(as_left, middle, left), np.where(as_left, right, middle)
+    return np.where(reached, left, right)

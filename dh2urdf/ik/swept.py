@@ -1,0 +1,195 @@
+"""Seven joints and nothing held: one joint is swept through its range, the others solved for."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import NoSolverError
+from dh2urdf.ik.families import task_jacobian
+from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.held_values import new_outputs, select_held
+from dh2urdf.ik.held_wrist import HeldWrist
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.tolerances import REGULAR
+from dh2urdf.transforms import Array
+
+__all__ = ["SAMPLES", "SweptJoint", "sample_values"]
+
+SAMPLES = 16
+"""Values of the swept joint, when the caller gives no other number."""
+
+TRIALS = 64
+"""Random configurations over which the motion of the joints is averaged."""
+
+CLASSES = 10
+"""Classes of mean motion; of joints in one class the first is taken."""
+
+BLOCK = 16384
+"""Most poses times samples that are worked on at once: a few MB."""
+
+
+def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: bool) -> Array:
+    """Values of a joint at the middles of equal parts of its range, shape (samples,).
+
+    One turn at most; where the range is wider or has no bound, the turn about its middle.
+    """
+    lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
+    if chain.prismatic[joint]:
+        lower, upper = max(lower, -chain.size), min(upper, chain.size)
+    elif not within_limits or upper - lower > 2.0 * np.pi:
+        middle = 0.5 * (lower + upper) if np.isfinite(upper - lower) else 0.0
+        lower, upper = middle - np.pi, middle + np.pi
+    parts: Array = lower + (upper - lower) * (np.arange(samples) + 0.5) / samples
+    return parts
+
+
+class SweptJoint(SolverBase):
+    """All solutions at a row of values of the joint that is best held."""
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+        samples: int = SAMPLES,
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.held, self.reason = _best_held(chain)
+        self.joint, self.samples = self.held.held[0], samples
+        self.kmax = samples * self.held.kmax
+        self.free_mask = sum(1 << i for i in np.flatnonzero(_self_motion(chain) > REGULAR).tolist())
+
+    @property
+    def name(self) -> str:  # type: ignore[override]
+        """Name of the solver of the others, and of the swept joint."""
+        return f"{self.held.name}, {self.chain.names[self.joint]} swept"
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps a sweep from covering the chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n != 7:
+            return f"it needs 7 joints, the chain has {chain.n}"
+        try:
+            _best_held(chain)
+        except NoSolverError as error:
+            return str(error)
+        return None
+
+    @cached_property
+    def sweeps(self) -> tuple[HeldSolver, ...]:
+        """The solvers with the swept joint held, and with the next best one."""
+        motion = _self_motion(self.chain)
+        for i in sorted(range(self.chain.n), key=lambda i: -motion[i]):
+            other = HeldWrist.of(self.chain, i) if i != self.joint else None
+            if other is not None:
+                return self.held, other
+        return (self.held,)
+
+    def like(self, samples: int) -> SweptJoint:
+        """The same solver with another number of samples."""
+        other: SweptJoint = object.__new__(type(self))
+        other.__dict__.update(self.__dict__)
+        other.samples, other.kmax = samples, samples * self.held.kmax
+        return other
+
+    def details(self) -> str:
+        """Name the swept joint, why it was chosen, and how the others are solved for."""
+        name = self.chain.names[self.joint]
+        return f"{name} at {self.samples} values ({self.reason}); {self.held.explain()}"
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) at every value of the swept joint."""
+        values = sample_values(self.chain, self.joint, self.samples, within_limits)
+        self.solve_at(
+            values, Ts, within_limits, q_out, residual_out, count_out, branch_out, free_out
+        )
+
+    def solve_at(
+        self,
+        values: Array,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
+        from dh2urdf.kernels.sweep import gather_samples, spread_samples
+
+        samples = len(values)
+        step = max(1, min(len(Ts), BLOCK // samples))
+        poses, held = np.empty((step * samples, 4, 4)), np.empty((step * samples, 1))
+        found = new_outputs(step * samples, self.held.kmax, self.chain.n)
+        for first in range(0, len(Ts), step):
+            last = min(first + step, len(Ts))
+            used = (last - first) * samples
+            spread_samples(Ts, values, first, last, poses, held)
+            some = tuple(a[:used] for a in found)
+            self.held.solve_held(poses[:used], held[:used], within_limits, *some)  # type: ignore[arg-type]
+            gather_samples(
+                some,
+                first,
+                last,
+                samples,
+                self.free_mask,
+                q_out,
+                residual_out,
+                count_out,
+                branch_out,
+                free_out,
+            )
+
+
+@lru_cache(maxsize=4)
+def _self_motion(chain: SerialChain) -> Array:
+    """Mean size of each joint's part in the unit self-motion over random configurations, (n,)."""
+    rng = np.random.default_rng(3)
+    span = np.where(chain.prismatic, chain.size, np.pi)
+    lower, upper = np.maximum(chain.lower, -span), np.minimum(chain.upper, span)
+    J = task_jacobian(chain, Task.POSE, rng.uniform(lower, upper, (TRIALS, chain.n)))
+    J[:, :3] /= chain.size
+    motion: Array = np.abs(np.linalg.svd(J)[2][:, -1]).mean(axis=0)
+    return motion
+
+
+@lru_cache(maxsize=4)
+def _best_held(chain: SerialChain) -> tuple[HeldSolver, str]:
+    """The solver with the joint held that is best held, and why it was chosen.
+
+    Raises
+    ------
+    NoSolverError
+    """
+    motion = _self_motion(chain)
+    order = sorted(range(chain.n), key=lambda i: (-round(CLASSES * motion[i] / motion.max()), i))
+    wrists: list[HeldWrist] = []
+    for i in order:
+        solver = HeldWrist.of(chain, i)
+        if solver is not None:
+            wrists.append(solver)
+            if solver.one_by_one:
+                break
+    if wrists:
+        best = wrists[-1] if wrists[-1].one_by_one else wrists[0]
+        return best, "it leaves a closed form, and of such joints moves most with a fixed tool"
+    for i in (0, chain.n - 1, *order):
+        with suppress(NoSolverError):
+            return select_held(chain, (i,), Task.POSE), "the other joints have a solver"
+    raise NoSolverError("no joint can be held so that a solver covers the others")

@@ -1,0 +1,141 @@
+"""Damped least squares for chains of any number of joints (Nakamura & Hanafusa 1986).
+
+``dq = J^T (J J^T + damping)^-1 e`` is the shortest of the steps that do the same, so that what
+a redundant chain can do while its tool stays is left alone. Position and turn count alike when
+positions are divided by ``unit``, a length of the arm's size.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import _turn_between, residual_of
+from dh2urdf.kernels.chain import _joint_times_link, _load
+
+__all__ = ["add_transposed", "error_and_jacobian", "make_damped", "restore", "solve_damped"]
+
+RESTORED = 1e-13
+"""Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""
+
+MOST_STEPS = 10
+"""Newton steps before a configuration is given up; after a short step two or three do."""
+
+FLOOR = 1e-14
+"""Damping relative to the trace of ``J J^T``: keeps the Cholesky factor real, no more."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def make_damped(n):
+    """Scratch for n joints: Jacobian (n, 6), triangle (6, 6), error (6,), solution (6,)."""
+    return np.empty((n, 6)), np.empty((6, 6)), np.empty(6), np.empty(6)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def error_and_jacobian(links, joints, T, q, unit, damped):
+    """Residual of q (n,) against T; the error and the Jacobian's columns go to ``damped``.
+
+    The error is (position / unit, rotation vector as long as the sine of its angle) from the
+    tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
+    """
+    J, _, e, _ = damped
+    n = q.shape[0]
+    r = _load(links[0])
+    for i in range(n):
+        J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
+        J[i, 3], J[i, 4], J[i, 5] = r[2], r[6], r[10]
+        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    ex, ey, ez, trace = _turn_between(r, T)
+    if trace < 1.0:
+        size = max(math.sqrt(ex * ex + ey * ey + ez * ez), 1e-6)
+        ex, ey, ez = ex / size, ey / size, ez / size
+    e[0], e[1], e[2] = (T[0, 3] - r[3]) / unit, (T[1, 3] - r[7]) / unit, (T[2, 3] - r[11]) / unit
+    e[3], e[4], e[5] = ex, ey, ez
+    for i in range(n):
+        zx, zy, zz = J[i, 3], J[i, 4], J[i, 5]
+        if joints[i, 0] != 0.0:
+            J[i, 0], J[i, 1], J[i, 2] = zx / unit, zy / unit, zz / unit
+            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
+        else:
+            x, y, z = (r[3] - J[i, 0]) / unit, (r[7] - J[i, 1]) / unit, (r[11] - J[i, 2]) / unit
+            J[i, 0] = zy * z - zz * y
+            J[i, 1] = zz * x - zx * z
+            J[i, 2] = zx * y - zy * x
+    return residual_of(r, T)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def solve_damped(damped, damping):
+    """``y = (J J^T + damping)^-1 e`` by Cholesky, e and y in ``damped``."""
+    J, A, e, y = damped
+    n = J.shape[0]
+    trace = 0.0
+    for a in range(6):
+        for b in range(a + 1):
+            total = 0.0
+            for i in range(n):
+                total += J[i, a] * J[i, b]
+            A[a, b] = total
+        trace += A[a, a]
+    shift = damping + FLOOR * trace
+    for a in range(6):
+        total = e[a]
+        for b in range(a):
+            part = A[a, b]
+            for k in range(b):
+                part -= A[a, k] * A[b, k]
+            part /= A[b, b]
+            A[a, b] = part
+            total -= part * y[b]
+        pivot = A[a, a] + shift
+        for k in range(a):
+            pivot -= A[a, k] * A[a, k]
+        A[a, a] = math.sqrt(max(pivot, shift))
+        y[a] = total / A[a, a]
+    for a in range(5, -1, -1):
+        total = y[a]
+        for b in range(a + 1, 6):
+            total -= A[b, a] * y[b]
+        y[a] = total / A[a, a]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def add_transposed(damped, factor, dq):
+    """``dq += factor J^T y``; returns the largest entry of the sum."""
+    J, _, _, y = damped
+    largest = 0.0
+    for i in range(dq.shape[0]):
+        total = 0.0
+        for a in range(6):
+            total += J[i, a] * y[a]
+        dq[i] += factor * total
+        largest = max(largest, abs(dq[i]))
+    return largest
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def restore(links, joints, T, unit, q, dq, damped):
+    """Newton's method by shortest steps, q (n,) in place; returns the residual.
+
+    Stops when the residual is rounding, or no longer falls. ``dq`` (n,) is scratch.
+    """
+    n = q.shape[0]
+    residual = error_and_jacobian(links, joints, T, q, unit, damped)
+    for _ in range(MOST_STEPS):
+        if residual <= RESTORED:
+            break
+        solve_damped(damped, 0.0)
+        for i in range(n):
+            dq[i] = 0.0
+        add_transposed(damped, 1.0, dq)
+        for i in range(n):
+            q[i] += dq[i]
+        after = error_and_jacobian(links, joints, T, q, unit, damped)
+        if not after < residual:
+            for i in range(n):
+                q[i] -= dq[i]
+            break
+        residual = after
+    return residual

@@ -1,0 +1,233 @@
+"""Along the self-motion of a redundant chain: the member nearest to a seed.
+
+Solutions of one pose form curves (surfaces, with more joints to spare). On them the squared
+distance ``|q - s|^2`` from a seed s is made smaller by steps along its gradient's projection,
+``P (s - q)`` with ``P = 1 - J^+ J``, and each step is put back on the pose by Newton's method.
+The length of a step follows Barzilai and Borwein (1988), which on a curve is the secant method.
+
+A solution outside the limits is brought into them in the same way: each step is the one along the
+curve that takes most off the joints' excess, in the sense of least squares.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import ACCEPT
+from dh2urdf.kernels.damped import (
+    add_transposed,
+    error_and_jacobian,
+    make_damped,
+    restore,
+    solve_damped,
+)
+
+__all__ = ["enter_limits", "nearest_members"]
+
+MOST_STEPS = 60
+"""Steps along a self-motion; five to fifteen are usual."""
+
+LONGEST = 0.25
+"""Longest step of a joint [rad or m]: a curve is followed, not jumped across."""
+
+ARRIVED = 1e-9
+"""Projected distance [rad or m] at which a member is nearest; the distance itself is then known
+to the square of this."""
+
+INSIDE = 1e-9
+"""How far inside a limit [rad or m] an excess is aimed at."""
+
+SHORTEST = 1e-10
+"""Part of a step below which there is no way on: a limit is in the way."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _project(links, joints, T, unit, q, seed, step, damped):
+    """``P (seed - q)`` to step (n,); returns its length."""
+    error_and_jacobian(links, joints, T, q, unit, damped)
+    J, _, e, _ = damped
+    n = q.shape[0]
+    for i in range(n):
+        step[i] = seed[i] - q[i]
+    for a in range(6):
+        total = 0.0
+        for i in range(n):
+            total += J[i, a] * step[i]
+        e[a] = total
+    solve_damped(damped, 0.0)
+    add_transposed(damped, -1.0, step)
+    total = 0.0
+    for i in range(n):
+        total += step[i] * step[i]
+    return math.sqrt(total)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _distance2(q, seed):
+    """Squared distance."""
+    total = 0.0
+    for i in range(q.shape[0]):
+        total += (q[i] - seed[i]) * (q[i] - seed[i])
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _part_inside(joints, q, step, length):
+    """Part of ``length`` that a straight step can go inside the limits."""
+    part = length
+    for i in range(q.shape[0]):
+        way = part * step[i]
+        if q[i] + way > joints[i, 2]:
+            part = max(joints[i, 2] - q[i], 0.0) / step[i]
+        elif q[i] + way < joints[i, 1]:
+            part = min(joints[i, 1] - q[i], 0.0) / step[i]
+    return part
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _outside(joints, q):
+    """Whether a joint is beyond its limits."""
+    for i in range(q.shape[0]):
+        if q[i] > joints[i, 2] or q[i] < joints[i, 1]:
+            return True
+    return False
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _go_nearer(links, joints, T, unit, within_limits, q, seed, scratch, damped):
+    """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
+    n = q.shape[0]
+    step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
+    distance2 = _distance2(q, seed)
+    length = 1.0
+    for move in range(MOST_STEPS):
+        size = _project(links, joints, T, unit, q, seed, step, damped)
+        if size <= ARRIVED:
+            break
+        if move > 0:
+            across, along = 0.0, 0.0
+            for i in range(n):
+                across += scratch[4, i] * scratch[4, i]
+                along += scratch[4, i] * (before[i] - step[i])
+            length = across / along if along > 0.1 * across else 10.0
+        largest = 0.0
+        for i in range(n):
+            before[i] = step[i]
+            largest = max(largest, abs(step[i]))
+        length = min(length, LONGEST / largest)
+        if within_limits:
+            length = _part_inside(joints, q, step, length)
+        moved = False
+        while length * size > SHORTEST:
+            for i in range(n):
+                trial[i] = q[i] + length * step[i]
+            good = restore(links, joints, T, unit, trial, work, damped) <= ACCEPT
+            good = good and _distance2(trial, seed) < distance2
+            if good and not (within_limits and _outside(joints, trial)):
+                moved = True
+                break
+            length *= 0.5
+        if not moved:
+            break
+        for i in range(n):
+            scratch[4, i] = trial[i] - q[i]
+            q[i] = trial[i]
+        distance2 = _distance2(q, seed)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def nearest_members(links, joints, T, unit, within_limits, q, seed, residual):
+    """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
+
+    Parameters
+    ----------
+    links, joints
+        The chain, see :mod:`dh2urdf.kernels.certify`.
+    T : array, shape (4, 4)
+    unit : float
+        Size of the arm [m].
+    within_limits : bool
+        Stop at joint limits; the solutions given have to be inside.
+    q : array, shape (k, n)
+        Solutions in the turns that are meant, in place.
+    seed : array, shape (n,)
+    residual : array, shape (k,), out
+    """
+    n = q.shape[1]
+    damped, scratch = make_damped(n), np.empty((5, n))
+    for k in range(q.shape[0]):
+        _go_nearer(links, joints, T, unit, within_limits, q[k], seed, scratch, damped)
+        residual[k] = error_and_jacobian(links, joints, T, q[k], unit, damped)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _excess(joints, q, i):
+    """How far joint i has to go to be inside its limits."""
+    if q[i] > joints[i, 2]:
+        return joints[i, 2] - INSIDE - q[i]
+    if q[i] < joints[i, 1]:
+        return joints[i, 1] + INSIDE - q[i]
+    return 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _tangent(links, joints, T, unit, q, guess, tangent, damped):
+    """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
+    for i in range(q.shape[0]):
+        guess[i] += q[i]
+    size = _project(links, joints, T, unit, q, guess, tangent, damped)
+    for i in range(q.shape[0]):
+        guess[i] -= q[i]
+        tangent[i] /= max(size, 1e-300)
+    return size > 1e-6
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def enter_limits(links, joints, T, unit, q, entered):
+    """Move solutions q (k, n) along their curves into the limits; one joint to spare.
+
+    Parameters
+    ----------
+    links, joints, T, unit
+        As for :func:`nearest_members`.
+    q : array, shape (k, n)
+        Solutions in the turns nearest to their limits, in place.
+    entered : bool array, shape (k,), out
+        Whether the solution is inside; if not, its row means nothing.
+    """
+    n = q.shape[1]
+    damped, scratch = make_damped(n), np.empty((4, n))
+    tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
+    for k in range(q.shape[0]):
+        entered[k] = False
+        for i in range(n):
+            guess[i] = 1.0 + 0.1 * i
+        last = math.inf
+        for _ in range(MOST_STEPS):
+            along, across, total = 0.0, 0.0, 0.0
+            if not _tangent(links, joints, T, unit, q[k], guess, tangent, damped):
+                break
+            for i in range(n):
+                guess[i] = tangent[i]
+                way = _excess(joints, q[k], i)
+                if way != 0.0:
+                    along += way * tangent[i]
+                    across += tangent[i] * tangent[i]
+                    total += way * way
+            if total == 0.0:
+                entered[k] = True
+                break
+            if total >= last or across < 1e-12 or abs(along) <= 1e-3 * math.sqrt(total * across):
+                break
+            last = total
+            step = along / across
+            step = min(max(step, -LONGEST), LONGEST)
+            for i in range(n):
+                trial[i] = q[k, i] + step * tangent[i]
+            if not restore(links, joints, T, unit, trial, work, damped) <= ACCEPT:
+                break
+            for i in range(n):
+                q[k, i] = trial[i]
