@@ -164,8 +164,10 @@ def window_nodes(centre, half_tan, cosines, sines):
 
 
 @vector_kernel
-def window_arc(samples, half_tan, series):
-    """Bernstein coefficients of f on one window from its 24 samples, to ``series`` (24,).
+def window_arc(samples, half_tan, series, arcs):
+    """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
+
+    ``series`` (24,) is scratch.
 
     Returns
     -------
@@ -182,6 +184,8 @@ def window_arc(samples, half_tan, series):
         f = samples[k] * weight * weight
         for m in range(LANES):
             series[m] += f * WINDOW_TABLE[k, m]
+    for i in range(TERMS):
+        arcs[i, 0] = series[i]
     noise = 0.0
     for m in range(TERMS, LANES):
         noise = max(noise, abs(series[m]))

@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 
 from dh2urdf.kernels.elimination import close_loop, left_coefficients
 from dh2urdf.kernels.general_6r_passes import (
-    circle_roots,
     eliminate,
+    find_roots,
     follow,
     inner_target,
+    nudge,
     rate_elimination,
     simple_roots,
-    span_roots,
 )
 from dh2urdf.kernels.general_6r_work import make_work_6r
 from dh2urdf.kernels.lanes import vector_kernel
@@ -51,6 +51,9 @@ WORTH = 0.03
 
 MOST = 3
 """Eliminations kept."""
+
+ATTEMPTS = 3
+"""Rounds of all eliminations, from the second one on for a pose nearby."""
 
 
 def _z(angle: float, offset: float) -> Array:
@@ -183,25 +186,30 @@ def solve_general_6r(
     """
     spans, slopes = work[20], work[21]
     inner_target(base_inverse, tool_inverse, size, T, work[1], work[0])
-    found = 0
-    for e in range(choices.shape[0]):
+    found, trials = np.int64(0), choices.shape[0]
+    for trial in range(ATTEMPTS * trials):
+        e = trial % trials
+        if e == 0 and trial > 0:
+            nudge(work[0], trial // trials)
         shift, reverse = choices[e, 0], choices[e, 1]
         eliminate(chain, shift, reverse, lefts[e], work)
-        count = circle_roots(work)
-        if count < 0:
-            continue
-        simple, before = simple_roots(count, slopes), found
-        found, doubt = follow(
-            links, size, count, found, shift, reverse, turns, out_q, out_residual, work
-        )
-        if spans[0, 0] > 0.0:
-            count = span_roots(work)
-            found, more = follow(
-                links, size, count, found, shift, reverse, turns, out_q, out_residual, work
-            )
-            doubt += more
-        settled = doubt == 0 or (before > 0 and found == before)
-        if settled and found > 0 and found % 2 == 0 and found >= simple:
+        before, simple, doubt, count = found, 0, 0, 0
+        for again in range(2):
+            if again == 1 and spans[0, 0] == 0.0:
+                break
+            count = find_roots(again, work)
+            if count < 0:
+                break
+            if again == 0:
+                simple = simple_roots(count, slopes)
+            if count > 0:
+                found, retried = follow(
+                    links, size, count, found, shift, reverse, turns, out_q, out_residual, work
+                )
+                doubt += retried
+        fits = count >= 0 and found % 2 == 0 and found >= simple
+        confirmed = doubt == 0 if before == 0 else found == before
+        if fits and confirmed and found + trial > 0:
             break
     return found
 

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.arc_roots import (
     ARC,
     ARC_TAN,
@@ -39,13 +41,13 @@ from dh2urdf.kernels.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.resultant import resultants, split_pairs, two_joints
 
 __all__ = [
-    "circle_roots",
     "eliminate",
+    "find_roots",
     "follow",
     "inner_target",
+    "nudge",
     "rate_elimination",
     "simple_roots",
-    "span_roots",
 ]
 
 TOLERANCE = 1e-9
@@ -54,7 +56,7 @@ TOLERANCE = 1e-9
 CONVERGED = 2e-15
 """Error at which a lane is not polished further, relative to the arm's size."""
 
-MOST_STEPS = 14
+MOST_STEPS = 40
 SAME = 1e-6
 """Solutions closer than this [rad] are one."""
 
@@ -64,8 +66,11 @@ HOPELESS = 1e-2
 MARGIN = 1.1
 """How much wider than a span of doubt its window is."""
 
-NARROWER = 0.5
-"""Length, in half lengths of a window, below which a span in it is sampled in turn."""
+NARROWER = 1.0
+"""Length, in quarter lengths of a window, below which a span in it is sampled in turn."""
+
+NUDGE = 1e-3
+"""Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
 
 DEAREST = 6.0
 """Most digits that spans of doubt count for."""
@@ -89,6 +94,27 @@ def inner_target(base_inverse, tool_inverse, size, T, target, inner):
 
 
 @vector_kernel
+def nudge(inner, attempt):
+    """Move the target of the eliminations a little, another way at each attempt.
+
+    At a symmetric pose every determinant may vanish identically; solutions of a pose nearby are
+    as good as seeds. A turn by ``2 atan(NUDGE)`` about one skew axis and a shift along another.
+    """
+    t = NUDGE if attempt == 1 else -1.7 * NUDGE
+    x, y, z = 0.36 * t, -0.80 * t, 0.48 * t
+    f = 2.0 / (1.0 + t * t)
+    for j in range(4):
+        a, b, c = inner[j], inner[4 + j], inner[8 + j]
+        u, v, w = a + y * c - z * b, b + z * a - x * c, c + x * b - y * a
+        inner[j] = a + f * (y * w - z * v)
+        inner[4 + j] = b + f * (z * u - x * w)
+        inner[8 + j] = c + f * (x * v - y * u)
+    inner[3] += 0.64 * t
+    inner[7] += 0.48 * t
+    inner[11] -= 0.60 * t
+
+
+@vector_kernel
 def eliminate(chain, shift, reverse, left, work):
     """The six equations of one elimination."""
     inner, loop, samples, own_left = work[0], work[2], work[3], work[4]
@@ -104,48 +130,68 @@ def eliminate(chain, shift, reverse, left, work):
 
 
 @vector_kernel
-def circle_roots(work):
-    """Number of roots on the whole circle; -1 where the polynomial says nothing."""
+def _sample(again, k, work):
+    """Bernstein coefficients from new samples, one arc a column of ``work[16]``.
+
+    The whole circle; or, if ``again`` is 1, span of doubt k.
+
+    Returns
+    -------
+    int, float, float, float
+        Number of arcs, middle of the first [rad], tangent of a quarter of their length, noise;
+        no arc where the polynomial says nothing.
+    """
     equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
-    series, turned, arcs, stack, scratch = work[14], work[15], work[16], work[17], work[18]
-    roots, spans, slopes = work[19], work[20], work[21]
-    resultants(equations, CIRCLE_COS, CIRCLE_SIN, LANES, A, W, determinant, V, beta)
+    series, turned, arcs, spans, hc, hs = work[14], work[15], work[16], work[20], work[31], work[32]
+    middle, half_tan = 0.0, ARC_TAN
+    if again == 1:
+        middle = 0.5 * (spans[0, k] + spans[1, k])
+        half_tan = math.tan(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
+        window_nodes(middle, half_tan, hc, hs)
+    else:
+        for i in range(LANES):
+            hc[i], hs[i] = CIRCLE_COS[i], CIRCLE_SIN[i]
+    resultants(equations, hc, hs, hc.shape[0], A, W, determinant, V, beta)
+    if again == 1:
+        return 1, middle, half_tan, window_arc(determinant, half_tan, series, arcs)
     noise, largest = circle_arcs(determinant, series, turned, arcs)
-    if not noise < HOPELESS * largest:
-        return -1
-    count = 0
-    spans[0, 0] = 0.0
-    for k in range(LANES):
-        for i in range(TERMS):
-            stack[0, i] = arcs[i, k]
-        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, spans, count, roots, slopes)
-    return count
+    return (LANES if noise < HOPELESS * largest else 0), middle, half_tan, noise
 
 
 @vector_kernel
-def span_roots(work):
-    """Number of roots in the spans of doubt, each sampled on its own.
+def find_roots(again, work):
+    """Roots of the polynomial, to ``work[19]``, with slopes in ``work[21]``.
 
-    A span much narrower than the window it is found in is sampled in turn.
+    On the whole circle; or, if ``again`` is 1, in the spans of doubt that this left in
+    ``work[20]``, each sampled on its own. A span that is still in doubt and much narrower than
+    the window it is found in is sampled in turn.
+
+    Returns
+    -------
+    int
+        Number of roots; -1 where the polynomial says nothing.
     """
-    equations, A, W, V, beta, determinant = work[7], work[9], work[10], work[11], work[12], work[13]
-    series, stack, scratch, fresh = work[14], work[17], work[18], work[41]
-    roots, spans, slopes, hc, hs = work[19], work[20], work[21], work[31], work[32]
-    count, k = 0, 1
-    while k <= spans[0, 0]:
-        centre = 0.5 * (spans[0, k] + spans[1, k])
-        half = 0.5 * (spans[1, k] - spans[0, k])
-        half_tan = math.tan(0.5 * min(MARGIN * half, 1.0))
-        window_nodes(centre, half_tan, hc, hs)
-        resultants(equations, hc, hs, LANES, A, W, determinant, V, beta)
-        noise = window_arc(determinant, half_tan, series)
-        for i in range(TERMS):
-            stack[0, i] = series[i]
+    arcs, stack, scratch, roots = work[16], work[17], work[18], work[19]
+    spans, slopes, fresh = work[20], work[21], work[41]
+    count = np.int64(0)
+    if again == 0:
+        spans[0, 0] = 0.0
+    k = np.int64(1)
+    while k == 1 or (again == 1 and k <= spans[0, 0]):
+        number, middle, half_tan, noise = _sample(again, k, work)
+        if number == 0:
+            return -1
         fresh[0, 0] = 0.0
-        count = roots_on_arc(stack, centre, half_tan, noise, scratch, fresh, count, roots, slopes)
+        for arc in range(number):
+            for i in range(TERMS):
+                stack[0, i] = arcs[i, arc]
+            count = roots_on_arc(
+                stack, middle + arc * ARC, half_tan, noise, scratch, fresh, count, roots, slopes
+            )
         last = int(spans[0, 0])
         for n in range(1, int(fresh[0, 0]) + 1):
-            if fresh[1, n] - fresh[0, n] < NARROWER * half and last < SPANS:
+            narrower = fresh[1, n] - fresh[0, n] < NARROWER * half_tan
+            if last < SPANS and (narrower or again == 0):
                 last += 1
                 spans[0, last], spans[1, last] = fresh[0, n], fresh[1, n]
         spans[0, 0] = last
@@ -154,8 +200,8 @@ def span_roots(work):
 
 
 @vector_kernel
-def _seeds(count, paired, shift, reverse, turns, work):
-    """All six joints at each root, in lanes; twice in neighbouring lanes if paired.
+def _seeds(count, copies, shift, reverse, turns, work):
+    """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
 
     Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
     """
@@ -165,14 +211,14 @@ def _seeds(count, paired, shift, reverse, turns, work):
     c, s, cosines, sines = work[24], work[25], work[26], work[27]
     frames, functions, y = work[28], work[29], work[30]
     hc, hs, c4, s4, c5, s5 = work[31], work[32], work[33], work[34], work[35], work[36]
-    lanes = min(2 * count, LANES) if paired else count
+    lanes = count * copies
     n = (lanes + 7) // 8 * 8
     for k in range(n):
-        root = roots[min(k // 2 if paired else k, count - 1)]
+        root = roots[min(k // copies, count - 1)]
         hc[k], hs[k] = math.cos(root), math.sin(root)
     resultants(equations, hc, hs, n, A, W, determinant, V, beta)
     null_vectors(W, b, n, 2)
-    if paired:
+    if copies == 2:
         second_null_vectors(W, b, n, 2, second)
         split_pairs(b, second, n)
     two_joints(b, n, c4, s4, c5, s5)
@@ -211,7 +257,7 @@ def _polish(links, size, lanes, work):
         open_lanes = 0
         for k in range(lanes):
             now = max(position[k], angle[k])
-            if now > goal and (step < 5 or now < 0.5 * before[k]):
+            if now > goal and (step < 5 or now < 0.7 * before[k]):
                 open_lanes += 1
             before[k] = now
         if open_lanes == 0 or step == MOST_STEPS:
@@ -263,36 +309,27 @@ def follow(links, size, count, found, shift, reverse, turns, out_q, out_residual
     Returns
     -------
     int, int
-        The number of solutions, and the number of roots that stay in doubt: they did not lead to
-        two different ones.
+        The number of solutions, and how many roots had to be tried again.
     """
     roots, slopes, seen = work[19], work[21], work[40]
-    if count == 0:
-        return found, 0
-    lanes = _seeds(count, False, shift, reverse, turns, work)
-    _polish(links, size, lanes, work)
-    for f in range(LANES):
-        seen[f] = 0.0
-    left = 0
-    for k in range(lanes):
-        found, place = _place(size, k, found, out_q, out_residual, work)
-        if place < 0 or seen[place] > 0.0 or slopes[k] == 0.0:
-            roots[left] = roots[k]
-            left += 1
-        if place >= 0:
-            seen[place] = 1.0
-    if left == 0:
-        return found, 0
-    left = min(left, LANES // 2)
-    _seeds(left, True, shift, reverse, turns, work)
-    _polish(links, size, 2 * left, work)
-    doubt = 0
-    for k in range(left):
-        found, one = _place(size, 2 * k, found, out_q, out_residual, work)
-        found, other = _place(size, 2 * k + 1, found, out_q, out_residual, work)
-        if one < 0 or other < 0 or one == other:
-            doubt += 1
-    return found, doubt
+    again = np.int64(0)
+    for copies in range(1, 3):
+        _seeds(count, copies, shift, reverse, turns, work)
+        _polish(links, size, count * copies, work)
+        for f in range(LANES):
+            seen[f] = 0.0
+        for lane in range(count * copies):
+            found, place = _place(size, lane, found, out_q, out_residual, work)
+            if copies == 1:
+                if place < 0 or seen[place] > 0.0 or slopes[lane] == 0.0:
+                    roots[again] = roots[lane]
+                    again += 1
+                if place >= 0:
+                    seen[place] = 1.0
+        count = min(again, LANES // 2)
+        if count == 0:
+            break
+    return found, again
 
 
 @vector_kernel
@@ -313,14 +350,14 @@ def rate_elimination(
         rating[m] = 0.0
         inner_target(base_inverse, tool_inverse, size, Ts[m], target, work[0])
         eliminate(chain, shift, reverse, left, work)
-        count = circle_roots(work)
+        count = find_roots(np.int64(0), work)
         if count <= 0:
             continue
-        lanes = _seeds(count, False, shift, reverse, turns, work)
-        chain_frames(links, cosines, sines, LANES, frames)
-        pose_error(target, frames, LANES, error, position, angle)
+        n = _seeds(count, np.int64(1), shift, reverse, turns, work)
+        chain_frames(links, cosines, sines, n, frames)
+        pose_error(target, frames, n, error, position, angle)
         worst = 1e-16
-        for k in range(lanes):
+        for k in range(n):
             worst = max(worst, position[k] / size, angle[k])
         rating[m] = min(math.log10(worst) + min(work[20][0, 0], DEAREST), 0.0)
 
