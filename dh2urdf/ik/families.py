@@ -123,7 +123,10 @@ class Family:
                 if tangent.shape[1] == 0:
                     break
                 along = tangent[:, 0] if heading is None else tangent @ (tangent.T @ heading)
-                along = along * (sign if heading is None else 1.0) / np.linalg.norm(along)
+                length = float(np.linalg.norm(along))
+                if length < FAMILY_RANK:
+                    break
+                along = along * (sign if heading is None else 1.0) / length
                 moved = self._moved(member, FAMILY_STEP * along)
                 if moved is None:
                     break
