@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import TypeVar
 
-__all__ = ["track"]
+__all__ = ["bar", "track"]
 
 T = TypeVar("T")
 
@@ -37,3 +38,25 @@ def _with_bar(items: Sequence[T], done: int, what: str) -> Iterator[T]:
         for item in items[done:]:
             yield item
             progress.advance(task)
+
+
+@contextmanager
+def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
+    """A function to call with the number done and the total; it draws like :func:`track`."""
+    if not sys.stderr.isatty():
+        yield lambda done, total: None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    start = time.monotonic()
+    with Progress(console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
+        task = progress.add_task(what, total=total, visible=False)
+
+        def report(done: int, total: int) -> None:
+            late = time.monotonic() - start > PATIENCE
+            progress.update(task, completed=done, total=total, visible=late)
+            if late:
+                progress.refresh()
+
+        yield report

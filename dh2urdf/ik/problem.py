@@ -222,8 +222,9 @@ class Problem:
 def residual_of_poses(poses: Array, T: Array, task: Task) -> Array:
     """Larger of position [m] and orientation error [rad] of poses (k, 4, 4), shape (k,)."""
     error = task_error(poses, T, task)
-    parts: Array = np.linalg.norm(error.reshape(len(poses), -1, 3), axis=2).max(axis=1, initial=0.0)
-    return parts
+    position, turn = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
+    largest: Array = np.maximum(position, turn)
+    return largest
 
 
 def _run(

@@ -126,8 +126,11 @@ class IKSolutions:
         """
         if not len(self):
             raise LookupError("there is no solution to choose from")
-        near: Array = self._problem.arranged(self, q)[0]
-        return near
+        return self.sorted_by(q)[0]
+
+    def sorted_by(self, q: ArrayLike) -> IKSolutions:
+        """All solutions, nearest to q first, turned and moved as :meth:`nearest` does."""
+        return self._problem.arranged(self, q)
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""

@@ -1,0 +1,239 @@
+"""``dh2urdf ik``: every configuration that reaches a pose, or each of many."""
+
+from __future__ import annotations
+
+import logging
+import math
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+import numpy as np
+from cyclopts import Parameter
+
+from dh2urdf.cli.ik_poses import Poses, pose_of, poses_of_csv
+from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.grids import grid_csv, grid_text, number
+from dh2urdf.transforms import Array
+
+if TYPE_CHECKING:
+    from dh2urdf.ik.solutions import IKSolutions
+    from dh2urdf.robot import Robot
+
+__all__ = ["ik_"]
+
+Values = Annotated[list[str] | None, Parameter(consume_multiple=True)]
+
+
+def ik_(
+    robot: str,
+    /,
+    *,
+    xyz: Values = None,
+    rpy: Values = None,
+    matrix: Values = None,
+    csv: str | None = None,
+    seed: Values = None,
+    locked: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    task: str = "pose",
+    turns: str = "nearest",
+    within_limits: bool = False,
+    deg: bool = False,
+    base: str | None = None,
+    tip: str | None = None,
+    json: bool = False,
+) -> int:
+    """Find every configuration that reaches a pose, each measured by Pinocchio.
+
+    Parameters
+    ----------
+    robot
+        A table file, the name of a table that ships, or a URDF.
+    xyz
+        Position of the tip in the base: metres; 400mm also does. --xyz=0.4,-200mm,0.3 for
+        values that begin with a minus and are no plain number.
+    rpy
+        Roll, pitch, yaw of the tip: radians (degrees with --deg); 90deg, pi/2 also do.
+        --rpy=0,-pi/2,0 as above.
+    matrix
+        The pose as 16 or 12 numbers, row by row.
+    csv
+        A file (- for stdin) of many poses: columns x y z roll pitch yaw, or 12 or 16 matrix
+        entries; a header line may name and order them. The answer is CSV, too.
+    seed
+        Joint values to be near to: sorts the solutions, picks turns and members of families.
+    locked
+        Joints held at a value: --locked joint_7=0.3.
+    task
+        pose, position or position+axis (the tip's z).
+    turns
+        nearest, or all where a range is wider than a turn.
+    within_limits
+        Leave out solutions outside the joint limits instead of marking them.
+    deg
+        Bare angles are degrees, and angles are shown in degrees.
+    base, tip
+        Links of a URDF to measure between.
+    json
+        One JSON object instead of text.
+    """
+    logging.getLogger("dh2urdf").addHandler(logging.StreamHandler(sys.stderr))
+    arm = robot_of(robot, base, tip)
+    options: dict[str, Any] = {
+        "locked": _held(locked, arm, deg=deg),
+        "task": task,
+        "within_limits": within_limits,
+    }
+    goal = parse_configuration(seed, arm, deg=deg) if seed else None
+    if csv is not None:
+        if xyz or rpy or matrix:
+            raise ConfigurationError("--csv stands alone: no --xyz, --rpy or --matrix beside it")
+        return _many(arm, poses_of_csv(csv, deg=deg), goal, options, deg=deg, json=json)
+    T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position")
+    found = arm.ik(T, seed=goal, turns=turns, **options)
+    if goal is None:
+        found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
+    reason = _reason(arm, T, found, options)
+    if json:
+        emit_json("ik", **_as_data(arm, found), solver=str(arm.solver_for(**_which(options))))
+    elif found:
+        emit(_table(arm, found, deg=deg))
+    if reason:
+        note(f"no solution: {reason}" if not found else f"no solution within limits: {reason}")
+    return 1 if reason else 0
+
+
+def _which(options: dict[str, Any]) -> dict[str, Any]:
+    """The options that choose a solver."""
+    return {key: options[key] for key in ("locked", "task")}
+
+
+def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float] | None:
+    """``joint=value`` pairs, values as on the rest of the command line."""
+    if not cells:
+        return None
+    held = {}
+    for cell in (part for text in cells for part in text.split(",")):
+        name, _, value = cell.partition("=")
+        if not value:
+            raise ConfigurationError(f"--locked: joint=value is needed, got {cell!r}")
+        if name not in arm.joint_names and name.isdigit() and int(name) < arm.n:
+            name = arm.joint_names[int(name)]
+        if name not in arm.joint_names:
+            raise ConfigurationError(
+                f"--locked: no joint named {name!r}; there are {', '.join(arm.joint_names)}"
+            )
+        row = ["0"] * arm.n
+        row[arm.joint_names.index(name)] = value
+        held[name] = float(parse_configuration(row, arm, deg=deg)[arm.joint_names.index(name)])
+    return held
+
+
+def _outside(arm: Robot, q: Array) -> Array:
+    """Excess of each joint over its limits, 0 inside, shape (k, n)."""
+    excess: Array = np.maximum(np.maximum(arm.lower - q, q - arm.upper), 0.0)
+    return np.where(excess > 1e-12, excess, 0.0)
+
+
+def _reason(arm: Robot, T: Array, found: IKSolutions, options: dict[str, Any]) -> str:
+    """Why there is no solution within the limits; empty if there is one."""
+    if found and (_outside(arm, found.q) == 0.0).all(axis=1).any():
+        return ""
+    return arm.why_unreachable(T, **{**options, "within_limits": True})
+
+
+def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
+    """The solutions as plain values: metres and radians, full precision."""
+    outside = _outside(arm, found.q)
+    return {
+        "base": arm.base,
+        "tip": arm.tip,
+        "T_base_tip": found.T,
+        "joint_names": arm.joint_names,
+        "solutions": [
+            {
+                "q": q,
+                "residual": float(residual),
+                "branch": branch,
+                "free_joints": [arm.joint_names[i] for i in free],
+                "outside_limits": [arm.joint_names[i] for i in np.flatnonzero(over)],
+            }
+            for q, residual, branch, free, over in zip(
+                found.q, found.verify(), found.branch, found.free_joints, outside, strict=True
+            )
+        ],
+    }
+
+
+def _shown(value: float, *, slides: bool, deg: bool) -> str:
+    """A joint value with six decimals, in degrees with four."""
+    if deg and not slides:
+        return number(round(math.degrees(value), 4))
+    return number(round(value, 6))
+
+
+def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
+    """Solutions for people: values, residual by Pinocchio, branch, remarks."""
+    slides = arm.slides.tolist()
+    units = ["m" if s else "deg" if deg else "rad" for s in slides]
+    header = ["#", *(f"{name} [{unit}]" for name, unit in zip(arm.joint_names, units, strict=True))]
+    rows = []
+    outside = _outside(arm, found.q)
+    remarks = zip(found.branch, found.free_joints, outside, strict=True)
+    for i, (q, residual, (branch, free, over)) in enumerate(
+        zip(found.q, found.verify(), remarks, strict=True)
+    ):
+        cells = [_shown(v, slides=s, deg=deg) for v, s in zip(q, slides, strict=True)]
+        parts = [branch] if branch else []
+        if free:
+            parts.append(f"free: {', '.join(arm.joint_names[j] for j in free)}")
+        far = [
+            f"{arm.joint_names[j]} by {_shown(over[j], slides=slides[j], deg=deg)}"
+            for j in np.flatnonzero(over)
+        ]
+        parts += [f"outside limits: {', '.join(far)}"] if far else []
+        rows.append([str(i + 1), *cells, f"{residual:.1e}", "; ".join(parts)])
+    return grid_text([*header, "residual", "branch"], rows, left={len(header) + 1})
+
+
+def _many(
+    arm: Robot, poses: Poses, goal: Array | None, options: dict[str, Any], *, deg: bool, json: bool
+) -> int:
+    """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
+    from dh2urdf.cli.progress import bar
+
+    with bar("solving", len(poses.T)) as report:
+        batch = arm.ik_batch(poses.T, progress=report, **options)
+    every = [batch[i] for i in range(len(batch))]
+    if goal is not None:
+        every = [found.sorted_by(goal) for found in every]
+    missed = [
+        i for i, found in enumerate(every) if not (_outside(arm, found.q) == 0).all(axis=1).any()
+    ]
+    if json:
+        emit_json("ik", poses=[_as_data(arm, found) for found in every], unreached=missed)
+    else:
+        emit(_csv(arm, every, deg=deg))
+    for i in missed[:5]:
+        reason = arm.why_unreachable(poses.T[i], **{**options, "within_limits": True})
+        note(f"{poses.names[i]}: no solution within limits: {reason}")
+    if len(missed) > 5:
+        note(f"... and {len(missed) - 5} more of {len(every)} poses without a solution")
+    return 1 if missed else 0
+
+
+def _csv(arm: Robot, every: Sequence[IKSolutions], *, deg: bool) -> str:
+    """One line a solution: pose, solution, joint values, residual, branch, outside limits."""
+    header = ["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]
+    scale = np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
+    rows = []
+    for i, found in enumerate(every):
+        over = _outside(arm, found.q)
+        for k, (q, residual, branch) in enumerate(
+            zip(found.q * scale, found.verify(), found.branch, strict=True)
+        ):
+            names = " ".join(arm.joint_names[j] for j in np.flatnonzero(over[k]))
+            cells = [repr(float(v)) for v in q]
+            rows.append([str(i + 1), str(k + 1), *cells, f"{residual:.1e}", branch, names])
+    return grid_csv(header, rows)
