@@ -57,6 +57,7 @@ class RobotIK:
         locked: Locked | None = None,
         task: Task | str = "pose",
         turns: str = "nearest",
+        samples: int | None = None,
     ) -> IKSolutions:
         """All configurations that put the tip at a pose.
 
@@ -76,6 +77,10 @@ class RobotIK:
         turns : {"nearest", "all"}
             For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
             without one), or all of them as separate solutions.
+        samples : int, optional
+            For an arm of seven joints: number of values, equally spaced in its range, of the
+            joint that is swept (``solver`` names it); 16 without it. With a seed, the first
+            solution is the nearest one between the samples too.
 
         Returns
         -------
@@ -87,8 +92,38 @@ class RobotIK:
         PoseError, ConfigurationError, NameNotFoundError, NoSolverError
         """
         return self._ik.solve(
-            T, seed=seed, within_limits=within_limits, locked=locked, task=task, turns=turns
+            T,
+            seed=seed,
+            within_limits=within_limits,
+            locked=locked,
+            task=task,
+            turns=turns,
+            samples=samples,
         )
+
+    def ik_intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
+        """Intervals of the swept joint of a seven-joint arm in which a pose is reached.
+
+        Parameters
+        ----------
+        T : array_like, shape (4, 4), or pinocchio.SE3
+            ``T_base_tip``.
+        within_limits : bool
+            The whole range of the joint, with all joints inside their limits; without it one
+            turn.
+
+        Returns
+        -------
+        array, shape (k, 2)
+            Lower and upper ends [rad] or [m], ascending, known to 1e-9. Half a degree apart the
+            reach is tried, and shorter intervals are found by following the arm's self-motions.
+
+        Raises
+        ------
+        PoseError, ConfigurationError
+            Also for an arm without a joint to spare.
+        """
+        return self._ik.intervals(T, within_limits=within_limits)
 
     def ik_batch(
         self,
@@ -97,6 +132,7 @@ class RobotIK:
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = "pose",
+        samples: int | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> IKBatch:
@@ -107,6 +143,8 @@ class RobotIK:
         Ts : array_like, shape (m, 4, 4)
         within_limits, locked, task
             As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
+        samples : int, optional
+            As for :meth:`ik`.
         threads : int, optional
             Threads to use; by default one per processor.
         progress : callable, optional
@@ -117,6 +155,7 @@ class RobotIK:
             within_limits=within_limits,
             locked=locked,
             task=task,
+            samples=samples,
             threads=threads,
             progress=progress,
         )

@@ -15,10 +15,16 @@ from dh2urdf.ik.swept import SweptJoint, sample_values
 from dh2urdf.ik.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
 from dh2urdf.transforms import Array
 
-__all__ = ["inside_members", "nearest_members", "reach_intervals"]
+__all__ = ["few_members", "inside_members", "nearest_members", "reach_intervals"]
 
 VALUES = 128
 """Values of the swept joint at which curves are looked for."""
+
+FEW = 32
+"""The same, where a sweep has found nothing: most such poses are out of reach."""
+
+APART = 0.1
+"""Joint distance [rad or m] of members that are worth returning side by side."""
 
 STARTS = 64
 """Solutions that are followed towards a seed, the nearest ones of those found inside and of those
@@ -34,7 +40,39 @@ GRID = 720
 """Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
 
 
-def inside_members(solver: SweptJoint, T: Array, goal: Array, most: int) -> Array:
+def few_members(
+    solver: SweptJoint, T: Array, within_limits: bool, most: int
+) -> tuple[Array, Array]:
+    """Some solutions of a pose (4, 4) on curves that are short in the swept joint.
+
+    Returns
+    -------
+    q : array, shape (k, n)
+    residual : array, shape (k,)
+    """
+    chain = solver.chain
+    if within_limits:
+        q = inside_members(solver, T, limits.middle(chain), most, FEW)
+    else:
+        q = limits.turned_to(chain, _on_curves(solver, T, FEW), limits.middle(chain))
+    kept: list[int] = []
+    for k in range(len(q)):
+        if len(kept) < most and all(np.abs(q[k] - q[j]).max() > APART for j in kept):
+            kept.append(k)
+    return _polished(solver, T, q[kept])
+
+
+def _polished(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
+    """Solutions (k, n) and their residuals (k,) on the exact chain."""
+    from dh2urdf.kernels.certify import pose_residual
+
+    residual = np.array([pose_residual(solver.links, solver.joints, T, row) for row in q])
+    return q, residual
+
+
+def inside_members(
+    solver: SweptJoint, T: Array, goal: Array, most: int, values: int = VALUES
+) -> Array:
     """Members inside the limits of the curves of a pose, shape (k, n).
 
     The curves are looked for in sweeps of two joints over a whole turn, for one that is short in
@@ -49,11 +87,13 @@ def inside_members(solver: SweptJoint, T: Array, goal: Array, most: int) -> Arra
         distance from it.
     most : int
         Most solutions that are followed inwards: those nearest to the goal and the limits.
+    values : int
+        Values of each joint at which curves are looked for.
     """
     from dh2urdf.kernels.self_motion import enter_limits
 
     chain = solver.chain
-    q = limits.turned_to(chain, _on_curves(solver, T), goal)
+    q = limits.turned_to(chain, _on_curves(solver, T, values), goal)
     outside = (q < chain.lower - LIMIT_SLACK) | (q > chain.upper + LIMIT_SLACK)
     other_turn = np.where(outside, limits.turned_to(chain, q, limits.middle(chain)), q)
     q = np.concatenate([q, other_turn[np.any(other_turn != q, axis=1)]])
@@ -71,11 +111,11 @@ def inside_members(solver: SweptJoint, T: Array, goal: Array, most: int) -> Arra
     return ordered
 
 
-def _on_curves(solver: SweptJoint, T: Array) -> Array:
-    """Solutions of a pose at values over a whole turn of two joints, limits or not, (k, n)."""
+def _on_curves(solver: SweptJoint, T: Array, values: int) -> Array:
+    """Solutions of a pose near values over a whole turn of two joints, limits or not, (k, n)."""
     return np.concatenate(
         [
-            held.points_on_curves(T, sample_values(solver.chain, held.held[0], VALUES, False))
+            held.points_on_curves(T, sample_values(solver.chain, held.held[0], values, False))
             for held in solver.sweeps
         ]
     )
@@ -105,7 +145,7 @@ def nearest_members(
     if within_limits:
         q = inside_members(solver, T, seed, STARTS)
     else:
-        q = limits.turned_to(chain, _on_curves(solver, T), seed)
+        q = limits.turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
     q = np.ascontiguousarray(q[:STARTS])
     residual = np.empty(len(q))

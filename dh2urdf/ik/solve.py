@@ -21,6 +21,8 @@ from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.solutions import IKBatch, IKSolutions
 from dh2urdf.ik.solver import Solver, Task, select_solver
+from dh2urdf.ik.swept import SweptJoint
+from dh2urdf.ik.swept_problem import SweptProblem
 from dh2urdf.transforms import Array, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
@@ -66,6 +68,7 @@ class InverseKinematics:
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
         turns: str = "nearest",
+        samples: int | None = None,
     ) -> IKSolutions:
         """All configurations that put the tool at a pose.
 
@@ -85,6 +88,8 @@ class InverseKinematics:
         turns : {"nearest", "all"}
             For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
             without one), or all of them as separate solutions.
+        samples : int, optional
+            Values of the swept joint of an arm with one joint to spare; 16 without it.
 
         Returns
         -------
@@ -96,8 +101,8 @@ class InverseKinematics:
         PoseError, ConfigurationError, NameNotFoundError, NoSolverError
         """
         problem = self._plain
-        if problem is None or locked is not None or task != "pose":
-            problem = self._compiled(task, locked, within_limits)
+        if problem is None or locked is not None or task != "pose" or samples is not None:
+            problem = self._compiled(task, locked, within_limits, samples)
         found = problem.solve_one(_one_pose(T, problem), within_limits)
         if seed is not None:
             found = problem.arranged(found, seed, within_limits)
@@ -114,6 +119,7 @@ class InverseKinematics:
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
+        samples: int | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> IKBatch:
@@ -124,6 +130,8 @@ class InverseKinematics:
         Ts : array_like, shape (m, 4, 4)
         within_limits, locked, task
             As for a single pose; a joint may be held at a value for each pose, shape (m,).
+        samples : int, optional
+            As for a single pose.
         threads : int, optional
             Threads to use; by default one per processor.
         progress : callable, optional
@@ -131,7 +139,7 @@ class InverseKinematics:
         """
         if threads is not None and threads < 1:
             raise ConfigurationError(f"threads: at least 1, not {threads}")
-        problem = self._compiled(task, locked, within_limits)
+        problem = self._compiled(task, locked, within_limits, samples)
         return problem.solve_many(_poses(Ts, problem), within_limits, threads, progress)
 
     def solve_path(
@@ -161,11 +169,25 @@ class InverseKinematics:
         problem = self.problem(task, locked, within_limits)
         return problem.why_none(_one_pose(T, problem)[0], within_limits)
 
+    def intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
+        """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`.
+
+        Raises
+        ------
+        PoseError, ConfigurationError
+            Also for an arm without a joint to spare.
+        """
+        problem = self._compiled(Task.POSE, None, within_limits)
+        if not isinstance(problem, SweptProblem):
+            raise ConfigurationError(_no_sweep("intervals", problem.solver))
+        return problem.intervals(_one_pose(T, problem)[0], within_limits)
+
     def problem(
         self,
         task: Task | str = Task.POSE,
         locked: Locked | None = None,
         within_limits: bool = False,
+        samples: int | None = None,
     ) -> Problem:
         """The problem of a task and held joints; its solver is built when first asked for."""
         try:
@@ -174,7 +196,9 @@ class InverseKinematics:
             allowed = ", ".join(repr(t.value) for t in Task)
             raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
         if not locked:
-            return Problem(self.chain, self._solver(wanted, ()), wanted, self.referee)
+            return self._free_problem(wanted, samples)
+        if samples is not None:
+            raise ConfigurationError("samples: a joint is swept or locked, not both")
         held = self._held(locked, within_limits)
         joints = tuple(sorted(held))
         try:
@@ -185,16 +209,36 @@ class InverseKinematics:
         solver = self._solver(wanted, joints)
         return Problem(self.chain, solver, wanted, self.referee, values)
 
-    def _compiled(self, task: Task | str, locked: Locked | None, within_limits: bool) -> Problem:
+    def _free_problem(self, task: Task, samples: int | None) -> Problem:
+        """The problem of a task with no joint held."""
+        solver = self._solver(task, ())
+        if isinstance(solver, SweptJoint):
+            if samples is not None:
+                if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
+                    raise ConfigurationError(f"samples: a whole number from 1, not {samples!r}")
+                solver = self._solvers.setdefault((task, f"{samples}"), solver.like(samples))
+                assert isinstance(solver, SweptJoint)
+            return SweptProblem(self.chain, solver, task, self.referee)
+        if samples is not None:
+            raise ConfigurationError(_no_sweep("samples", solver))
+        return Problem(self.chain, solver, task, self.referee)
+
+    def _compiled(
+        self,
+        task: Task | str,
+        locked: Locked | None,
+        within_limits: bool,
+        samples: int | None = None,
+    ) -> Problem:
         """The problem, its kernels run once so that only the first call has to wait for them."""
-        problem = self.problem(task, locked, within_limits)
+        problem = self.problem(task, locked, within_limits, samples)
         if id(problem.solver) not in self._run_once:
             with notice_if_slow():
                 values = None if problem.values is None else problem.values[:1]
                 trial = Problem(self.chain, problem.solver, problem.task, self.referee, values)
                 trial.solve_many(self.chain.tool[None], False, 1, None)
             self._run_once.add(id(problem.solver))
-        if problem.values is None and problem.task is Task.POSE:
+        if problem.values is None and problem.task is Task.POSE and samples is None:
             self._plain = problem
         return problem
 
@@ -244,6 +288,11 @@ class InverseKinematics:
         raise ConfigurationError(
             f"locked: no joint {key!r}; indices go from 0 to {self.chain.n - 1}"
         )
+
+
+def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:
+    """Say that an arm has no joint to sweep."""
+    return f"{what}: no joint is swept, the solver is {solver}; it takes an arm of seven joints"
 
 
 def _one_pose(T: ArrayLike, problem: Problem) -> Array:

@@ -222,6 +222,12 @@ SOLVERS: tuple[SolverRow, ...] = (
         "General6R",
     ),
     SolverRow(
+        "swept joint",
+        "seven joints, one of which can be held so that a row above covers the others",
+        "dh2urdf.ik.swept",
+        "SweptJoint",
+    ),
+    SolverRow(
         "joints to spare",
         "one or two joints that can move while the task stays satisfied; they are held",
         "dh2urdf.ik.redundancy",

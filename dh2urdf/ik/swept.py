@@ -14,7 +14,6 @@ from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import new_outputs, select_held
 from dh2urdf.ik.held_wrist import HeldWrist
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
-from dh2urdf.ik.tolerances import REGULAR
 from dh2urdf.transforms import Array
 
 __all__ = ["SAMPLES", "SweptJoint", "sample_values"]
@@ -48,7 +47,11 @@ def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: b
 
 
 class SweptJoint(SolverBase):
-    """All solutions at a row of values of the joint that is best held."""
+    """All solutions at a row of values of the joint that is best held.
+
+    Every solution of such an arm can move while the tool stays; joints that are free beyond that
+    are the ones that a solution names.
+    """
 
     def __init__(
         self,
@@ -61,7 +64,6 @@ class SweptJoint(SolverBase):
         self.held, self.reason = _best_held(chain)
         self.joint, self.samples = self.held.held[0], samples
         self.kmax = samples * self.held.kmax
-        self.free_mask = sum(1 << i for i in np.flatnonzero(_self_motion(chain) > REGULAR).tolist())
 
     @property
     def name(self) -> str:  # type: ignore[override]
@@ -113,11 +115,23 @@ class SweptJoint(SolverBase):
         branch_out: IntArray,
         free_out: IntArray,
     ) -> None:
-        """Solve poses Ts (m, 4, 4) at every value of the swept joint."""
+        """Solve poses Ts (m, 4, 4) at every value of the swept joint.
+
+        Where none of them reaches a pose, curves between the values are looked for.
+        """
         values = sample_values(self.chain, self.joint, self.samples, within_limits)
         self.solve_at(
             values, Ts, within_limits, q_out, residual_out, count_out, branch_out, free_out
         )
+        missed = np.flatnonzero(count_out == 0)
+        if len(missed):
+            from dh2urdf.ik.self_motion import few_members
+
+            for i in missed:
+                q, residual = few_members(self, Ts[i], within_limits, self.kmax)
+                k = count_out[i] = len(q)
+                q_out[i, :k], residual_out[i, :k] = q, residual
+                branch_out[i, :k], free_out[i, :k] = -1, 0
 
     def solve_at(
         self,
@@ -148,7 +162,6 @@ class SweptJoint(SolverBase):
                 first,
                 last,
                 samples,
-                self.free_mask,
                 q_out,
                 residual_out,
                 count_out,

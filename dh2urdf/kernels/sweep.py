@@ -24,12 +24,11 @@ def spread_samples(Ts, values, first, last, poses, held):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def gather_samples(found, first, last, samples, free_mask, q, residual, count, branch, free):
+def gather_samples(found, first, last, samples, q, residual, count, branch, free):
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
     ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
-    the caller's, with room for all, see :class:`dh2urdf.ik.solver.Solver`. ``free_mask``: bits
-    of the joints that move when the tool stays, set for all solutions.
+    the caller's, with room for all, see :class:`dh2urdf.ik.solver.Solver`.
     """
     some_q, some_residual, some_count, some_branch, some_free = found
     for i in range(first, last):
@@ -41,6 +40,6 @@ def gather_samples(found, first, last, samples, free_mask, q, residual, count, b
                     q[i, total, j] = some_q[row, r, j]
                 residual[i, total] = some_residual[row, r]
                 branch[i, total] = some_branch[row, r]
-                free[i, total] = some_free[row, r] | free_mask
+                free[i, total] = some_free[row, r]
                 total += 1
         count[i] = total
