@@ -22,6 +22,7 @@ from dh2urdf.exceptions import Dh2UrdfError
 
 if TYPE_CHECKING:
     from dh2urdf.chain import SerialChain
+    from dh2urdf.checks.rules import check_urdf
     from dh2urdf.conversions.convention import to_convention
     from dh2urdf.conversions.dh_to_urdf import UrdfOptions
     from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
@@ -38,6 +39,7 @@ _LATE = {
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
     "UrdfOptions": ("dh2urdf.conversions.dh_to_urdf", "UrdfOptions"),
+    "check_urdf": ("dh2urdf.checks.rules", "check_urdf"),
     "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),
     "load_table": ("dh2urdf.robots", "load_table"),
@@ -60,6 +62,7 @@ __all__ = [
     "Robot",
     "SerialChain",
     "UrdfOptions",
+    "check_urdf",
     "dh_factors",
     "dh_parameters",
     "dh_transform",

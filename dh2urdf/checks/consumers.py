@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import zip_longest
 from pathlib import Path
 
 from dh2urdf.checks.document import Document
@@ -130,7 +131,7 @@ def _pybullet_words(out: str, root: str) -> str:
     words = [line for line in marks.splitlines() if line.startswith(("Warning: ", "Error: "))]
     notice = "Warning: No inertial data for link"
     said = []
-    for line, following in zip(words, [*words[1:], ""], strict=True):
+    for line, following in zip_longest(words, words[1:], fillvalue=""):
         if line.startswith(notice):
             name = following.removeprefix("Warning: ")
             said += [] if name == root else [f"{notice}, using mass=1: {name}"]

@@ -62,8 +62,7 @@ def rounded_angle(doc: Document) -> Iterator[Found]:
             effect(
                 (Consumer.IKFAST, Consumer.MOVEIT),
                 Verdict.MISREADS,
-                "closed-form solvers see axes that are nearly parallel or nearly meet, not ones "
-                "that do",
+                "see axes that are nearly parallel or nearly meet; they look for ones that do",
             ),
         ),
         f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such angles "
@@ -73,16 +72,20 @@ def rounded_angle(doc: Document) -> Iterator[Found]:
 
 def _cost(doc: Document, mended: Mapping[etree._Element, list[float]]) -> str:
     q = np.random.default_rng(0).uniform(-math.pi, math.pi, size=(len(doc.edges), COUNT))
-    written, exact = _positions(doc, {}, q), _positions(doc, mended, q)
+    written, exact = _poses(doc, {}, q), _poses(doc, mended, q)
     if written is None or exact is None:
         return "What it costs cannot be measured in this file"
-    moved = {name: _farthest(exact[name] - written[name]) for name in written}
+    moved = {name: _farthest(exact[name], written[name]) for name in written}
     link = max(moved, key=lambda name: moved[name])
-    return f"That moves {link!r} by up to {_length(moved[link])} (measured)"
+    if moved[link] > 1e-9:
+        return f"That moves {link!r} by up to {_length(moved[link])} (measured)"
+    turned = {name: tf.pose_error(exact[name], written[name]) for name in written}
+    link = max(turned, key=lambda name: turned[name])
+    return f"That turns {link!r} by up to {turned[link]:.2g} rad (measured)"
 
 
-def _farthest(offsets: Array) -> float:
-    return float(np.linalg.norm(offsets, axis=-1).max())
+def _farthest(T: Array, T_other: Array) -> float:
+    return float(np.linalg.norm((T - T_other)[:, :3, 3], axis=-1).max())
 
 
 def _length(metres: float) -> str:
@@ -92,10 +95,10 @@ def _length(metres: float) -> str:
     return f"{metres * 1e9:.3g} nm"
 
 
-def _positions(
+def _poses(
     doc: Document, mended: Mapping[etree._Element, list[float]], q: Array
 ) -> dict[str, Array] | None:
-    """Position of every link at many configurations, (m, 3) each; None for no sound tree.
+    """Pose of every link at many configurations, (m, 4, 4) each; None for no sound tree.
 
     Parameters
     ----------
@@ -117,7 +120,7 @@ def _positions(
                     return None
                 poses[child] = poses[parent] @ step
                 todo.append(child)
-    return {name: T[:, :3, 3] for name, T in poses.items()}
+    return poses
 
 
 def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Array) -> Array | None:

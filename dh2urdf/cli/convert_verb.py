@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.output import emit, emit_json, note, read_source
+from dh2urdf.cli.output import emit, emit_json, no_options, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
 from dh2urdf.exceptions import Dh2UrdfError
 
@@ -16,7 +16,7 @@ __all__ = ["convert_"]
 
 
 def convert_(
-    tables: list[str] | None = None,
+    tables: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
     /,
     *,
     shipped: bool = False,
@@ -64,12 +64,13 @@ def convert_(
     options = UrdfOptions(
         dh_frames=dh_frames, collision=collision, digits=digits, balance_inertia=balance_inertia
     )
+    no_options("convert", tables or [])
     if shipped:
         from dh2urdf.robots import list_tables
 
         tables = [*(tables or []), *list_tables()]
     if not tables:
-        raise Dh2UrdfError("convert: name at least one table; `dh2urdf list` shows those that ship")
+        raise Dh2UrdfError("convert: TABLES: name one or more, or --shipped; see `dh2urdf list`")
     if output is not None and len(tables) > 1:
         raise Dh2UrdfError("convert: -o names one file; for several tables use --out-dir")
     if len(tables) == 1:

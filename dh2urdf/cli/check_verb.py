@@ -1,0 +1,135 @@
+"""``dh2urdf check``: what the consumers of a URDF would say of it."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from dh2urdf.checks import (
+    Effect,
+    Finding,
+    Severity,
+    Testimony,
+    Verdict,
+    ask_all,
+    check_urdf,
+)
+from dh2urdf.cli.output import emit, emit_json, no_options, note
+from dh2urdf.cli.progress import track
+from dh2urdf.exceptions import Dh2UrdfError
+
+__all__ = ["check_"]
+
+
+def check_(
+    files: Annotated[list[str], Parameter(allow_leading_hyphen=True)],
+    /,
+    *,
+    run: Annotated[bool, Parameter(negative="--no-run")] = True,
+    json: bool = False,
+) -> int:
+    """Say what the consumers of a URDF would say of it, and how to mend it.
+
+    Pinocchio, check_urdf, yourdfpy, MuJoCo, PyBullet, Drake, ikpy, KDL, Gazebo, MoveIt, IKFast
+    and RViz each break on other things. Rules tell what, line by line; those of the programs
+    that are installed are asked too. Exit status 0: no errors or warnings, 1: some, 2: a file
+    that cannot be read.
+
+    Parameters
+    ----------
+    files
+        URDF files, from anywhere; - for stdin.
+    run
+        Load the files in the consumers that are installed.
+    json
+        One JSON object instead of text.
+    """
+    no_options("check", files)
+    results, failed = [], []
+    for file in track(files, "checking"):
+        try:
+            with _on_disk(file) as path:
+                findings = check_urdf(path)
+                said = ask_all(path) if run else ()
+            results.append(("<stdin>" if file == "-" else file, findings, said))
+        except Dh2UrdfError as error:
+            failed.append({"path": file, "error": str(error)})
+    if json:
+        emit_json("check", files=[_plain(*result) for result in results], failed=failed)
+    else:
+        for result in results:
+            _show(*result)
+        for bad in failed:
+            note(f"dh2urdf: {bad['error']}")
+    return 2 if failed else int(any(_is_bad(found, said) for _, found, said in results))
+
+
+@contextmanager
+def _on_disk(file: str) -> Iterator[Path]:
+    """Path of a file; what comes by stdin is put into one."""
+    if file != "-":
+        yield Path(file)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "stdin.urdf"
+        path.write_bytes(sys.stdin.buffer.read())
+        yield path
+
+
+def _is_bad(findings: tuple[Finding, ...], said: tuple[Testimony, ...]) -> bool:
+    return any(f.severity is not Severity.ADVICE for f in findings) or any(
+        t.verdict is Verdict.REFUSES for t in said
+    )
+
+
+def _plain(
+    file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...]
+) -> dict[str, object]:
+    return {
+        "path": file,
+        "findings": [{"severity": f.severity, **asdict(f)} for f in findings],
+        "consumers": [asdict(t) for t in said],
+    }
+
+
+def _show(file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...]) -> None:
+    for finding in findings:
+        place = f"{file}:{finding.line}"
+        emit(f"{place}: {finding.severity}: {finding.element} {finding.message} [{finding.rule}]")
+        for effect in finding.effects:
+            emit(f"    {_sentence(effect)}")
+        emit(f"    mend: {finding.mend}\n")
+    counts = Counter(f.severity for f in findings)
+    summary = ", ".join(_counted(counts[s], s) for s in Severity if counts[s])
+    emit(f"{file}: {summary or 'nothing to mend'}")
+    for testimony in said:
+        name = f"{testimony.consumer} {testimony.version}".rstrip()
+        words = testimony.words.replace("\n", f"\n{' ' * 33}")
+        emit(f"    {name:<17} {testimony.verdict:<11}{words}".rstrip())
+
+
+def _counted(count: int, severity: Severity) -> str:
+    plural = "s" if count > 1 and severity is not Severity.ADVICE else ""
+    return f"{count} {severity}{plural}"
+
+
+def _sentence(effect: Effect) -> str:
+    """``MuJoCo and Drake refuse the file: axis too small``."""
+    names = [str(consumer) for consumer in effect.consumers]
+    who = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+    s = "s" if len(names) == 1 else ""
+    does = {
+        Verdict.REFUSES: f" refuse{s} the file",
+        Verdict.COMPLAINS: f" complain{s}",
+        Verdict.MISREADS: f" misread{s} it",
+        Verdict.ACCEPTS: "",
+    }[effect.verdict]
+    return f"{who}{does}: {effect.text}" if effect.text else f"{who}{does}"

@@ -1,0 +1,103 @@
+"""`dh2urdf check` as a user meets it: words, exit status, JSON, stdin, files that are none."""
+
+import io
+import json
+import sys
+
+import pytest
+from urdf_faults import BODY, SOUND, arm, joint
+
+import dh2urdf
+from dh2urdf.cli import main
+
+
+@pytest.fixture
+def run(capsys, tmp_path, monkeypatch):
+    """Run the command line in an empty folder: status, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*argv):
+        with pytest.raises(SystemExit) as stop:
+            main([str(a) for a in argv])
+        out, err = capsys.readouterr()
+        return stop.value.code, out, err
+
+    return call
+
+
+def test_own_file_passes_and_consumers_accept_it(run, tmp_path):
+    """A converted table has nothing to mend; those installed accept it; status 0."""
+    dh2urdf.write_urdf(dh2urdf.load_table("ur5"), tmp_path / "ur5.urdf")
+    status, out, err = run("check", "ur5.urdf")
+    assert (status, err) == (0, "")
+    assert out.startswith("ur5.urdf: nothing to mend")
+    for line in out.splitlines()[1:]:
+        assert line.rstrip().endswith("accepts")
+    for name in ("Pinocchio", "check_urdf", "yourdfpy", "MuJoCo"):
+        assert name in out
+
+
+def test_findings_name_line_element_consumers_and_cure(run, tmp_path):
+    """An arm without limits and with a weightless hand is told so; status 1."""
+    (tmp_path / "arm.urdf").write_text(arm(fore="", elbow=joint(limit="")))
+    status, out, _ = run("check", "arm.urdf")
+    assert status == 1
+    assert 'arm.urdf:7: error: <joint name="elbow"> has no <limit> [limit-missing]' in out
+    assert "check_urdf, Pinocchio, KDL, Gazebo, MoveIt, RViz and PyBullet refuse the file" in out
+    assert "mend: write <limit" in out
+    assert 'arm.urdf:5: error: <link name="fore"> moves, and has no <inertial>' in out
+    assert "arm.urdf: 2 errors" in out
+    assert "Joint [elbow] is of type REVOLUTE but it does not specify limits" in out
+
+
+def test_advice_alone_is_no_failure(run, tmp_path):
+    """A continuous joint brings advice and status 0."""
+    (tmp_path / "arm.urdf").write_text(arm(elbow=joint(kind="continuous", limit="")))
+    status, out, _ = run("check", "arm.urdf", "--no-run")
+    assert (status, "1 advice" in out) == (0, True)
+
+
+def test_json_holds_all_that_is_said(run, tmp_path):
+    """One object: findings with severity and effects, consumers with verdict and words."""
+    (tmp_path / "arm.urdf").write_text(arm(base=BODY))
+    status, out, _ = run("check", "arm.urdf", "--json")
+    data = json.loads(out)
+    assert (status, data["schema"], data["verb"], data["failed"]) == (1, 1, "check", [])
+    (file,) = data["files"]
+    (finding,) = file["findings"]
+    assert (finding["rule"], finding["severity"], finding["line"]) == ("root-inertia", "warning", 3)
+    assert finding["effects"][0]["consumers"] == ["KDL"]
+    assert {c["verdict"] for c in file["consumers"]} == {"accepts"}
+
+
+def test_unreadable_files_do_not_stop_the_rest(run, tmp_path):
+    """Of three files one is missing, one is text: both are named, the third is checked; 2."""
+    (tmp_path / "arm.urdf").write_text(SOUND)
+    (tmp_path / "text.urdf").write_text("not a robot")
+    status, out, err = run("check", "nowhere.urdf", "text.urdf", "arm.urdf", "--no-run")
+    assert status == 2
+    assert "arm.urdf: nothing to mend" in out
+    assert [line.split(":")[1].strip() for line in err.splitlines()] == [
+        "nowhere.urdf",
+        "text.urdf",
+    ]
+    assert "Traceback" not in err
+
+
+def test_stdin_is_read(run, monkeypatch):
+    """A hyphen stands for stdin; other words with a hyphen are options that do not exist."""
+    stdin = io.TextIOWrapper(io.BytesIO(arm(base=BODY).encode()))
+    monkeypatch.setattr(sys, "stdin", stdin)
+    status, out, _ = run("check", "-", "--no-run")
+    assert (status, out.startswith("<stdin>:3: warning")) == (1, True)
+    status, out, err = run("check", "--nonsense")
+    assert (status, out, "unknown option --nonsense" in err) == (2, "", True)
+
+
+def test_convert_reads_stdin_too(run, monkeypatch):
+    """`convert -` turns YAML on stdin into a URDF on stdout."""
+    table = "convention: standard\nunits: {length: m, angle: deg}\n"
+    table += "joints: [{theta: 0, d: 0, a: 1, alpha: 0}]\n"
+    monkeypatch.setattr(sys, "stdin", io.StringIO(table))
+    status, out, _ = run("convert", "-")
+    assert (status, out.startswith("<?xml")) == (0, True)
