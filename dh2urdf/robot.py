@@ -251,6 +251,11 @@ class Robot(RobotIK, RobotPictures):
             flat = flat @ self._coupling.matrix.T + self._coupling.offset
         return np.ascontiguousarray(flat), config.shape[:-1]
 
+    def _values(self) -> tuple[Array, Array]:
+        """Matrix (chain.n, n) and offset (chain.n,) from q to the joints of the chain."""
+        coupling, n = self._coupling, self.chain.n
+        return (coupling.matrix, coupling.offset) if coupling else (np.eye(n), np.zeros(n))
+
     def _bounds(self) -> None:
         coupling, chain = self._coupling, self.chain
         self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names

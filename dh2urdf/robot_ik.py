@@ -17,6 +17,9 @@ from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
     from dh2urdf.ik.held_solver import HeldSolver
+    import numpy as np
+
+    from dh2urdf.ik.numeric import NumericProblem, NumericSolutions
     from dh2urdf.ik.path import IKPath
     from dh2urdf.ik.problem import Progress
     from dh2urdf.ik.solutions import IKBatch, IKSolutions
@@ -31,6 +34,9 @@ class RobotIK:
 
     chain: SerialChain
     joint_names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    slides: Array
 
     @property
     def solver(self) -> Solver:
@@ -160,6 +166,58 @@ class RobotIK:
             progress=progress,
         )
 
+    def ik_numeric(
+        self,
+        T: ArrayLike,
+        *,
+        seed: ArrayLike | None = None,
+        within_limits: bool = True,
+        task: Task | str = "pose",
+        solutions: int = 1,
+        starts: int = 50,
+        rng: np.random.Generator | int | None = 0,
+    ) -> NumericSolutions:
+        """Search for solutions by damped Newton steps, for arms that :meth:`ik` does not cover.
+
+        Any number of joints of any kind, mimic joints too. The search is not complete: there may
+        be more solutions than it finds, and a pose without one need not be out of reach.
+
+        Parameters
+        ----------
+        T : array_like, shape (4, 4), or pinocchio.SE3
+            ``T_base_tip``; for task ``position`` a point (3,) will do.
+        seed : array_like, shape (n,), optional
+            Where to start, and what to sort by; without it the middle of the limits. Later
+            starts are random.
+        within_limits : bool
+            Stay inside the joint limits.
+        task : {"pose", "position", "position+axis"}
+        solutions : int
+            Number of different solutions after which the search ends.
+        starts : int
+            Number of starts after which it ends anyway.
+        rng : numpy.random.Generator, int or None
+            Of the random starts; the same ones each time unless given.
+
+        Returns
+        -------
+        NumericSolutions
+            With ``q`` (k, n), ``residual`` (k,) and ``tried``, the number of starts.
+
+        Raises
+        ------
+        PoseError, ConfigurationError
+        """
+        return self._numeric.solve(
+            T,
+            seed=seed,
+            within_limits=within_limits,
+            task=task,
+            solutions=solutions,
+            starts=starts,
+            rng=rng,
+        )
+
     def ik_path(
         self,
         Ts: ArrayLike,
@@ -212,15 +270,25 @@ class RobotIK:
         return self._ik.why_none(T, within_limits=within_limits, locked=locked, task=task)
 
     @cached_property
+    def _numeric(self) -> NumericProblem:
+        from dh2urdf.ik.numeric import NumericProblem
+
+        return NumericProblem(self.chain, *self._values(), self.slides, self.lower, self.upper)
+
+    @cached_property
     def _ik(self) -> InverseKinematics:
         from dh2urdf.ik.solve import InverseKinematics
 
         if len(self.joint_names) != self.chain.n:
             raise NoSolverError(
                 f"{self.chain.n} joints move by {len(self.joint_names)} values (mimic joints); "
-                "inverse kinematics needs joints that move independently"
+                "ik needs joints that move independently; ik_numeric finds solutions one at a time"
             )
         return InverseKinematics(self.chain, self._placements)
+
+    def _values(self) -> tuple[Array, Array]:
+        """Matrix (chain.n, n) and offset (chain.n,) from the values q to the chain's joints."""
+        raise NotImplementedError
 
     def _placements(self, q: Array) -> Array:
         """Poses of the tip in the base by Pinocchio, for configurations (k, n)."""

@@ -253,7 +253,11 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
         if obstacle is None:
             return family(chain, task, tuple(others))
         others.append((row.name, obstacle))
-    listing = "\n".join(f"  {name}: {reason}" for name, reason in others)
+    listing = "\n".join(
+        f"  {row.name} ({row.needs}): {obstacle}"
+        for row, (_, obstacle) in zip(SOLVERS, others, strict=True)
+    )
     raise NoSolverError(
-        f"no solver for task {task.value!r} of this {chain.n}-joint chain:\n{listing}"
+        f"no solver finds all solutions for task {task.value!r} of this {chain.n}-joint chain; "
+        f"ik_numeric finds some. The classes that exist, and what keeps them from it:\n{listing}"
     )

@@ -15,7 +15,14 @@ from numba import njit
 from dh2urdf.kernels.certify import _turn_between, residual_of
 from dh2urdf.kernels.chain import _joint_times_link, _load
 
-__all__ = ["add_transposed", "error_and_jacobian", "make_damped", "restore", "solve_damped"]
+__all__ = [
+    "add_transposed",
+    "error_and_jacobian",
+    "make_damped",
+    "pose_and_jacobian",
+    "restore",
+    "solve_damped",
+]
 
 RESTORED = 1e-13
 """Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""
@@ -34,8 +41,8 @@ def make_damped(n):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def error_and_jacobian(links, joints, T, q, unit, damped):
-    """Residual of q (n,) against T; the error and the Jacobian's columns go to ``damped``.
+def pose_and_jacobian(links, joints, T, q, unit, damped):
+    """Pose of q (n,) as twelve scalars; its error and the Jacobian's columns go to ``damped``.
 
     The error is (position / unit, rotation vector as long as the sine of its angle) from the
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
@@ -63,7 +70,13 @@ def error_and_jacobian(links, joints, T, q, unit, damped):
             J[i, 0] = zy * z - zz * y
             J[i, 1] = zz * x - zx * z
             J[i, 2] = zx * y - zy * x
-    return residual_of(r, T)
+    return r
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def error_and_jacobian(links, joints, T, q, unit, damped):
+    """:func:`pose_and_jacobian`, and the residual of q against T."""
+    return residual_of(pose_and_jacobian(links, joints, T, q, unit, damped), T)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

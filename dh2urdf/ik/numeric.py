@@ -1,0 +1,181 @@
+"""Numeric inverse kinematics: for chains that no solver covers, and for who asks for it.
+
+It finds solutions one at a time, and cannot tell whether there are more, nor whether a pose
+without one is out of reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.ik.solutions import as_configuration
+from dh2urdf.ik.solver import Task
+from dh2urdf.transforms import Array, check_pose
+
+__all__ = ["NumericProblem", "NumericSolutions"]
+
+STARTS = 50
+"""Starts after which the search is given up, when the caller gives no other number."""
+
+
+@dataclass(frozen=True, eq=False)
+class NumericSolutions:
+    """Solutions that a numeric search has found; there may be more.
+
+    Attributes
+    ----------
+    q : array, shape (k, n)
+        Different configurations [rad] or [m]; nearest to the seed first, if there is one.
+    residual : array, shape (k,)
+        Larger of position error [m] and orientation error [rad] of each.
+    T : array, shape (4, 4)
+        The target.
+    tried : int
+        Starts that were used.
+    """
+
+    q: Array
+    residual: Array
+    T: Array
+    tried: int
+
+    def nearest(self, q: ArrayLike) -> Array:
+        """The solution with the least joint motion from q, shape (n,).
+
+        Raises
+        ------
+        LookupError
+            There is no solution.
+        """
+        if not len(self):
+            raise LookupError("there is no solution to choose from")
+        goal = as_configuration(q, self.q.shape[1], "q")
+        near: Array = self.q[np.linalg.norm(self.q - goal, axis=1).argmin()]
+        return near
+
+    def __len__(self) -> int:
+        return len(self.q)
+
+    def __bool__(self) -> bool:
+        return len(self.q) > 0
+
+    def __getitem__(self, index: int) -> Array:
+        row: Array = self.q[index]
+        return row
+
+    def __iter__(self) -> Iterator[Array]:
+        return iter(self.q)
+
+    def __str__(self) -> str:
+        lines = [f"{len(self)} found from {self.tried} starts; there may be more"]
+        lines += [
+            f"{i}: {' '.join(f'{v:9.5f}' for v in q)}  residual {residual:.1e}"
+            for i, (q, residual) in enumerate(zip(self.q + 0.0, self.residual, strict=True))
+        ]
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True, eq=False)
+class NumericProblem:
+    """A chain whose joints follow the values ``joints = coupling q + offset``.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    coupling : array, shape (chain.n, n)
+    offset : array, shape (chain.n,)
+    slides : bool array, shape (n,)
+        True where a value is a length.
+    lower, upper : array, shape (n,)
+        Bounds of the values, infinite where there are none.
+    """
+
+    chain: SerialChain
+    coupling: Array
+    offset: Array
+    slides: Array
+    lower: Array
+    upper: Array
+
+    def solve(
+        self,
+        T: ArrayLike,
+        *,
+        seed: ArrayLike | None = None,
+        within_limits: bool = True,
+        task: Task | str = Task.POSE,
+        solutions: int = 1,
+        starts: int = STARTS,
+        rng: np.random.Generator | int | None = 0,
+    ) -> NumericSolutions:
+        """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
+        from dh2urdf.kernels.numeric import find_solutions
+
+        wanted = _task(task)
+        target = _target(T, wanted)
+        for what, number in (("solutions", solutions), ("starts", starts)):
+            if isinstance(number, bool) or not isinstance(number, int) or number < 1:
+                raise ConfigurationError(f"{what}: a whole number from 1, not {number!r}")
+        chain, n = self.chain, len(self.lower)
+        bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)
+        if not within_limits:
+            bounds[:, 1], bounds[:, 2] = -np.inf, np.inf
+        first = None if seed is None else as_configuration(seed, n, "seed")
+        q, residual = np.empty((solutions, n)), np.empty(solutions)
+        count, tried = find_solutions(
+            np.array(chain.links),
+            np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float),
+            np.ascontiguousarray(self.coupling, dtype=float),
+            np.ascontiguousarray(self.offset, dtype=float),
+            bounds,
+            list(Task).index(wanted),
+            target,
+            chain.size,
+            self._starts(starts, first, bounds, np.random.default_rng(rng)),
+            q,
+            residual,
+        )
+        order = np.arange(count)
+        if first is not None:
+            order = np.argsort(np.linalg.norm(q[:count] - first, axis=1), kind="stable")
+        return NumericSolutions(q[order], residual[order], target, tried)
+
+    def _starts(
+        self, starts: int, seed: Array | None, bounds: Array, rng: np.random.Generator
+    ) -> Array:
+        """The seed or the middle of the limits, then anywhere inside them, shape (starts, n)."""
+        far = np.where(self.slides, self.chain.size, np.pi)
+        low = np.where(np.isfinite(self.lower), self.lower, np.minimum(-far, self.upper - far))
+        high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
+        out = rng.uniform(low, high, (starts, len(low)))
+        out[0] = 0.5 * (low + high) if seed is None else seed
+        inside: Array = np.clip(out, bounds[:, 1], bounds[:, 2])
+        return inside
+
+
+def _task(task: Task | str) -> Task:
+    """Check a task."""
+    try:
+        return Task(task)
+    except ValueError:
+        allowed = ", ".join(repr(t.value) for t in Task)
+        raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
+
+
+def _target(T: ArrayLike, task: Task) -> Array:
+    """A checked pose (4, 4); a point (3,) will do for a position."""
+    given = getattr(T, "homogeneous", T)
+    if task is Task.POSITION and np.shape(given) == (3,):
+        pose = np.eye(4)
+        pose[:3, 3] = given
+        given = pose
+    checked = check_pose(given)
+    if checked.ndim != 2:
+        raise PoseError(f"pose: expected shape (4, 4), got {checked.shape}")
+    return np.ascontiguousarray(checked)

@@ -1,0 +1,198 @@
+"""Inverse kinematics by damped Newton steps from many starts, for any chain.
+
+``dq = J^T (J J^T + lambda)^-1 e`` with a damping ``lambda = |e|^2 / 2 + small``, which vanishes
+as the target is approached (Sugihara 2011). A value at a limit that would go on outwards is left
+out of the step. Each start leads to one solution or to none; nothing says how many there are.
+
+The chain's joints follow the values q (n,) of the user: ``joint values = C q + c``, C the unit
+matrix but for joints that mimic others.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, residual_of
+from dh2urdf.kernels.damped import add_transposed, make_damped, pose_and_jacobian, solve_damped
+
+__all__ = ["find_solutions"]
+
+MOST_STEPS = 60
+"""Steps from one start; a good one takes ten to twenty."""
+
+STUCK = 12
+"""Steps without a better residual after which a start is given up."""
+
+LONGEST = 0.6
+"""Longest step of one value [rad], or relative to the arm's size."""
+
+DAMPING = 1e-3
+"""Part of the trace of ``J J^T`` by which the first steps are damped, besides ``|e|^2 / 2``."""
+
+DONE = 1e-14
+"""Residual [m and rad] at which nothing is left to gain."""
+
+POSE, POSITION, POSITION_AXIS = 0, 1, 2
+"""Tasks."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _task_error(task, T, r, damped):
+    """Reduce error and Jacobian in ``damped`` to a task; the residual [m and rad].
+
+    The pose r is what :func:`dh2urdf.kernels.damped.error_and_jacobian` found.
+    """
+    J, _, e, _ = damped
+    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    position = math.sqrt(x * x + y * y + z * z)
+    if task == POSE:
+        return residual_of(r, T)
+    if task == POSITION:
+        for i in range(J.shape[0]):
+            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
+        e[3], e[4], e[5] = 0.0, 0.0, 0.0
+        return position
+    zx, zy, zz = r[2], r[6], r[10]
+    for i in range(J.shape[0]):
+        along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
+        J[i, 3], J[i, 4], J[i, 5] = J[i, 3] - along * zx, J[i, 4] - along * zy, J[i, 5] - along * zz
+    e[3] = zy * T[2, 2] - zz * T[1, 2]
+    e[4] = zz * T[0, 2] - zx * T[2, 2]
+    e[5] = zx * T[1, 2] - zy * T[0, 2]
+    turn = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+    if zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0:
+        size = max(turn, 1e-6)
+        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
+        turn = math.pi
+    return max(position, turn)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
+    """Residual of values q (n,); its error and the Jacobian of the values go to ``part``."""
+    for k in range(offset.shape[0]):
+        total = offset[k]
+        for v in range(q.shape[0]):
+            total += coupling[k, v] * q[v]
+        work[k] = total
+    r = pose_and_jacobian(links, joints, T, work, unit, whole)
+    residual = _task_error(task, T, r, whole)
+    for a in range(6):
+        part[2][a] = whole[2][a]
+        for v in range(q.shape[0]):
+            total = 0.0
+            for k in range(offset.shape[0]):
+                total += coupling[k, v] * whole[0][k, a]
+            part[0][v, a] = total
+    return residual
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _step(bounds, damping, unit, q, dq, part):
+    """Damped step of the values into dq (n,), without those at a limit that would go beyond it."""
+    n = q.shape[0]
+    for _ in range(n + 1):
+        solve_damped(part, damping)
+        for i in range(n):
+            dq[i] = 0.0
+        add_transposed(part, 1.0, dq)
+        again = False
+        for i in range(n):
+            out = (q[i] >= bounds[i, 2] and dq[i] > 0.0) or (q[i] <= bounds[i, 1] and dq[i] < 0.0)
+            if out:
+                again = True
+                for a in range(6):
+                    part[0][i, a] = 0.0
+        if not again:
+            break
+    longest = 0.0
+    for i in range(n):
+        longest = max(longest, abs(dq[i]) / (unit if bounds[i, 0] != 0.0 else 1.0))
+    scale = min(1.0, LONGEST / longest) if longest > 0.0 else 0.0
+    for i in range(n):
+        q[i] = min(max(q[i] + scale * dq[i], bounds[i, 1]), bounds[i, 2])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best, scratch):
+    """Follow the steps from q (n,); the residual of the best values, which go to best (n,)."""
+    work, dq, whole, part = scratch
+    least, since = math.inf, 0
+    for _ in range(MOST_STEPS):
+        residual = _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part)
+        if residual < least:
+            since = since if residual > 0.9 * least else 0
+            least = residual
+            for i in range(q.shape[0]):
+                best[i] = q[i]
+        since += 1
+        if residual <= DONE or since > STUCK or (least <= ACCEPT and since > 2):
+            break
+        square = 0.0
+        for a in range(6):
+            square += part[2][a] * part[2][a]
+        _step(bounds, square * (0.5 + DAMPING), unit, q, dq, part)
+    return least
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _is_new(bounds, q, found, count):
+    """Whether values q (n,) differ from all found ones by more than full turns."""
+    for k in range(count):
+        far = False
+        for i in range(q.shape[0]):
+            gap = abs(q[i] - found[k, i])
+            if bounds[i, 0] == 0.0:
+                gap = abs(gap - TWO_PI * math.floor(gap / TWO_PI + 0.5))
+            far = far or gap > CLUSTER
+        if not far:
+            return False
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, starts, q, residual):
+    """Different solutions of one pose T (4, 4), from one start after the other.
+
+    Parameters
+    ----------
+    links, joints
+        The chain, see :mod:`dh2urdf.kernels.certify`.
+    coupling : array, shape (chain.n, n)
+    offset : array, shape (chain.n,)
+    bounds : array, shape (n, 3)
+        Sliding, lower, upper of the values.
+    task : int
+        0 pose, 1 position, 2 position and the direction of the tool's z axis.
+    unit : float
+        Size of the arm [m].
+    starts : array, shape (s, n)
+        Overwritten.
+    q : array, shape (k, n), out
+        The search ends when it is full.
+    residual : array, shape (k,), out
+
+    Returns
+    -------
+    count, tried : int
+        Number of solutions and of starts that were used.
+    """
+    n, m = starts.shape[1], offset.shape[0]
+    scratch = np.empty(m), np.empty(n), make_damped(m), make_damped(n)
+    best = np.empty(n)
+    count = 0
+    for s in range(starts.shape[0]):
+        least = _from_start(
+            links, joints, coupling, offset, bounds, task, T, unit, starts[s], best, scratch
+        )
+        if least <= ACCEPT and _is_new(bounds, best, q, count):
+            for i in range(n):
+                q[count, i] = best[i]
+            residual[count] = least
+            count += 1
+            if count == q.shape[0]:
+                return count, s + 1
+    return count, starts.shape[0]
