@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from dh2urdf.kernels.certify import CLUSTER, POLISH, TWO_PI
+from dh2urdf.kernels.compiled import block_kernel
 from dh2urdf.kernels.trig import arctangent
 
 __all__ = [
@@ -59,11 +58,6 @@ ROWS = WORK + 64
 """Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 40 angles, their
 joint values, whether these are inside their limits, and for eight solutions whether they exist
 and their residual; the rest belongs to the family."""
-
-
-def block_kernel(function):
-    """Compile with fused multiply-add and without a test of every division."""
-    return njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
 
 
 @block_kernel

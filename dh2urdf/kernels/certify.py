@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.chain import _joint_times_link, _load
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 
 __all__ = ["finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
 
@@ -81,7 +82,7 @@ def _turn_between(r, T):
     return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def pose_residual(links, joints, T, q):
     """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
     r = _load(links[0])
@@ -90,7 +91,7 @@ def pose_residual(links, joints, T, q):
     return residual_of(r, T)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _normal_equations(links, joints, T, q, work):
     """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
 
@@ -130,7 +131,7 @@ def _normal_equations(links, joints, T, q, work):
             work[i, 8 + j] = total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _damped_step(work, damping):
     """Solve ``(J^T J + damping) dq = J^T e`` by Cholesky, dq in ``work[:, 7]``; longest entry.
 
@@ -164,7 +165,7 @@ def _damped_step(work, damping):
     return longest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def polish(links, joints, T, q, work):
     """Newton's method on the exact chain, q (n,) in place; returns the residual.
 
@@ -207,7 +208,7 @@ def polish(links, joints, T, q, work):
     return best
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _move_along(q, work, longest):
     """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN``."""
     scale = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
@@ -223,7 +224,7 @@ def _principal(angle):
     return angle - TWO_PI * math.floor(angle / TWO_PI + 0.5)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _same(joints, q, p, reach):
     """Whether two configurations with principal angles differ by at most ``reach`` a joint."""
     for i in range(q.shape[0]):
@@ -233,7 +234,7 @@ def _same(joints, q, p, reach):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _into_limits(links, joints, T, q, residual, free):
     """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual, or -1.0 if outside.
 
@@ -268,7 +269,7 @@ def _into_limits(links, joints, T, q, residual, free):
     return residual if residual <= ACCEPT else -1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _move(q, residual, branch, free, source, target):
     """Copy one row of the candidates over another."""
     for i in range(q.shape[1]):
@@ -276,7 +277,7 @@ def _move(q, residual, branch, free, source, target):
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 

@@ -13,11 +13,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.trig import MERGE, circle_pair, elbow_angle, linear_trig
 
-__all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "tool_to_wrist"]
+__all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "place_wrist_in_plane"]
+__all__ += ["tool_to_wrist"]
 
 FREE = 5e-10
 """Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned
@@ -31,7 +32,7 @@ SHOULDER_FREE = 0b000001 | WRIST_MASK
 UPPER_FREE = 0b000010 | WRIST_MASK
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def tool_to_wrist(ends, T, D):
     """Frame 6 in frame 0, ``D = base^-1 T tool^-1``, both inverses in ``ends``; D (3, 4)."""
     for i in range(3):
@@ -45,22 +46,22 @@ def tool_to_wrist(ends, T, D):
         D[i, 3] += r3
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def place_wrist(form, px, py, pz, slack, arm):
     """All joint values of a turning arm that put the wrist centre at p (frame 0)."""
-    pz -= form[0, 3]
     if form[1, 2] == 0.0:
-        return _parallel_elbow(form, px, py, pz, slack, arm)
-    return _any_elbow(form, px, py, pz, slack, arm)
+        return place_wrist_in_plane(form, px, py, pz, slack, arm)
+    return _any_elbow(form, px, py, pz - form[0, 3], slack, arm)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _parallel_elbow(form, px, py, pz, slack, arm):
+@inner_kernel
+def place_wrist_in_plane(form, px, py, pz, slack, arm):
     """Axis 2 parallel to 3: p fixes the arm's plane, subproblem 4; in it a planar RR arm.
 
     The plane is off axis 1 by a fixed lateral distance, and the height of p above frame 0 is the
     height in the plane, whatever the other joints do.
     """
+    pz -= form[0, 3]
     a1, ca1, sa1, a2 = form[0, 0], form[0, 1], form[0, 2], form[1, 0]
     wx, wy, wz = form[2, 0], -form[2, 2] * form[3, 3], form[2, 1] * form[3, 3]
     forearm, lean = math.hypot(wx, wy), math.atan2(wy, wx)
@@ -98,7 +99,7 @@ def _parallel_elbow(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _planar(upper, fore, x, y, up, slack, arm, row):
     """Planar RR arm (lecture notes 8.2): angles t2 and t3 in columns 1 and 2 from ``row`` on.
 
@@ -118,7 +119,7 @@ def _planar(upper, fore, x, y, up, slack, arm, row):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _any_elbow(form, px, py, pz, slack, arm):
     """Any other geometry: the point seen from axis 2 keeps height and distance.
 
@@ -160,7 +161,7 @@ def _any_elbow(form, px, py, pz, slack, arm):
     return max(count, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _elbow_on_axis(N, d, nice, slack, pairs):
     """The wrist centre on axis 1: q1 is free, and q3 alone has to satisfy both equations."""
     det = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
 from dh2urdf.kernels.trig import MERGE, add_square, linear_trig, real_quadratic, trig_roots
 
@@ -21,7 +21,7 @@ OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def place_wrist_sliding(form, px, py, pz, slack, arm):
     """All joint values that put the wrist centre at p (frame 0) for any first three joints."""
     kind = int(form[0, 5]) + 2 * int(form[1, 5]) + 4 * int(form[2, 5])
@@ -49,14 +49,14 @@ def place_wrist_sliding(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _after_link(form, i, x, y, z, point):
     """``Trans_x(a_i) Rot_x(alpha_i)`` of a point (1.0) or a direction (0.0)."""
     ca, sa = form[i, 1], form[i, 2]
     return x + point * form[i, 0], ca * y - sa * z, sa * y + ca * z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _after_joint(form, i, x, y, z, point):
     """A fixed angle theta_i and, for a point of a turning joint, its offset d_i."""
     c, s = math.cos(form[i, 4]), math.sin(form[i, 4])
@@ -64,7 +64,7 @@ def _after_joint(form, i, x, y, z, point):
     return c * x - s * y, s * x + c * y, z + lift
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _wrist_in_three(form):
     """The wrist centre before joint 3 turns or slides; turned by theta_3 if it slides."""
     x, y, z = _after_link(form, 2, 0.0, 0.0, form[3, 3], 1.0)
@@ -75,13 +75,13 @@ def _wrist_in_three(form):
     return x, y, z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _between(vx, vy, x, y):
     """Angle from (vx, vy) to (x, y): subproblem 1 about z."""
     return math.atan2(vx * y - vy * x, vx * x + vy * y)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turn_turn_slide(form, px, py, pz, slack, arm):
     """RRP (Stanford arm): height and length of p seen from axis 2, in q1 and d3."""
     a1, ca1, sa1, ca2, sa2 = form[0, 0], form[0, 1], form[0, 2], form[1, 1], form[1, 2]
@@ -128,7 +128,7 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turn_slide_turn(form, px, py, pz, slack, arm):
     """RPR: height over frame 0 and distance from axis 1, in d2 and q3."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
@@ -174,7 +174,7 @@ def _turn_slide_turn(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _slide_turn_turn(form, px, py, pz, slack, arm):
     """PRR: p across the slide, in q2 and q3."""
     ca1, sa1 = form[0, 1], form[0, 2]
@@ -219,7 +219,7 @@ def _slide_turn_turn(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _two_slides(ax, ay, az, bx, by, bz, x, y, z):
     """Lengths along directions a and b that add up to (x, y, z), least squares (twin of 2)."""
     nx, ny, nz = ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -229,7 +229,7 @@ def _two_slides(ax, ay, az, bx, by, bz, x, y, z):
     return first / square, second / square
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turn_slide_slide(form, px, py, pz, slack, arm):
     """RPP (cylinder): p in the plane of the two slides, subproblem 4 in q1."""
     x, y, z = _wrist_in_three(form)
@@ -255,7 +255,7 @@ def _turn_slide_slide(form, px, py, pz, slack, arm):
     return max(count, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _slide_turn_slide(form, px, py, pz, slack, arm):
     """PRP: p across the first slide, d3 eliminated; subproblem 4 in q2."""
     ca1, sa1, ca2, sa2 = form[0, 1], form[0, 2], form[1, 1], form[1, 2]
@@ -286,7 +286,7 @@ def _slide_turn_slide(form, px, py, pz, slack, arm):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _slide_slide_turn(form, px, py, pz, slack, arm):
     """PPR: p off the plane of the slides, subproblem 4 in q3."""
     wx, wy, wz = _wrist_in_three(form)
@@ -311,7 +311,7 @@ def _slide_slide_turn(form, px, py, pz, slack, arm):
     return max(count, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _three_slides(form, px, py, pz, arm):
     """PPP (gantry): three linear equations, solved by Cramer's rule."""
     x, y, z = _wrist_in_three(form)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 
 __all__ = ["invert_pose", "invert_poses", "turn_back"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def invert_pose(T, out):
     """``out = T^-1`` for a rigid pose (4, 4)."""
     for j in range(3):
@@ -23,14 +23,14 @@ def invert_pose(T, out):
     out[3, 3] = 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def invert_poses(Ts, out):
     """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
     for i in range(Ts.shape[0]):
         invert_pose(Ts[i], out[i])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
 

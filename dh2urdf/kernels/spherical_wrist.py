@@ -13,24 +13,19 @@ import numpy as np
 from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
 from dh2urdf.kernels.trig import MERGE
 
-__all__ = [
-    "add_wrist",
-    "append_wrist",
-    "middle_angle",
-    "solve_sliding_arm",
-    "solve_turning_arm",
-    "solve_turning_pose",
-]
+__all__ = ["add_wrist", "append_wrist", "finish_wrists", "make_scratch", "middle_angle"]
+__all__ += ["solve_sliding_arm", "solve_turning_arm"]
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _orientation_left(form, D, values, R):
     """``R_36 = R_03^T R_06`` from the values of the first three joints, written to R (3, 3)."""
     for i in range(3):
@@ -45,7 +40,7 @@ def _orientation_left(form, D, values, R):
             R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def middle_angle(form, x, y, z, slack):
     """How many signs the sine of t5 has, its cosine, and its sine, not negative.
 
@@ -80,7 +75,7 @@ def _above(z, level, square):
     return z - level
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def add_wrist(form, D, values, R, slack, q, branch, free, count):
     """Append the one or two wrists of a position solution; returns the new count.
 
@@ -100,7 +95,7 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
     return append_wrist(form, values, R, slack, q, branch, free, count)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def append_wrist(form, values, R, slack, q, branch, free, count):
     """:func:`add_wrist` for a known orientation ``R_36`` (3, 3)."""
     wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
@@ -140,14 +135,16 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def solve_turning_pose(
-    links, joints, form, ends, slack, T, within_limits, q, residual, branch, free, scratch
+@inner_kernel
+def finish_wrists(
+    links, joints, form, rows, slack, T, within_limits, q, residual, branch, free, scratch
 ):
-    """All solutions of one pose T (4, 4), written to q (8, 6) and the rest; returns the count."""
+    """From ``rows`` position solutions of one pose to certified ones in q (8, 6); their count.
+
+    ``scratch``: frame 6 in frame 0 (3, 4), a rotation (3, 3), the position solutions (8, 5),
+    certification.
+    """
     D, R, arm, work = scratch
-    tool_to_wrist(ends, T, D)
-    rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
     found = 0
     for k in range(rows):
         found = add_wrist(form, D, arm[k], R, slack, q, branch, free, found)
@@ -156,7 +153,13 @@ def solve_turning_pose(
     return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
+def make_scratch():
+    """Scratch of :func:`finish_wrists`, one for a batch."""
+    return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+
+
+@kernel
 def solve_turning_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
@@ -166,28 +169,28 @@ def solve_turning_arm(
     ``form`` and ``ends`` of its Denavit-Hartenberg form. Outputs: q (m, 8, 6), residual,
     branch and free (m, 8), count (m,).
     """
-    scratch = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    scratch = make_scratch()
+    D, arm = scratch[0], scratch[2]
     for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_turning_pose(
-            links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+        count[i] = finish_wrists(
+            links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
         )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve_sliding_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`solve_turning_arm` where some of the first three joints slide."""
-    D, R, arm, work = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    scratch = make_scratch()
+    D, arm = scratch[0], scratch[2]
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
         rows = place_wrist_sliding(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
-        found = 0
-        for k in range(rows):
-            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
-        for k in range(found):
-            residual[i, k] = -1.0
-        count[i] = finish_pose(
-            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = finish_wrists(
+            links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
         )

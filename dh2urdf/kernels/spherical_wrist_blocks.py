@@ -22,12 +22,13 @@ from dh2urdf.kernels.blocks import (
     SIN,
     VALID,
     WORK,
-    block_kernel,
     emit,
     load_poses,
     measure,
 )
-from dh2urdf.kernels.spherical_wrist import solve_turning_pose
+from dh2urdf.kernels.compiled import block_kernel, kernel
+from dh2urdf.kernels.position_arm import place_wrist_in_plane, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import finish_wrists, make_scratch
 
 __all__ = ["solve_common_wrist"]
 
@@ -158,12 +159,13 @@ def _wrists(form, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@block_kernel
+@kernel
 def solve_common_wrist(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.spherical_wrist.solve_turning_arm` for the common geometry."""
-    scratch = np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    scratch = make_scratch()
+    D, arm = scratch[0], scratch[2]
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
@@ -173,13 +175,15 @@ def solve_common_wrist(
         _elbows(form, slack, n, S)
         _wrists(form, n, S)
         for k in range(8):
-            arm = k & 3
-            measure(form, ends[2], n, S, k, k & 1, 2 + arm, 6 + arm, 10 + k, 18 + k, 26 + k)
+            r = k & 3
+            measure(form, ends[2], n, S, k, k & 1, 2 + r, 6 + r, 10 + k, 18 + k, 26 + k)
         table = JOINT_OF, ROW_OF
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
+                tool_to_wrist(ends, Ts[i], D)
+                rows = place_wrist_in_plane(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
                 out = q[i], residual[i], branch[i], free[i]
-                count[i] = solve_turning_pose(
-                    links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+                count[i] = finish_wrists(
+                    links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
                 )

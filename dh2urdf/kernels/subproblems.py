@@ -14,20 +14,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.trig import circle_pair, linear_trig, real_quadratic
 
 __all__ = ["sp1", "sp2", "sp3", "sp4", "sp5", "sp6", "sp_slide1", "sp_slide2", "sp_slide3"]
 __all__ += ["sp_slide4", "sp_turn_slide"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _cross(a, b):
     return (
         a[1] * b[2] - a[2] * b[1],
@@ -36,20 +36,20 @@ def _cross(a, b):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _plus(a, x, b):
     """Return ``a + x b``."""
     return a[0] + x * b[0], a[1] + x * b[1], a[2] + x * b[2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _plane_terms(h, p, k):
     """``h . R(k, x) p = constant + cosine cos(x) + sine sin(x)`` (Rodrigues)."""
     along = _dot(k, p) * _dot(h, k)
     return along, _dot(h, p) - along, _dot(h, _cross(k, p))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turned(p, k, c, s):
     """``R(k, x) p`` from the cosine and sine of x."""
     along = (1.0 - c) * _dot(k, p)
@@ -61,7 +61,7 @@ def _turned(p, k, c, s):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp1(p1, p2, k):
     """Subproblem 1, ``R(k, x) p1 = p2``: returns (count, x)."""
     s = _dot(_cross(k, p1), p2)
@@ -71,7 +71,7 @@ def sp1(p1, p2, k):
     return 1, math.atan2(s, c)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp2(p1, p2, k1, k2, slack):
     """Subproblem 2, ``R(k1, x) p1 = R(k2, y) p2``: returns (count, x1, y1, x2, y2).
 
@@ -88,7 +88,7 @@ def sp2(p1, p2, k1, k2, slack):
     return count, math.atan2(s1, c1), y1, math.atan2(s2, c2), y2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp3(p1, p2, k, distance, slack):
     """Subproblem 3, ``|R(k, x) p1 - p2| = distance``: returns (count, x1, x2)."""
     constant, cosine, sine = _plane_terms(p2, p1, k)
@@ -97,7 +97,7 @@ def sp3(p1, p2, k, distance, slack):
     return count, math.atan2(s1, c1), math.atan2(s2, c2)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp4(h, p, k, distance, slack):
     """Subproblem 4, ``h . R(k, x) p = distance``: returns (count, x1, x2)."""
     constant, cosine, sine = _plane_terms(h, p, k)
@@ -105,7 +105,7 @@ def sp4(h, p, k, distance, slack):
     return count, math.atan2(s1, c1), math.atan2(s2, c2)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp5(p0, p1, p2, p3, k1, k2, k3, slack, out):
     """Subproblem 5, ``p0 + R(k1, x) p1 = R(k2, y) (p2 + R(k3, z) p3)``: returns the count.
 
@@ -132,7 +132,7 @@ def sp5(p0, p1, p2, p3, k1, k2, k3, slack, out):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp6(h, p, k1, k2, d1, d2, slack, out):
     """Subproblem 6, two equations in two angles: returns the count.
 
@@ -154,13 +154,13 @@ def sp6(h, p, k1, k2, d1, d2, slack, out):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp_slide1(p1, p2, k):
     """Twin of 1, ``p1 + x k = p2``: returns (count, x)."""
     return 1, _dot(k, _plus(p2, -1.0, p1))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp_slide2(p1, p2, k1, k2):
     """Twin of 2, ``p1 + x k1 = p2 + y k2``: returns (count, x, y)."""
     gap = _plus(p2, -1.0, p1)
@@ -173,14 +173,14 @@ def sp_slide2(p1, p2, k1, k2):
     return 1, (along1 - cosine * along2) / square, (cosine * along1 - along2) / square
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp_slide3(p1, p2, k, distance, slack):
     """Twin of 3, ``|p1 + x k - p2| = distance``: returns (count, x1, x2)."""
     gap = _plus(p1, -1.0, p2)
     return real_quadratic(1.0, _dot(k, gap), _dot(gap, gap) - distance * distance, slack)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp_slide4(h, p, k, distance):
     """Twin of 4, ``h . (p + x k) = distance``: returns (count, x)."""
     slope = _dot(h, k)
@@ -189,7 +189,7 @@ def sp_slide4(h, p, k, distance):
     return 1, (distance - _dot(h, p)) / slope
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sp_turn_slide(p1, p2, k1, k2, slack):
     """Mixed twin of 2, ``R(k1, x) p1 = p2 + y k2``: returns (count, x1, y1, x2, y2).
 

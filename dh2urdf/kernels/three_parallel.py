@@ -15,21 +15,41 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
 from dh2urdf.kernels.trig import add_square, circle_pair, elbow_angle, linear_trig, trig_roots
 
-__all__ = ["solve_parallel_pose", "solve_three_parallel"]
+__all__ = ["finish_pairs", "make_scratch", "pairs_of_meeting", "solve_three_parallel"]
 
 ALL_FREE = 0b111111
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
+def pairs_of_meeting(form, D, slack, pair):
+    """Joint 1 where axes 2, 3, 4 are parallel and 5 meets 6: subproblem 4.
+
+    With k the common direction turned by joint 1, ``k . p`` is the offset of the arm's plane.
+    Returns the number of solutions, negative where joint 1 is free.
+    """
+    ca1, sa1 = form[0, 1], form[0, 2]
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3] - form[0, 3]
+    offset = form[1, 3] + form[2, 3] + form[3, 3] + form[3, 1] * form[4, 3] - ca1 * pz
+    count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
+    free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
+    if free:
+        count, c1, s1 = 1, math.cos(form[0, 4]), math.sin(form[0, 4])
+    for k in range(count):
+        pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
+        pair[k, 2], pair[k, 3] = 1.0, 0.0
+    return -count if free else count
+
+
+@inner_kernel
 def _pairs_behind_one(form, D, slack, pair):
-    """Joints 1 and 5 where axes 2, 3, 4 are parallel; the number of pairs, negative if 1 is free.
+    """Joints 1 and 5 where axes 2, 3, 4 are parallel; the number of pairs.
 
     With k the common direction turned by joint 1: ``k . p`` is the offset of the arm's plane and
     ``k . z6`` the slope of axis 6, ``cos alpha4 cos alpha5 - sin alpha4 sin alpha5 cos t5``.
@@ -38,15 +58,6 @@ def _pairs_behind_one(form, D, slack, pair):
     a5, ca5, sa5 = form[4, 0], form[4, 1], form[4, 2]
     px, py, pz = D[0, 3], D[1, 3], D[2, 3] - form[0, 3]
     offset = form[1, 3] + form[2, 3] + form[3, 3] + ca4 * form[4, 3] - ca1 * pz
-    if a5 == 0.0:
-        free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
-        count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
-        if free:
-            count, c1, s1 = 1, math.cos(form[0, 4]), math.sin(form[0, 4])
-        for k in range(count):
-            pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
-            pair[k, 2] = 2.0
-        return -count if free else count
     M, N, d, found = np.empty((2, 2)), np.zeros((2, 2)), np.empty(2), np.empty((4, 4))
     M[0, 0], M[0, 1], N[0, 0] = -sa1 * D[1, 2], sa1 * D[0, 2], sa4 * sa5
     d[0] = ca4 * ca5 - ca1 * D[2, 2]
@@ -59,7 +70,7 @@ def _pairs_behind_one(form, D, slack, pair):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _pairs_before_four(form, D, slack, pair):
     """Joints 4 and 5 where axes 1, 2, 3 are parallel; the number of pairs.
 
@@ -110,7 +121,7 @@ def _pairs_before_four(form, D, slack, pair):
     return pairs
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _seen_from_plane(form, first, c1, s1, x, y, z):
     """A vector of frame 0 in the frame of the parallel axes, which joint 1 turns or not."""
     if first == 0:
@@ -120,7 +131,7 @@ def _seen_from_plane(form, first, c1, s1, x, y, z):
     return x, ca * y + sa * z, ca * z - sa * y
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _to_frame_six(form, last, cs, x, origin):
     """A vector of the frame after the last parallel axis, seen in frame 6.
 
@@ -137,7 +148,7 @@ def _to_frame_six(form, last, cs, x, origin):
     return x, y, z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _seen_arm(form, first, D, cs, x, origin):
     """``_to_frame_six`` brought on into the plane of the parallel axes."""
     x, y, z = _to_frame_six(form, first + 2, cs, x, origin)
@@ -147,7 +158,7 @@ def _seen_arm(form, first, D, cs, x, origin):
     return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _last_joint(form, first, D, cs):
     """Cosine and sine of t6 into cs by subproblem 1; returns whether axis 6 is in line.
 
@@ -175,7 +186,7 @@ def _last_joint(form, first, D, cs):
     return in_line
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _reach_with_last_joint(form, first, D, cs, x, y):
     """Choose t6, free in a singular family, so that the planar arm reaches (lecture notes 8.2).
 
@@ -203,13 +214,13 @@ def _reach_with_last_joint(form, first, D, cs, x, y):
     return cx - vx, cy - vy
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _seen_arm_axis(form, first, D, cs):
     """Axis 6 in the plane's frame."""
     return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, count):
     """Append the elbows of one set of outer joints; returns the new count."""
     in_line = _last_joint(form, first, D, cs)
@@ -254,21 +265,30 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def solve_parallel_pose(
-    links, joints, form, ends, slack, T, within_limits, q, residual, branch, free, scratch
+@inner_kernel
+def _slope_of_last(form, D, cs, slack):
+    """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
+    kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
+    x = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
+    y = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
+    z = kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2]
+    wrists, cs[4, 0], cs[4, 1] = middle_angle(form, x, y, z, slack)
+    return min(wrists, 1) if math.hypot(x, y) <= FREE else wrists
+
+
+@inner_kernel
+def finish_pairs(
+    links, joints, form, first, pairs, slack, T, within_limits, q, residual, branch, free, scratch
 ):
-    """All solutions of one pose T (4, 4), written to q (8, 6) and the rest; returns the count."""
-    D, pair, work, cs = scratch
-    first = 1 if form[0, 2] != 0.0 else 0
-    tool_to_wrist(ends, T, D)
-    found, mask = 0, 0
-    if first == 1:
-        pairs = _pairs_behind_one(form, D, slack, pair)
-        mask = ALL_FREE if pairs < 0 else 0
-    else:
-        pairs = _pairs_before_four(form, D, slack, pair)
+    """From ``pairs`` of outer joints of one pose to certified solutions in q (8, 6); their count.
+
+    ``first`` is the index of the first parallel axis; ``scratch``: frame 6 in frame 0 (3, 4), the
+    pairs (8, 5), cosines and sines (6, 2), certification.
+    """
+    D, pair, cs, work = scratch
     outer = 0 if first == 1 else 3
+    mask = ALL_FREE if pairs < 0 else 0
+    found = 0
     for k in range(abs(pairs)):
         cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
         cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
@@ -285,18 +305,13 @@ def solve_parallel_pose(
     return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _slope_of_last(form, D, cs, slack):
-    """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
-    kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-    x = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
-    y = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
-    z = kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2]
-    wrists, cs[4, 0], cs[4, 1] = middle_angle(form, x, y, z, slack)
-    return min(wrists, 1) if math.hypot(x, y) <= FREE else wrists
+@inner_kernel
+def make_scratch():
+    """Scratch of :func:`finish_pairs`, one for a batch."""
+    return np.empty((3, 4)), np.empty((8, 5)), np.zeros((6, 2)), np.empty((6, 14))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve_three_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
@@ -304,9 +319,18 @@ def solve_three_parallel(
 
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
     """
-    scratch = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14)), np.zeros((6, 2))
+    scratch = make_scratch()
+    D, pair = scratch[0], scratch[1]
+    first = 1 if form[0, 2] != 0.0 else 0
     for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        if first == 0:
+            pairs = _pairs_before_four(form, D, slack, pair)
+        elif form[4, 0] == 0.0:
+            pairs = pairs_of_meeting(form, D, slack, pair)
+        else:
+            pairs = _pairs_behind_one(form, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_parallel_pose(
-            links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+        count[i] = finish_pairs(
+            links, joints, form, first, pairs, slack, Ts[i], within_limits, *out, scratch
         )

@@ -23,12 +23,13 @@ from dh2urdf.kernels.blocks import (
     TURN,
     VALID,
     WORK,
-    block_kernel,
     emit,
     load_poses,
     measure,
 )
-from dh2urdf.kernels.three_parallel import solve_parallel_pose
+from dh2urdf.kernels.compiled import block_kernel, kernel
+from dh2urdf.kernels.position_arm import tool_to_wrist
+from dh2urdf.kernels.three_parallel import finish_pairs, make_scratch, pairs_of_meeting
 
 __all__ = ["solve_common_parallel"]
 
@@ -148,12 +149,12 @@ def _elbows(form, slack, n, S):
             S[result + i] = exists if product > 0.0 else 0.0
 
 
-@block_kernel
+@kernel
 def solve_common_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.three_parallel.solve_three_parallel` for the common geometry."""
-    scratch = np.empty((3, 4)), np.empty((8, 5)), np.empty((6, 14)), np.zeros((6, 2))
+    scratch = make_scratch()
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
@@ -169,7 +170,9 @@ def solve_common_parallel(
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
+                tool_to_wrist(ends, Ts[i], scratch[0])
+                pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
-                count[i] = solve_parallel_pose(
-                    links, joints, form, ends, slack, Ts[i], within_limits, *out, scratch
+                count[i] = finish_pairs(
+                    links, joints, form, 1, pairs, slack, Ts[i], within_limits, *out, scratch
                 )

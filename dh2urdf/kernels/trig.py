@@ -12,6 +12,8 @@ import math
 
 from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel, kernel
+
 __all__ = [
     "add_square",
     "arctangent",
@@ -53,7 +55,7 @@ A8, A9, A10, A11 = (
 )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
 
@@ -91,7 +93,7 @@ def linear_trig(a, b, d, slack):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def real_quadratic(a, b, c, slack):
     """Solve ``a x^2 + 2 b x + c = 0``, a > 0, without cancellation; clamped at its rim.
 
@@ -109,7 +111,7 @@ def real_quadratic(a, b, c, slack):
     return 2, root / a, c / root
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def elbow_angle(upper, fore, square, slack):
     """Cosine and sine of the elbow of a planar RR arm (lecture notes 8.2).
 
@@ -135,7 +137,7 @@ def elbow_angle(upper, fore, square, slack):
     return 2, 0.5 * (inner - outer) / scale, math.sqrt(outer * inner) / scale
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def add_square(series, weight, constant, cosine, sine):
     """Add ``weight (constant + cosine cos x + sine sin x)^2`` to a series of degree 2."""
     series[0] += weight * (constant * constant + 0.5 * (cosine * cosine + sine * sine))
@@ -145,7 +147,7 @@ def add_square(series, weight, constant, cosine, sine):
     series[4] += weight * cosine * sine
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def trig_roots(series, degree, cosines, sines):
     """Find the real roots of a trigonometric polynomial of low degree.
 
@@ -198,7 +200,7 @@ def trig_roots(series, degree, cosines, sines):
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _aberth_sweep(series, degree, real, imaginary):
     """Move each root by one step of Aberth's method; returns the longest relative step."""
     longest = 0.0
@@ -233,7 +235,7 @@ def _aberth_sweep(series, degree, real, imaginary):
     return longest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def circle_pair(M, N, d, slack, scratch, out):
     """Solve ``M (cos x, sin x) + N (cos y, sin y) = d``, two equations: subproblem 6.
 
@@ -276,7 +278,7 @@ def circle_pair(M, N, d, slack, scratch, out):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _one_by_one(M, N, d, slack, out):
     """Solve :func:`circle_pair` where N has rank 1 or 0: first x, then y."""
     first = N[0, 0] * N[0, 0] + N[0, 1] * N[0, 1]
@@ -309,7 +311,7 @@ def _one_by_one(M, N, d, slack, out):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _two_ellipses(M, N, d, det, slack, scratch, out):
     """Solve :func:`circle_pair` where M is regular: ``|M^-1 (d - N (c, s))| = 1`` in y."""
     u0 = (M[1, 1] * d[0] - M[0, 1] * d[1]) / det

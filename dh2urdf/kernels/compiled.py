@@ -1,0 +1,29 @@
+"""How kernels are compiled: the options that they share.
+
+Division by zero gives an infinity, as in C, instead of a test at every division; nothing here
+raises. Compiled code is cached, and the interpreter lock is not held.
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+__all__ = ["block_kernel", "inner_kernel", "kernel"]
+
+kernel = njit(cache=True, nogil=True, error_model="numpy")
+"""For functions that Python calls."""
+
+inner_kernel = njit(
+    cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+)
+"""For functions that only kernels call: without the entry from Python, half the compile time."""
+
+block_kernel = njit(
+    cache=True,
+    nogil=True,
+    error_model="numpy",
+    fastmath={"contract"},
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
+)
+"""For inner functions that are to become vector code, with fused multiply-add."""
