@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
 from dh2urdf.conversions.coupling import Coupling, couple
@@ -251,10 +251,11 @@ class Robot(RobotIK, RobotPictures):
             flat = flat @ self._coupling.matrix.T + self._coupling.offset
         return np.ascontiguousarray(flat), config.shape[:-1]
 
-    def _values(self) -> tuple[Array, Array]:
-        """Matrix (chain.n, n) and offset (chain.n,) from q to the joints of the chain."""
-        coupling, n = self._coupling, self.chain.n
-        return (coupling.matrix, coupling.offset) if coupling else (np.eye(n), np.zeros(n))
+    def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
+        if self._coupling is None:
+            return np.eye(self.n), np.zeros(self.n), self.slides
+        return self._coupling.matrix, self._coupling.offset, self.slides
 
     def _bounds(self) -> None:
         coupling, chain = self._coupling, self.chain

@@ -9,16 +9,16 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.held_solver import HeldSolver
     import numpy as np
 
+    from dh2urdf.ik.held_solver import HeldSolver
     from dh2urdf.ik.numeric import NumericProblem, NumericSolutions
     from dh2urdf.ik.path import IKPath
     from dh2urdf.ik.problem import Progress
@@ -36,7 +36,6 @@ class RobotIK:
     joint_names: tuple[str, ...]
     lower: Array
     upper: Array
-    slides: Array
 
     @property
     def solver(self) -> Solver:
@@ -273,7 +272,7 @@ class RobotIK:
     def _numeric(self) -> NumericProblem:
         from dh2urdf.ik.numeric import NumericProblem
 
-        return NumericProblem(self.chain, *self._values(), self.slides, self.lower, self.upper)
+        return NumericProblem(self.chain, *self._values(), self.lower, self.upper)
 
     @cached_property
     def _ik(self) -> InverseKinematics:
@@ -286,8 +285,8 @@ class RobotIK:
             )
         return InverseKinematics(self.chain, self._placements)
 
-    def _values(self) -> tuple[Array, Array]:
-        """Matrix (chain.n, n) and offset (chain.n,) from the values q to the chain's joints."""
+    def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
         raise NotImplementedError
 
     def _placements(self, q: Array) -> Array:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError, PoseError
@@ -99,7 +99,7 @@ class NumericProblem:
     chain: SerialChain
     coupling: Array
     offset: Array
-    slides: Array
+    slides: NDArray[np.bool_]
     lower: Array
     upper: Array
 

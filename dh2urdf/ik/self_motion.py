@@ -59,14 +59,15 @@ def few_members(
     for k in range(len(q)):
         if len(kept) < most and all(np.abs(q[k] - q[j]).max() > APART for j in kept):
             kept.append(k)
-    return _polished(solver, T, q[kept])
+    return _measured(solver, T, q[kept])
 
 
-def _polished(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
+def _measured(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
-    from dh2urdf.kernels.certify import pose_residual
+    from dh2urdf.kernels.sweep import measure_all
 
-    residual = np.array([pose_residual(solver.links, solver.joints, T, row) for row in q])
+    q, residual = np.ascontiguousarray(q), np.empty(len(q))
+    measure_all(solver.links, solver.joints, T, q, residual)
     return q, residual
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from numba import njit
 
-__all__ = ["gather_samples", "spread_samples"]
+from dh2urdf.kernels.certify import pose_residual
+
+__all__ = ["gather_samples", "measure_all", "spread_samples"]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -43,3 +45,10 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
                 free[i, total] = some_free[row, r]
                 total += 1
         count[i] = total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def measure_all(links, joints, T, q, residual):
+    """Residuals of configurations q (k, n) on the exact chain against T (4, 4)."""
+    for k in range(q.shape[0]):
+        residual[k] = pose_residual(links, joints, T, q[k])
