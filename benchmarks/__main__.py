@@ -18,7 +18,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="small and short: does it all run?")
     parser.add_argument("--only", help=f"some of: {','.join(WORK)}")
-    parser.add_argument("--out", type=Path, default=None, help=f"default: {LATEST.name}")
+    parser.add_argument(
+        "--out",
+        type=Path,
+        default=None,
+        help="results file; default: latest.json, quick.json or partial.json beside it",
+    )
     parser.add_argument("--render", action="store_true", help="table and plot from the results")
     given = parser.parse_args()
     if given.render:
@@ -29,7 +34,8 @@ def main() -> int:
     chosen = given.only.split(",") if given.only else WORK
     if unknown := set(chosen) - set(WORK):
         parser.error(f"no work named {', '.join(sorted(unknown))}; there are {', '.join(WORK)}")
-    out = given.out or (LATEST.with_name("quick.json") if given.quick else LATEST)
+    name = "quick.json" if given.quick else "partial.json" if given.only else LATEST.name
+    out = given.out or LATEST.with_name(name)
     results = run(chosen, quick=given.quick)
     results.save(out)
     print(f"{len(results.rows)} rows in {results.about['seconds']} s: {out}")

@@ -48,19 +48,9 @@ def run(results: Results) -> None:
 
 
 def _ours(arm: Arm) -> Answer:
-    """One ``ik_batch``: the same pose at new values of the held joint, within limits."""
-    robot, joint = Robot.from_dh(arm.table), (arm.held or (0, 0.0))[0]
-    low, high = robot.lower[joint], robot.upper[joint]
-    rng = np.random.default_rng(0)
-
-    def answer(pose: Array) -> Array:
-        values = low + (high - low) * (np.arange(SAMPLES) + rng.uniform()) / SAMPLES
-        poses = np.broadcast_to(pose, (SAMPLES, 4, 4))
-        found = robot.ik_batch(poses, locked={joint: values}, threads=1)
-        rows: Array = found.q[np.arange(found.q.shape[1]) < found.count[:, None]]
-        return rows
-
-    return answer
+    """``ik`` with nothing held: it sweeps the joint that it finds best, within limits."""
+    robot = Robot.from_dh(arm.table)
+    return lambda pose: robot.ik(pose, samples=SAMPLES).q
 
 
 def _peers(arm: Arm, left_out: dict[str, str]) -> dict[str, Answer]:
