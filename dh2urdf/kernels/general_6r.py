@@ -25,6 +25,7 @@ from dh2urdf.kernels.general_6r_passes import (
     find_roots,
     follow,
     inner_target,
+    isolated,
     nudge,
     rate_elimination,
     simple_roots,
@@ -209,7 +210,7 @@ def solve_general_6r(
                 doubt += retried
         fits = count >= 0 and found % 2 == 0 and found >= simple
         confirmed = doubt == 0 if before == 0 else found == before
-        if fits and confirmed and found + trial > 0:
+        if fits and confirmed and found + trial > 0 and isolated(found, work[42]):
             break
     return found
 

@@ -45,6 +45,7 @@ __all__ = [
     "find_roots",
     "follow",
     "inner_target",
+    "isolated",
     "nudge",
     "rate_elimination",
     "simple_roots",
@@ -59,6 +60,12 @@ CONVERGED = 2e-15
 MOST_STEPS = 40
 SAME = 1e-6
 """Solutions closer than this [rad] are one."""
+
+SINGULAR = 1e-6
+"""Determinant of the Jacobian, in parts of size cubed, below which a solution is singular."""
+
+MEMBERS = 8
+"""Most singular solutions kept."""
 
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
@@ -242,46 +249,56 @@ def _seeds(count, copies, shift, reverse, turns, work):
 
 
 @vector_kernel
-def _polish(links, size, lanes, work):
-    """Newton on the exact chain until every lane has converged or has ceased to."""
-    target, A, V, beta, scale = work[1], work[9], work[11], work[12], work[13]
-    cosines, sines, frames = work[26], work[27], work[28]
+def _polish(links, size, lanes, damped, work):
+    """Newton on the exact chain until every lane has converged or has ceased to.
+
+    Leaves the determinant of the Jacobian, in parts of the arm's size cubed, in ``work[13]``.
+    """
+    target, A, J, V, beta = work[1], work[9], work[10], work[11], work[12]
+    cosines, sines, frames, scale = work[26], work[27], work[28], work[13]
     error, position, angle, before = work[37], work[38], work[39], work[40]
     n = (lanes + 7) // 8 * 8
     goal = CONVERGED * max(size, 1.0)
+    weight = 1.0 / size
     for k in range(lanes):
         before[k] = math.inf
     for step in range(MOST_STEPS + 1):
         chain_frames(links, cosines, sines, n, frames)
         pose_error(target, frames, n, error, position, angle)
-        open_lanes = 0
+        going = 0
         for k in range(lanes):
             now = max(position[k], angle[k])
-            if now > goal and (step < 5 or now < 0.7 * before[k]):
-                open_lanes += 1
+            if now > goal and (step < 6 or now < 0.7 * before[k]):
+                going += 1
             before[k] = now
-        if open_lanes == 0 or step == MOST_STEPS:
+        if (going == 0 and step > 0) or step == MOST_STEPS:
             break
-        newton_step(frames, error, n, A, scale, V, beta, cosines, sines)
+        newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines)
+    for k in range(lanes):
+        size_of = abs(scale[k])
+        scale[k] = math.sqrt(size_of) if damped == 1 else size_of * weight * weight * weight
 
 
 @vector_kernel
 def _place(size, k, found, out_q, out_residual, work):
     """Store lane k unless it missed the target or is known.
 
+    Of a family of solutions only some members are kept, to leave room for the isolated ones.
+
     Returns
     -------
     int, int
         The number of solutions, and the index of this one; -1 if it missed.
     """
-    cosines, sines, position, angle, q = work[26], work[27], work[38], work[39], work[8]
+    cosines, sines, position, angle, q = work[26], work[27], work[38], work[39], work[18]
+    determinant, kept = work[13], work[42]
     residual = max(position[k], angle[k])
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
         return found, -1
     for i in range(6):
         q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
     near = max(SAME, 10.0 * math.sqrt(residual))
-    place = found
+    place, singular, members = found, -1, 0
     for f in range(found):
         far = 0.0
         for i in range(6):
@@ -290,12 +307,21 @@ def _place(size, k, found, out_q, out_residual, work):
         if far < near:
             place = f
             break
-    if place == out_q.shape[0]:
-        return found, -1
-    if place == found or residual < out_residual[place]:
-        out_residual[place] = residual
-        for i in range(6):
-            out_q[place, i] = q[i]
+        if kept[f] < SINGULAR:
+            singular = f
+            members += 1
+    if place == found:
+        if determinant[k] < SINGULAR and members >= MEMBERS:
+            return found, singular
+        if found == out_q.shape[0]:
+            if singular < 0:
+                return found, -1
+            place = singular
+    elif residual >= out_residual[place]:
+        return found, place
+    out_residual[place], kept[place] = residual, determinant[k]
+    for i in range(6):
+        out_q[place, i] = q[i]
     return max(found, place + 1), place
 
 
@@ -315,7 +341,7 @@ def follow(links, size, count, found, shift, reverse, turns, out_q, out_residual
     again = np.int64(0)
     for copies in range(1, 3):
         _seeds(count, copies, shift, reverse, turns, work)
-        _polish(links, size, count * copies, work)
+        _polish(links, size, count * copies, copies - 1, work)
         for f in range(LANES):
             seen[f] = 0.0
         for lane in range(count * copies):
@@ -360,6 +386,15 @@ def rate_elimination(
         for k in range(n):
             worst = max(worst, position[k] / size, angle[k])
         rating[m] = min(math.log10(worst) + min(work[20][0, 0], DEAREST), 0.0)
+
+
+@vector_kernel
+def isolated(found, kept):
+    """Whether none of the solutions is singular, by the determinants of their Jacobians."""
+    for f in range(found):
+        if kept[f] < SINGULAR:
+            return False
+    return True
 
 
 @vector_kernel

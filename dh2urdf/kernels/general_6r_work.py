@@ -56,4 +56,5 @@ def make_work_6r():
         np.zeros(LANES),  # 39 its angle
         np.zeros(LANES),  # 40 the error before
         np.zeros((2, SPANS + 1)),  # 41 spans of doubt in a window
+        np.zeros(LANES),  # 42 determinants of the solutions' Jacobians
     )

@@ -96,17 +96,68 @@ def _jacobian(frames, n, A):
 
 
 @vector_kernel
-def newton_step(frames, error, n, A, scale, V, beta, cosines, sines):
-    """Turn the joints of n lanes by ``J^-1 error``, shortened to half a radian.
-
-    A (7 * 144,) scratch; error is overwritten with the step.
-    """
+def _newton_system(frames, error, n, A):
+    """``J step = error`` of n lanes, right side in the seventh column of A."""
     _jacobian(frames, n, A)
     for i in range(6):
         a = (6 * COLUMN + i * LANES) & MASK
         e = (i * LANES) & MASK
         for k in range(n):
             A[a + k] = error[e + k]
+
+
+@vector_kernel
+def _damped_system(frames, error, weight, n, J, A):
+    """``(J^T J + |error|^2) step = J^T error``, lengths multiplied by ``weight``.
+
+    The damping vanishes with the error, so convergence stays fast, also where J is singular along
+    a family of solutions. J (6 * 144,) scratch.
+    """
+    _jacobian(frames, n, J)
+    for r in range(3):
+        e = (r * LANES) & MASK
+        for k in range(n):
+            error[e + k] *= weight
+        for i in range(6):
+            a = (i * COLUMN + r * LANES) & MASK
+            for k in range(n):
+                J[a + k] *= weight
+    for i in range(6):
+        p = (i * COLUMN) & MASK
+        for j in range(7):
+            q = ((j * COLUMN) & MASK) if j < 6 else 0
+            a = (j * COLUMN + i * LANES) & MASK
+            for k in range(n):
+                A[a + k] = 0.0
+            for r in range(6):
+                o = (r * LANES) & MASK
+                if j < 6:
+                    for k in range(n):
+                        A[a + k] += J[p + o + k] * J[q + o + k]
+                else:
+                    for k in range(n):
+                        A[a + k] += J[p + o + k] * error[o + k]
+    for r in range(6):
+        e = (r * LANES) & MASK
+        for i in range(6):
+            a = (i * COLUMN + i * LANES) & MASK
+            for k in range(n):
+                A[a + k] += error[e + k] * error[e + k]
+
+
+@vector_kernel
+def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines):
+    """Turn the joints of n lanes by a Newton step, shortened to half a radian.
+
+    A (7 * 144,) and J (6 * 144,) scratch; error is overwritten with the step. ``scale`` becomes
+    the determinant of the Jacobian, up to its sign; of the damped normal matrix if ``damped`` is 1.
+    """
+    if damped == 1:
+        _damped_system(frames, error, weight, n, J, A)
+    else:
+        _newton_system(frames, error, n, A)
+    for k in range(n):
+        scale[k] = 1.0
     reduce_columns(A, 6, 7, n, scale, V, beta)
     for i in range(6):
         a = (6 * COLUMN + i * LANES) & MASK
