@@ -112,8 +112,9 @@ class PlanarArm:
         first, between, _ = self.offset
         ok = np.ones(np.broadcast(t1, t2).shape, np.bool_)
         for k, q in enumerate((t1 - first, t2 - between)):
-            turned = self.lower[k] + np.remainder(q - self.lower[k], 2 * np.pi)
-            ok &= ~np.isfinite(self.lower[k]) | (turned <= self.upper[k] + 1e-9)
+            if np.isfinite([self.lower[k], self.upper[k]]).all():
+                turned = np.remainder(q - self.lower[k] + 1e-9, 2 * np.pi) - 1e-9
+                ok &= turned <= self.upper[k] - self.lower[k] + 1e-9
         return ok
 
 
@@ -143,8 +144,8 @@ def planar_arm(robot: Robot) -> PlanarArm | None:
 class Task(NamedTuple):
     """What is asked of an arm at a point, and from how many sides.
 
-    ``name`` is that of :meth:`Robot.ik`; ``sides`` says which orientations are tried: all of
-    SO(3), all directions of the tool's z, turns about one axis, or none at all.
+    ``name`` is that of :meth:`Robot.ik`; ``sides`` says which orientations are tried:
+    ``rotations`` all around, ``turns`` about one axis of the base, or ``none`` but one.
     """
 
     name: str
@@ -156,7 +157,8 @@ def task_of(robot: Robot) -> Task:
     """What an arm of this kind can be asked: a pose as far as its joints allow.
 
     Parallel revolute axes (planar arms of three joints, SCARA) keep the tool's turn about
-    them; five joints reach a point and the direction of the tool's z, fewer a point.
+    them; five joints reach a point and the direction of the tool's z, fewer a point. Five do
+    not reach directions all around: those are not counted.
     """
     axis, flat = common_axis(robot)
     if axis is not None and (robot.n == 4 or (robot.n == 3 and flat)):
@@ -164,8 +166,15 @@ def task_of(robot: Robot) -> Task:
     if robot.n >= 6:
         return Task("pose", "rotations", 2)
     if robot.n == 5:
-        return Task("position+axis", "rotations", 2)
+        return Task("pose" if _rolls_about_tool(robot) else "position+axis", "none", 2)
     return Task("position", "none", 2)
+
+
+def _rolls_about_tool(robot: Robot) -> bool:
+    """Tell whether the last joint turns about the tool's z, so that it only rolls the tool."""
+    T_joint_tool = robot.chain.links[-1]
+    off = np.abs([*T_joint_tool[:2, 3] / robot.chain.size, *T_joint_tool[:2, 2]])
+    return bool((off < 1e-9).all()) and not robot.chain.prismatic[-1]
 
 
 def common_axis(robot: Robot) -> tuple[int | None, bool]:
@@ -217,14 +226,15 @@ class Section:
 
 
 def section(robot: Robot, plane: str = "", at: float | None = None, count: int = 121) -> Section:
-    """A section through the arm's reach: the plane of a planar arm, else the xz plane.
+    """A section through the arm's reach: across parallel joint axes, else the xz plane.
 
     Parameters
     ----------
     robot : Robot
     plane : {"xz", "yz", "xy"}, optional
     at : float, optional
-        Height of the plane along its normal [m].
+        Height of the plane along its normal [m]; 0, or where the tip of a planar or SCARA arm
+        is with its joints in the middle.
     count : int
         Points along the longer side.
     """
@@ -234,13 +244,23 @@ def section(robot: Robot, plane: str = "", at: float | None = None, count: int =
         raise ConfigurationError(f"points along a side: at least 2, not {count}")
     if not plane:
         axis, flat = common_axis(robot)
-        plane = ("yz", "xz", "xy")[axis] if flat and axis is not None else "xz"
-        at = float(robot.chain.tool[PLANES[plane].normal, 3]) if flat and at is None else at
+        across = axis is not None and (flat or robot.n == 4)
+        plane = ("yz", "xz", "xy")[axis] if across and axis is not None else "xz"
+        if at is None and across:
+            at = round(float(robot.fk(_middle(robot))[PLANES[plane].normal, 3]), 6)
     chosen = PLANES[plane]
     centre, radius = reach_ball(robot)
     u, v = centre[chosen.u], centre[chosen.v]
     line = np.linspace(-1.04 * radius, 1.04 * radius, count)
     return Section(chosen, float(at or 0.0), u + line, v + line)
+
+
+def _middle(robot: Robot) -> Array:
+    """The configuration halfway between finite limits, zero elsewhere."""
+    bounded = np.isfinite(robot.lower) & np.isfinite(robot.upper)
+    q = np.zeros(robot.n)
+    q[bounded] = (robot.lower[bounded] + robot.upper[bounded]) / 2
+    return q
 
 
 def reach_ball(robot: Robot) -> tuple[Array, float]:
@@ -301,7 +321,7 @@ def orientations(robot: Robot, task: Task, count: int) -> Array:
 
 def default_orientation(robot: Robot, task: Task) -> Array:
     """Orientation in which branches are counted: the tool pointing down, or as at q = 0."""
-    if task.sides == "rotations":
+    if task.sides == "rotations" or robot.n == 5:
         return np.diag([1.0, -1.0, -1.0])
     return robot.chain.tool[:3, :3]
 

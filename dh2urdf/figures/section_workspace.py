@@ -21,6 +21,9 @@ Counts = NDArray[np.int64]
 LEVELS = (0.25, 0.5, 0.75, 0.95)
 """Shares at which white contours are drawn."""
 
+SEEN = 0.02
+"""Least share that has a colour; between the points of the grid the share is interpolated."""
+
 EMPTY = "#f1f2f4"
 """Colour of no solution."""
 
@@ -50,7 +53,7 @@ def section_picture(
         width = 1.0 / len(panels)
         for k, panel in enumerate(panels):
             left = k * width
-            axes = figure.add_axes((left + 0.125 * width, 0.15, 0.69 * width, 0.75))
+            axes = figure.add_axes((left + 0.145 * width, 0.15, 0.67 * width, 0.75))
             bar = figure.add_axes((left + 0.835 * width, 0.22, 0.03 * width, 0.61))
             if panel is counts:
                 _counts(axes, bar, *counts, task_of(robot), R)
@@ -82,6 +85,8 @@ def _frame(axes: Any, grid: Section, corners: Array) -> None:
     u, v = "xyz"[grid.plane.u], "xyz"[grid.plane.v]
     axes.set(xlabel=f"${u}$ / m", ylabel=f"${v}$ / m")
     axes.set_aspect("equal")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(mpl.ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes.set(xlim=corners[:, 0], ylim=corners[:, 1], facecolor=EMPTY)
     axes.axhline(0.0, color=INK, lw=0.6, ls=":", alpha=0.6)
 
@@ -110,25 +115,23 @@ def _turned(task: Task, R: Array) -> str:
         return "any orientation"
     z = R[:, 2]
     for axis, word in (((0, 0, -1), "down"), ((0, 0, 1), "up")):
-        if float(z @ np.array(axis)) > 1 - 1e-9 and task.sides == "rotations":
+        if float(z @ np.array(axis)) > 1 - 1e-9 and task.sides != "turns":
             return f"tool pointing {word}"
     return "tool turned as at q = 0" if task.sides == "turns" else "tool turned as asked"
 
 
 def _shares(axes: Any, bar: Any, grid: Section, share: Array, tried: int, task: Task) -> None:
     """Filled contours of the share, white lines at a few of them."""
-    steps = [1e-3, *np.linspace(0.05, 1.0, 20)]
+    steps = [SEEN, *np.linspace(0.05, 1.0, 20)]
     filled = axes.contourf(grid.u, grid.v, share, levels=steps, cmap="viridis")
     filled.set_rasterized(True)
     lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
     axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
-    drawn = axes.figure.colorbar(filled, cax=bar, ticks=[1e-3, 0.25, 0.5, 0.75, 1.0])
-    drawn.ax.set_yticklabels(["0", "25", "50", "75", "100"])
+    drawn = axes.figure.colorbar(filled, cax=bar, ticks=[SEEN, 0.25, 0.5, 0.75, 1.0])
+    drawn.ax.set_yticklabels([f"{100 * SEEN:g}", "25", "50", "75", "100"])
     drawn.set_label("orientations reached / %")
     drawn.outline.set_visible(False)
     what = "turns" if task.sides == "turns" else "uniform rotations"
-    if task.name == "position+axis":
-        what = "directions of the tool"
     axes.set_title(f"Dexterity ({tried} {what})", weight="bold", size=11, loc="left")
 
 

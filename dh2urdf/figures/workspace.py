@@ -24,7 +24,7 @@ from dh2urdf.workspace import (
 
 __all__ = ["workspace_figure"]
 
-FINE, COARSE = 221, 61
+FINE, COARSE = 221, 75
 """Points along a side of the map of branches and of the map of orientations."""
 
 
@@ -54,7 +54,7 @@ def workspace_figure(
     rpy : array_like, shape (3,), optional
         Orientation in which branches are counted [rad]; the tool pointing down.
     points : int, optional
-        Points along a side of the map of branches; the other map has three tenths of them.
+        Points along a side of the map of branches; the other map has a third of them.
     orientations : int
         Orientations tried at each point.
     within_limits : bool
@@ -91,7 +91,7 @@ def workspace_figure(
         found = branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
         counts = grid, found
     if task.sides != "none":
-        grid = section(robot, plane, at, max(9, round(0.3 * points)) if points else COARSE)
+        grid = section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
         told = telling("orientations")
         share = dexterity(robot, grid, orientations, within_limits=within_limits, progress=told)
         shares = grid, share, orientations

@@ -78,7 +78,7 @@ class TableTab:
     def _connect(self) -> None:
         self.choice.on_update(self._chosen)
         self.apply.on_click(lambda _: self._try(self._with_row_cells))
-        self.rows.on_click(lambda _: self._try(self._with_rows))
+        self.rows.on_click(self._rows_pressed)
         self.rebuild.on_click(lambda _: self._try(self._with_text))
         self.save_urdf.on_click(self._save_urdf)
         self.save_table.on_click(self._save_table)
@@ -153,6 +153,10 @@ class TableTab:
         self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
         self._refresh()
         self.on_explain(self.row, event.client)
+
+    def _rows_pressed(self, event: Any) -> None:
+        if event.client is not None:
+            self._try(self._with_rows)
 
     def _try(self, edit: Callable[[], DHTable]) -> None:
         """Make the edited table the arm's, or say what is wrong and change nothing."""

@@ -1,0 +1,275 @@
+"""Figures: geometry against independent constructions, labels, files, the extra that is missing."""
+
+import math
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from itertools import combinations
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+import dh2urdf
+from dh2urdf import Robot, load_table
+from dh2urdf.conversions.bodies import Body
+from dh2urdf.drawing.arm import drawn_arm, table_of
+from dh2urdf.drawing.row import row_picture, row_words
+from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
+from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
+from dh2urdf.figures.projection import View
+from dh2urdf.figures.solids import Part, _front, convex_hull, painted_order
+from dh2urdf.transforms import rot_x, rot_y, rot_z, trans
+
+ARMS = ("puma560", "ur5e", "stanford", "planar_rr", "franka_fr3", "fanuc_crx10ia", "gantry_wrist")
+
+
+@pytest.mark.parametrize(("azimuth", "elevation"), [(-60, 22), (35, -10), (-90, 90)])
+def test_view_turns_the_world_and_drops_depth(azimuth, elevation):
+    """The picture is the world turned by -azimuth about z, then tipped by the elevation."""
+    view = View(azimuth, elevation)
+    R = rot_y(math.radians(elevation))[:3, :3] @ rot_z(-math.radians(azimuth))[:3, :3]
+    points = np.random.default_rng(0).normal(size=(20, 3))
+    turned = points @ R.T
+    np.testing.assert_allclose(view.depth(points), turned[:, 0], atol=1e-12)
+    np.testing.assert_allclose(view.flat(points), turned[:, 1:], atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        Body("sphere", (0.4,), np.eye(4), "link"),
+        Body("cylinder", (0.3, 0.9), np.eye(4), "link"),
+        Body("box", (0.5, 0.8, 0.3), np.eye(4), "link"),
+    ],
+    ids=lambda body: body.shape,
+)
+def test_front_of_a_solid_is_its_nearest_point_on_the_ray(body):
+    """Marching along a ray from the eye enters the solid where the closed form says."""
+    rng = np.random.default_rng(1)
+    T = trans(0.1, -0.2, 0.3) @ rot_x(0.7) @ rot_y(-0.4)
+    view = View(-50.0, 25.0)
+    rays = view.flat(T[:3, 3]) + rng.uniform(-0.5, 0.5, (60, 2))
+    fronts = _front(body, T, view, rays)
+    steps = np.linspace(1.5, -1.5, 6001)
+    for ray, front in zip(rays, fronts, strict=True):
+        line = ray @ view.axes[:2] + steps[:, None] * view.axes[2]
+        inside = _inside(body, (line - T[:3, 3]) @ T[:3, :3])
+        if inside.any():
+            assert front == pytest.approx(steps[np.argmax(inside)], abs=1e-3)
+        else:
+            assert front == -np.inf or _chord(body, T, view, ray) < 2e-3
+    assert np.isfinite(fronts).sum() > 15
+
+
+def _inside(body, points):
+    if body.shape == "sphere":
+        return np.linalg.norm(points, axis=-1) <= body.size[0]
+    if body.shape == "cylinder":
+        radius, length = body.size
+        return (np.hypot(points[..., 0], points[..., 1]) <= radius) & (
+            np.abs(points[..., 2]) <= length / 2
+        )
+    return (np.abs(points) <= np.array(body.size) / 2).all(axis=-1)
+
+
+def _chord(body, T, view, ray):
+    steps = np.linspace(1.5, -1.5, 300_001)
+    line = ray @ view.axes[:2] + steps[:, None] * view.axes[2]
+    return _inside(body, (line - T[:3, 3]) @ T[:3, :3]).sum() * 1e-5
+
+
+def test_hidden_parts_are_painted_first():
+    """Of three boxes in a row towards the eye, the farthest is painted first."""
+    view = View(0.0, 0.0)
+    box = Body("box", (0.2, 1.0, 1.0), np.eye(4), "joint")
+    parts = [Part("joint", [(box, trans(x, 0.0, 0.0))]) for x in (0.5, -1.0, 2.0)]
+    assert painted_order(parts, view) == [1, 0, 2]
+
+
+def test_hull_holds_all_points_and_turns_left():
+    """No point lies outside the hull, and its corners go round counter-clockwise."""
+    points = np.random.default_rng(2).normal(size=(300, 2))
+    hull = convex_hull(points)
+    edges = np.roll(hull, -1, axis=0) - hull
+    for corner, edge in zip(hull, edges, strict=True):
+        way = points - corner
+        assert (edge[0] * way[:, 1] - edge[1] * way[:, 0] >= -1e-12).all()
+
+
+@pytest.mark.parametrize("name", dh2urdf.list_tables())
+def test_bodies_stand_where_the_urdf_puts_its_links(name):
+    """Poses of the drawn links are those of the URDF's links, placed by Pinocchio."""
+    robot = Robot.from_dh(name)
+    arm = drawn_arm(robot.table)
+    q = robot.random_configuration(3)
+    data = robot.model.createData()
+    pin.framesForwardKinematics(robot.model, data, q)
+    for i, T in enumerate(arm.link_poses(q)):
+        link = robot.model.getFrameId(f"link_{i}" if i else "base_link", pin.FrameType.BODY)
+        np.testing.assert_allclose(T, data.oMf[link].homogeneous, atol=1e-12 * max(1, arm.size))
+
+
+@pytest.mark.parametrize("name", ["ur5e", "franka_fr3", "stanford", "fanuc_crx10ia", "puma560"])
+def test_row_leads_from_frame_to_frame(name):
+    """The measures join the frames' origins; the arcs turn x into x and z into z."""
+    robot = Robot.from_dh(name)
+    arm = drawn_arm(robot.table)
+    q = robot.random_configuration(4)
+    frames = robot.table.frames(q)
+    modified = robot.table.convention == "modified"
+    for i in range(1, robot.n + 1):
+        picture = row_picture(arm, q, i)
+        first, second = (picture.a, picture.d) if modified else (picture.d, picture.a)
+        np.testing.assert_allclose(first.segment[0], frames[i - 1][:3, 3], atol=1e-12)
+        np.testing.assert_allclose(second.segment[0], first.segment[1], atol=1e-12)
+        np.testing.assert_allclose(second.segment[1], frames[i][:3, 3], atol=1e-12)
+        for arc, start, end in (
+            (picture.theta, frames[i - 1][:3, 0], frames[i][:3, 0]),
+            (picture.alpha, frames[i - 1][:3, 2], frames[i][:3, 2]),
+        ):
+            points = (arc.points(0.5) - arc.centre) / 0.5
+            np.testing.assert_allclose(points[0], start, atol=1e-12)
+            np.testing.assert_allclose(points[-1], end, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "row", "words"),
+    [
+        ("ur5e", 1, "Case 3: z₀ and z₁ intersect"),
+        ("ur5e", 2, "Case 2: z₁ and z₂ are parallel, 0.425 m apart"),
+        ("denso_vs6556", 1, "Case 1: z₀ and z₁ are skew"),
+        ("ur5e", 6, "Last frame: free (step 4)"),
+        ("franka_fr3", 1, "First frame: free"),
+        ("gantry_wrist", 3, "one line"),
+        ("fanuc_crx10ia", 2, "The joint moves θ₂ = q₂ − 90°"),
+        ("rpr_by_inspection", 3, "A fixed step leads from there to frame 3"),
+    ],
+)
+def test_row_says_its_case(name, row, words):
+    """Each case of step 3 is named where it is known to be."""
+    arm = drawn_arm(load_table(name))
+    picture = row_picture(arm, np.full(arm.table.n, 0.3), row)
+    assert words in row_words(arm.table, picture)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_labels_stay_apart_and_on_the_sheet(name, monkeypatch):
+    """No two labels overlap, at zero and at a random configuration."""
+    placed = []
+    search = dh_marks.place_labels
+
+    def kept(labels, lines, bounds):
+        centres = search(labels, lines, bounds)
+        placed.append((labels, centres, bounds))
+        return centres
+
+    monkeypatch.setattr(dh_marks, "place_labels", kept)
+    robot = Robot.from_dh(name)
+    for q in (None, robot.random_configuration(5)):
+        figure(robot, q)
+        labels, centres, bounds = placed.pop()
+        assert len(labels) >= robot.n
+        half = np.stack([label.size for label in labels]) / 2
+        assert (centres - half >= bounds[0] - 1e-9).all()
+        assert (centres + half <= bounds[1] + 1e-9).all()
+        for i, j in combinations(range(len(labels)), 2):
+            apart = np.abs(centres[i] - centres[j]) >= half[i] + half[j]
+            assert apart.any(), f"{labels[i].text} covers {labels[j].text}"
+
+
+def test_svg_keeps_text_and_pdf_and_png_are_whole():
+    """The same figure in three formats; letters of the SVG are text, not outlines."""
+    picture = figure(Robot.from_dh("puma560"), np.radians([30, 40, -30, 25, 45, 20]))
+    svg = ET.fromstring(picture_bytes(picture, "svg"))
+    texts = "".join("".join(t.itertext()) for t in svg.iter("{http://www.w3.org/2000/svg}text"))
+    assert "0.67183" in texts
+    assert "−90°" in texts
+    assert picture_bytes(picture, "pdf").startswith(b"%PDF")
+    png = picture_bytes(picture, "png", dpi=100)
+    width, height = (int.from_bytes(png[k : k + 4], "big") for k in (16, 20))
+    np.testing.assert_allclose([width, height], 100 * picture.get_size_inches(), atol=1.0)
+
+
+@pytest.mark.parametrize("format", ["png", "svg", "pdf"])
+def test_figures_are_the_same_bytes_each_time(format):
+    """Two figures of one arm are equal byte for byte."""
+    robot = Robot.from_dh("planar_rr")
+    one, two = (picture_bytes(figure(robot, [0.3, 0.4]), format, dpi=60) for _ in range(2))
+    assert one == two
+
+
+def test_schematic_ghosts_and_bare_arm_are_drawn():
+    """Every option gives a picture that differs from the plain one."""
+    robot = Robot.from_dh("stanford")
+    q = robot.random_configuration(1)
+    plain = picture_bytes(figure(robot, q), "png", dpi=50)
+    for options in (
+        {"style": "schematic"},
+        {"ghosts": [robot.random_configuration(2)], "ghost_names": ["other"]},
+        {"frames": False},
+        {"table": False},
+        {"view": (20, 30)},
+    ):
+        assert picture_bytes(robot.figure(q, **options), "png", dpi=50) != plain
+
+
+def test_urdf_is_drawn_by_the_table_found_for_it(tmp_path):
+    """The table drawn for a URDF has the robot's forward kinematics."""
+    path = tmp_path / "arm.urdf"
+    dh2urdf.write_urdf(load_table("ur5e"), path)
+    robot = Robot.from_urdf(path, tip="tool0")
+    q = robot.random_configuration(6)
+    np.testing.assert_allclose(table_of(robot).fk(q), robot.fk(q), atol=1e-9)
+    assert picture_bytes(robot.figure(q), "png", dpi=40)
+
+
+def test_picture_shows_itself_in_a_notebook():
+    """The object has a PNG for a notebook without pyplot having been imported."""
+    code = (
+        "import sys, dh2urdf; f = dh2urdf.Robot.from_dh('planar_rr').figure();"
+        "assert f._repr_png_().startswith(b'\\x89PNG'); assert 'matplotlib.pyplot' not in sys.modules"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("q", [[0.1], [0.1, math.nan], [[0.1, 0.2]]])
+def test_bad_configuration_is_named(q):
+    """A q of the wrong length or with NaN raises with the joints' names."""
+    with pytest.raises(ConfigurationError, match="joint_1, joint_2"):
+        figure(Robot.from_dh("planar_rr"), q)
+
+
+def test_foreign_file_and_unknown_format_are_refused(tmp_path):
+    """A picture that is not ours stays; ours is replaced; .gif is no format."""
+    picture = figure(Robot.from_dh("planar_rr"))
+    foreign = tmp_path / "photo.png"
+    foreign.write_bytes(b"\x89PNG not ours")
+    with pytest.raises(OutputExistsError, match="--force"):
+        save_picture(picture, foreign, force=False)
+    assert foreign.read_bytes() == b"\x89PNG not ours"
+    own = tmp_path / "own.png"
+    for _ in range(2):
+        save_picture(picture, own, dpi=40, force=False)
+    with pytest.raises(OutputError, match=r"\.png, \.svg, \.pdf"):
+        save_picture(picture, tmp_path / "f.gif")
+
+
+@pytest.mark.parametrize(
+    ("verb", "module", "extra"),
+    [
+        (["figure", "planar_rr", "-o", "f.png"], "matplotlib", "plot"),
+        (["workspace", "planar_rr", "-o", "f.png"], "matplotlib", "plot"),
+        (["view", "planar_rr", "--no-open"], "viser", "viewer"),
+    ],
+)
+def test_missing_extra_is_one_line(verb, module, extra, tmp_path):
+    """Without the extra: status 2 and one line that says what to install."""
+    code = f"import sys; sys.modules[{module!r}] = None; from dh2urdf.cli import main; main({verb})"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert len(done.stderr.strip().splitlines()) == 1
+    assert f"pip install 'dh2urdf[{extra}]'" in done.stderr
+    assert list(tmp_path.iterdir()) == []

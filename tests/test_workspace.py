@@ -1,0 +1,159 @@
+"""What an arm reaches, against the notes' annulus and against random forward kinematics."""
+
+import math
+
+import numpy as np
+import pytest
+
+from dh2urdf import DHRow, DHTable, Robot
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.figures import workspace_figure
+from dh2urdf.workspace import (
+    branch_counts,
+    dexterity,
+    planar_arm,
+    reach_ball,
+    section,
+    task_of,
+    uniform_rotations,
+)
+
+
+def planar(*lengths, **limits):
+    """A planar arm of so many links."""
+    rows = tuple(DHRow(a=length, **limits) for length in lengths)
+    return Robot.from_dh(DHTable(rows, "standard", "planar"))
+
+
+def test_elbow_and_shoulder_invert_the_notes_equations():
+    """Both elbow angles at a place lead back to it; out of the annulus there is none."""
+    arm = planar_arm(planar(1.0, 0.7))
+    rng = np.random.default_rng(0)
+    r, t = rng.uniform(0.301, 1.699, 200), rng.uniform(-np.pi, np.pi, 200)
+    x, y = r * np.cos(t), r * np.sin(t)
+    for sign in (1.0, -1.0):
+        bend = sign * arm.elbow(x, y)
+        t1 = arm.shoulder(x, y, bend)
+        np.testing.assert_allclose(np.cos(t1) + 0.7 * np.cos(t1 + bend), x, atol=1e-12)
+        np.testing.assert_allclose(np.sin(t1) + 0.7 * np.sin(t1 + bend), y, atol=1e-12)
+    assert np.isnan(arm.elbow(np.array([1.71, 0.29]), np.zeros(2))).all()
+
+
+def test_planar_arm_agrees_with_the_robot():
+    """A turned base, offsets and a turned tool are in the planar arm's angles."""
+    rows = (DHRow(a=0.8, theta=0.4), DHRow(a=0.5, theta=-0.9))
+    robot = Robot.from_dh(DHTable(rows, "standard", "turned"))
+    arm = planar_arm(robot)
+    q = np.array([0.3, -1.1])
+    first, between, turn = arm.offset
+    x, y = arm.forward(q[0] + first, q[1] + between)
+    T = np.linalg.inv(arm.T_base_plane) @ robot.fk(q)
+    np.testing.assert_allclose(T[:2, 3], [x, y], atol=1e-12)
+    assert math.atan2(T[1, 0], T[0, 0]) == pytest.approx(q.sum() + turn)
+
+
+@pytest.mark.parametrize("name", ["ur5e", "stanford", "omron_cobra600", "planar_rrr", "puma560"])
+def test_reach_ball_holds_every_place(name):
+    """No random configuration takes the tip out of the ball."""
+    robot = Robot.from_dh(name)
+    centre, radius = reach_ball(robot)
+    rng = np.random.default_rng(1)
+    places = robot.fk(np.stack([robot.random_configuration(rng) for _ in range(2000)]))[:, :3, 3]
+    assert np.linalg.norm(places - centre, axis=1).max() <= radius + 1e-12
+
+
+def test_rotations_are_spread_evenly():
+    """Mean and second moments of the rotations are those of the uniform distribution."""
+    R = uniform_rotations(2000)
+    np.testing.assert_allclose(
+        R @ R.transpose(0, 2, 1), np.tile(np.eye(3), (2000, 1, 1)), atol=1e-12
+    )
+    np.testing.assert_allclose(np.linalg.det(R), 1.0)
+    assert np.abs(R.mean(axis=0)).max() < 0.01
+    second = np.einsum("kij,klm->ijlm", R, R) / len(R)
+    uniform = np.einsum("il,jm->ijlm", np.eye(3), np.eye(3)) / 3
+    assert np.abs(second - uniform).max() < 0.01
+
+
+def test_branches_of_a_planar_arm_fill_the_shifted_annulus():
+    """With phi held, three links reach where two of them reach the wrist; two branches inside."""
+    robot = planar(1.0, 0.7, 0.4, lower=-math.pi, upper=math.pi)
+    grid = section(robot, count=41)
+    counts = branch_counts(robot, grid, np.eye(3), within_limits=False)
+    wrist = np.hypot(grid.points[..., 0] - 0.4, grid.points[..., 1])
+    expected = 2 * ((wrist < 1.7) & (wrist > 0.3))
+    clear = (np.abs(wrist - 1.7) > 1e-3) & (np.abs(wrist - 0.3) > 1e-3)
+    assert grid.plane.name == "xy"
+    np.testing.assert_array_equal(counts[clear], expected[clear])
+
+
+def test_dexterity_of_a_planar_arm_is_the_share_of_wrists_in_reach():
+    """The share of turns at a point is the share of the wrist's circle inside the annulus."""
+    robot = planar(1.0, 0.7, 0.4, lower=-math.pi, upper=math.pi)
+    grid = section(robot, count=9)
+    share = dexterity(robot, grid, 60, within_limits=False)
+    phi = np.linspace(-np.pi, np.pi, 60, endpoint=False)
+    x, y = grid.points[..., 0, None], grid.points[..., 1, None]
+    wrist = np.hypot(x - 0.4 * np.cos(phi), y - 0.4 * np.sin(phi))
+    clear = (np.abs(wrist - 1.7) > 1e-6) & (np.abs(wrist - 0.3) > 1e-6)
+    inside = (wrist < 1.7) & (wrist > 0.3)
+    assert (np.abs(share - inside.mean(axis=-1)) <= (~clear).mean(axis=-1) + 1e-12).all()
+    assert 0.0 < share.mean() < 1.0
+
+
+def test_limits_shrink_the_section():
+    """With limits kept, nothing is reached that was not reached without, and less of it."""
+    robot = Robot.from_dh("puma560")
+    grid = section(robot, count=31)
+    down = np.diag([1.0, -1.0, -1.0])
+    free = branch_counts(robot, grid, down, within_limits=False)
+    kept = branch_counts(robot, grid, down)
+    assert (kept <= free).all()
+    assert kept.sum() < free.sum()
+
+
+@pytest.mark.parametrize(
+    ("name", "task"),
+    [
+        ("ur5e", ("pose", "rotations")),
+        ("omron_cobra600", ("pose", "turns")),
+        ("planar_rrr", ("pose", "turns")),
+        ("xarm5", ("pose", "none")),
+        ("cylindrical", ("position", "none")),
+    ],
+)
+def test_task_fits_the_arm(name, task):
+    """Each kind of arm is asked what its joints can do."""
+    assert task_of(Robot.from_dh(name))[:2] == task
+
+
+def test_pictures_are_drawn_with_their_sentence():
+    """The sentence under each picture names slice, frames, limits and collisions."""
+    for robot, options, start in (
+        (planar(1.0, 0.7), {}, "Plane of motion of planar"),
+        (Robot.from_dh("puma560"), {"points": 15, "orientations": 3}, "Slice y = 0 of puma560"),
+        (Robot.from_dh("cylindrical"), {"points": 11, "at": 0.2}, "Slice y = 0.2 m of cylindrical"),
+    ):
+        picture = workspace_figure(robot, **options)
+        (sentence,) = (t.get_text() for t in picture.texts)
+        assert sentence.startswith(start)
+        assert sentence.endswith(
+            "tool0 in base_link; joint limits kept; self-collision not checked."
+        )
+
+
+def test_limits_of_the_planar_arm_are_kept_on_every_turn():
+    """Inside means: some whole number of turns brings the joint between its limits."""
+    arm = planar_arm(planar(1.0, 0.7, lower=-2.0, upper=1.5))
+    t = np.linspace(-7.0, 7.0, 1001)
+    expected = np.zeros(t.shape, bool)
+    for turns in range(-3, 4):
+        q = t + 2 * math.pi * turns
+        expected |= (q >= -2.0) & (q <= 1.5)
+    np.testing.assert_array_equal(arm.inside(t, np.zeros_like(t)), expected)
+
+
+def test_bad_plane_is_named():
+    """A plane that is none raises with those there are."""
+    with pytest.raises(ConfigurationError, match="xz, yz, xy"):
+        workspace_figure(Robot.from_dh("ur5e"), plane="zz")
