@@ -6,7 +6,7 @@ import math
 
 from numba import njit
 
-from dh2urdf.kernels.certify import ACCEPT, TWO_PI, _move, polish, pose_residual
+from dh2urdf.kernels.certify import POLISH, TWO_PI, _move, polish, pose_residual
 
 __all__ = ["merge_solutions"]
 
@@ -15,13 +15,12 @@ NEAR = 0.01
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _one(links, joints, T, q, p, middle, start, work):
-    """Whether q and p are near and the pose is reached half way between them, too.
+def _one(links, joints, T, q, p, accuracy, middle, start, work):
+    """Whether q and p are near, and the pose is reached as well half way between them.
 
-    Where branches meet, on the rim of the workspace, a residual of 1e-9 leaves the joints
-    undetermined by its square root or worse, and the way from one to the other is flat. Where
-    that way is curved the middle has to be polished; between two separate solutions it then runs
-    off to one of them.
+    Where branches meet, on the rim of the workspace, a residual leaves the joints undetermined by
+    its square root or worse, and the way from one to the other is flat. Where that way is curved
+    the middle has to be polished; between two separate solutions it then runs off to one of them.
     """
     longest = 0.0
     for i in range(q.shape[0]):
@@ -33,9 +32,9 @@ def _one(links, joints, T, q, p, middle, start, work):
         middle[i] = q[i] + 0.5 * gap
         start[i] = middle[i]
         longest = max(longest, abs(gap))
-    if pose_residual(links, joints, T, middle) <= ACCEPT:
+    if pose_residual(links, joints, T, middle) <= accuracy:
         return True
-    if not polish(links, joints, T, middle, work) <= ACCEPT:
+    if not polish(links, joints, T, middle, work) <= accuracy:
         return False
     for i in range(q.shape[0]):
         if abs(middle[i] - start[i]) > 0.25 * longest:
@@ -59,7 +58,8 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
     for k in range(count):
         twin = -1
         for j in range(kept):
-            if _one(links, joints, T, q[j], q[k], scratch[0], scratch[1], work):
+            accuracy = max(POLISH, residual[j], residual[k])
+            if _one(links, joints, T, q[j], q[k], accuracy, scratch[0], scratch[1], work):
                 twin = j
                 break
         if twin < 0:

@@ -121,8 +121,8 @@ def _gap(joints, i, a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _one(links, joints, T, q, p, reach, middle):
-    """Whether two solutions are one: equal, or near with the position reached between them."""
+def _one(links, joints, T, q, p, accuracy, middle):
+    """Whether two solutions are one, see :mod:`dh2urdf.kernels.merging`."""
     largest = 0.0
     for i in range(q.shape[0]):
         gap = _gap(joints, i, q[i], p[i])
@@ -130,7 +130,7 @@ def _one(links, joints, T, q, p, reach, middle):
         middle[i] = q[i] + 0.5 * gap
     if largest > NEAR:
         return False
-    return largest <= reach or position_residual(links, joints, T, middle) <= ACCEPT
+    return largest <= CLUSTER or position_residual(links, joints, T, middle) <= accuracy
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -178,7 +178,8 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
         branch[k], free[k] = branch[k], 0
         twin = -1
         for j in range(kept):
-            if _one(links, joints, T, q[j], q[k], CLUSTER, trial):
+            accuracy = max(POLISH, residual[j], residual[k])
+            if _one(links, joints, T, q[j], q[k], accuracy, trial):
                 twin = j
                 break
         if twin < 0:

@@ -1,0 +1,335 @@
+"""Chains of one to five joints, any kinds and geometry, for the full pose."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import ik_referee as referee
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis import strategies as st
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.dh import JointType
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.short import ShortChain
+from dh2urdf.ik.solver import Task, select_solver
+
+HALF = math.pi / 2
+
+ARMS = {
+    "planar RRR": ("RRR", ((0, 1, 0), (0, 0.7, 0), (0, 0.3, 0)), 2),
+    "spherical RRR": ("RRR", ((0, 0, HALF), (0, 0, -HALF), (0.1, 0, 0)), 2),
+    "gantry": ("PPP", ((0, 0, HALF), (0, 0, HALF), (0, 0, 0.3)), 1),
+    "cylinder": ("RPP", ((0.4, 0, 0), (0, 0.1, HALF), (0.2, 0, 0)), 1),
+    "polar RRP": ("RRP", ((0.5, 0, HALF), (0, 0, HALF), (0.3, 0, 0)), 2),
+    "notes RPR": ("RPR", ((0, 3, -HALF), (2, 0, HALF), (0, 1.5, 0)), 1),
+    "SCARA RRPR": ("RRPR", ((0.4, 0.4, 0), (0, 0.3, math.pi), (0, 0, 0), (0.1, 0, 0)), 2),
+    "SCARA RRRP": ("RRRP", ((0.4, 0.4, 0), (0, 0.3, 0), (0.1, 0, math.pi), (0, 0, 0)), 2),
+    "SCARA PRRR": ("PRRR", ((0, 0, 0), (0.2, 0.4, 0), (0, 0.3, 0), (0, 0.1, 0)), 2),
+    "SCARA RPRR": ("RPRR", ((0.3, 0.4, 0), (0, 0, 0), (0.1, 0.3, 0), (0, 0.1, 0)), 2),
+    "palletizer RRRR": ("RRRR", ((0.3, 0, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0.1, HALF)), 4),
+    "gantry with a turn": ("PPPR", ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0.2, 0)), 1),
+    "gantry with a head": (
+        "PPPRR",
+        ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0, HALF), (0.2, 0, 0)),
+        1,
+    ),
+    "five axes, elbow": (
+        "RRRRR",
+        ((0.3, 0.05, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0, HALF), (0.2, 0, 0)),
+        4,
+    ),
+    "SCARA with a tilt": (
+        "RRPRR",
+        ((0.4, 0.4, 0), (0, 0.3, math.pi), (0, 0, 0), (0.1, 0, HALF), (0.2, 0, 0)),
+        4,
+    ),
+    "welder PRRRR": (
+        "PRRRR",
+        ((0, 0, HALF), (0.3, 0.1, HALF), (0, 0.5, 0), (0, 0.1, HALF), (0.2, 0, 0)),
+        2,
+    ),
+}
+"""Kinds, Denavit-Hartenberg steps (d, a, alpha), most solutions."""
+
+
+def named(name):
+    kinds, rows, _ = ARMS[name]
+    return referee.arm(rows, kinds)
+
+
+def chain_of(kinds, steps, lower=-math.inf, upper=math.inf):
+    """A chain of steps (d, a, alpha) after a tool-like first and last link."""
+    links = [np.eye(4)]
+    for d, a, alpha in steps:
+        c, s = math.cos(alpha), math.sin(alpha)
+        links.append(np.array([[1, 0, 0, a], [0, c, -s, 0], [0, s, c, d], [0, 0, 0, 1.0]]))
+    links[0] = referee.random_pose(np.random.default_rng(1), 0.3)
+    links[-1] = links[-1] @ referee.random_pose(np.random.default_rng(2), 0.3)
+    n = len(kinds)
+    types = tuple(JointType.PRISMATIC if k == "P" else JointType.REVOLUTE for k in kinds)
+    bounds = np.full(n, lower), np.full(n, upper)
+    return SerialChain(np.stack(links), types, tuple(f"j{i}" for i in range(n)), *bounds)
+
+
+def holds(chain, T, found, q):
+    """Whether q is among the solutions of pose 0, or so near that the pose cannot tell.
+
+    At a multiple root a residual of 1e-9 leaves the joints open by a root of it; there the way
+    from the solution to q must be flat.
+    """
+    solutions = found.of(0)[0]
+    apart = referee.gaps(chain, solutions, q)
+    for solution, gap in zip(solutions, apart, strict=True):
+        if gap <= 1e-6:
+            return True
+        if gap < 0.05:
+            step = q - solution
+            turning = ~chain.prismatic
+            step[turning] = (step[turning] + math.pi) % (2 * math.pi) - math.pi
+            middle = solution + 0.5 * step
+            if referee.residuals(chain, middle, T) <= 0.2 * gap**2:
+                return True
+    return False
+
+
+LENGTHS = st.sampled_from([0.0, 0.0, 0.3, 0.7, -0.4, 1.0])
+TWISTS = st.sampled_from([0.0, 0.0, HALF, -HALF, math.pi, 0.6, -1.1])
+QUARTERS = st.sampled_from([0.0, HALF, -HALF])
+
+
+@st.composite
+def chains(draw, most=5):
+    """Any kinds of joints on any axes; half of them with the axes of real arms."""
+    n = draw(st.integers(1, most))
+    kinds = "".join(draw(st.sampled_from("RRP")) for _ in range(n))
+    if draw(st.booleans()):
+        steps = [(draw(LENGTHS), draw(LENGTHS), draw(TWISTS)) for _ in range(n)]
+    else:
+        numbers = st.floats(-1.0, 1.0).map(lambda v: round(v, 3))
+        steps = [(draw(numbers), draw(numbers), draw(numbers) * math.pi) for _ in range(n)]
+    return chain_of(kinds, steps)
+
+
+@given(chain=chains(), data=st.data())
+@hypothesis_settings(max_examples=400)
+def test_generating_configuration_is_found_for_any_chain(chain, data):
+    """Of any chain of one to five joints, every configuration is found again, or its family."""
+    values = st.one_of(QUARTERS, st.floats(-2.0, 2.0).map(lambda v: round(v, 3)))
+    q = np.array([data.draw(values) for _ in range(chain.n)])
+    T = referee.forward(chain, q)
+    spare = spare_joints(chain, Task.POSE)
+    if spare > 2:
+        return
+    found = referee.solve(chain, T[None])
+    solutions, residual, _, free = found.of(0)
+    assert len(solutions) > 0
+    assert residual.max() <= 1e-9
+    assert referee.residuals(chain, solutions, T).max() <= 1e-9
+    if spare:
+        assert (free != 0).all()
+    elif not free.any():
+        assert holds(chain, T, found, q)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_named_arms_are_complete_and_certified(name):
+    """200 poses an arm: all solutions at 1e-12, none twice, the generating one among them."""
+    chain = named(name)
+    q = referee.draw(chain, 200, 5)
+    Ts = referee.forward(chain, q)
+    found = referee.solve(chain, Ts)
+    referee.check_all(chain, q, found, Ts)
+    assert found.count.max() <= ARMS[name][2]
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", ARMS)
+def test_named_arms_on_many_poses(name):
+    """The same on 100,000 poses an arm."""
+    chain = named(name)
+    q = referee.draw(chain, 100_000, 6)
+    Ts = referee.forward(chain, q)
+    referee.check_all(chain, q, referee.solve(chain, Ts), Ts)
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_count_equals_that_of_a_search(name):
+    """Newton from 400 random starts finds no solution that is missing, on 3 poses an arm."""
+    chain = named(name)
+    for seed, q in enumerate(referee.draw(chain, 3, 7)):
+        T = referee.forward(chain, q)
+        solutions = referee.solve(chain, T[None]).of(0)[0]
+        for other in referee.search(chain, T, seed, starts=200):
+            assert referee.gaps(chain, solutions, other).min() < 1e-6
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_infeasible_poses_give_nothing(name):
+    """A pose that fewer than six joints cannot take, by 1e-6, has no solution."""
+    chain = named(name)
+    rng = np.random.default_rng(8)
+    for q in referee.draw(chain, 50, 8):
+        T = referee.forward(chain, q)
+        U = np.linalg.svd(referee.jacobians(chain, q))[0]
+        twist = U[:, -1] * 1e-6 * rng.choice([-1, 1])
+        x, y, z = twist[3:]
+        T[:3, :3] = (np.eye(3) + np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])) @ T[:3, :3]
+        T[:3, 3] += twist[:3]
+        assert referee.solve(chain, T[None]).count[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "q", "free"),
+    [
+        ("spherical RRR", (0.3, 0.0, 0.4), (0, 2)),
+        ("five axes, elbow", None, (0, 4)),
+    ],
+)
+def test_singular_families_are_named(name, q, free):
+    """Where joints are free, one representative is returned and they are named."""
+    chain = named(name)
+    q = over_axis_1() if q is None else zeroed(name, q)
+    T = referee.forward(chain, q)
+    found = referee.solve(chain, T[None])
+    solutions, residual, _, masks = found.of(0)
+    assert residual.max() <= 1e-12
+    assert len(set(masks.tolist())) == 1
+    for solution, mask in zip(solutions, masks, strict=True):
+        assert tuple(i for i in range(chain.n) if mask >> i & 1) == free
+        referee.check_family(chain, solution, T, int(mask))
+
+
+def zeroed(name, q):
+    """Joint values that make the middle joint of a random-zero arm singular."""
+    chain = named(name)
+    q = np.array(q)
+    axes = chain.axes
+    best = min(
+        np.linspace(-math.pi, math.pi, 7201),
+        key=lambda v: np.linalg.svd(
+            referee.jacobians(chain, np.array([q[0], v, q[2]])), compute_uv=False
+        )[-1],
+    )
+    assert axes.shape == (3, 3)
+    step = 1e-3
+    for _ in range(60):
+        trial = best + np.array([-step, 0.0, step])
+        sizes = [
+            np.linalg.svd(referee.jacobians(chain, np.array([q[0], v, q[2]])), compute_uv=False)[-1]
+            for v in trial
+        ]
+        best = trial[int(np.argmin(sizes))]
+        step *= 0.7
+    return np.array([q[0], best, q[2]])
+
+
+def over_axis_1():
+    """A configuration of the five-axis arm with its last axis on the first."""
+    chain = named("five axes, elbow")
+    q = np.array([0.4, 0.5, 0.7, 0.2, -0.3])
+
+    def off(x):
+        T = np.eye(4)
+        frames = []
+        for i in range(5):
+            T = T @ chain.links[i]
+            frames.append(T)
+            T = T @ referee.joint_matrix(chain, i, x[i])
+        first, last = frames[0], frames[4]
+        local = np.linalg.inv(first) @ last
+        return np.array([local[0, 2], local[1, 2], local[0, 3], local[1, 3]])
+
+    for start in itertools.product((-2.0, 0.0, 2.0), repeat=3):
+        x = np.array([q[0], *start, q[4]])
+        for _ in range(60):
+            J = np.stack([(off(x + h) - off(x - h)) / 2e-6 for h in 1e-6 * np.eye(5)[1:4]], axis=1)
+            x[1:4] -= np.clip(np.linalg.pinv(J) @ off(x), -0.3, 0.3)
+        if np.abs(off(x)).max() < 1e-14:
+            return x
+    raise AssertionError("the arm reaches over its first axis")
+
+
+def test_scara_folded_names_joints_1_and_4():
+    """Equal links, folded: the tool is on axis 1, and joints 1 and 4 turn against each other."""
+    chain = chain_of("RRPR", ((0.4, 0.4, 0), (0, 0.4, 0), (0, 0, 0), (0.1, 0, 0)))
+    T = referee.forward(chain, np.array([0.3, math.pi, 0.1, 0.5]))
+    solutions, residual, _, free = referee.solve(chain, T[None]).of(0)
+    assert len(solutions) == 1
+    assert residual[0] <= 1e-12
+    assert free.tolist() == [0b1001]
+    referee.check_family(chain, solutions[0], T, 0b1001)
+
+
+@pytest.mark.parametrize("power", range(1, 13))
+def test_a_straight_elbow_is_found_at_every_distance(power):
+    """10^-1 ... 10^-12 rad from a straight elbow the configuration is found, and no third one."""
+    chain = named("SCARA RRPR")
+    q = np.array([0.3, 0.0, 0.1, 0.5])
+    q[1] = straight(chain, q) + 10.0**-power
+    T = referee.forward(chain, q)
+    found = referee.solve(chain, T[None])
+    assert 1 <= found.count[0] <= 2
+    assert found.of(0)[1].max() <= 1e-12
+    assert referee.gaps(chain, found.of(0)[0], q).min() <= max(1e-6, 1e-15 * 10**power)
+
+
+def straight(chain, q):
+    """The elbow angle at which axes 1, 2 and 4 lie in one plane."""
+    p1, p2 = chain.points[:2]
+    T = chain.links[0] @ referee.joint_matrix(chain, 0, np.array(q[0])) @ chain.links[1]
+    z = T[:3, 2]
+    T = T @ referee.joint_matrix(chain, 1, np.array(0.0)) @ chain.links[2]
+    out = (
+        T[:3, 3]
+        - (chain.links[0] @ referee.joint_matrix(chain, 0, np.array(q[0])) @ chain.links[1])[:3, 3]
+    )
+    arm = (chain.links[0] @ referee.joint_matrix(chain, 0, np.array(q[0])) @ chain.links[1])[
+        :3, 3
+    ] - p1
+    assert np.linalg.norm(p2 - p1) > 0
+    out, arm = out - z * (z @ out), arm - z * (z @ arm)
+    return math.atan2(z @ np.cross(out, arm), out @ arm)
+
+
+def test_coaxial_joints_are_held_and_named():
+    """Two joints on one axis: one is held at rest, both are named as free."""
+    chain = chain_of("RRR", ((0.2, 0, 0), (0, 0.5, HALF), (0, 0.3, 0)))
+    q = np.array([0.3, 0.4, 0.5])
+    T = referee.forward(chain, q)
+    solver = select_solver(chain)
+    assert solver.name == "joints to spare"
+    solutions, residual, _, free = referee.solve(chain, T[None], solver=solver).of(0)
+    assert residual.max() <= 1e-12
+    assert set(free.tolist()) == {0b011}
+    assert (np.abs(solutions[:, 1]) < 1e-15).all()
+
+
+def test_obstacles_say_what_is_in_the_way():
+    """Each reason not to take a chain names what is wrong with it."""
+    six = referee.shipped("ur5")
+    assert "at most 5 joints" in ShortChain.obstacle(six)
+    assert "position" in ShortChain.obstacle(named("gantry"), Task.POSITION)
+    coaxial = chain_of("RR", ((0.2, 0, 0), (0.1, 0.3, 0)))
+    assert "can move while the tool stays" in ShortChain.obstacle(coaxial)
+    assert ShortChain.obstacle(named("gantry")) is None
+    text = select_solver(named("five axes, elbow")).explain()
+    assert "quartic" in text
+    assert "not spherical wrist: it needs 6 joints" in text
+
+
+def test_limits_drop_solutions_but_keep_families():
+    """Outside the limits: dropped. A family is kept for whoever can slide it."""
+    chain = named("SCARA RRPR")
+    q = np.array([0.3, 0.8, 0.1, 0.5])
+    T = referee.forward(chain, q)
+    both = referee.solve(chain, T[None]).of(0)[0]
+    assert len(both) == 2
+    narrow = referee.with_limits(chain, q - 0.1, q + 0.1)
+    kept = referee.solve(narrow, T[None], within_limits=True).of(0)[0]
+    assert len(kept) == 1
+    assert referee.gaps(chain, kept[0], q) < 1e-9
