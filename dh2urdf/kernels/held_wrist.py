@@ -27,6 +27,7 @@ from numba import njit
 
 from dh2urdf.kernels.certify import ACCEPT, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.damped import make_damped, restore
 from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
 from dh2urdf.kernels.position_arm import (
@@ -38,7 +39,6 @@ from dh2urdf.kernels.position_arm import (
 )
 from dh2urdf.kernels.reverse import invert_pose
 from dh2urdf.kernels.spherical_wrist import append_wrist
-from dh2urdf.kernels.trig import circle_pair
 
 __all__ = ["make_scratch", "points_on_curves", "solve_held_pose", "solve_held_wrist"]
 

@@ -14,8 +14,9 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.trig import MERGE, circle_pair, elbow_angle, linear_trig
+from dh2urdf.kernels.trig import MERGE, elbow_angle, linear_trig
 
 __all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "place_wrist_in_plane"]
 __all__ += ["tool_to_wrist"]

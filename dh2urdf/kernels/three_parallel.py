@@ -17,12 +17,20 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
-from dh2urdf.kernels.trig import add_square, circle_pair, elbow_angle, linear_trig, trig_roots
+from dh2urdf.kernels.trig import add_square, elbow_angle, linear_trig, trig_roots
 
-__all__ = ["finish_pairs", "make_scratch", "pairs_of_meeting", "solve_three_parallel"]
+__all__ = [
+    "add_pairs",
+    "finish_pairs",
+    "make_scratch",
+    "outer_pairs",
+    "pairs_of_meeting",
+    "solve_three_parallel",
+]
 
 ALL_FREE = 0b111111
 
@@ -277,15 +285,13 @@ def _slope_of_last(form, D, cs, slack):
 
 
 @inner_kernel
-def finish_pairs(
-    links, joints, form, first, pairs, slack, T, within_limits, q, residual, branch, free, scratch
-):
-    """From ``pairs`` of outer joints of one pose to certified solutions in q (8, 6); their count.
+def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
+    """From ``pairs`` of outer joints of one pose to candidates in q (8, 6); their count.
 
     ``first`` is the index of the first parallel axis; ``scratch``: frame 6 in frame 0 (3, 4), the
     pairs (8, 5), cosines and sines (6, 2), certification.
     """
-    D, pair, cs, work = scratch
+    D, pair, cs, _ = scratch
     outer = 0 if first == 1 else 3
     mask = ALL_FREE if pairs < 0 else 0
     found = 0
@@ -300,9 +306,33 @@ def finish_pairs(
         for _ in range(wrists):
             found = _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, found)
             cs[4, 1] = -cs[4, 1]
+    return found
+
+
+@inner_kernel
+def finish_pairs(
+    links, joints, form, first, pairs, slack, T, within_limits, q, residual, branch, free, scratch
+):
+    """From ``pairs`` of outer joints of one pose to certified solutions in q (8, 6); their count.
+
+    See :func:`add_pairs`.
+    """
+    found = add_pairs(form, first, pairs, slack, q, branch, free, scratch)
     for k in range(found):
         residual[k] = -1.0
-    return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
+    return finish_pose(
+        links, joints, T, within_limits, q, residual, branch, free, found, scratch[3]
+    )
+
+
+@inner_kernel
+def outer_pairs(form, first, D, slack, pair):
+    """Pairs of outer joints of one pose D (3, 4); their number, negative where joint 1 is free."""
+    if first == 0:
+        return _pairs_before_four(form, D, slack, pair)
+    if form[4, 0] == 0.0:
+        return pairs_of_meeting(form, D, slack, pair)
+    return _pairs_behind_one(form, D, slack, pair)
 
 
 @inner_kernel
@@ -324,12 +354,7 @@ def solve_three_parallel(
     first = 1 if form[0, 2] != 0.0 else 0
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
-        if first == 0:
-            pairs = _pairs_before_four(form, D, slack, pair)
-        elif form[4, 0] == 0.0:
-            pairs = pairs_of_meeting(form, D, slack, pair)
-        else:
-            pairs = _pairs_behind_one(form, D, slack, pair)
+        pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = finish_pairs(
             links, joints, form, first, pairs, slack, Ts[i], within_limits, *out, scratch
