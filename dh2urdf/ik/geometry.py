@@ -165,8 +165,8 @@ class DHForm:
             if i == 1:
                 frames[0] = _frame(x, axes[0], frames[0][:3, 3])
             frames.append(_frame(x - axes[i] * (axes[i] @ x), axes[i], origin))
-        first = frames[0][:3, 3] + axes[0] * (axes[0] @ (frames[1][:3, 3] - frames[0][:3, 3]))
-        frames[0][:3, 3] = first if len(axes) > 1 else points[0]
+        if len(axes) > 1:
+            frames[0][:3, 3] += axes[0] * (axes[0] @ (frames[1][:3, 3] - frames[0][:3, 3]))
         return np.stack(frames)
 
     def _normal(self, i: int, x: Array, origin: Array) -> tuple[Array, Array]:

@@ -9,7 +9,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
-from dh2urdf.ik.tolerances import SLACK, SLACK_OF_NOISE, SNAP
+from dh2urdf.ik.tolerances import REGULAR, SLACK, SLACK_OF_NOISE, SNAP
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
@@ -111,7 +111,7 @@ class SphericalWrist(SolverBase):
 
 def _places_wrist(form: DHForm) -> bool:
     """Whether the first three joints move the wrist centre in three directions somewhere."""
-    frames, rows, chain = form.frames, form.rows, form.lines.chain
+    rows, chain = form.rows, form.lines.chain
     for q in np.random.default_rng(0).uniform(-3.0, 3.0, (4, 3)):
         T, screws = np.eye(4), []
         for i in range(3):
@@ -134,6 +134,6 @@ def _places_wrist(form: DHForm) -> bool:
                 for i, (z, p) in enumerate(screws)
             ]
         )
-        if abs(np.linalg.det(J)) > 1e-6:
+        if abs(np.linalg.det(J)) > REGULAR:
             return True
-    return len(frames) == 0
+    return False
