@@ -228,7 +228,8 @@ def test_picture_shows_itself_in_a_notebook():
     """The object has a PNG for a notebook without pyplot having been imported."""
     code = (
         "import sys, dh2urdf; f = dh2urdf.Robot.from_dh('planar_rr').figure();"
-        "assert f._repr_png_().startswith(b'\\x89PNG'); assert 'matplotlib.pyplot' not in sys.modules"
+        "assert f._repr_png_().startswith(b'\\x89PNG');"
+        "assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

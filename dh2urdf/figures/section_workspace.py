@@ -85,8 +85,10 @@ def _frame(axes: Any, grid: Section, corners: Array) -> None:
     u, v = "xyz"[grid.plane.u], "xyz"[grid.plane.v]
     axes.set(xlabel=f"${u}$ / m", ylabel=f"${v}$ / m")
     axes.set_aspect("equal")
+    from matplotlib.ticker import MaxNLocator
+
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(mpl.ticker.MaxNLocator(5, steps=[1, 2, 5, 10]))
+        axis.set_major_locator(MaxNLocator(5, steps=[1, 2, 5, 10]))
     axes.set(xlim=corners[:, 0], ylim=corners[:, 1], facecolor=EMPTY)
     axes.axhline(0.0, color=INK, lw=0.6, ls=":", alpha=0.6)
 

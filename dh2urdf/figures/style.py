@@ -10,7 +10,6 @@ from dh2urdf.exceptions import MissingExtraError
 
 try:
     import matplotlib as mpl
-    import matplotlib.ticker
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 except ImportError:

@@ -1,0 +1,27 @@
+"""What an arm reaches: the planar arm's annulus and surface, sections through a spatial arm.
+
+Reach is decided by inverse kinematics at every point of a grid, never by the density of random
+configurations, which says where an arm lingers, not what it reaches.
+"""
+
+from dh2urdf.workspace.maps import branch_counts, dexterity
+from dh2urdf.workspace.planar import PlanarArm, planar_arm
+from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
+from dh2urdf.workspace.task import Task, default_orientation, task_of, uniform_rotations
+
+__all__ = [
+    "PLANES",
+    "PlanarArm",
+    "Plane",
+    "Section",
+    "Task",
+    "branch_counts",
+    "caption",
+    "default_orientation",
+    "dexterity",
+    "planar_arm",
+    "reach_ball",
+    "section",
+    "task_of",
+    "uniform_rotations",
+]

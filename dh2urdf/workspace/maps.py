@@ -1,0 +1,102 @@
+"""Maps over a section: how many branches, and from how many sides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.workspace.section import Section
+from dh2urdf.workspace.task import orientations, task_of
+
+__all__ = ["branch_counts", "dexterity"]
+
+Progress = Callable[[int, int], None]
+"""Called with the number of poses done and their total."""
+
+CHUNK = 60_000
+"""Poses solved at a time: some 100 MB of solutions."""
+
+
+def branch_counts(
+    robot: Robot,
+    grid: Section,
+    R: Array,
+    *,
+    within_limits: bool = True,
+    progress: Progress | None = None,
+) -> NDArray[np.int64]:
+    """Number of solutions at each point of a section with the tip turned to R (3, 3).
+
+    Raises
+    ------
+    NoSolverError
+    """
+    Ts = np.tile(np.eye(4), (grid.points[..., 0].size, 1, 1))
+    Ts[:, :3, :3], Ts[:, :3, 3] = R, grid.points.reshape(-1, 3)
+    task = task_of(robot)
+    counts = [
+        robot.ik_batch(part, within_limits=within_limits, task=task.name).count
+        for part in _parts(Ts, progress)
+    ]
+    return np.concatenate(counts).reshape(len(grid.v), len(grid.u))
+
+
+def dexterity(
+    robot: Robot,
+    grid: Section,
+    count: int = 200,
+    *,
+    within_limits: bool = True,
+    held: dict[int, Array] | None = None,
+    progress: Progress | None = None,
+) -> Array:
+    """Share of orientations in which each point of a section is reached, 0 to 1.
+
+    Parameters
+    ----------
+    robot : Robot
+    grid : Section
+    count : int
+        Orientations tried, evenly spread.
+    within_limits : bool
+    held : mapping of int to array, optional
+        For an arm with a joint to spare: values at which that joint is held; a pose counts as
+        reached when it is at one of them.
+
+    Raises
+    ------
+    NoSolverError
+    """
+    task = task_of(robot)
+    turns = orientations(robot, task, count)
+    points = grid.points.reshape(-1, 3)
+    Ts = np.tile(np.eye(4), (len(points), len(turns), 1, 1))
+    Ts[..., :3, :3], Ts[..., :3, 3] = turns, points[:, None]
+    flat = Ts.reshape(-1, 4, 4)
+    tries: list[dict[int | str, float] | None] = [None]
+    if held:
+        tries = [{k: float(v)} for k, values in held.items() for v in values]
+    reached = []
+    for part in _parts(flat, progress):
+        hit = np.zeros(len(part), np.bool_)
+        for locked in tries:
+            left = np.flatnonzero(~hit)
+            found = robot.ik_batch(
+                part[left], within_limits=within_limits, task=task.name, locked=locked
+            )
+            hit[left] = found.count > 0
+        reached.append(hit)
+    share: Array = np.concatenate(reached).reshape(len(points), len(turns)).mean(axis=1)
+    return share.reshape(len(grid.v), len(grid.u))
+
+
+def _parts(Ts: Array, progress: Progress | None) -> Iterator[Array]:
+    """Poses in chunks, telling how far it has come."""
+    for start in range(0, len(Ts), CHUNK):
+        yield Ts[start : start + CHUNK]
+        if progress:
+            progress(min(start + CHUNK, len(Ts)), len(Ts))

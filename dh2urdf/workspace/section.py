@@ -1,0 +1,136 @@
+"""A grid of points in a plane of the base, wide enough for the arm."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.workspace.task import common_axis
+
+__all__ = ["PLANES", "Plane", "Section", "caption", "reach_ball", "section"]
+
+
+class Plane(NamedTuple):
+    """A coordinate plane of the base: its name, its two directions, its normal."""
+
+    name: str
+    u: int
+    v: int
+
+    @property
+    def normal(self) -> int:
+        """Index of the axis across the plane."""
+        return 3 - self.u - self.v
+
+
+PLANES = {"xz": Plane("xz", 0, 2), "yz": Plane("yz", 1, 2), "xy": Plane("xy", 0, 1)}
+"""Planes in which sections are taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class Section:
+    """A grid in a plane of the base.
+
+    Parameters
+    ----------
+    plane : Plane
+    at : float
+        Where along the normal [m].
+    u, v : array
+        Coordinates of the columns and rows [m].
+    """
+
+    plane: Plane
+    at: float
+    u: Array
+    v: Array
+
+    @property
+    def points(self) -> Array:
+        """All points, shape (len(v), len(u), 3)."""
+        out = np.empty((len(self.v), len(self.u), 3))
+        out[..., self.plane.normal] = self.at
+        out[..., self.plane.u] = self.u[None, :]
+        out[..., self.plane.v] = self.v[:, None]
+        return out
+
+    @property
+    def name(self) -> str:
+        """``y = 0``, ``z = 0.2 m``."""
+        return f"{'xyz'[self.plane.normal]} = {self.at:g}{' m' if self.at else ''}"
+
+
+def section(robot: Robot, plane: str = "", at: float | None = None, count: int = 121) -> Section:
+    """A section through the arm's reach: across parallel joint axes, else the xz plane.
+
+    Parameters
+    ----------
+    robot : Robot
+    plane : {"xz", "yz", "xy"}, optional
+    at : float, optional
+        Height of the plane along its normal [m]; 0, or where the tip of a planar or SCARA arm
+        is with its joints in the middle.
+    count : int
+        Points along the longer side.
+    """
+    if plane and plane not in PLANES:
+        raise ConfigurationError(f"plane: {plane!r}; allowed: {', '.join(PLANES)}")
+    if count < 2:
+        raise ConfigurationError(f"points along a side: at least 2, not {count}")
+    if not plane:
+        axis, flat = common_axis(robot)
+        across = axis is not None and (flat or robot.n == 4)
+        plane = ("yz", "xz", "xy")[axis] if across and axis is not None else "xz"
+        if at is None and across:
+            at = round(float(robot.fk(_middle(robot))[PLANES[plane].normal, 3]), 6)
+    chosen = PLANES[plane]
+    centre, radius = reach_ball(robot)
+    u, v = centre[chosen.u], centre[chosen.v]
+    line = np.linspace(-1.04 * radius, 1.04 * radius, count)
+    return Section(chosen, float(at or 0.0), u + line, v + line)
+
+
+def _middle(robot: Robot) -> Array:
+    """The configuration halfway between finite limits, zero elsewhere."""
+    bounded = np.isfinite(robot.lower) & np.isfinite(robot.upper)
+    q = np.zeros(robot.n)
+    q[bounded] = (robot.lower[bounded] + robot.upper[bounded]) / 2
+    return q
+
+
+def reach_ball(robot: Robot) -> tuple[Array, float]:
+    """A ball that holds every place of the tip: its centre on axis 1 [m], its radius [m].
+
+    Each joint moves the rest of the arm about or along its axis; the centre is the point of
+    axis 1 nearest to the second axis and the radius sums the steps between the joints.
+    """
+    chain = robot.chain
+    points = chain.points
+    centre = points[0]
+    if chain.n > 1:
+        z = chain.axes[0]
+        centre = points[0] + z * float(z @ (points[1] - points[0]))
+    radius, last = 0.0, centre
+    far = np.maximum(np.abs(chain.lower), np.abs(chain.upper))
+    for k in range(1, chain.n):
+        z = chain.axes[k]
+        foot = points[k] + z * float(z @ (last - points[k]))
+        radius, last = radius + math.dist(foot, last), foot
+    radius += math.dist(chain.tool[:3, 3], last)
+    travel = [f if np.isfinite(f) else chain.size for f in far[chain.prismatic]]
+    return centre, max(radius + float(sum(travel)), 1e-3)
+
+
+def caption(robot: Robot, what: str, *, within_limits: bool) -> str:
+    """One sentence: what is shown of the robot, frames, limits, collisions."""
+    limits = "joint limits kept" if within_limits else "joint limits ignored"
+    return (
+        f"{what} of {robot.model.name}; {robot.tip} in {robot.base}; {limits}; "
+        "self-collision not checked."
+    )

@@ -1,0 +1,116 @@
+"""What an arm of a kind can be asked to reach, and in which orientations."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf.conversions.bodies import frame_along
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array, rot_z
+
+__all__ = [
+    "PARALLEL",
+    "Task",
+    "common_axis",
+    "default_orientation",
+    "orientations",
+    "task_of",
+    "uniform_rotations",
+]
+
+PARALLEL = 1e-9
+"""Sine of the angle between two axes up to which an arm counts as planar here."""
+
+
+class Task(NamedTuple):
+    """What is asked of an arm at a point, and from how many sides.
+
+    ``name`` is that of :meth:`Robot.ik`; ``sides`` says which orientations are tried:
+    ``rotations`` all around, ``turns`` about one axis of the base, or ``none`` but one.
+    """
+
+    name: str
+    sides: str
+    axis: int
+
+
+def task_of(robot: Robot) -> Task:
+    """What an arm of this kind can be asked: a pose as far as its joints allow.
+
+    Parallel revolute axes (planar arms of three joints, SCARA) keep the tool's turn about
+    them; five joints reach a point and the direction of the tool's z, fewer a point. Five do
+    not reach directions all around: those are not counted.
+    """
+    axis, flat = common_axis(robot)
+    if axis is not None and (robot.n == 4 or (robot.n == 3 and flat)):
+        return Task("pose", "turns", axis)
+    if robot.n >= 6:
+        return Task("pose", "rotations", 2)
+    if robot.n == 5:
+        return Task("pose" if _rolls_about_tool(robot) else "position+axis", "none", 2)
+    return Task("position", "none", 2)
+
+
+def _rolls_about_tool(robot: Robot) -> bool:
+    """Tell whether the last joint turns about the tool's z, so that it only rolls the tool."""
+    T_joint_tool = robot.chain.links[-1]
+    off = np.abs([*T_joint_tool[:2, 3] / robot.chain.size, *T_joint_tool[:2, 2]])
+    return bool((off < 1e-9).all()) and not robot.chain.prismatic[-1]
+
+
+def common_axis(robot: Robot) -> tuple[int | None, bool]:
+    """The base axis along which all revolute joints turn, and whether the arm stays in a plane.
+
+    None where they turn about different directions, or about none of the base's axes.
+    """
+    chain = robot.chain
+    turning, sliding = chain.axes[~chain.prismatic], chain.axes[chain.prismatic]
+    if not len(turning):
+        return None, False
+    axis = int(np.argmax(np.abs(turning[0])))
+    if not (np.abs(turning[:, axis]) > 1.0 - PARALLEL).all():
+        return None, False
+    return axis, bool((np.abs(sliding[:, axis]) < PARALLEL).all())
+
+
+def uniform_rotations(count: int) -> Array:
+    """Rotations spread evenly over SO(3), shape (count, 3, 3).
+
+    Super-Fibonacci spirals (Alexa, "Super-Fibonacci spirals: fast, low-discrepancy sampling of
+    SO(3)", CVPR 2022, algorithm 1).
+    """
+    s = np.arange(count) + 0.5
+    t, d = s / count, 2 * np.pi * s
+    r, big = np.sqrt(t), np.sqrt(1 - t)
+    alpha, beta = d / math.sqrt(2.0), d / 1.533751168755204288118041
+    x, y, z, w = r * np.sin(alpha), r * np.cos(alpha), big * np.sin(beta), big * np.cos(beta)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
+
+
+def orientations(robot: Robot, task: Task, count: int) -> Array:
+    """Orientations of the tip to try at each point, shape (m, 3, 3)."""
+    at_zero = robot.chain.tool[:3, :3]
+    if task.sides == "rotations":
+        return uniform_rotations(count)
+    if task.sides == "turns":
+        axis = np.zeros(3)
+        axis[task.axis] = 1.0
+        A = frame_along(axis)
+        turns = np.linspace(-np.pi, np.pi, count, endpoint=False)
+        return np.stack([A @ rot_z(float(t))[:3, :3] @ A.T @ at_zero for t in turns])
+    return at_zero[None]
+
+
+def default_orientation(robot: Robot, task: Task) -> Array:
+    """Orientation in which branches are counted: the tool pointing down, or as at q = 0."""
+    if task.sides == "rotations" or robot.n == 5:
+        return np.diag([1.0, -1.0, -1.0])
+    return robot.chain.tool[:3, :3]
