@@ -74,6 +74,10 @@ class General6R(SolverBase):
             return "the arm cannot move its tool in all six directions"
         return None
 
+    def solve_unfinished(self, Ts: Array, q_out: Array, count_out: IntArray) -> None:
+        """Candidates of poses Ts (m, 4, 4), limits or not: q (m, 16, 6) and count (m,)."""
+        self._solve(*self.plan, Ts, q_out, np.empty(q_out.shape[:2]), count_out)
+
     def details(self) -> str:
         """Name the axes and the method."""
         return (

@@ -216,6 +216,12 @@ SOLVERS: tuple[SolverRow, ...] = (
         "ToolAxis",
     ),
     SolverRow(
+        "nearly a family",
+        "six revolute joints, rounded or calibrated: nearly one of the first four rows",
+        "dh2urdf.ik.near_family",
+        "NearFamily",
+    ),
+    SolverRow(
         "general 6R",
         "six revolute joints, any axes",
         "dh2urdf.ik.general_6r",

@@ -3,7 +3,18 @@
 from __future__ import annotations
 
 __all__ = ["ACCEPT", "EXACT", "FAMILY_RANK", "FAMILY_STEP", "FORM_ERROR", "LIMIT_SLACK"]
-__all__ += ["INTERVAL_END", "PATH_JUMP", "REGULAR", "SHARP", "SLACK", "SNAP"]
+__all__ += [
+    "INTERVAL_END",
+    "NEAR",
+    "NEARLY_SINGULAR",
+    "NOISE_MOTION",
+    "PATH_JUMP",
+    "REGULAR",
+    "SHARP",
+    "SLACK",
+    "SLACK_OF_NEAR",
+    "SNAP",
+]
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certify.py``."""
@@ -12,8 +23,8 @@ INTERVAL_END = 1e-11
 """Distance [rad or m] to which the end of an interval of reach is halved; 1e-9 is promised."""
 
 SHARP = 1e-12
-"""Residual [m and rad], relative to the size of an arm of over a metre, up to which a pose counts as
-reached when the end of an interval is sought. With ``ACCEPT`` the end would be off by as much
+"""Residual [m and rad], relative to the size of an arm of over a metre, up to which a pose counts
+as reached when the end of an interval is sought. With ``ACCEPT`` the end would be off by as much
 divided by the lever arm."""
 
 LIMIT_SLACK = 1e-12
@@ -53,3 +64,22 @@ decides at 1e-9; this only has to be larger."""
 SLACK_OF_NOISE = 30.0
 """Slack of an arm that is nearly of a family, per unit of its distance from it: a branch of the
 exact arm that the nominal one just misses still gets a seed."""
+
+NEAR = (3e-9, 1e-7, 3e-6, 1e-4, 1e-3, 5e-3)
+"""Angles [rad], or lengths relative to ``chain.size``, within which axes are snapped when the
+nominal arm of a rounded or calibrated one is sought, the smallest that will do. Factory
+calibration changes parameters by up to 1e-3, and four of them are between two axes."""
+
+SLACK_OF_NEAR = 100.0
+"""Slack of the nominal arm's equations per unit of its distance [m, rad] from the exact arm: lever
+arms are seldom a hundred times shorter than the arm. What it lets in by mistake is in doubt."""
+
+NOISE_MOTION = 0.3
+"""Motion of a joint [rad] from the nominal arm's solution to the exact one's, per root of the
+distance from the nominal arm, above which a pose is in doubt: a regular solution moves by much
+less, one whose twin is near by about this."""
+
+NEARLY_SINGULAR = 3.0
+"""Singular value of the Jacobian, lengths relative to ``chain.size``, per root of the distance from
+the nominal arm, below which a pose is in doubt: noise of eps merges branches that are the root of
+eps apart."""

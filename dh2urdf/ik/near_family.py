@@ -1,0 +1,143 @@
+"""Six revolute joints that are nearly of a closed-form family: the drawing as seed."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.general_6r import General6R
+from dh2urdf.ik.geometry import AxisLines
+from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.spherical_wrist import SphericalWrist
+from dh2urdf.ik.three_parallel import ThreeParallel
+from dh2urdf.ik.tolerances import NEAR, NEARLY_SINGULAR, NOISE_MOTION, SLACK, SLACK_OF_NEAR
+from dh2urdf.transforms import Array
+
+__all__ = ["NearFamily"]
+
+
+class _Match(NamedTuple):
+    """A family that covers the chain, seen from base or tool, once its axes are snapped."""
+
+    family: type[SphericalWrist] | type[ThreeParallel]
+    reversed: bool
+    tolerance: float
+
+
+class NearFamily(SolverBase):
+    """The nominal arm's solutions as seeds, Newton on the exact chain, general solver in doubt."""
+
+    kmax = 16
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        match = _match(chain)
+        assert match is not None
+        self.reversed = match.reversed
+        self.seen = chain.reversed() if match.reversed else chain
+        self.nominal = match.family(self.seen, tolerance=match.tolerance)
+        self.general = General6R(chain)
+        self.distance = self.nominal.form.error
+        self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance), 0.3)
+        noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
+        self.trust = np.array([chain.size, NOISE_MOTION * noise, NEARLY_SINGULAR * noise])
+
+    @property
+    def name(self) -> str:  # type: ignore[override]
+        """Name of the family, and that the arm is only nearly of it."""
+        seen = ", from the tool" if self.reversed else ""
+        return f"nearly {self.nominal.name}{seen}"
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps a nominal arm from the chain; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n != 6 or chain.prismatic.any():
+            return "it needs 6 revolute joints"
+        if _match(chain) is None:
+            return f"no three axes nearly meet or are nearly parallel (within {NEAR[-1]:g})"
+        return General6R.obstacle(chain, task)
+
+    def details(self) -> str:
+        """Name the family, the distance from it, and what is done about it."""
+        seen = "seen from the tool, " if self.reversed else ""
+        return (
+            f"{seen}poses of the arm are up to {self.distance:.1g} (m, rad) away from those of a "
+            f"nominal one, whose solutions are seeds of Newton's method on the exact chain "
+            f"({self.nominal.explain()}); near singularities, where noise takes and gives "
+            f"branches, {self.general.explain()}"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
+        from dh2urdf.kernels.finish import finish_batch
+        from dh2urdf.kernels.near_family import (
+            join_solutions,
+            solve_near_parallel,
+            solve_near_wrist,
+        )
+        from dh2urdf.kernels.reverse import invert_poses
+
+        wrist = isinstance(self.nominal, SphericalWrist)
+        links, joints = self.nominal.links, self.nominal.joints
+        outputs = (q_out, residual_out, count_out, branch_out, free_out)
+        poses = Ts
+        if self.reversed:
+            poses = np.empty_like(Ts)
+            invert_poses(Ts, poses)
+        solve = solve_near_wrist if wrist else solve_near_parallel
+        form = self.nominal.form
+        solve(links, joints, form.rows, form.ends, self.slack, self.trust, poses, *outputs)
+        if self.reversed:
+            q_out[:] = q_out[:, :, ::-1].copy()
+        rows = np.flatnonzero(count_out < 0)
+        if len(rows):
+            found = np.empty((len(rows), self.kmax, 6))
+            counts = np.zeros(len(rows), np.int64)
+            self.general.solve_unfinished(np.ascontiguousarray(Ts[rows]), found, counts)
+            join_solutions(rows, found, counts, q_out, count_out)
+        finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
+
+
+def _match(chain: SerialChain) -> _Match | None:
+    """The family that is nearest to the chain; None where none is near."""
+    if not _candidates(AxisLines(chain, NEAR[-1])):
+        return None
+    for tolerance in NEAR:
+        for family, reversed_ in _candidates(AxisLines(chain, tolerance)):
+            seen = chain.reversed() if reversed_ else chain
+            if family.obstacle(seen, tolerance=tolerance) is None:
+                return _Match(family, reversed_, tolerance)
+    return None
+
+
+def _candidates(lines: AxisLines) -> list[tuple[type[SphericalWrist | ThreeParallel], bool]]:
+    """Families whose axes the snapped lines have, and whether seen from the tool."""
+    found: list[tuple[type[SphericalWrist | ThreeParallel], bool]] = []
+    if lines.spherical(3):
+        found.append((SphericalWrist, False))
+    if lines.three_parallel(0) or lines.three_parallel(1):
+        found.append((ThreeParallel, False))
+    if lines.spherical(0):
+        found.append((SphericalWrist, True))
+    if lines.three_parallel(2) or lines.three_parallel(3):
+        found.append((ThreeParallel, True))
+    return found

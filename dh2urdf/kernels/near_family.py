@@ -1,0 +1,116 @@
+"""Arms that are nearly of a closed-form family: rounded tables, calibrated tables.
+
+The nominal arm gives candidates, Newton's method on the exact chain the solutions. Noise of size
+eps moves a regular solution by about eps, but near a singularity by up to its square root, where
+branches appear and vanish. So a pose is in doubt, and left to the general solver, where a
+candidate moves far, does not converge, falls together with another, is one of an odd number, or
+has a nearly singular Jacobian.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.kernels import spherical_wrist, three_parallel
+from dh2urdf.kernels.certify import ACCEPT, finish_pose, polish
+from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.damped import error_and_jacobian, make_damped, solve_damped
+from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import add_wrist
+from dh2urdf.kernels.three_parallel import _last_joint, _slope_of_last, add_pairs, outer_pairs
+
+__all__ = ["join_solutions", "solve_near_parallel", "solve_near_wrist"]
+
+
+@inner_kernel
+def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, start, work, damped):
+    """Certify the candidates q of one pose; how many are left, or -1 minus that where in doubt.
+
+    ``trust``: size of the arm [m], largest motion of a joint [rad], smallest singular value.
+    """
+    unit, most, regular = trust[0], trust[1], trust[2]
+    doubt = doubt or found % 2 == 1
+    for k in range(found):
+        for j in range(6):
+            start[j] = q[k, j]
+        residual[k] = polish(links, joints, T, q[k], work)
+        doubt = doubt or not residual[k] <= ACCEPT or free[k] != 0
+        for j in range(6):
+            doubt = doubt or abs(q[k, j] - start[j]) > most
+        if not doubt:
+            error_and_jacobian(links, joints, T, q[k], unit, damped)
+            solve_damped(damped, 0.0)
+            for a in range(6):
+                doubt = doubt or damped[1][a, a] < regular
+    left = finish_pose(links, joints, T, False, q, residual, branch, free, found, work)
+    for k in range(left):
+        branch[k], free[k] = -1, 0
+    return -1 - left if doubt or left < found else left
+
+
+@kernel
+def solve_near_wrist(links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free):
+    """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
+    D, R, arm, work = spherical_wrist.make_scratch()
+    start, damped = np.empty(6), make_damped(6)
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        found = 0
+        for k in range(rows):
+            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = _settle(links, joints, Ts[i], trust, False, *out, found, start, work, damped)
+
+
+@inner_kernel
+def _in_line(form, first, pairs, slack, D, pair, cs, regular):
+    """Whether axis 6 is nearly along the common normal for a pair: joint 6 is badly known."""
+    outer = 0 if first == 1 else 3
+    for k in range(abs(pairs)):
+        cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
+        cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
+        if first == 1 and form[4, 0] == 0.0:
+            _slope_of_last(form, D, cs, slack)
+        if _last_joint(form, first, D, cs) < regular:
+            return True
+    return False
+
+
+@kernel
+def solve_near_parallel(
+    links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free
+):
+    """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
+    scratch = three_parallel.make_scratch()
+    D, pair, work = scratch[0], scratch[1], scratch[3]
+    start, damped = np.empty(6), make_damped(6)
+    first = 1 if form[0, 2] != 0.0 else 0
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        pairs = outer_pairs(form, first, D, slack, pair)
+        doubt = _in_line(form, first, pairs, slack, D, pair, scratch[2], trust[2])
+        found = add_pairs(form, first, pairs, slack, q[i], branch[i], free[i], scratch)
+        out = q[i], residual[i], branch[i], free[i]
+        count[i] = _settle(links, joints, Ts[i], trust, doubt, *out, found, start, work, damped)
+
+
+@kernel
+def join_solutions(rows, found, found_count, q, count):
+    """Append the solutions found (d, k, n) of the poses in doubt, rows (d,), to q (m, kmax, n).
+
+    Those that fit; the negative count of a pose in doubt becomes that of its candidates.
+    """
+    for d in range(rows.shape[0]):
+        i = rows[d]
+        total = found_count[d]
+        for r in range(-1 - count[i]):
+            if total == found.shape[1]:
+                break
+            for j in range(q.shape[2]):
+                found[d, total, j] = q[i, r, j]
+            total += 1
+        for r in range(total):
+            for j in range(q.shape[2]):
+                q[i, r, j] = found[d, r, j]
+        count[i] = total
