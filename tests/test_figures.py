@@ -17,6 +17,7 @@ from dh2urdf.drawing.arm import drawn_arm, table_of
 from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
 from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
+from dh2urdf.figures.ghosts import group_ghosts
 from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids import Part, _front, convex_hull, painted_order
 from dh2urdf.transforms import rot_x, rot_y, rot_z, trans
@@ -212,6 +213,18 @@ def test_schematic_ghosts_and_bare_arm_are_drawn():
         {"view": (20, 30)},
     ):
         assert picture_bytes(robot.figure(q, **options), "png", dpi=50) != plain
+
+
+def test_branches_that_look_alike_share_a_colour():
+    """Eight branches of a Puma are three ghosts and the arm: its wrist shows no difference."""
+    robot = Robot.from_dh("puma560")
+    q = np.radians([30, 40, -30, 25, 45, 20])
+    found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+    ghosts = group_ghosts(drawn_arm(robot.table), q, list(found.q[1:]), found.branch[1:])
+    assert [ghost.is_drawn for ghost in ghosts] == [False, True, True, True]
+    assert len({ghost.colour for ghost in ghosts}) == 4
+    assert ghosts[0].name.startswith("as drawn: shoulder")
+    assert all("wrist" in ghost.name and " or " in ghost.name for ghost in ghosts[1:])
 
 
 def test_urdf_is_drawn_by_the_table_found_for_it(tmp_path):

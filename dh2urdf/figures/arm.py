@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
-from dh2urdf.drawing.colours import BRANCH_COLOURS
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
 from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
+from dh2urdf.figures.ghosts import group_ghosts
 from dh2urdf.figures.projection import View, best_view
 from dh2urdf.figures.schematic import draw_schematic, schematic_points
 from dh2urdf.figures.solid_paint import (
@@ -100,18 +100,18 @@ class _ArmPicture:
         table: bool,
         view: tuple[float, float] | None,
     ) -> None:
-        colours = [BRANCH_COLOURS[k % len(BRANCH_COLOURS)] for k in range(len(ghosts))]
         self.arm: DrawnArm = drawn_arm(table_of(robot))
         asked = zero_configuration(robot, q)
         self.q = robot.chain_configuration(asked)
-        self.ghosts = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
+        others = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
+        self.ghosts = group_ghosts(self.arm, self.q, others, ghost_names)
+        self.key = [(ghost.colour, ghost.name) for ghost in self.ghosts if ghost.name]
         self.style, self.show_frames = style, frames
-        self.key = list(zip(colours, ghost_names, strict=False))
         dh_frames = self.arm.table.frames(self.q)
         self.view = View(*view) if view else best_view(dh_frames, self.arm.chain)
         self.parts = self._parts(self.q)
         self.floor = self._floor()
-        self.ghost_parts = [self._parts(g) for g in self.ghosts]
+        self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]
         note = pose_sentence(self.q, slides(self.arm.table))
         self.panel = DHPanel(self.arm.table, [note], self.key) if table else None
         self._lay_out(dh_frames)
@@ -155,8 +155,8 @@ class _ArmPicture:
 
     def draw(self) -> Picture:
         paint_floor(self.canvas, self.to, self.floor)
-        for k, parts in enumerate(self.ghost_parts):
-            colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
+        colours = [ghost.colour for ghost in self.ghosts if ghost.is_drawn]
+        for parts, colour in zip(self.ghost_parts, colours, strict=True):
             paint_parts(self.canvas, parts, self.view, self.to, ghost_paint(colour))
         if self.style == "bodies":
             paint_parts(self.canvas, self.parts, self.view, self.to, BODY)

@@ -1,0 +1,87 @@
+"""Other configurations drawn behind the arm: those that look alike share a colour and a line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf.drawing.arm import DrawnArm
+from dh2urdf.drawing.colours import BRANCH_COLOURS
+from dh2urdf.figures.style import INK
+from dh2urdf.transforms import Array
+
+__all__ = ["Ghost", "group_ghosts", "merged_name"]
+
+ALIKE = 1e-6
+"""Distance of all joints, as a share of the arm's size, up to which two arms look alike."""
+
+
+class Ghost(NamedTuple):
+    """A configuration (n,), its colour and what the key says of it.
+
+    One that looks like the arm itself is not drawn: its colour is that of ink.
+    """
+
+    q: Array
+    colour: str
+    name: str
+
+    @property
+    def is_drawn(self) -> bool:
+        """False for one that the arm itself covers."""
+        return self.colour != INK
+
+
+def group_ghosts(
+    arm: DrawnArm, q: Array, ghosts: Sequence[Array], names: Sequence[str]
+) -> list[Ghost]:
+    """Ghosts with their colours; those that differ in the wrist only are one.
+
+    Parameters
+    ----------
+    arm : DrawnArm
+    q : array, shape (n,)
+        The arm itself.
+    ghosts : sequence of arrays (n,)
+    names : sequence of str
+        Of the ghosts; fewer are allowed.
+    """
+    places = [arm.table.frames(one)[:, :3, 3] for one in (q, *ghosts)]
+    groups: list[list[int]] = [[0]]
+    for k in range(1, len(places)):
+        near = (g for g in groups if np.abs(places[g[0]] - places[k]).max() < ALIKE * arm.size)
+        group = next(near, None)
+        if group is None:
+            groups.append([k])
+        else:
+            group.append(k)
+    padded = ["", *names, *[""] * (len(ghosts) - len(names))]
+    out = []
+    for number, group in enumerate(groups):
+        own = [padded[k] for k in group if padded[k]]
+        if number == 0:
+            if own:
+                out.append(Ghost(q, INK, f"as drawn: {merged_name(own)}"))
+            continue
+        colour = BRANCH_COLOURS[(number - 1) % len(BRANCH_COLOURS)]
+        out.append(Ghost(ghosts[group[0] - 1], colour, merged_name(own)))
+    return out
+
+
+def merged_name(names: Sequence[str]) -> str:
+    """Names of several as one: ``elbow up, wrist flip or no flip``."""
+    parts = [name.split(", ") for name in names]
+    if len({len(p) for p in parts}) != 1:
+        return " / ".join(names)
+    return ", ".join(_alternatives(column) for column in zip(*parts, strict=True))
+
+
+def _alternatives(words: Sequence[str]) -> str:
+    """Different endings behind their common first word."""
+    different = list(dict.fromkeys(words))
+    head = different[0].partition(" ")[0]
+    if len(different) == 1 or any(word.partition(" ")[0] != head for word in different):
+        return " or ".join(different)
+    return f"{head} " + " or ".join(word.partition(" ")[2] for word in different)
