@@ -40,11 +40,13 @@ def draw(results: Results, path: Path) -> None:
             _panel(ax, results, arms[i], int(max(sizes[i - i % 2 : i - i % 2 + 2])))
         else:
             ax.axis("off")
+    kind = "processor time" if results.busy else "time"
     for ax in axes[-1]:
-        ax.set_xlabel("time per pose [µs]", fontsize=8.5, color=INK)
+        ax.set_xlabel(f"{kind} per pose [µs]", fontsize=8.5, color=INK)
         ax.tick_params(axis="x", labelbottom=True)
     figure.suptitle(
-        "●  one pose a call     ◆  batch on two threads     %  share of all known solutions found",
+        f"●  one pose a call     ◆  batch on {'one thread' if results.busy else 'two threads'}     "
+        "%  share of all known solutions found",
         fontsize=9.5,
         color=INK,
     )
@@ -56,7 +58,8 @@ def draw(results: Results, path: Path) -> None:
 
 def _solvers(results: Results, arm: Arm) -> list[tuple[Row, Row | None]]:
     """Single and batch rows of each solver of an arm, the fastest first."""
-    batch = {r.contestant: r for r in results.of("ik batch", arm.key) if r.threads == 2}
+    threads = 1 if results.busy else 2
+    batch = {r.contestant: r for r in results.of("ik batch", arm.key) if r.threads == threads}
     pairs = [(r, batch.get(r.contestant)) for r in results.of("ik one, public", arm.key)]
     return sorted(pairs, key=lambda pair: min(r.seconds or 1.0 for r in pair if r))
 

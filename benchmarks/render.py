@@ -24,7 +24,7 @@ COMPLETE = 0.9
 
 def render(path: Path) -> None:
     """Rewrite the README's block and the plot from a results file."""
-    results = Results.load(path)
+    results = shown(path)
     text = README.read_text()
     before, begin, rest = text.partition(BEGIN)
     _, end, after = rest.partition(END)
@@ -34,11 +34,22 @@ def render(path: Path) -> None:
     README.write_text(f"{before}{BEGIN}\n{block(results)}{END}{after}")
 
 
+def shown(path: Path) -> Results:
+    """The results of a file as they are shown: of a busy machine, processor times."""
+    results = Results.load(path)
+    return results.undisturbed() if results.busy else results
+
+
 def block(results: Results) -> str:
     """The tables and what they were measured on, as Markdown."""
+    kind = (
+        "The machine was busy: the times are processor times on one thread."
+        if results.busy
+        else "Batches run on two threads."
+    )
     parts = [
         "All solutions of a random reachable pose; medians of interleaved runs, per pose, with the "
-        "fastest peer that finds at least nine in ten of the known solutions.",
+        f"fastest peer that finds at least nine in ten of the known solutions. {kind}",
         _table(
             ("class", "arm", "one call", "fastest peer", "batch", "fastest peer", "found"),
             _ik_rows(results),
@@ -61,6 +72,11 @@ def seconds(value: float | None) -> str:
         if value >= scale:
             return f"{value / scale:.3g} {unit}"
     return f"{value / 1e-9:.3g} ns"
+
+
+def times(ratio: float) -> str:
+    """How many times, in two digits."""
+    return f"{ratio:.2g} ×" if ratio < 100 else f"{ratio:.0f} ×"
 
 
 def _table(head: Iterable[str], rows: Iterable[tuple[str, ...]]) -> str:
@@ -91,7 +107,7 @@ def _with_ratio(ours: Row | None, peer: Row | None) -> str:
     text = f"{seconds(peer.seconds)} {peer.contestant}"
     if ours is None or not ours.seconds:
         return text
-    return f"{text}, **{peer.seconds / ours.seconds:.2g} ×**"
+    return f"{text}, **{times(peer.seconds / ours.seconds)}**"
 
 
 def _ik_rows(results: Results) -> Iterator[tuple[str, ...]]:
@@ -102,7 +118,7 @@ def _ik_rows(results: Results) -> Iterator[tuple[str, ...]]:
         batch = list(results.of("ik batch", arm.key))
         peers = batch or list(results.of("ik one, bare", arm.key))
         peers += [r for r in results.of("ik one, bare", arm.key) if r.contestant != OURS]
-        one, many = own(single), own(batch, threads=2)
+        one, many = own(single), own(batch, threads=1 if results.busy else 2)
         yield (
             arm.family,
             _arm_name(arm),
@@ -125,17 +141,18 @@ def _found(ours: Row | None, peer: Row | None) -> str:
 
 def _other_rows(results: Results) -> Iterator[tuple[str, ...]]:
     """Forward kinematics, sweeps, building, processes, memory."""
-    for work, label in (
-        ("fk one", "FK, one configuration"),
-        ("fk batch", "FK of a batch, per configuration"),
-        ("build", "building robot and solver"),
-    ):
-        for key in dict.fromkeys(r.arm for r in results.of(work)):
-            rows = list(results.of(work, key))
-            yield _compared(f"{label}: {key}", own(rows), fastest(rows))
+    for key in dict.fromkeys(r.arm for r in results.of("fk one")):
+        rows = list(results.of("fk one", key))
+        yield _compared(f"FK, one configuration: {key}", own(rows), fastest(rows))
+    for key in dict.fromkeys(r.arm for r in results.of("fk batch")):
+        rows = list(results.of("fk batch", key))
+        yield _compared(f"FK of a batch, per configuration: {key}", own(rows), fastest(rows))
+        loop = [r for r in rows if r.contestant in (OURS, "Pinocchio loop")]
+        yield _compared("the same, against a Python loop", own(loop), fastest(loop))
     for key in dict.fromkeys(r.arm for r in results.of("7R sweep")):
         rows = [_per_solution(r) for r in results.of("7R sweep", key)]
         yield _compared(f"7R swept, per solution: {key}", own(rows), fastest(rows))
+    yield _range("building robot and solver, all arms", results.of("build"))
     imports = list(results.of("import"))
     if ours := own(imports):
         yield _compared("import, beyond NumPy", ours, None)
@@ -151,9 +168,19 @@ def _other_rows(results: Results) -> Iterator[tuple[str, ...]]:
 
 def _compared(label: str, ours: Row | None, peer: Row | None) -> tuple[str, ...]:
     mine, theirs = (r.seconds if r else None for r in (ours, peer))
-    ratio = f"{theirs / mine:.2g} ×" if mine and theirs else ""
+    ratio = times(theirs / mine) if mine and theirs else ""
     name = f"{seconds(theirs)} {peer.contestant}" if peer else ""
     return label, seconds(mine), name, ratio
+
+
+def _range(label: str, rows: Iterable[Row]) -> tuple[str, ...]:
+    """Smallest and largest time, ours and the peers'."""
+    ours: list[float] = []
+    peers: list[float] = []
+    for row in rows:
+        (ours if row.contestant == OURS else peers).append(row.seconds or 0.0)
+    spans = [f"{seconds(min(v))} to {seconds(max(v))}" if v else "–" for v in (ours, peers)]
+    return label, *spans, ""
 
 
 def _per_solution(row: Row) -> Row:

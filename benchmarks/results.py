@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -76,6 +76,24 @@ class Results:
         for row in self.rows:
             if row.work == work and arm in (None, row.arm):
                 yield row
+
+    @property
+    def busy(self) -> bool:
+        """Whether other work kept the machine from giving us its time."""
+        loads = [load[0] for load in self.about["load_average"]]
+        return bool(max(loads) > self.about["machine"]["cores"])
+
+    def undisturbed(self) -> Results:
+        """The same results with processor time in place of time on the clock.
+
+        Work on two threads is left out: its processor time is that of both.
+        """
+        rows = [
+            replace(r, seconds=r.processor or r.seconds)
+            for r in self.rows
+            if r.threads == 1 or r.work not in ("ik batch", "scaling")
+        ]
+        return replace(self, rows=rows)
 
     def describe(self, seconds: float, load: list[list[float]]) -> None:
         """Write down machine, versions, commit, load before and after, and duration."""

@@ -61,24 +61,23 @@ def run(results: Results) -> None:
 
 def _imports(results: Results) -> None:
     """Seconds beyond NumPy, medians of interleaved processes."""
-    seconds: dict[str, list[float]] = {}
-    loaded: dict[str, list[str]] = {}
+    found: dict[str, list[dict[str, Any]]] = {}
     modules = {"dh2urdf": "dh2urdf"} if results.quick else IMPORTS
     for _ in range(1 if results.quick else 7):
         for name, module in modules.items():
-            if name in results.left_out:
-                continue
             try:
-                found = child("imports", module)
+                found.setdefault(name, []).append(child("imports", module))
             except RuntimeError as error:
                 results.left_out[f"import {name}"] = str(error).strip().splitlines()[-1]
-                continue
-            seconds.setdefault(name, []).append(found["module"])
-            seconds.setdefault("NumPy itself", []).append(found["numpy"])
-            loaded[name] = found["loaded"]
-    for name, values in seconds.items():
-        extra = {"loaded": loaded.get(name, [])}
-        results.add(Row.timed("import", "", name, Timing.of(values, 1), extra=extra))
+    for name, answers in found.items():
+        if answers:
+            extra = {"loaded": answers[0]["loaded"]}
+            results.add(Row.timed("import", "", name, _timing(answers), extra=extra))
+
+
+def _timing(answers: list[dict[str, Any]]) -> Timing:
+    """Summary of what children found."""
+    return Timing.of([a["total"] for a in answers], 1, [a["processor"] for a in answers])
 
 
 def _first_calls(results: Results) -> None:
@@ -88,10 +87,8 @@ def _first_calls(results: Results) -> None:
             cold = child("first", key, cache=cache)
             warm = [child("first", key, cache=cache) for _ in range(5)]
         for work, found in (("first call, compiling", [cold]), ("first call, cached", warm)):
-            timing = Timing.of([f["total"] for f in found], 1)
-            keys = ("robot", "ik", "processor")
-            parts = {k: float(np.median([f[k] for f in found])) for k in keys}
-            results.add(Row.timed(work, key, "dh2urdf", timing, extra=parts))
+            parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
+            results.add(Row.timed(work, key, "dh2urdf", _timing(found), extra=parts))
 
 
 def _command_line(results: Results, folder: Path) -> None:
