@@ -114,9 +114,7 @@ def test_duplicates_are_one_and_the_best_stays():
     links, joints = dh_links(PUMA), revolute(6)
     q = np.array([0.3, -0.4, 0.5, 0.6, 0.7, 0.8])
     copies = [q + 1e-8, q + 2 * math.pi, q - 1e-8]
-    found, residual, _ = finish(
-        links, joints, fk(links, q), copies, residual=[2e-10, -1.0, -1.0]
-    )
+    found, residual, _ = finish(links, joints, fk(links, q), copies, residual=[2e-10, -1.0, -1.0])
     assert len(found) == 1
     assert residual[0] <= 1e-13
     assert np.abs(found[0] - q).max() <= 1e-12
