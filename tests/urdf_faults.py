@@ -118,6 +118,7 @@ FAULTS = {
     "limit-zero": [
         arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="0" velocity="0"/>')),
         arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="1" velocity="0"/>')),
+        arm(elbow=joint(limit='<limit lower="0" upper="0" effort="1" velocity="1"/>')),
     ],
     "continuous": [arm(elbow=joint(kind="continuous", limit=""))],
     "axis-missing": [arm(elbow=joint(axis=""))],
@@ -178,7 +179,10 @@ FAULTS = {
     ],
     "inertia-zero": [arm(fore=inertia(ixx="0", iyy="0", izz="0"))],
     "inertia-not-positive": [arm(fore=inertia(ixy="0.2")), arm(fore=inertia(ixx="-0.1"))],
-    "inertia-triangle": [arm(fore=inertia(ixx="0.5"))],
+    "inertia-triangle": [
+        arm(fore=inertia(ixx="0.5")),
+        arm(extra=f'<link name="c">{inertia(ixx="0.5")}</link>' + fixed("j", "base_link", "c")),
+    ],
     "root-inertia": [arm(base=BODY)],
     "geometry-empty": [
         arm(fore=BODY + "<visual><geometry/></visual>"),

@@ -128,6 +128,7 @@ def _words(text: str) -> str:
 def _pybullet_words(out: str, root: str) -> str:
     """Its warnings and errors, without the one that every massless root link brings about."""
     marks = re.sub(r"b3(Warning|Error)\[[^\]]*\]:\n?", r"\n\1: ", out)
+    marks = marks.replace("Warning: joint unsupported", "\nWarning: joint unsupported")
     words = [line for line in marks.splitlines() if line.startswith(("Warning: ", "Error: "))]
     notice = "Warning: No inertial data for link"
     said = []

@@ -28,6 +28,7 @@ def locate(filename: str, urdf: Path) -> Path | None:
     folders = list(urdf.resolve().parents)
     if scheme in ("package", "model"):
         search = [Path(p) for p in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if p]
+        rest = rest.lstrip("/")
         package, _, inside = rest.partition("/")
         candidates = [folder / rest for folder in (*search, *folders)]
         candidates += [folder / inside for folder in (*search, *folders) if folder.name == package]

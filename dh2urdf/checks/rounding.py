@@ -16,8 +16,8 @@ from dh2urdf.transforms import Array
 
 __all__ = ["meant_angle", "rounded_angle"]
 
-EXACT = 1e-9
-"""Angle [rad] below which a rounding is of no account: ten written digits."""
+EXACT = 1e-8
+"""Angle [rad] below which a rounding is of no account: eight decimals."""
 
 COUNT = 64
 """Random configurations over which the cost is measured."""

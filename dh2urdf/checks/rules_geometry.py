@@ -243,7 +243,7 @@ def material_name(doc: Document) -> Iterator[Found]:
     """Every material has a name."""
     for material in doc.root.iter("material"):
         owner = material.getparent()
-        if not material.get("name") and owner is not None and owner.tag == "visual":
+        if material.get("name") is None and owner is not None and owner.tag == "visual":
             yield Found(
                 material,
                 "has no name",
@@ -264,7 +264,10 @@ def material_twice(doc: Document) -> Iterator[Found]:
             yield Found(
                 material,
                 "a second material of this name",
-                (effect((*URDFDOM, Consumer.DRAKE), Verdict.REFUSES),),
+                (
+                    effect((*URDFDOM, Consumer.DRAKE), Verdict.REFUSES),
+                    effect(Consumer.PYBULLET, Verdict.COMPLAINS),
+                ),
                 "define it once",
             )
         seen.add(name)

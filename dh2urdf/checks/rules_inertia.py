@@ -172,6 +172,7 @@ def inertial_incomplete(doc: Document) -> Iterator[Found]:
                         else [effect(Consumer.MUJOCO, Verdict.REFUSES)]
                     ),
                     effect(URDFDOM, Verdict.COMPLAINS, "leave the whole <inertial> out"),
+                    *([effect(Consumer.DRAKE, Verdict.COMPLAINS)] if missing[0] == "mass" else []),
                 ),
                 "write what is missing, zeros where they are meant",
             )
@@ -211,47 +212,45 @@ def _on_axis(doc: Document, name: str, inertial: etree._Element) -> bool:
     return bool(np.allclose(np.cross(com, axis), 0.0))
 
 
-def _impossible(doc: Document) -> Iterator[tuple[str, etree._Element, Array, str]]:
-    """``(link, inertial, tensor, why)`` of the tensors, but zeros, that no body has."""
-    for name, link in doc.link_by_name.items():
+def _impossible(doc: Document) -> Iterator[tuple[etree._Element, Array, str]]:
+    """``(inertial, tensor, why)`` of the tensors, but zeros, that no body has."""
+    for link in doc.links:
         inertial = link.find("inertial")
         inertia = None if inertial is None else _tensor(doc, inertial)
         if inertia is not None and inertia.any():
             why = why_impossible(inertia)
             if why:
-                yield name, inertial, inertia, why
+                yield inertial, inertia, why
 
 
-def _by_tensor_readers(doc: Document, name: str) -> tuple[Effect, ...]:
-    kept = name in doc.moved or doc.mujoco.get("fusestatic") == "false"
-    return (
-        *([effect(Consumer.MUJOCO, Verdict.REFUSES)] if kept else []),
-        effect(Consumer.DRAKE, Verdict.COMPLAINS),
-        effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes the tensor for zero"),
-        effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
-    )
+TENSOR_READERS = (
+    effect(Consumer.MUJOCO, Verdict.REFUSES),
+    effect(Consumer.DRAKE, Verdict.COMPLAINS),
+    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes the tensor for zero"),
+    effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
+)
 
 
 def inertia_not_positive(doc: Document) -> Iterator[Found]:
     """The principal moments of a tensor are positive."""
-    for name, inertial, inertia, why in _impossible(doc):
+    for inertial, inertia, why in _impossible(doc):
         if np.linalg.eigvalsh(inertia)[0] <= 0:
             yield Found(
                 inertial,
                 f"no body has this tensor: {why}",
-                _by_tensor_readers(doc, name),
+                TENSOR_READERS,
                 "mend the signs of the products of inertia, or the units",
             )
 
 
 def inertia_triangle(doc: Document) -> Iterator[Found]:
     """No principal moment of a tensor exceeds the sum of the other two."""
-    for name, inertial, inertia, why in _impossible(doc):
+    for inertial, inertia, why in _impossible(doc):
         if np.linalg.eigvalsh(inertia)[0] > 0:
             yield Found(
                 inertial,
                 f"no body has this tensor: {why}",
-                _by_tensor_readers(doc, name),
+                TENSOR_READERS,
                 "raise the smaller moments; MuJoCo does it itself with "
                 '<mujoco><compiler balanceinertia="true"/></mujoco>',
             )

@@ -131,6 +131,14 @@ def limit_zero(doc: Document) -> Iterator[Found]:
         if doc.kind(joint) not in MOVING:
             continue
         zero = [key for key in ("effort", "velocity") if doc.number(limit, key) == 0]
+        lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
+        if doc.kind(joint) in BOUNDED and lower is not None and lower == upper:
+            yield Found(
+                limit,
+                f"lower and upper are both {lower:g}",
+                (effect(Consumer.MUJOCO, Verdict.COMPLAINS, "takes the joint as unlimited"),),
+                "write a range, or make the joint a fixed one",
+            )
         if zero:
             yield Found(
                 limit,

@@ -68,26 +68,29 @@ def _owner(element: etree._Element) -> str:
 
 def number(doc: Document) -> Iterator[Found]:
     """Where a number belongs there is one."""
-    for element, key, _, words in _words(doc):
+    for element, key, count, words in _words(doc):
         bad = [w for w in words if not NUMBER.fullmatch(w) and not NO_NUMBER.fullmatch(w)]
         if bad:
             yield Found(
                 element,
                 f'{key}="{element.get(key)}": {bad[0]!r} is no number',
-                _text_effects(doc, element, bad[0]),
+                _text_effects(doc, element, bad[0], short=len(words) < count),
                 "write it out; URDF has no expressions, units, commas or underscores",
             )
 
 
-def _text_effects(doc: Document, element: etree._Element, word: str) -> tuple[Effect, ...]:
+def _text_effects(
+    doc: Document, element: etree._Element, word: str, *, short: bool
+) -> tuple[Effect, ...]:
     owner = _owner(element)
     python = bool(PYTHON.fullmatch(word))
     readers: tuple[Consumer, ...] = () if python else (Consumer.YOURDFPY,)
-    zero = effect(Consumer.PYBULLET, Verdict.MISREADS, "reads what it can, 0 otherwise")
+    verdict = Verdict.COMPLAINS if short else Verdict.MISREADS
+    zero = effect(Consumer.PYBULLET, verdict, "reads what it can, 0 otherwise")
     if owner == "joint":
         if not python and element.tag in ("origin", "axis"):
             readers += (Consumer.IKPY,)
-        if not DIGIT.match(word):
+        if short or not DIGIT.match(word):
             readers += (Consumer.DRAKE,)
         return effect((*URDFDOM, *readers, Consumer.MUJOCO), Verdict.REFUSES), zero
     if owner == "inertial":
@@ -114,14 +117,18 @@ def number_count(doc: Document) -> Iterator[Found]:
             few = len(words) < count
             in_joint = _owner(element) == "joint"
             readers = (*((Consumer.YOURDFPY,) if few else ()), Consumer.DRAKE, Consumer.IKPY)
+            effects: tuple[Effect, ...] = (
+                effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out"),
+            )
+            if in_joint:
+                effects = (effect((*URDFDOM, Consumer.MUJOCO, *readers), Verdict.REFUSES),)
+            if in_joint and few:
+                worst = Verdict.REFUSES if element.tag == "axis" else Verdict.COMPLAINS
+                effects += (effect(Consumer.PYBULLET, worst),)
             yield Found(
                 element,
                 f'{key}="{element.get(key)}": {len(words)} numbers, {count} belong there',
-                (
-                    effect((*URDFDOM, Consumer.MUJOCO, *readers), Verdict.REFUSES)
-                    if in_joint
-                    else effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out"),
-                ),
+                effects,
                 f"write {count}",
             )
 

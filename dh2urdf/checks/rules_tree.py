@@ -312,7 +312,8 @@ def many_degrees(doc: Document) -> Iterator[Found]:
                     _refuse(Consumer.IKPY),
                     *([] if doc.end(joint, "parent") in doc.roots else [_below_top()]),
                     effect(Consumer.DRAKE, Verdict.COMPLAINS, "leaves the child a free body"),
-                    _misread(Consumer.KDL, Consumer.PYBULLET, text="make it a fixed joint"),
+                    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "makes it a fixed joint"),
+                    _misread(Consumer.KDL, text="makes it a fixed joint"),
                 ),
                 "fix the base, and let the program that loads the file free it",
             )

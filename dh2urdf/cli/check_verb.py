@@ -28,6 +28,9 @@ from dh2urdf.exceptions import Dh2UrdfError
 
 __all__ = ["check_"]
 
+SHOWN = 4
+"""Findings of one kind that are shown in full; the rest by line."""
+
 
 def check_(
     files: Annotated[list[str], Parameter(allow_leading_hyphen=True)],
@@ -101,12 +104,11 @@ def _plain(
 
 
 def _show(file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...]) -> None:
+    alike: dict[tuple[str, tuple[Effect, ...]], list[Finding]] = {}
     for finding in findings:
-        place = f"{file}:{finding.line}"
-        emit(f"{place}: {finding.severity}: {finding.element} {finding.message} [{finding.rule}]")
-        for effect in finding.effects:
-            emit(f"    {_sentence(effect)}")
-        emit(f"    mend: {finding.mend}\n")
+        alike.setdefault((finding.rule, finding.effects), []).append(finding)
+    for group in alike.values():
+        _show_group(file, group)
     counts = Counter(f.severity for f in findings)
     summary = ", ".join(_counted(counts[s], s) for s in Severity if counts[s])
     emit(f"{file}: {summary or 'nothing to mend'}")
@@ -114,6 +116,19 @@ def _show(file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...])
         name = f"{testimony.consumer} {testimony.version}".rstrip()
         words = testimony.words.replace("\n", f"\n{' ' * 33}")
         emit(f"    {name:<17} {testimony.verdict:<11}{words}".rstrip())
+
+
+def _show_group(file: str, group: list[Finding]) -> None:
+    """Findings of one rule and one effect: each on its line, then what they have in common."""
+    for f in group[:SHOWN]:
+        emit(f"{file}:{f.line}: {f.severity}: {f.element} {f.message} [{f.rule}]")
+    if len(group) > SHOWN:
+        lines = ", ".join(str(f.line) for f in group[SHOWN : 4 * SHOWN])
+        dots = ", ..." if len(group) > 4 * SHOWN else ""
+        emit(f"    and {len(group) - SHOWN} more of the kind, on lines {lines}{dots}")
+    for effect in group[0].effects:
+        emit(f"    {_sentence(effect)}")
+    emit(f"    mend: {group[0].mend}\n")
 
 
 def _counted(count: int, severity: Severity) -> str:
