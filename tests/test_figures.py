@@ -9,6 +9,7 @@ from itertools import combinations
 import numpy as np
 import pinocchio as pin
 import pytest
+from matplotlib.path import Path
 
 import dh2urdf
 from dh2urdf import Robot, load_table
@@ -18,8 +19,9 @@ from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
 from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
 from dh2urdf.figures.ghosts import group_ghosts
+from dh2urdf.figures.occlusion import front_depth, occlusion
 from dh2urdf.figures.projection import View
-from dh2urdf.figures.solids import Part, _front, convex_hull, painted_order
+from dh2urdf.figures.solids import Part, arm_parts, convex_hull
 from dh2urdf.transforms import rot_x, rot_y, rot_z, trans
 
 ARMS = ("puma560", "ur5e", "stanford", "planar_rr", "franka_fr3", "fanuc_crx10ia", "gantry_wrist")
@@ -51,7 +53,7 @@ def test_front_of_a_solid_is_its_nearest_point_on_the_ray(body):
     T = trans(0.1, -0.2, 0.3) @ rot_x(0.7) @ rot_y(-0.4)
     view = View(-50.0, 25.0)
     rays = view.flat(T[:3, 3]) + rng.uniform(-0.5, 0.5, (60, 2))
-    fronts = _front(body, T, view, rays)
+    fronts = front_depth(body, T, view, rays)
     steps = np.linspace(1.5, -1.5, 6001)
     for ray, front in zip(rays, fronts, strict=True):
         line = ray @ view.axes[:2] + steps[:, None] * view.axes[2]
@@ -85,7 +87,39 @@ def test_hidden_parts_are_painted_first():
     view = View(0.0, 0.0)
     box = Body("box", (0.2, 1.0, 1.0), np.eye(4), "joint")
     parts = [Part("joint", [(box, trans(x, 0.0, 0.0))]) for x in (0.5, -1.0, 2.0)]
-    assert painted_order(parts, view) == [1, 0, 2]
+    seen = occlusion(parts, view)
+    assert seen.order == [1, 0, 2]
+    assert seen.again == []
+
+
+@pytest.mark.parametrize("name", ["puma560", "ur5e", "franka_fr3", "stanford", "gantry_wrist"])
+def test_what_is_painted_last_is_what_is_nearest(name):
+    """Along random rays, the part painted last is the one that a ray from the eye meets first."""
+    robot = Robot.from_dh(name)
+    arm = drawn_arm(robot.table)
+    rng = np.random.default_rng(7)
+    for view in (View(-60.0, 22.0), View(40.0, 35.0)):
+        parts = arm_parts(arm.bodies, arm.link_poses(robot.random_configuration(rng)))
+        seen = occlusion(parts, view)
+        outlines = np.concatenate([f[0].polygon for part in parts for f in part.faces(view)])
+        rays = rng.uniform(outlines.min(axis=0), outlines.max(axis=0), (4000, 2))
+        fronts = np.stack(
+            [
+                np.max([front_depth(body, T, view, rays) for body, T in part.solids], axis=0)
+                for part in parts
+            ]
+        )
+        hit = np.isfinite(fronts).any(axis=0)
+        painted = np.full(len(rays), -1)
+        for k in seen.order:
+            painted[np.isfinite(fronts[k])] = k
+        for k, regions in seen.again:
+            rings = [Path(ring) for region in regions for ring in region.rings]
+            inside = sum(ring.contains_points(rays).astype(int) for ring in rings) % 2 == 1
+            painted[inside & np.isfinite(fronts[k])] = k
+        wrong = painted[hit] != np.argmax(fronts, axis=0)[hit]
+        assert hit.sum() > 100
+        assert wrong.mean() < 0.01
 
 
 def test_hull_holds_all_points_and_turns_left():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import lru_cache
 from typing import Any
 
@@ -31,6 +33,21 @@ class Canvas:
         self.axes.set(xlim=(0, width), ylim=(0, height))
         self.axes.set_axis_off()
         self._level = 0.0
+        self._clip: Any = None
+
+    @contextmanager
+    def clipped(self, rings: Sequence[Array]) -> Iterator[None]:
+        """Within the block, polygons show only inside these rings (holes turn the other way)."""
+        from matplotlib.path import Path
+
+        if not rings:
+            yield
+            return
+        self._clip = Path.make_compound_path(*[Path(ring, closed=True) for ring in rings])
+        try:
+            yield
+        finally:
+            self._clip = None
 
     def polygon(
         self, points: Array, face: str, edge: str = "none", width: float = 0.0, alpha: float = 1.0
@@ -49,6 +66,8 @@ class Canvas:
             zorder=self._next(),
         )
         self.axes.add_patch(patch)
+        if self._clip is not None:
+            patch.set_clip_path(self._clip, self.axes.transData)
 
     def line(
         self,

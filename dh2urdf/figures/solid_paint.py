@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from dh2urdf.figures.canvas import Canvas
+from dh2urdf.figures.occlusion import occlusion
 from dh2urdf.figures.projection import View
-from dh2urdf.figures.solids import SHEEN, Face, Part, painted_order
+from dh2urdf.figures.solids import SHEEN, Face, Part
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
 
@@ -59,9 +60,15 @@ def ghost_paint(colour: str) -> Paint:
 
 
 def paint_parts(canvas: Canvas, parts: list[Part], view: View, to: ToPoints, paint: Paint) -> None:
-    """Paint parts from far to near."""
-    for k in painted_order(parts, view):
-        _paint_part(canvas, parts[k].material, parts[k].faces(view), to, paint)
+    """Paint parts from far to near, then again what is in front where it was covered."""
+    seen = occlusion(parts, view)
+    faces = [part.faces(view) for part in parts]
+    for k in seen.order:
+        _paint_part(canvas, parts[k].material, faces[k], to, paint)
+    for k, regions in seen.again:
+        rings = [to(ring) for region in regions for ring in region.rings]
+        with canvas.clipped(rings):
+            _paint_part(canvas, parts[k].material, faces[k], to, paint)
 
 
 def _paint_part(

@@ -1,13 +1,11 @@
-"""Solids in orthographic projection: outlines, tones, and which hides which.
+"""Solids in orthographic projection: outlines and tones.
 
-A cylinder, a sphere or a box is convex, so what it shows is one polygon, and the depth of its
-front at a point of the picture has a closed form: the ray is put into the solid's own frame.
+A cylinder, a sphere or a box is convex, so what it shows is one polygon.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,13 +14,10 @@ from dh2urdf.conversions.bodies import Body
 from dh2urdf.figures.projection import View
 from dh2urdf.transforms import Array
 
-__all__ = ["SHEEN", "Face", "Part", "arm_parts", "painted_order"]
+__all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points"]
 
 AROUND = 48
 """Corners of a circle."""
-
-RASTER = 110
-"""Rays along the longer side of the picture that decide which part hides which."""
 
 STRIP = (0.25, 0.75)
 """Angles [rad], from what faces the eye towards the light, between which a cylinder shines."""
@@ -72,103 +67,12 @@ def arm_parts(bodies: list[list[Body]], link_poses: Array) -> list[Part]:
     return parts
 
 
-def painted_order(parts: list[Part], view: View) -> list[int]:
-    """Indices of the parts, far ones first, so that each covers what it hides.
-
-    Where two parts overlap in the picture, the one in front at more of the rays is painted
-    later; a knot of parts that hide one another in turn is cut at its weakest tie.
-    """
-    if not parts:
-        return []
-    fronts = _fronts(parts, view)
-    behind = np.zeros((len(parts), len(parts)))
-    for i, j in combinations(range(len(parts)), 2):
-        both = np.isfinite(fronts[i]) & np.isfinite(fronts[j])
-        lead = np.sign(fronts[i][both] - fronts[j][both]).sum()
-        behind[i, j], behind[j, i] = max(-lead, 0.0), max(lead, 0.0)
-    depth = [min(float(view.depth(T[:3, 3])) for _, T in part.solids) for part in parts]
-    order: list[int] = []
-    left = set(range(len(parts)))
-    while left:
-        index = sorted(left, key=lambda k: depth[k])
-        best = min(index, key=lambda k: sum(float(behind[m, k]) for m in left if m != k))
-        order.append(best)
-        left.remove(best)
-    return order
-
-
-def _fronts(parts: list[Part], view: View) -> list[Array]:
-    """Depth of each part's front along a raster of rays, -inf where they miss."""
-    corners = np.concatenate([_hull_points(b, T) for part in parts for b, T in part.solids])
-    flat = view.flat(corners)
-    low, high = flat.min(axis=0), flat.max(axis=0)
-    step = max(float((high - low).max()) / RASTER, 1e-9)
-    x, y = (np.arange(low[k], high[k] + step, step) for k in (0, 1))
-    rays = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    out = []
-    for part in parts:
-        fronts = [_front(body, T, view, rays) for body, T in part.solids]
-        out.append(np.max(fronts, axis=0))
-    return out
-
-
-def _front(body: Body, T: Array, view: View, rays: Array) -> Array:
-    """Depth at which each ray, coming from the eye, meets a solid; -inf where it misses."""
-    R = T[:3, :3]
-    toward = R.T @ view.axes[2]
-    starts = (rays @ view.axes[:2] - T[:3, 3]) @ R
-    with np.errstate(divide="ignore", invalid="ignore"):
-        if body.shape == "sphere":
-            near = _quadric(starts, toward, np.ones(3), body.size[0])[1]
-        elif body.shape == "cylinder":
-            radius, length = body.size
-            low, high = _quadric(starts, toward, np.array([1.0, 1.0, 0.0]), radius)
-            caps = _slab(starts[:, 2], float(toward[2]), length / 2)
-            near = _overlap(low, high, *caps)
-        else:
-            slabs = [
-                _slab(starts[:, k], float(toward[k]), size / 2) for k, size in enumerate(body.size)
-            ]
-            low = np.max([s[0] for s in slabs], axis=0)
-            high = np.min([s[1] for s in slabs], axis=0)
-            near = np.where(high >= low, high, -np.inf)
-    return np.where(np.isnan(near), -np.inf, near)
-
-
-def _quadric(starts: Array, toward: Array, mask: Array, radius: float) -> tuple[Array, Array]:
-    """Interval of t with ``|mask * (start + t toward)| <= radius``; (inf, -inf) where none."""
-    s, v = starts * mask, toward * mask
-    a, b, c = float(v @ v), s @ v, (s * s).sum(axis=1) - radius * radius
-    if a < 1e-15:
-        inside = c <= 0
-        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
-    root = np.sqrt(b * b - a * c)
-    low, high = (-b - root) / a, (-b + root) / a
-    hit = np.isfinite(root)
-    return np.where(hit, low, np.inf), np.where(hit, high, -np.inf)
-
-
-def _slab(start: Array, toward: float, half: float) -> tuple[Array, Array]:
-    """Interval of t with ``|start + t toward| <= half``."""
-    if abs(toward) < 1e-15:
-        inside = np.abs(start) <= half
-        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
-    ends = np.sort(np.stack([(-half - start) / toward, (half - start) / toward]), axis=0)
-    return ends[0], ends[1]
-
-
-def _overlap(low: Array, high: Array, low2: Array, high2: Array) -> Array:
-    """Upper end of the common part of two intervals, -inf where there is none."""
-    far, near = np.maximum(low, low2), np.minimum(high, high2)
-    return np.where(near >= far, near, -np.inf)
-
-
 def _faces(body: Body, T: Array, view: View) -> list[Face]:
     if body.shape == "sphere":
         angle = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
         rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
         return [Face(view.flat(T[:3, 3]) + body.size[0] * rim, 0.0)]
-    outline = convex_hull(view.flat(_hull_points(body, T)))
+    outline = convex_hull(view.flat(hull_points(body, T)))
     if body.shape == "box":
         return [Face(outline, 0.0), *_box_faces(body, T, view)]
     if body.shape == "cylinder":
@@ -221,7 +125,7 @@ def _circle(body: Body, T: Array, side: float) -> Array:
     return out
 
 
-def _hull_points(body: Body, T: Array) -> Array:
+def hull_points(body: Body, T: Array) -> Array:
     """Points in base that span the solid's silhouette (a sphere's only roughly), shape (m, 3)."""
     if body.shape == "cylinder":
         return np.concatenate([_circle(body, T, -1.0), _circle(body, T, 1.0)])

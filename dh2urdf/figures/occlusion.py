@@ -1,0 +1,184 @@
+"""Which part of an arm hides which, decided along a raster of rays.
+
+Parts are painted from far to near, so that each covers what it hides. Where two run through
+each other no order is right: a part that was painted over although it is in front is painted
+again, clipped to where it is in front. The depth of a solid along a ray has a closed form: the
+ray is put into the solid's own frame.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.conversions.bodies import Body
+from dh2urdf.figures.projection import View
+from dh2urdf.figures.solids import Part, hull_points
+from dh2urdf.transforms import Array
+
+__all__ = ["Occlusion", "Region", "front_depth", "occlusion"]
+
+RASTER = 200
+"""Rays along the longer side of the picture."""
+
+WRONG = 4
+"""Rays from which a part that was painted over is painted again."""
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A polygon with holes: its rings (m, 2) [m], the outer one first."""
+
+    rings: tuple[Array, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Occlusion:
+    """How to paint parts.
+
+    Parameters
+    ----------
+    order : list of int
+        Indices of the parts, far ones first.
+    again : list of (int, list of Region)
+        Parts to paint once more, and where.
+    """
+
+    order: list[int]
+    again: list[tuple[int, list[Region]]]
+
+
+def occlusion(parts: list[Part], view: View) -> Occlusion:
+    """Decide how to paint parts so that what is in front is seen."""
+    if not parts:
+        return Occlusion([], [])
+    x, y, fronts = _fronts(parts, view)
+    order = _order(parts, view, fronts)
+    again = []
+    nearest = np.argmax(fronts, axis=0)
+    for place, k in enumerate(order):
+        later = order[place + 1 :]
+        covered = np.isfinite(fronts[later]).any(axis=0) & (nearest == k) & np.isfinite(fronts[k])
+        if int(covered.sum()) >= WRONG:
+            again.append((k, _in_front(k, x, y, fronts)))
+    return Occlusion(order, again)
+
+
+def _order(parts: list[Part], view: View, fronts: Array) -> list[int]:
+    """Far parts first; a knot of parts that hide one another is cut at its weakest tie."""
+    behind = np.zeros((len(parts), len(parts)))
+    for i, j in combinations(range(len(parts)), 2):
+        both = np.isfinite(fronts[i]) & np.isfinite(fronts[j])
+        lead = float(np.sign(fronts[i][both] - fronts[j][both]).sum())
+        behind[i, j], behind[j, i] = max(-lead, 0.0), max(lead, 0.0)
+    depth = [min(float(view.depth(T[:3, 3])) for _, T in part.solids) for part in parts]
+    order: list[int] = []
+    left = set(range(len(parts)))
+    while left:
+        index = sorted(left, key=lambda k: depth[k])
+        best = min(index, key=lambda k: sum(float(behind[m, k]) for m in left if m != k))
+        order.append(best)
+        left.remove(best)
+    return order
+
+
+def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Region]:
+    """Where part k is in front of all others.
+
+    The border between two surfaces is the zero of their difference in depth, which is found
+    between the rays; where one of them ends, its depth is carried on by one ray.
+    """
+    from contourpy import contour_generator
+
+    step = float(x[1] - x[0])
+    others = np.delete(fronts, k, axis=0).max(axis=0, initial=-np.inf)
+    others = np.where(np.isfinite(others), others, _neighbours(others).max(axis=0))
+    with np.errstate(invalid="ignore"):
+        lead = np.clip((fronts[k] - others) / step, -3.0, 3.0)
+    for _ in range(2):
+        known = _neighbours(np.where(np.isfinite(fronts[k]) | ~np.isnan(lead), lead, np.nan))
+        count = np.maximum(np.isfinite(known).sum(axis=0), 1)
+        lead = np.where(np.isnan(lead), np.nansum(known, axis=0) / count, lead)
+    contours: Any = contour_generator(x, y, lead, fill_type="OuterOffset")
+    polygons, offsets = contours.filled(0.0, np.inf)
+    return [
+        Region(tuple(np.split(points, ends[1:-1])))
+        for points, ends in zip(polygons, offsets, strict=True)
+    ]
+
+
+def _neighbours(values: Array) -> Array:
+    """The eight neighbours of each cell, those outside the raster missing (-inf), (8, ...)."""
+    ny, nx = values.shape
+    wide = np.pad(values, 1, constant_values=-np.inf)
+    shifts = [(r, c) for r in range(3) for c in range(3) if (r, c) != (1, 1)]
+    return np.stack([wide[r : r + ny, c : c + nx] for r, c in shifts])
+
+
+def _fronts(parts: list[Part], view: View) -> tuple[Array, Array, Array]:
+    """Raster x and y, and each part's depth along it, -inf where it is missed, (parts, y, x)."""
+    corners = np.concatenate([hull_points(b, T) for part in parts for b, T in part.solids])
+    flat = view.flat(corners)
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    step = max(float((high - low).max()) / RASTER, 1e-9)
+    x, y = (np.arange(low[k] - 2 * step, high[k] + 3 * step, step) for k in (0, 1))
+    rays = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+    fronts = [
+        np.max([front_depth(body, T, view, rays) for body, T in part.solids], axis=0)
+        for part in parts
+    ]
+    return x, y, np.stack(fronts).reshape(len(parts), len(y), len(x))
+
+
+def front_depth(body: Body, T: Array, view: View, rays: Array) -> Array:
+    """Depth at which each ray, coming from the eye, meets a solid; -inf where it misses."""
+    R = T[:3, :3]
+    toward = R.T @ view.axes[2]
+    starts = (rays @ view.axes[:2] - T[:3, 3]) @ R
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if body.shape == "sphere":
+            near = _quadric(starts, toward, np.ones(3), body.size[0])[1]
+        elif body.shape == "cylinder":
+            radius, length = body.size
+            low, high = _quadric(starts, toward, np.array([1.0, 1.0, 0.0]), radius)
+            caps = _slab(starts[:, 2], float(toward[2]), length / 2)
+            near = _overlap(low, high, *caps)
+        else:
+            slabs = [
+                _slab(starts[:, k], float(toward[k]), size / 2) for k, size in enumerate(body.size)
+            ]
+            low = np.max([s[0] for s in slabs], axis=0)
+            high = np.min([s[1] for s in slabs], axis=0)
+            near = np.where(high >= low, high, -np.inf)
+    return np.where(np.isnan(near), -np.inf, near)
+
+
+def _quadric(starts: Array, toward: Array, mask: Array, radius: float) -> tuple[Array, Array]:
+    """Interval of t with ``|mask * (start + t toward)| <= radius``; (inf, -inf) where none."""
+    s, v = starts * mask, toward * mask
+    a, b, c = float(v @ v), s @ v, (s * s).sum(axis=1) - radius * radius
+    if a < 1e-15:
+        inside = c <= 0
+        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
+    root = np.sqrt(b * b - a * c)
+    low, high = (-b - root) / a, (-b + root) / a
+    hit = np.isfinite(root)
+    return np.where(hit, low, np.inf), np.where(hit, high, -np.inf)
+
+
+def _slab(start: Array, toward: float, half: float) -> tuple[Array, Array]:
+    """Interval of t with ``|start + t toward| <= half``."""
+    if abs(toward) < 1e-15:
+        inside = np.abs(start) <= half
+        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
+    ends = np.sort(np.stack([(-half - start) / toward, (half - start) / toward]), axis=0)
+    return ends[0], ends[1]
+
+
+def _overlap(low: Array, high: Array, low2: Array, high2: Array) -> Array:
+    """Upper end of the common part of two intervals, -inf where there is none."""
+    far, near = np.maximum(low, low2), np.minimum(high, high2)
+    return np.where(near >= far, near, -np.inf)
