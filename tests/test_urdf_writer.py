@@ -145,9 +145,10 @@ def test_missing_limits_are_named():
     _, warnings = dh2urdf.conversions.dh_to_urdf.urdf_text_and_warnings(
         table, dh2urdf.UrdfOptions()
     )
+    far = "as far as the table's lengths sum to"
     assert warnings == (
         "joint_1: no limits in the table; written as +-2 pi rad",
-        "joint_2: no limits in the table; written as +-0.75 m, as far as the table's lengths sum to",
+        f"joint_2: no limits in the table; written as +-0.75 m, {far}",
     )
 
 
