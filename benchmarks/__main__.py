@@ -10,7 +10,17 @@ from pathlib import Path
 from benchmarks import machine
 from benchmarks.results import LATEST, Results
 
-WORK = ("forward", "inverse", "edges", "building", "scaling", "sweep", "memory", "processes")
+WORK = (
+    "forward",
+    "inverse",
+    "edges",
+    "building",
+    "breakdown",
+    "scaling",
+    "sweep",
+    "memory",
+    "processes",
+)
 
 
 def main() -> int:

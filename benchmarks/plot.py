@@ -67,7 +67,7 @@ def _solvers(results: Results, arm: Arm) -> list[tuple[Row, Row | None]]:
 def _panel(ax: Any, results: Results, arm: Arm, lines: int) -> None:
     solvers = _solvers(results, arm)
     ax.set_xscale("log")
-    ax.set_xlim(0.2, 100_000)
+    ax.set_xlim(0.1, 400_000)
     ax.set_ylim(lines - 0.4, -0.7)
     ax.set_yticks(range(len(solvers)), [one.contestant for one, _ in solvers], fontsize=8.5)
     ax.set_title(f"{arm.key.replace('_urdf', ' (URDF)')}: {arm.family}", loc="left", fontsize=9)

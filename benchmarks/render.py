@@ -59,6 +59,8 @@ def block(results: Results) -> str:
         "Solutions of edge poses that hold within 1e-8; a one-parameter family counts once where "
         "its members are recognised as one.",
         _table(("pose", *_edge_names(results)), _edge_rows(results)),
+        "What a call of ours is made of, per pose:",
+        _table(("arm", "part", "time"), _parts(results)),
         _provenance(results),
     ]
     return "\n\n".join(parts) + "\n"
@@ -215,6 +217,11 @@ def _edge_rows(results: Results) -> Iterator[tuple[str, ...]]:
         )
         if rows:
             yield (f"{edge.key}: {edge.words}", *counts)
+
+
+def _parts(results: Results) -> Iterator[tuple[str, ...]]:
+    for row in results.of("breakdown"):
+        yield row.arm, row.contestant, seconds(row.seconds)
 
 
 def _provenance(results: Results) -> str:
