@@ -6,7 +6,18 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-__all__ = ["URDFDOM", "Consumer", "Effect", "Finding", "Severity", "Verdict"]
+__all__ = [
+    "STRICT",
+    "URDFDOM",
+    "Consumer",
+    "Effect",
+    "Finding",
+    "Severity",
+    "Verdict",
+    "effect",
+    "misread",
+    "refuse",
+]
 
 
 class Consumer(StrEnum):
@@ -35,6 +46,9 @@ URDFDOM = (
     Consumer.RVIZ,
 )
 """Those that read a file through the library urdfdom, and so refuse the same ones."""
+
+STRICT = (*URDFDOM, Consumer.MUJOCO, Consumer.PYBULLET, Consumer.DRAKE)
+"""Those that look at a tree closely before they take it."""
 
 
 class Verdict(StrEnum):
@@ -113,3 +127,13 @@ def effect(consumers: Iterable[Consumer] | Consumer, verdict: Verdict, text: str
     """An effect on one consumer or several."""
     everyone = (consumers,) if isinstance(consumers, Consumer) else tuple(consumers)
     return Effect(everyone, verdict, text)
+
+
+def refuse(*consumers: Consumer, text: str = "") -> Effect:
+    """Some consumers give no model."""
+    return Effect(consumers, Verdict.REFUSES, text)
+
+
+def misread(*consumers: Consumer, text: str) -> Effect:
+    """Some consumers take the file for something else."""
+    return Effect(consumers, Verdict.MISREADS, text)

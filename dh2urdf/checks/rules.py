@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dh2urdf.checks import rules_geometry as geometry
 from dh2urdf.checks import rules_inertia as inertia
 from dh2urdf.checks import rules_joints as joints
+from dh2urdf.checks import rules_names as names
 from dh2urdf.checks import rules_numbers as numbers
 from dh2urdf.checks import rules_reading as reading
 from dh2urdf.checks import rules_tree as tree
@@ -19,13 +20,13 @@ from dh2urdf.checks.rounding import rounded_angle
 __all__ = ["RULES", "check_urdf"]
 
 RULES: dict[str, Callable[[Document], Iterator[Found]]] = {
-    "robot-name": tree.robot_name,
-    "version": tree.version,
+    "robot-name": names.robot_name,
+    "version": names.version,
     "no-links": tree.no_links,
-    "no-name": tree.no_name,
-    "duplicate-link": tree.duplicate_link,
-    "duplicate-joint": tree.duplicate_joint,
-    "joint-named-as-link": tree.joint_named_as_link,
+    "no-name": names.no_name,
+    "duplicate-link": names.duplicate_link,
+    "duplicate-joint": names.duplicate_joint,
+    "joint-named-as-link": names.joint_named_as_link,
     "joint-ends": tree.joint_ends,
     "unknown-child": tree.unknown_child,
     "unknown-parent": tree.unknown_parent,
@@ -35,7 +36,7 @@ RULES: dict[str, Callable[[Document], Iterator[Found]]] = {
     "several-roots": tree.several_roots,
     "joint-type": tree.joint_type,
     "many-degrees": tree.many_degrees,
-    "name-characters": tree.name_characters,
+    "name-characters": names.name_characters,
     "side-frame-first": tree.side_frame_first,
     "repeated-element": reading.repeated_element,
     "fused-frames": reading.fused_frames,
@@ -54,8 +55,8 @@ RULES: dict[str, Callable[[Document], Iterator[Found]]] = {
     "axis-missing": joints.axis_missing,
     "axis-zero": joints.axis_zero,
     "axis-not-unit": joints.axis_not_unit,
-    "mimic-leader": joints.mimic_leader,
-    "mimic": joints.mimic,
+    "mimic-leader": reading.mimic_leader,
+    "mimic": reading.mimic,
     "damping-negative": joints.damping_negative,
     "massless": inertia.massless,
     "massless-part": inertia.massless_part,

@@ -1,4 +1,4 @@
-"""Rules of joints: limits, axes, mimics, dynamics."""
+"""Rules of joints: limits, axes, dynamics."""
 
 from __future__ import annotations
 
@@ -20,8 +20,6 @@ __all__ = [
     "limit_reversed",
     "limit_without_bounds",
     "limit_zero",
-    "mimic",
-    "mimic_leader",
 ]
 
 BOUNDED = ("revolute", "prismatic")
@@ -233,65 +231,6 @@ def axis_not_unit(doc: Document) -> Iterator[Found]:
                 f"has length {length:.6g}",
                 (effect(movers, Verdict.MISREADS, text),),
                 f'write <axis xyz="{unit}"/>',
-            )
-
-
-def mimic_leader(doc: Document) -> Iterator[Found]:
-    """A <mimic> names another moving joint."""
-    for joint in doc.joints:
-        element = joint.find("mimic")
-        if element is None:
-            continue
-        leader = element.get("joint")
-        if leader is None:
-            yield Found(
-                element,
-                "names no joint",
-                (
-                    effect((*URDFDOM, Consumer.MUJOCO, Consumer.DRAKE), Verdict.REFUSES),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
-                ),
-                'write <mimic joint="..."/>',
-            )
-            continue
-        itself = leader == joint.get("name")
-        known = doc.joint_by_name.get(leader)
-        if itself or known is None or doc.kind(known) not in MOVING:
-            what = "the joint itself" if itself else f"{leader!r}, which is no moving joint"
-            yield Found(
-                element,
-                f"follows {what}",
-                (
-                    effect(Consumer.DRAKE, Verdict.REFUSES),
-                    effect(Consumer.MUJOCO, Verdict.REFUSES if itself else Verdict.COMPLAINS),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "takes the leader as 0"),
-                    effect(
-                        (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.IKPY),
-                        Verdict.ACCEPTS,
-                        "do not look at it",
-                    ),
-                ),
-                "mend the name of the joint that it follows",
-            )
-
-
-def mimic(doc: Document) -> Iterator[Found]:
-    """No joint follows another."""
-    for joint in doc.joints:
-        element = joint.find("mimic")
-        leader = None if element is None else doc.joint_by_name.get(element.get("joint", ""))
-        if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
-            yield Found(
-                element,
-                f"follows {leader.get('name')!r}",
-                (
-                    effect(
-                        (Consumer.PINOCCHIO, Consumer.PYBULLET, Consumer.KDL, Consumer.IKPY),
-                        Verdict.ACCEPTS,
-                        "move it on its own; Pinocchio follows when asked (mimic=True)",
-                    ),
-                ),
-                "couple the joints in your own program",
             )
 
 

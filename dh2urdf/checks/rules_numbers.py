@@ -166,8 +166,10 @@ def _overflows(word: str) -> bool:
 
 
 def negative_zero(doc: Document) -> Iterator[Found]:
-    """No number is a minus zero."""
+    """No number of a joint's origin or axis is a minus zero."""
     for element, key, _, words in _words(doc):
+        if element.tag not in ("origin", "axis") or _owner(element) != "joint":
+            continue
         minus = [w for w in words if w.startswith("-") and NUMBER.fullmatch(w) and float(w) == 0]
         if minus:
             yield Found(

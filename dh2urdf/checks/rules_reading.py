@@ -1,4 +1,4 @@
-"""Rules of how a file is read: elements given twice, links that are fused away."""
+"""Rules of how a file is read: elements given twice, links fused away, joints that follow."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from dh2urdf.checks.document import Document
-from dh2urdf.checks.findings import Consumer, Verdict, effect
+from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.findings import URDFDOM, Consumer, Verdict, effect
 from dh2urdf.checks.report import Found
 
-__all__ = ["fused_frames", "repeated_element"]
+__all__ = ["fused_frames", "mimic", "mimic_leader", "repeated_element"]
 
 ONCE = {
     "link": ("inertial",),
@@ -60,3 +60,62 @@ def fused_frames(doc: Document) -> Iterator[Found]:
             ),
             'add <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>',
         )
+
+
+def mimic_leader(doc: Document) -> Iterator[Found]:
+    """A <mimic> names another moving joint."""
+    for joint in doc.joints:
+        element = joint.find("mimic")
+        if element is None:
+            continue
+        leader = element.get("joint")
+        if leader is None:
+            yield Found(
+                element,
+                "names no joint",
+                (
+                    effect((*URDFDOM, Consumer.MUJOCO, Consumer.DRAKE), Verdict.REFUSES),
+                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
+                ),
+                'write <mimic joint="..."/>',
+            )
+            continue
+        itself = leader == joint.get("name")
+        known = doc.joint_by_name.get(leader)
+        if itself or known is None or doc.kind(known) not in MOVING:
+            what = "the joint itself" if itself else f"{leader!r}, which is no moving joint"
+            yield Found(
+                element,
+                f"follows {what}",
+                (
+                    effect(Consumer.DRAKE, Verdict.REFUSES),
+                    effect(Consumer.MUJOCO, Verdict.REFUSES if itself else Verdict.COMPLAINS),
+                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "takes the leader as 0"),
+                    effect(
+                        (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.IKPY),
+                        Verdict.ACCEPTS,
+                        "do not look at it",
+                    ),
+                ),
+                "mend the name of the joint that it follows",
+            )
+
+
+def mimic(doc: Document) -> Iterator[Found]:
+    """No joint follows another."""
+    for joint in doc.joints:
+        element = joint.find("mimic")
+        leader = None if element is None else doc.joint_by_name.get(element.get("joint", ""))
+        if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
+            yield Found(
+                element,
+                f"follows {leader.get('name')!r}",
+                (
+                    effect(
+                        (Consumer.PINOCCHIO, Consumer.PYBULLET, Consumer.KDL, Consumer.IKPY),
+                        Verdict.ACCEPTS,
+                        "move it on its own; Pinocchio follows when asked (mimic=True)",
+                    ),
+                ),
+                "couple the joints in your own program",
+            )

@@ -7,68 +7,33 @@ from collections.abc import Iterator
 from lxml import etree
 
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.findings import (
+    STRICT,
+    URDFDOM,
+    Consumer,
+    Effect,
+    Verdict,
+    effect,
+    misread,
+    refuse,
+)
 from dh2urdf.checks.report import Found
 
 __all__ = [
-    "duplicate_joint",
-    "duplicate_link",
     "joins_itself",
     "joint_ends",
-    "joint_named_as_link",
     "joint_type",
     "loop",
     "many_degrees",
-    "name_characters",
     "no_links",
-    "no_name",
-    "robot_name",
     "several_roots",
     "side_frame_first",
     "two_parents",
     "unknown_child",
     "unknown_parent",
-    "version",
 ]
 
 KINDS = (*MOVING, "fixed", "floating", "planar")
-
-STRICT = (*URDFDOM, Consumer.MUJOCO, Consumer.PYBULLET, Consumer.DRAKE)
-
-
-def _refuse(*consumers: Consumer, text: str = "") -> Effect:
-    return effect(consumers, Verdict.REFUSES, text)
-
-
-def _misread(*consumers: Consumer, text: str) -> Effect:
-    return effect(consumers, Verdict.MISREADS, text)
-
-
-def robot_name(doc: Document) -> Iterator[Found]:
-    """<robot> has a name."""
-    if not doc.root.get("name"):
-        refusing = (*URDFDOM, Consumer.YOURDFPY, Consumer.PYBULLET, Consumer.DRAKE)
-        yield Found(
-            doc.root,
-            "the robot has no name",
-            (_refuse(*refusing),),
-            'write <robot name="...">',
-        )
-
-
-def version(doc: Document) -> Iterator[Found]:
-    """The version of the format is one that urdfdom knows."""
-    text = doc.root.get("version")
-    if text is not None and text not in ("1.0", "1.1", "1.2", "1"):
-        yield Found(
-            doc.root,
-            f'version="{text}" is no version of URDF',
-            (
-                _refuse(*URDFDOM),
-                effect(Consumer.DRAKE, Verdict.COMPLAINS, "ignores the attribute"),
-            ),
-            "leave the attribute out, or write 1.0",
-        )
 
 
 def no_links(doc: Document) -> Iterator[Found]:
@@ -77,83 +42,9 @@ def no_links(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.root,
             "the robot has no links",
-            (_refuse(*URDFDOM, Consumer.PYBULLET, Consumer.IKPY),),
+            (refuse(*URDFDOM, Consumer.PYBULLET, Consumer.IKPY),),
             "is this the right file, or a xacro that was not expanded?",
         )
-
-
-def no_name(doc: Document) -> Iterator[Found]:
-    """Every link and joint has a name."""
-    everyone = (*STRICT, Consumer.YOURDFPY, Consumer.IKPY)
-    for element in (*doc.links, *doc.joints):
-        if element.get("name") is None:
-            effects: tuple[Effect, ...] = (_refuse(*everyone),)
-        elif not element.get("name"):
-            effects = (
-                _refuse(Consumer.PYBULLET),
-                effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
-            )
-        else:
-            continue
-        yield Found(element, "has no name", effects, 'write name="..."')
-
-
-def _repeated(elements: list[etree._Element]) -> Iterator[etree._Element]:
-    seen: set[str] = set()
-    for element in elements:
-        name = element.get("name")
-        if name and name in seen:
-            yield element
-        seen.add(str(name))
-
-
-def duplicate_link(doc: Document) -> Iterator[Found]:
-    """No two links share a name."""
-    for link in _repeated(doc.links):
-        yield Found(
-            link,
-            "a second link of this name",
-            (
-                _refuse(*STRICT),
-                _misread(Consumer.YOURDFPY, Consumer.IKPY, text="take one and drop the other"),
-            ),
-            "rename one of them",
-        )
-
-
-def duplicate_joint(doc: Document) -> Iterator[Found]:
-    """No two joints share a name."""
-    for joint in _repeated(doc.joints):
-        yield Found(
-            joint,
-            "a second joint of this name",
-            (
-                _refuse(*URDFDOM, Consumer.DRAKE),
-                _refuse(Consumer.PYBULLET, text="crashes"),
-                _misread(
-                    Consumer.YOURDFPY, Consumer.MUJOCO, text="take the file; one shadows the other"
-                ),
-            ),
-            "rename one of them",
-        )
-
-
-def joint_named_as_link(doc: Document) -> Iterator[Found]:
-    """No joint has the name of a link."""
-    for joint in doc.joints:
-        if joint.get("name") in doc.link_by_name:
-            yield Found(
-                joint,
-                "a link has this name too",
-                (
-                    effect(
-                        Consumer.PINOCCHIO,
-                        Verdict.ACCEPTS,
-                        "getFrameId without a FrameType raises on the name",
-                    ),
-                ),
-                "name the joint otherwise, such as ..._joint",
-            )
 
 
 def joint_ends(doc: Document) -> Iterator[Found]:
@@ -165,7 +56,7 @@ def joint_ends(doc: Document) -> Iterator[Found]:
                 yield Found(
                     joint,
                     f"has no <{tag}>",
-                    (_refuse(*everyone),),
+                    (refuse(*everyone),),
                     f'write <{tag} link="..."/>',
                 )
 
@@ -184,8 +75,8 @@ def unknown_child(doc: Document) -> Iterator[Found]:
             joint,
             message,
             (
-                _refuse(*STRICT, Consumer.YOURDFPY),
-                _misread(Consumer.IKPY, text="takes the joint as a link of its chain"),
+                refuse(*STRICT, Consumer.YOURDFPY),
+                misread(Consumer.IKPY, text="takes the joint as a link of its chain"),
             ),
             "mend the name, or add the link",
         )
@@ -198,8 +89,8 @@ def unknown_parent(doc: Document) -> Iterator[Found]:
             joint,
             message,
             (
-                _refuse(*STRICT),
-                _misread(Consumer.YOURDFPY, Consumer.IKPY, text="take the file all the same"),
+                refuse(*STRICT),
+                misread(Consumer.YOURDFPY, Consumer.IKPY, text="take the file all the same"),
             ),
             "mend the name, or add the link",
         )
@@ -213,9 +104,9 @@ def joins_itself(doc: Document) -> Iterator[Found]:
                 joint,
                 f"joins {doc.end(joint, 'child')!r} to itself",
                 (
-                    _refuse(Consumer.CHECK_URDF, Consumer.IKPY, text="do not come back"),
-                    _refuse(Consumer.PYBULLET, text="crashes"),
-                    _refuse(Consumer.PINOCCHIO, Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                    refuse(Consumer.CHECK_URDF, Consumer.IKPY, text="do not come back"),
+                    refuse(Consumer.PYBULLET, text="crashes"),
+                    refuse(Consumer.PINOCCHIO, Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
                 ),
                 "mend its parent or its child",
             )
@@ -231,10 +122,10 @@ def two_parents(doc: Document) -> Iterator[Found]:
                 joint,
                 f"{child!r} hangs on joint {above[child]!r} already; a URDF is a tree",
                 (
-                    _refuse(Consumer.PYBULLET, text="crashes"),
-                    _refuse(Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
-                    _refuse(Consumer.PINOCCHIO, text="or misreads, as the names fall"),
-                    _misread(Consumer.CHECK_URDF, text="takes the file as a tree without a word"),
+                    refuse(Consumer.PYBULLET, text="crashes"),
+                    refuse(Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                    refuse(Consumer.PINOCCHIO, text="or misreads, as the names fall"),
+                    misread(Consumer.CHECK_URDF, text="takes the file as a tree without a word"),
                 ),
                 "cut one of the joints; closed loops need SDF or MJCF",
             )
@@ -257,8 +148,8 @@ def loop(doc: Document) -> Iterator[Found]:
             circle[0],
             f"joints form a loop: {names}",
             (
-                _refuse(*STRICT, Consumer.IKPY),
-                _misread(Consumer.YOURDFPY, text="takes the file all the same"),
+                refuse(*STRICT, Consumer.IKPY),
+                misread(Consumer.YOURDFPY, text="takes the file all the same"),
             ),
             "cut one of the joints; closed loops need SDF or MJCF",
         )
@@ -273,11 +164,11 @@ def several_roots(doc: Document) -> Iterator[Found]:
             doc.link_by_name[name],
             f"hangs on nothing, and so does {loose[0]!r}",
             (
-                _refuse(*URDFDOM),
-                _refuse(Consumer.PYBULLET, text="crashes"),
+                refuse(*URDFDOM),
+                refuse(Consumer.PYBULLET, text="crashes"),
                 effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "hangs it on the base"),
-                _misread(Consumer.DRAKE, text="leaves it floating"),
-                _misread(Consumer.MUJOCO, text="welds it to the world"),
+                misread(Consumer.DRAKE, text="leaves it floating"),
+                misread(Consumer.MUJOCO, text="welds it to the world"),
             ),
             "join it by a fixed joint, or drop it",
         )
@@ -292,9 +183,9 @@ def joint_type(doc: Document) -> Iterator[Found]:
                 joint,
                 f"type {kind!r} is none of {', '.join(KINDS)}" if kind else "has no type",
                 (
-                    _refuse(*STRICT, Consumer.IKPY)
+                    refuse(*STRICT, Consumer.IKPY)
                     if kind != "spherical"
-                    else _refuse(*URDFDOM, Consumer.DRAKE, Consumer.IKPY),
+                    else refuse(*URDFDOM, Consumer.DRAKE, Consumer.IKPY),
                     effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
                 ),
                 "a ball joint is three revolute joints; all else is one of the types above",
@@ -309,11 +200,11 @@ def many_degrees(doc: Document) -> Iterator[Found]:
                 joint,
                 "has six degrees of freedom",
                 (
-                    _refuse(Consumer.IKPY),
+                    refuse(Consumer.IKPY),
                     *([] if doc.end(joint, "parent") in doc.roots else [_below_top()]),
                     effect(Consumer.DRAKE, Verdict.COMPLAINS, "leaves the child a free body"),
                     effect(Consumer.PYBULLET, Verdict.COMPLAINS, "makes it a fixed joint"),
-                    _misread(Consumer.KDL, text="makes it a fixed joint"),
+                    misread(Consumer.KDL, text="makes it a fixed joint"),
                 ),
                 "fix the base, and let the program that loads the file free it",
             )
@@ -322,36 +213,15 @@ def many_degrees(doc: Document) -> Iterator[Found]:
                 joint,
                 "has three degrees of freedom",
                 (
-                    _refuse(Consumer.IKPY),
-                    _misread(Consumer.KDL, text="makes it a fixed joint"),
+                    refuse(Consumer.IKPY),
+                    misread(Consumer.KDL, text="makes it a fixed joint"),
                 ),
                 "write two prismatic joints and a revolute one",
             )
 
 
 def _below_top() -> Effect:
-    return _refuse(Consumer.MUJOCO, text="refuses one below the top of the tree")
-
-
-def name_characters(doc: Document) -> Iterator[Found]:
-    """Names are of letters, digits and underscores."""
-    for element in (*doc.links, *doc.joints):
-        name = str(element.get("name", ""))
-        odd = [c for c in dict.fromkeys(name) if not (c.isascii() and (c.isalnum() or c in "_-."))]
-        if odd:
-            yield Found(
-                element,
-                f"the name holds {' '.join(map(repr, odd))}",
-                (
-                    effect(
-                        (Consumer.MOVEIT, Consumer.IKFAST),
-                        Verdict.ACCEPTS,
-                        "names become ROS parameters, topics and C++ identifiers",
-                    ),
-                    effect(Consumer.RVIZ, Verdict.ACCEPTS, "frame names of tf hold no slashes"),
-                ),
-                "keep to ASCII letters, digits and underscores",
-            )
+    return refuse(Consumer.MUJOCO, text="refuses one below the top of the tree")
 
 
 def side_frame_first(doc: Document) -> Iterator[Found]:
