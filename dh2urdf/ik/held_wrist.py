@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from collections.abc import Callable
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -109,6 +110,17 @@ class HeldWrist(HeldSolver):
         meet = self.form.rows[0, 0] == 0.0 and self.form.rows[0, 2] != 0.0
         return bool(meet and self.which[4] != 0)
 
+    @cached_property
+    def kernel(self) -> Callable[..., None]:
+        """The fastest kernel that covers the geometry."""
+        from dh2urdf.kernels.held_wrist import solve_held_wrist
+        from dh2urdf.kernels.held_wrist_blocks import solve_held_blocks
+
+        rows, varies = self.form.rows, self.which[4]
+        orthogonal = rows[3, 1] == rows[4, 1] == 0.0
+        blocks = self.one_by_one and orthogonal and varies in (-1, 1) and rows[0, 3] == 0.0
+        return solve_held_blocks if blocks else solve_held_wrist
+
     def details(self) -> str:
         """Name the family and its axes."""
         seen = "seen from the tool, " if self.which[2] else ""
@@ -126,9 +138,7 @@ class HeldWrist(HeldSolver):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one jitted call."""
-        from dh2urdf.kernels.held_wrist import solve_held_wrist
-
-        solve_held_wrist(
+        self.kernel(
             self.frames,
             self.which,
             self.rows,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -117,6 +118,7 @@ class NearFamily(SolverBase):
         finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
 
 
+@lru_cache(maxsize=4)
 def _match(chain: SerialChain) -> _Match | None:
     """The family that is nearest to the chain; None where none is near."""
     if not _candidates(AxisLines(chain, NEAR[-1])):
