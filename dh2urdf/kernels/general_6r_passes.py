@@ -58,8 +58,17 @@ CONVERGED = 2e-15
 """Error at which a lane is not polished further, relative to the arm's size."""
 
 MOST_STEPS = 40
+DAMPED_STEPS = 12
+"""Damped steps before undamped ones: those are safer, these more precise."""
+
 SAME = 1e-6
 """Solutions closer than this [rad] are one."""
+
+SHARP = 1e-13
+"""Residual above which a solution has not converged: it lies beside a double one."""
+
+VALLEY = 100.0
+"""Distance [rad] to the double solution, in square roots of such a residual."""
 
 SINGULAR = 1e-6
 """Determinant of the Jacobian, in parts of size cubed, below which a solution is singular."""
@@ -268,15 +277,20 @@ def _polish(links, size, lanes, damped, work):
         going = 0
         for k in range(lanes):
             now = max(position[k], angle[k])
-            if now > goal and (step < 6 or now < 0.7 * before[k]):
+            if now <= goal:
+                for i in range(6):
+                    error[i * LANES + k] = 0.0
+            elif step < 6 or step == DAMPED_STEPS or now < 0.7 * before[k]:
                 going += 1
             before[k] = now
         if (going == 0 and step > 0) or step == MOST_STEPS:
             break
+        if step == DAMPED_STEPS:
+            damped = 0
         newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines)
     for k in range(lanes):
-        size_of = abs(scale[k])
-        scale[k] = math.sqrt(size_of) if damped == 1 else size_of * weight * weight * weight
+        product = abs(scale[k])
+        scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
 
 
 @vector_kernel
@@ -297,14 +311,14 @@ def _place(size, k, found, out_q, out_residual, work):
         return found, -1
     for i in range(6):
         q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
-    near = max(SAME, 10.0 * math.sqrt(residual))
     place, singular, members = found, -1, 0
     for f in range(found):
         far = 0.0
         for i in range(6):
             d = abs(q[i] - out_q[f, i])
             far = max(far, min(d, 2.0 * math.pi - d))
-        if far < near:
+        loose = max(residual, out_residual[f])
+        if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
             place = f
             break
         if kept[f] < SINGULAR:
