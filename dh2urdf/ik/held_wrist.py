@@ -119,7 +119,8 @@ class HeldWrist(HeldSolver):
         rows, varies = self.form.rows, self.which[4]
         orthogonal = rows[3, 1] == rows[4, 1] == 0.0
         blocks = self.one_by_one and orthogonal and varies in (-1, 1) and rows[0, 3] == 0.0
-        return solve_held_blocks if blocks else solve_held_wrist
+        fastest: Callable[..., None] = solve_held_blocks if blocks else solve_held_wrist
+        return fastest
 
     def details(self) -> str:
         """Name the family and its axes."""

@@ -235,12 +235,12 @@ def _same(joints, q, p, reach):
 
 
 @inner_kernel
-def _into_limits(links, joints, T, q, residual, free):
+def _into_limits(links, joints, T, within_limits, q, residual, free):
     """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual, or -1.0 if outside.
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
     still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
-    A free joint may be outside: another member of its family may not.
+    Nothing is put on a bound where the limits do not count. A free joint may be outside: another member of its family may not.
     """
     inside, moved = True, False
     for i in range(q.shape[0]):
@@ -260,7 +260,7 @@ def _into_limits(links, joints, T, q, residual, free):
                 moved = True
     if not inside:
         return -1.0
-    if not moved:
+    if not moved or not within_limits:
         return residual
     for i in range(q.shape[0]):
         if not (free >> i) & 1:
@@ -329,7 +329,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             _move(q, residual, branch, free, kept, twin)
     solutions = 0
     for k in range(kept):
-        certified = _into_limits(links, joints, T, q[k], residual[k], free[k])
+        certified = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
         if certified < 0.0 and within_limits:
             continue
         if certified >= 0.0:

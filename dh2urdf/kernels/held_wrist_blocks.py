@@ -1,10 +1,10 @@
-"""Seven joints, one held, vectorised: axes 1 and 2 of the oriented arm meet, the wrist is orthogonal.
+"""Seven joints, one held, vectorised: axes 1 and 2 meet, the wrist is orthogonal.
 
-The same mathematics as :mod:`dh2urdf.kernels.held_wrist` where axes 1 and 2 meet: the distance of
-the wrist centre from their point gives joint 3 (subproblem 3), its height over axis 2 joint 1
-(subproblem 4), then joint 2 (subproblem 1) and the wrist's ZYZ angles. Poses near singularities
-and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3 ``k >> 1 & 1``, wrist
-``k >> 2``.
+The same mathematics as :mod:`dh2urdf.kernels.held_wrist` where axes 1 and 2 of the oriented arm
+meet: the distance of the wrist centre from their point gives joint 3 (subproblem 3), its height
+over axis 2 joint 1 (subproblem 4), then joint 2 (subproblem 1) and the wrist's ZYZ angles. Poses
+near singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3
+``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
 from __future__ import annotations
