@@ -53,6 +53,16 @@ ARMS = {
         ((0, 0, HALF), (0.3, 0.1, HALF), (0, 0.5, 0), (0, 0.1, HALF), (0.2, 0, 0)),
         2,
     ),
+    "gantry with an offset wrist": (
+        "PPPRRR",
+        ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0.1, HALF), (0.2, 0.05, 0.9), (0.1, 0, 0)),
+        2,
+    ),
+    "slides between turns": (
+        "RPRPRP",
+        ((0.1, 0, HALF), (0, 0.1, 0.8), (0, 0.2, HALF), (0, 0.1, HALF), (0, 0.3, 1.0), (0, 0, 0)),
+        2,
+    ),
 }
 """Kinds, Denavit-Hartenberg steps (d, a, alpha), most solutions."""
 
@@ -172,6 +182,8 @@ def test_count_equals_that_of_a_search(name):
 def test_infeasible_poses_give_nothing(name):
     """A pose that fewer than six joints cannot take, by 1e-6, has no solution."""
     chain = named(name)
+    if chain.n == 6:
+        pytest.skip("six joints take every pose near a regular one")
     rng = np.random.default_rng(8)
     for q in referee.draw(chain, 50, 8):
         T = referee.forward(chain, q)

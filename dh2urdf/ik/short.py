@@ -12,9 +12,11 @@ from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["ShortChain"]
+__all__ = ["ShortChain", "ThreeSlides"]
 
 MOST_JOINTS = 5
+
+SLIDES = 3
 
 CUTS = (0, 1, 1, 3, 2, 5)
 """Different ways to cut the loop of 0 to 5 joints."""
@@ -66,8 +68,8 @@ class ShortChain(SolverBase):
         self.unit = chain.size
         self.loop = _loop_links(self.links, self.unit)
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
-        cuts = 0 if chain.n == 5 and chain.prismatic.sum() == 3 else CUTS[chain.n]
-        shapes = np.array([_shape(chain.prismatic, s) for s in range(cuts)], np.int64)
+        cuts = range(self.cuts(chain))
+        shapes = np.array([_shape(chain.prismatic, s) for s in cuts], np.int64)
         used = np.array([_slots(chain.prismatic, shape) for shape in shapes])
         qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
         best = sorted(range(len(shapes)), key=lambda s: qualities[s])
@@ -82,15 +84,20 @@ class ShortChain(SolverBase):
             return f"it solves for the full pose, not for {task.value}"
         if chain.n > MOST_JOINTS:
             return f"it needs at most {MOST_JOINTS} joints, the chain has {chain.n}"
+        if chain.n == MOST_JOINTS and chain.prismatic.sum() == SLIDES:
+            return "three of five joints slide, which decouples them from the others"
         if spare_joints(chain, task):
             return "some joints can move while the tool stays"
         return None
 
+    @classmethod
+    def cuts(cls, chain: SerialChain) -> int:
+        """Number of ways to cut the loop that are compared."""
+        return CUTS[chain.n]
+
     def details(self) -> str:
         """Name the pairs of joints and what is solved."""
         kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
-        if not len(self.shapes):
-            return f"{kinds}; two joints from the orientation, three slides from a linear system"
         a, b, x, c, d = (int(i) for i in self.shapes[0, :5])
         pairs = [", ".join(str(i + 1) for i in pair if i >= 0) for pair in ((a, b), (c, d))]
         text = f"{kinds}; the closed loop cut into joints {' | '.join(p for p in pairs if p)}"
@@ -154,6 +161,37 @@ class ShortChain(SolverBase):
             count_out,
             branch_out,
             free_out,
+        )
+
+
+class ThreeSlides(ShortChain):
+    """Three sliding joints and two or three turning ones: the orientation is solved first."""
+
+    name = "three slides"
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps orientation and position from being decoupled; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n not in (5, 6) or chain.prismatic.sum() != SLIDES:
+            return "it needs three sliding joints and two or three turning ones"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool stays"
+        return None
+
+    @classmethod
+    def cuts(cls, chain: SerialChain) -> int:
+        """No loop is cut."""
+        return 0
+
+    def details(self) -> str:
+        """Name the kinds of joints and what is solved."""
+        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
+        turning = [str(i + 1) for i in np.flatnonzero(~self.chain.prismatic)]
+        return (
+            f"{kinds}; joints {', '.join(turning)} from the orientation alone, "
+            "the slides from three linear equations"
         )
 
 

@@ -198,6 +198,12 @@ SOLVERS: tuple[SolverRow, ...] = (
         "PlanarArm",
     ),
     SolverRow(
+        "three slides",
+        "three sliding joints and two or three turning ones",
+        "dh2urdf.ik.short",
+        "ThreeSlides",
+    ),
+    SolverRow(
         "short chain",
         "one to five joints of any kind, each of which moves the tool",
         "dh2urdf.ik.short",

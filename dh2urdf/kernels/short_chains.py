@@ -26,7 +26,7 @@ from dh2urdf.kernels.short_loop import (
     loop_matrix,
     null_basis,
 )
-from dh2urdf.kernels.three_slides import three_slides
+from dh2urdf.kernels.three_slides import SLIDE_ROWS, three_slides
 from dh2urdf.kernels.trig import trig_roots
 
 __all__ = ["close_loop", "solve_short_chains"]
@@ -174,7 +174,7 @@ def solve_short_chains(
     branch,
     free,
 ):
-    """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
+    """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints, or of six of which three slide.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def solve_short_chains(
         Dual quaternions of the links between the joints; the last row is written here.
     shapes : int64 array, shape (s, 8)
         Cuts of the loop, best first, see ``add_candidates``; last the nullity to expect. None
-        for five joints of which three slide.
+        where three joints slide.
     used : int64 array, shape (s, columns)
         Slots that each way has.
     rest_unit : array, shape (n + 1,)
@@ -199,7 +199,8 @@ def solve_short_chains(
     work = work_array(n)
     loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, 5))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
-    order, slides = np.empty(8, np.int64), np.empty((8, 3))
+    order, turning = np.empty(8, np.int64), np.empty(3, np.int64)
+    slides = np.empty((SLIDE_ROWS, 4))
     many_q, many_residual = np.empty((FEW, n)), np.empty(FEW)
     many_branch, many_free = np.empty(FEW, np.int64), np.empty(FEW, np.int64)
     rest, unit = rest_unit[:n], rest_unit[n]
@@ -208,8 +209,9 @@ def solve_short_chains(
         close_loop(ends, T, unit, pose, loop)
         found, doubt = 0, False
         if shapes.shape[0] == 0:
-            found = three_slides(links, joints, T, many_q[0], slides)
-            many_residual[0], many_branch[0], many_free[0] = -1.0, -1, 0
+            found = three_slides(links, joints, T, many_q, turning, slides)
+            for k in range(found):
+                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
             found = finish_pose(
                 links, joints, T, False, many_q, many_residual, many_branch, many_free, found, work
             )

@@ -1,4 +1,8 @@
-"""Five joints of which three slide: the two turning ones follow from the orientation alone."""
+"""Three joints slide: the turning ones, three at most, follow from the orientation alone.
+
+``R_0 Rz(q_i) R_1 Rz(q_j) R_2 Rz(q_k) R_3 = R``; then ``sum z_s q_s = p - p(0)``, three linear
+equations, gives the slides.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,10 @@ import math
 
 from numba import njit
 
-from dh2urdf.kernels.chain import _joint_times_link, _load
+from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.trig import linear_trig
 
-__all__ = ["three_slides"]
+__all__ = ["SLIDE_ROWS", "three_slides"]
 
 FLAT = 1e-7
 """Volume of three unit directions that lie in a plane, to rounding of a table's angles."""
@@ -16,101 +21,138 @@ FLAT = 1e-7
 DAMPING = 1e-10
 """Added to the normal equations of slides in a plane; Newton removes what it leaves, 1e-10."""
 
+SLACK = 1e-6
+"""Relative excess over a rim that is clamped; the residual decides."""
+
+IN_LINE = 1e-10
+"""Sine of the middle angle at which only the sum or difference of the outer two is known."""
+
+SLIDE_ROWS = 26
+"""Rows of scratch: four links and the middle rotation, 4 x 4; the slides' equations."""
+
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def three_slides(links, joints, T, q, columns):
-    """The only candidate configuration, written to q (5,).
+def _turning_links(links, joints, turning, scratch):
+    """Products of the links between the turning joints, to rows of scratch; how many turn."""
+    count = 0
+    r = _load(links[0])
+    for i in range(joints.shape[0]):
+        if joints[i, 0] == 0.0:
+            _store(r, scratch[4 * count : 4 * count + 4])
+            turning[count] = i
+            count += 1
+            r = _load(links[i + 1])
+        else:
+            r = _joint_times_link(r, False, 0.0, links[i + 1])
+    _store(r, scratch[4 * count : 4 * count + 4])
+    return count
 
-    With ``R_0 Rz(q_i) R_1 Rz(q_j) R_2 = R``: the z axis of ``B = R_0^T R R_2^T`` is that of
-    ``Rz(q_i) R_1``, its last row that of ``R_1 Rz(q_j)``. The slides then solve
-    ``sum z_k q_k = p - p(0)``, three linear equations.
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _between(A, T, C, B):
+    """``B = A^T R C^T`` of rotations, to the upper left of B (4, 4)."""
+    for i in range(3):
+        u0 = A[0, i] * T[0, 0] + A[1, i] * T[1, 0] + A[2, i] * T[2, 0]
+        u1 = A[0, i] * T[0, 1] + A[1, i] * T[1, 1] + A[2, i] * T[2, 1]
+        u2 = A[0, i] * T[0, 2] + A[1, i] * T[1, 2] + A[2, i] * T[2, 2]
+        for j in range(3):
+            B[i, j] = u0 * C[j, 0] + u1 * C[j, 1] + u2 * C[j, 2]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _turned(first, cosine, sine, second, out):
+    """``first Rz second`` of rotations, to the upper left of out."""
+    for i in range(3):
+        a = first[i, 0] * cosine + first[i, 1] * sine
+        b = first[i, 1] * cosine - first[i, 0] * sine
+        for j in range(3):
+            out[i, j] = a * second[0, j] + b * second[1, j] + first[i, 2] * second[2, j]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _outer(M, B):
+    """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
+    across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
+    if across <= IN_LINE * IN_LINE:
+        c = M[0, 0] * B[0, 0] + M[1, 0] * B[1, 0]
+        s = M[0, 1] * B[0, 0] + M[1, 1] * B[1, 0]
+        return 0.0, math.atan2(s, c)
+    x = math.atan2(B[1, 2] * M[0, 2] - B[0, 2] * M[1, 2], B[0, 2] * M[0, 2] + B[1, 2] * M[1, 2])
+    y = math.atan2(M[2, 1] * B[2, 0] - M[2, 0] * B[2, 1], M[2, 0] * B[2, 0] + M[2, 1] * B[2, 1])
+    return x, y
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def three_slides(links, joints, T, q, turning, scratch):
+    """Candidate configurations of a pose, at most two, in the first rows of q.
 
     Parameters
     ----------
     links, joints, T
         See :func:`dh2urdf.kernels.certify.finish_pose`.
-    q : array, shape (5,), out
-    columns : array, shape (8, 3), scratch
-        Directions of the slides and the way to go.
+    q : array, shape (>= 2, n), out
+    turning : int64 array, shape (3,), scratch
+    scratch : array, shape (SLIDE_ROWS, 4)
 
     Returns
     -------
     int
-        1. Where the slides lie in a plane they move as little as possible.
+        Number of candidates.
     """
-    first, second = -1, -1
-    before = _load(links[0])
-    between = before
-    after = before
-    for i in range(5):
-        if joints[i, 0] != 0.0:
-            turn = False
-        elif first < 0:
-            first, turn = i, True
-            between = _load(links[i + 1])
-        else:
-            second, turn = i, True
-            after = _load(links[i + 1])
-        q[i] = 0.0
-        if turn:
-            continue
-        if first < 0:
-            before = _joint_times_link(before, False, 0.0, links[i + 1])
-        elif second < 0:
-            between = _joint_times_link(between, False, 0.0, links[i + 1])
-        else:
-            after = _joint_times_link(after, False, 0.0, links[i + 1])
-    b02, b12, b20, b21 = _middle_rotation(before, T, after)
-    m02, m12, m20, m21 = between[2], between[6], between[8], between[9]
-    q[first] = math.atan2(b12 * m02 - b02 * m12, b02 * m02 + b12 * m12)
-    q[second] = math.atan2(m21 * b20 - m20 * b21, m20 * b20 + m21 * b21)
-    return _slides(links, joints, T, q, columns)
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _middle_rotation(a, T, b):
-    """Entries 02, 12, 20, 21 of ``A^T R B^T`` for poses a, b of twelve scalars."""
-    u0 = b[8] * T[0, 0] + b[9] * T[0, 1] + b[10] * T[0, 2]
-    u1 = b[8] * T[1, 0] + b[9] * T[1, 1] + b[10] * T[1, 2]
-    u2 = b[8] * T[2, 0] + b[9] * T[2, 1] + b[10] * T[2, 2]
-    v0 = a[2] * T[0, 0] + a[6] * T[1, 0] + a[10] * T[2, 0]
-    v1 = a[2] * T[0, 1] + a[6] * T[1, 1] + a[10] * T[2, 1]
-    v2 = a[2] * T[0, 2] + a[6] * T[1, 2] + a[10] * T[2, 2]
-    return (
-        a[0] * u0 + a[4] * u1 + a[8] * u2,
-        a[1] * u0 + a[5] * u1 + a[9] * u2,
-        v0 * b[0] + v1 * b[1] + v2 * b[2],
-        v0 * b[4] + v1 * b[5] + v2 * b[6],
+    count = _turning_links(links, joints, turning, scratch)
+    B, M = scratch[16:20], scratch[12:16]
+    if count == 0:
+        return _slides(links, joints, T, q[0], scratch[18:26])
+    _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
+    if count == 1:
+        q[0, turning[0]] = math.atan2(B[1, 0], B[0, 0])
+        return _slides(links, joints, T, q[0], scratch[18:26])
+    if count == 2:
+        q[0, turning[0]], q[0, turning[1]] = _outer(scratch[4:8], B)
+        return _slides(links, joints, T, q[0], scratch[18:26])
+    first, second = scratch[4:8], scratch[8:12]
+    found, c1, s1, c2, s2 = linear_trig(
+        first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2],
+        first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2],
+        B[2, 2] - first[2, 2] * second[2, 2],
+        SLACK,
     )
+    for k in range(found):
+        c, s = (c1, s1) if k == 0 else (c2, s2)
+        _turned(first, c, s, second, M)
+        q[k, turning[1]] = math.atan2(s, c)
+        q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
+    for k in range(found):
+        _slides(links, joints, T, q[k], scratch[18:26])
+    return max(found, 0)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _slides(links, joints, T, q, columns):
-    """Solve for the slides with the turning joints known and the slides at zero."""
+    """Solve for the slides of q (n,) with its turning joints known; 1.
+
+    Where the slides lie in a plane they move as little as possible.
+    """
     r = _load(links[0])
     k = 0
-    for i in range(5):
-        if joints[i, 0] != 0.0:
+    for i in range(q.shape[0]):
+        slides = joints[i, 0] != 0.0
+        if slides:
             columns[k, 0], columns[k, 1], columns[k, 2] = r[2], r[6], r[10]
             k += 1
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = _joint_times_link(r, slides, 0.0 if slides else q[i], links[i + 1])
     columns[3, 0], columns[3, 1], columns[3, 2] = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
-    out = columns[4:8]
     volume = _volume(columns[0], columns[1], columns[2])
     if abs(volume) < FLAT:
-        _least_motion(columns, out)
-        volume = _volume(out[0], out[1], out[2])
-        columns = out
+        _least_motion(columns, columns[4:8])
+        columns = columns[4:8]
+        volume = _volume(columns[0], columns[1], columns[2])
     k = 0
-    for i in range(5):
+    for i in range(q.shape[0]):
         if joints[i, 0] != 0.0:
-            a, b, c = columns[0], columns[1], columns[2]
-            if k == 0:
-                a = columns[3]
-            elif k == 1:
-                b = columns[3]
-            else:
-                c = columns[3]
+            a = columns[3] if k == 0 else columns[0]
+            b = columns[3] if k == 1 else columns[1]
+            c = columns[3] if k == 2 else columns[2]
             q[i] = _volume(a, b, c) / volume
             k += 1
     return 1

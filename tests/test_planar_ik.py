@@ -1,0 +1,167 @@
+"""The notes' section 8: planar arms in closed form, the wrist centre, the ZYZ angles."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from dh_product import dh_frames
+from hypothesis import given
+from hypothesis import strategies as st
+
+import dh2urdf
+from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.ik.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+
+LENGTHS = st.floats(0.05, 3.0)
+ANGLES = st.floats(-math.pi, math.pi)
+
+
+def tip(lengths, angles):
+    """End of a planar arm, written out."""
+    total, x, y = 0.0, 0.0, 0.0
+    for length, angle in zip(lengths, angles, strict=True):
+        total += angle
+        x, y = x + length * math.cos(total), y + length * math.sin(total)
+    return x, y, total
+
+
+def same_angle(a, b):
+    return abs(math.remainder(a - b, 2 * math.pi))
+
+
+@given(LENGTHS, LENGTHS, ANGLES, ANGLES)
+def test_both_elbows_reach_the_point(l1, l2, t1, t2):
+    """Every row reaches the point to rounding; the elbows are t2 and -t2."""
+    x, y, _ = tip((l1, l2), (t1, t2))
+    rows = planar_rr_ik(l1, l2, x, y)
+    assert len(rows) in (1, 2)
+    for row in rows:
+        assert math.dist(tip((l1, l2), row)[:2], (x, y)) <= 1e-14 * (l1 + l2) * 4
+    if len(rows) == 2:
+        assert rows[0, 1] < 0 < rows[1, 1]
+        assert rows[0, 1] == -rows[1, 1]
+
+
+@given(LENGTHS, LENGTHS, st.floats(-2.5, -0.05), ANGLES)
+def test_generating_angles_are_among_the_rows(l1, l2, t2, t1):
+    """The configuration that made the point is found again."""
+    x, y, _ = tip((l1, l2), (t1, t2))
+    row = planar_rr_ik(l1, l2, x, y)[0]
+    assert same_angle(row[0], t1) < 1e-9
+    assert same_angle(row[1], t2) < 1e-9
+
+
+def test_the_annulus_is_the_workspace():
+    """Solutions exist exactly for (l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2."""
+    inner, outer = planar_reach(1.0, 0.7)
+    assert (inner, outer) == pytest.approx((0.3, 1.7))
+    rng = np.random.default_rng(0)
+    for x, y in rng.uniform(-2, 2, (500, 2)):
+        expected = 2 if inner < math.hypot(x, y) < outer else 0
+        assert len(planar_rr_ik(1.0, 0.7, x, y)) == expected
+
+
+@pytest.mark.parametrize("angle", np.linspace(-3, 3, 7))
+def test_on_either_rim_the_elbows_are_one(angle):
+    """On the rim one row, stretched or folded; 1e-6 beyond it none."""
+    for radius, elbow in ((1.7, 0.0), (0.3, math.pi)):
+        rows = planar_rr_ik(1.0, 0.7, radius * math.cos(angle), radius * math.sin(angle))
+        assert len(rows) == 1
+        assert abs(rows[0, 1]) == pytest.approx(elbow, abs=1e-7)
+        far = radius + 1e-6 if radius > 1 else radius - 1e-6
+        assert len(planar_rr_ik(1.0, 0.7, far * math.cos(angle), far * math.sin(angle))) == 0
+
+
+@pytest.mark.parametrize("power", range(1, 13))
+def test_near_the_rim_no_digits_are_lost(power):
+    """At 10^-k rad from stretched, t2 is known to 1e-16 over its distance, unlike by acos."""
+    t2 = 10.0**-power
+    x, y, _ = tip((1.0, 0.7), (0.4, t2))
+    rows = planar_rr_ik(1.0, 0.7, x, y)
+    assert abs(abs(rows[-1, 1]) - t2) <= max(1e-7 if power > 6 else 0.0, 1e-15 / t2)
+
+
+def test_equal_links_folded_leave_theta_1_free():
+    """At x = y = 0 with l1 = l2 one row is returned, theta_1 = 0, folded."""
+    rows = planar_rr_ik(0.5, 0.5, 0.0, 0.0)
+    assert rows.shape == (1, 2)
+    assert rows[0, 0] == 0.0
+    assert abs(rows[0, 1]) == math.pi
+
+
+@given(LENGTHS, LENGTHS, LENGTHS, st.floats(-2.5, -0.05), ANGLES, ANGLES)
+def test_rrr_reaches_point_and_direction(l1, l2, l3, t2, t1, t3):
+    """Both rows of the RRR arm have the point and the direction phi; one is the original."""
+    x, y, phi = tip((l1, l2, l3), (t1, t2, t3))
+    rows = planar_rrr_ik(l1, l2, l3, x, y, phi)
+    assert len(rows) == 2
+    for row in rows:
+        reached = tip((l1, l2, l3), row)
+        assert math.dist(reached[:2], (x, y)) < 1e-13
+        assert same_angle(reached[2], phi) < 1e-13
+    assert max(same_angle(a, b) for a, b in zip(rows[0], (t1, t2, t3), strict=True)) < 1e-9
+
+
+def test_bad_numbers_are_refused():
+    """Negative lengths and NaN are errors, not empty results."""
+    with pytest.raises(ConfigurationError, match="negative"):
+        planar_rr_ik(-1.0, 1.0, 0.5, 0.5)
+    with pytest.raises(PoseError, match="finite"):
+        planar_rr_ik(1.0, 1.0, math.nan, 0.5)
+
+
+def test_wrist_centre_is_where_the_wrist_axes_meet():
+    """o - d6 R e3 of the Denso's frame 6 is the origin of frames 4 and 5."""
+    table = dh2urdf.load_table("denso_vs6556")
+    for q in np.random.default_rng(1).uniform(-2, 2, (20, 6)):
+        frames = dh_frames(table, q)
+        centre = wrist_centre(frames[6], table.rows[5].d)
+        assert np.abs(centre - frames[4][:3, 3]).max() < 1e-15
+        assert np.abs(centre - frames[5][:3, 3]).max() < 1e-15
+
+
+def test_decoupling_by_hand_gives_the_robots_solutions():
+    """R_6^3 as ZYZ angles gives, up to the signs of the alphas, the wrists that ik returns."""
+    robot = dh2urdf.Robot.from_dh("denso_vs6556")
+    q = np.array([0.3, -1.2, 0.4, 0.5, 0.6, 0.7])
+    frames = dh_frames(robot.table, q)
+    R_3_6 = frames[3][:3, :3].T @ frames[6][:3, :3]
+    by_hand = {
+        tuple(np.round((phi, -theta, psi), 9) + 0.0)
+        for phi, theta, psi in dh2urdf.transforms.matrix_to_zyz(R_3_6)
+    }
+    solutions = robot.ik(robot.fk(q), within_limits=False)
+    same_arm = [s for s in solutions if np.abs(s[:3] - q[:3]).max() < 1e-9]
+    assert {tuple(np.round(s[3:], 9) + 0.0) for s in same_arm} == by_hand
+
+
+@pytest.mark.parametrize(("name", "task"), [("planar_rr", "position"), ("planar_rrr", "pose")])
+def test_the_robot_uses_the_notes_formulas(name, task):
+    """Robot.ik of the shipped planar arms equals the named functions, elbows named."""
+    robot = dh2urdf.Robot.from_dh(name)
+    lengths = [row.a for row in robot.table.rows]
+    assert robot.solver_for(task=task).name == "planar arm"
+    for q in np.random.default_rng(2).uniform(-2.5, 2.5, (50, robot.n)):
+        T = robot.fk(q)
+        x, y, phi = tip(lengths, q)
+        found = robot.ik(T, task=task)
+        if task == "pose":
+            expected = planar_rrr_ik(*lengths, x, y, phi)
+        else:
+            expected = planar_rr_ik(*lengths, x, y)
+        expected = expected[(np.abs(expected) <= math.pi).all(axis=1)]
+        assert len(found) == len(expected) == 2
+        assert np.abs(found.q - expected).max() < 1e-12
+        assert found.branch == ("elbow up", "elbow down")
+
+
+def test_rr_pose_exists_only_with_the_right_direction():
+    """The RR arm reaches a full pose in one configuration; turned by 1e-6 in none."""
+    robot = dh2urdf.Robot.from_dh("planar_rr")
+    q = np.array([0.4, 0.9])
+    T = robot.fk(q)
+    assert np.abs(robot.ik(T).q - q).max() < 1e-14
+    turned = T @ dh2urdf.transforms.rot_z(1e-6)
+    assert len(robot.ik(turned)) == 0
