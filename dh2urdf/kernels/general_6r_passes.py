@@ -32,6 +32,7 @@ from dh2urdf.kernels.general_6r_work import make_work_6r
 from dh2urdf.kernels.lanes import (
     LANES,
     MASK,
+    inlined,
     null_vectors,
     second_null_vectors,
     vector_kernel,
@@ -130,7 +131,7 @@ def nudge(inner, attempt):
     inner[11] -= 0.60 * t
 
 
-@vector_kernel
+@inlined
 def eliminate(chain, shift, reverse, left, work):
     """The six equations of one elimination."""
     inner, loop, samples, own_left = work[0], work[2], work[3], work[4]
@@ -145,7 +146,7 @@ def eliminate(chain, shift, reverse, left, work):
         six_equations(right, basis, left, equations)
 
 
-@vector_kernel
+@inlined
 def _sample(again, k, work):
     """Bernstein coefficients from new samples, one arc a column of ``work[16]``.
 
@@ -174,7 +175,7 @@ def _sample(again, k, work):
     return (LANES if noise < HOPELESS * largest else 0), middle, half_tan, noise
 
 
-@vector_kernel
+@inlined
 def find_roots(again, work):
     """Roots of the polynomial, to ``work[19]``, with slopes in ``work[21]``.
 
@@ -215,7 +216,7 @@ def find_roots(again, work):
     return count
 
 
-@vector_kernel
+@inlined
 def _seeds(count, copies, shift, reverse, turns, work):
     """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
 
@@ -257,7 +258,7 @@ def _seeds(count, copies, shift, reverse, turns, work):
     return lanes
 
 
-@vector_kernel
+@inlined
 def _polish(links, size, lanes, damped, work):
     """Newton on the exact chain until every lane has converged or has ceased to.
 
@@ -293,7 +294,7 @@ def _polish(links, size, lanes, damped, work):
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
 
 
-@vector_kernel
+@inlined
 def _place(size, k, found, out_q, out_residual, work):
     """Store lane k unless it missed the target or is known.
 
@@ -339,7 +340,7 @@ def _place(size, k, found, out_q, out_residual, work):
     return max(found, place + 1), place
 
 
-@vector_kernel
+@inlined
 def follow(links, size, count, found, shift, reverse, turns, out_q, out_residual, work):
     """Append the solutions that a list of roots leads to.
 

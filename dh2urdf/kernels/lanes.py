@@ -20,6 +20,7 @@ __all__ = [
     "COLUMN",
     "LANES",
     "MASK",
+    "inlined",
     "null_vectors",
     "reduce_columns",
     "second_null_vectors",
@@ -39,6 +40,11 @@ OPTIONS = {"cache": True, "nogil": True, "fastmath": {"contract"}, "error_model"
 def vector_kernel(function):
     """Compile with fused multiply-add and without a test of every division."""
     return njit(**OPTIONS)(function)
+
+
+def inlined(function):
+    """Compile as a part of its callers: for large functions with few callers, to save time."""
+    return njit(inline="always", **OPTIONS)(function)
 
 
 @vector_kernel

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, reduce_columns, solve_upper, vector_kernel
+from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, inlined, reduce_columns, solve_upper, vector_kernel
 
 __all__ = ["chain_frames", "newton_step", "pose_error"]
 
@@ -95,7 +95,7 @@ def _jacobian(frames, n, A):
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
 
 
-@vector_kernel
+@inlined
 def _newton_system(frames, error, n, A):
     """``J step = error`` of n lanes, right side in the seventh column of A."""
     _jacobian(frames, n, A)
@@ -145,7 +145,7 @@ def _damped_system(frames, error, weight, n, J, A):
                 A[a + k] += error[e + k] * error[e + k]
 
 
-@vector_kernel
+@inlined
 def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines):
     """Turn the joints of n lanes by a Newton step, shortened to half a radian.
 
