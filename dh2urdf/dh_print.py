@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["table_grid", "table_html", "table_latex", "table_markdown", "table_text"]
 
+ROUNDING = 4e-16
+"""Relative difference of two conversions from degrees, each rounded once."""
+
 KEYS = ("i", "name", "theta", "d", "a", "alpha", "limits", "step")
 HEADER = ("i", "joint", "θ [deg]", "d [m]", "a [m]", "α [deg]", "limits of q", "fixed step")
 
@@ -22,7 +25,7 @@ def degrees(value: float) -> str:
     exact = math.degrees(value)
     for digits in range(1, 17):
         short = float(f"{exact:.{digits}g}")
-        if math.radians(short) == value:
+        if math.isclose(math.radians(short), value, rel_tol=ROUNDING):
             return number(short)
     return number(exact)
 

@@ -144,7 +144,7 @@ class Robot(RobotIK, RobotPictures):
         ConfigurationError
             Last axis is not n long.
         """
-        config = np.asarray(q, dtype=np.float64)
+        config = _numbers(q)
         if config.shape == self._direct:
             model, data = self.model, self._data
             _forward_kinematics(model, data, config)
@@ -175,7 +175,7 @@ class Robot(RobotIK, RobotPictures):
         """
         from dh2urdf.kernels.chain import chain_frames_batch
 
-        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        flat, shape = self._flat(_numbers(q))
         T = np.empty((len(flat), self.chain.n + 1, 4, 4))
         chain_frames_batch(self.chain.links, self.chain.prismatic, self._carried, flat, T)
         return T.reshape(*shape, self.chain.n + 1, 4, 4)
@@ -193,7 +193,7 @@ class Robot(RobotIK, RobotPictures):
         -------
         array, shape (6, n) or (..., 6, n)
         """
-        config = np.asarray(q, dtype=np.float64)
+        config = _numbers(q)
         if config.shape == self._direct and self._M_base_world is None:
             J: Array = _frame_jacobian(self.model, self._data, config, self._tip, _ALIGNED)
             return J if J.ndim == 2 else J.reshape(6, 1)
@@ -211,7 +211,7 @@ class Robot(RobotIK, RobotPictures):
 
         Continuous joints become cosine and sine, mimicking joints are filled in.
         """
-        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        flat, shape = self._flat(_numbers(q))
         out = np.zeros((len(flat), self.model.nq))
         for k, i in enumerate(self._path.ids):
             at = self.model.joints[i].idx_q
@@ -223,7 +223,7 @@ class Robot(RobotIK, RobotPictures):
 
     def chain_configuration(self, q: ArrayLike) -> Array:
         """The same configuration with every joint of the chain, followers too, (..., chain.n)."""
-        flat, shape = self._flat(np.asarray(q, dtype=np.float64))
+        flat, shape = self._flat(_numbers(q))
         return flat.reshape(*shape, self.chain.n)
 
     def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
@@ -321,3 +321,11 @@ class Robot(RobotIK, RobotPictures):
 
     def __repr__(self) -> str:
         return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"
+
+
+def _numbers(q: ArrayLike) -> Array:
+    """q as an array of floats."""
+    try:
+        return np.asarray(q, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise ConfigurationError(f"q: expected numbers, got {q!r:.60}") from None

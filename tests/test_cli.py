@@ -249,6 +249,26 @@ def test_full_disk_loses_nothing(run):
         folder.rmdir()
 
 
+def test_many_poses_come_from_stdin(run, monkeypatch):
+    """`ik ur5 --csv -` reads poses from stdin and answers with one line a solution."""
+    import io
+
+    monkeypatch.setattr("sys.stdin", io.StringIO("0.4,0.2,0.4,0,3.14,0\n"))
+    status, out, _ = run("ik", "ur5", "--csv", "-")
+    assert status == 0
+    assert len(out.splitlines()) > 2
+
+
+def test_modified_headers_of_a_standard_table_are_refused(run, tmp_path):
+    """Columns a_{i-1} and alpha_{i-1} under convention: standard are status 2."""
+    head = "---\nconvention: standard\nunits: {length: m, angle: deg}\n---\n"
+    table = "| a_{i-1} | alpha_{i-1} | d | theta |\n|--|--|--|--|\n| 0.3 | 90 | 0 | 0 |\n"
+    (tmp_path / "arm.md").write_text(head + table)
+    status, out, err = run("convert", "arm.md", "-o", "arm.urdf")
+    assert (status, out) == (2, "")
+    assert "modified table's column" in err
+
+
 def test_closed_pipe_ends_quietly():
     """`dh2urdf list | head -1` prints one line and no traceback."""
     command = f"{sys.executable} -m dh2urdf list | head -1"

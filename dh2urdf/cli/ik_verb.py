@@ -33,7 +33,7 @@ def ik_(
     xyz: Values = None,
     rpy: Values = None,
     matrix: Values = None,
-    csv: str | None = None,
+    csv: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
     seed: Values = None,
     locked: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
     task: str = "pose",
@@ -85,7 +85,7 @@ def ik_(
         "task": task,
         "within_limits": within_limits,
     }
-    goal = parse_configuration(seed, arm, deg=deg) if seed else None
+    goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     if csv is not None:
         if xyz or rpy or matrix:
             raise ConfigurationError("--csv stands alone: no --xyz, --rpy or --matrix beside it")

@@ -103,7 +103,9 @@ def robot_of(source: str, base: str | None = None, tip: str | None = None) -> Ro
     return Robot.from_dh(table_of(source))
 
 
-def parse_configuration(values: Iterable[str], robot: Robot, *, deg: bool) -> Array:
+def parse_configuration(
+    values: Iterable[str], robot: Robot, *, deg: bool, what: str = "q"
+) -> Array:
     """q from the command line, in [rad] and [m].
 
     Bare numbers are radians (degrees with ``deg``) and metres. Each value may carry its unit
@@ -118,9 +120,8 @@ def parse_configuration(values: Iterable[str], robot: Robot, *, deg: bool) -> Ar
     if unknown:
         raise ConfigurationError(f"no such option: {unknown[0]}; --help lists them")
     if len(cells) != robot.n:
-        raise ConfigurationError(
-            f"q: {robot.n} values are needed ({', '.join(robot.joint_names)}), got {len(cells)}"
-        )
+        names = ", ".join(robot.joint_names)
+        raise ConfigurationError(f"{what}: {robot.n} values are needed ({names}), got {len(cells)}")
     units = Units("m", "deg" if deg else "rad")
     q = np.empty(robot.n)
     for i, (cell, slides) in enumerate(zip(cells, robot.slides, strict=True)):

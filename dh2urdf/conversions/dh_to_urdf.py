@@ -148,6 +148,9 @@ class _Writer:
             from dh2urdf.dh_io import table_to_text
 
             embedded.text = table_to_text(self.table, "json")
+        if any(row.mass is None for row in self.table.joints):
+            estimate = f"estimated from the drawn bodies at {self.options.density:g} kg/m^3"
+            self.robot.append(etree.Comment(f" links without a mass in the table: {estimate} "))
         for name, rgba in MATERIALS.items():
             if any(b.material == name for bodies in self.bodies for b in bodies):
                 material = etree.SubElement(self.robot, "material", name=name)

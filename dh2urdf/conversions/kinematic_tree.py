@@ -10,6 +10,7 @@ import difflib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NoReturn
 
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
@@ -195,7 +196,7 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
         if moving:
             chains.setdefault(moving, []).append(leaf)
     if not chains:
-        raise UrdfError(f"{tree.where}: no revolute, continuous or prismatic joint below {start!r}")
+        _explain_no_chain(tree, start)
     most = max(map(len, chains))
     longest = {moving: tips for moving, tips in chains.items() if len(moving) == most}
     if len(longest) == 1:
@@ -210,6 +211,18 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
     raise UrdfError(
         f"{tree.where}: {len(longest)} chains of {most} joints; choose the tip, one of: {offered}"
     )
+
+
+def _explain_no_chain(tree: KinematicTree, start: str) -> NoReturn:
+    """Raise UrdfError; name a joint of another kind that stands before the moving ones."""
+    moves = any(joint.kind in MOVING for joint in tree.joints)
+    for joint in tree.joints:
+        if moves and joint.kind not in (*MOVING, "fixed"):
+            raise UrdfError(
+                f"{joint.where}: a {joint.kind} joint on the way from {start!r}; choose a base "
+                f"behind it, such as {joint.child!r}"
+            )
+    raise UrdfError(f"{tree.where}: no revolute, continuous or prismatic joint below {start!r}")
 
 
 def _moving_names(tree: KinematicTree, base: str, tip: str) -> tuple[str, ...]:

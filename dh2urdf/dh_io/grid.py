@@ -205,7 +205,7 @@ def _table_keys(
             groups.setdefault("units", []).append((Scalar(kind.value), Scalar(unit)))
     for group, pairs in groups.items():
         out.append((Scalar(group, pairs[0][0].mark), Keys(tuple(pairs), pairs[0][0].mark)))
-    _warn_of_modified_header(grid, report)
+    _refuse_modified_header(grid, report)
     return out
 
 
@@ -222,9 +222,10 @@ def _unit_words(value: Scalar) -> list[tuple[Scalar, Node]]:
     return pairs
 
 
-def _warn_of_modified_header(grid: Grid, report: Report) -> None:
+def _refuse_modified_header(grid: Grid, report: Report) -> None:
     stated = {CONVENTIONS.get(v.text.casefold()) for k, v in grid.meta if k.text == "convention"}
     for cell in grid.header:
         if of_previous_link(cell.text) and DHConvention.STANDARD in stated:
             message = f"{cell.text} is a modified table's column, but convention says standard"
-            report.warn(cell.mark, "header", message)
+            hint = "write convention: modified, or the columns a and alpha"
+            report.fault(cell.mark, "header", message, hint)

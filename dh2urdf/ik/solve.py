@@ -256,6 +256,10 @@ class InverseKinematics:
     def _held(self, locked: Locked, within_limits: bool) -> dict[int, Array]:
         """Check held joints: index to values, shape (1,) or (m,)."""
         held: dict[int, Array] = {}
+        if not isinstance(locked, Mapping):
+            raise ConfigurationError(
+                f"locked: expected a mapping of joint to value, got {locked!r:.60}"
+            )
         for key, value in locked.items():
             i = self._joint_index(key)
             if i in held:

@@ -43,6 +43,8 @@ def load_table(path: str | os.PathLike[str]) -> DHTable:
 
 def load_table_file(path: str | os.PathLike[str]) -> TableFile:
     """Like :func:`load_table`, with what looked odd about the file."""
+    if not isinstance(path, str | os.PathLike):
+        raise NameNotFoundError(f"{path!r:.60}: expected a path or the name of a table that ships")
     where = Path(path)
     if where.suffix.lower() == ".urdf":
         from dh2urdf.conversions.write_urdf import embedded_table
@@ -54,5 +56,5 @@ def load_table_file(path: str | os.PathLike[str]) -> TableFile:
         return read_table(where)
     names = list_tables()
     close = difflib.get_close_matches(where.name, names, 3, 0.5)
-    hint = f"did you mean {' or '.join(close)}?" if close else f"names: {', '.join(names)}"
+    hint = f"did you mean {' or '.join(close)}?" if close else "`dh2urdf list` names them"
     raise NameNotFoundError(f"{path}: neither a file nor a table that ships; {hint}")
