@@ -34,6 +34,10 @@ __all__ = [
 
 ALL_FREE = 0b111111
 
+VAGUE = 1e-6
+"""Sine of the angle between axis 6 and the parallel axes below which t6, which rounding turns by
+1e-16 over that sine, may have left the interval in which the planar arm reaches."""
+
 
 @inner_kernel
 def pairs_of_meeting(form, D, slack, pair):
@@ -195,25 +199,30 @@ def _last_joint(form, first, D, cs):
 
 
 @inner_kernel
-def _reach_with_last_joint(form, first, D, cs, x, y):
-    """Choose t6, free in a singular family, so that the planar arm reaches (lecture notes 8.2).
+def _reach_with_last_joint(form, first, D, cs, x, y, free):
+    """Turn t6, free or nearly so, so that the planar arm reaches (lecture notes 8.2).
 
-    The point that the arm has to reach goes round a circle about axis 6. It stays where t6 is
-    zero if that is within reach; else it goes to the middle of what is. Returns the point.
+    The point that the arm has to reach goes round a circle about axis 6. It stays where t6 has
+    it if that is within reach; else it goes to the middle of what is, or, where t6 is not quite
+    ``free``, by the shortest way to its end. Returns the point.
     """
     upper, fore = form[first, 0], form[first + 1, 0]
     near, far = abs(upper - fore), upper + fore
     bx, by, _ = _seen_arm(form, first, D, cs, 0.0, 1.0)
     cx, cy = x + bx, y + by
-    distance, radius = math.hypot(cx, cy), math.hypot(bx, by)
-    if near <= math.hypot(x, y) <= far or distance * radius == 0.0:
+    distance, radius, length = math.hypot(cx, cy), math.hypot(bx, by), math.hypot(x, y)
+    if near <= length <= far or distance * radius == 0.0:
         return x, y
     low, high = max(near, abs(distance - radius)), min(far, distance + radius)
     goal = 0.5 * (low + high)
+    if not free and low < high:
+        goal = high if length > far else low
     cosine = (distance * distance + radius * radius - goal * goal) / (2.0 * distance * radius)
     cosine = min(max(cosine, -1.0), 1.0)
     sine = math.sqrt((1.0 - cosine) * (1.0 + cosine))
     ux, uy = cx / distance, cy / distance
+    if ux * by < uy * bx:
+        sine = -sine
     vx, vy = radius * (ux * cosine - uy * sine), radius * (uy * cosine + ux * sine)
     c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
     _, _, up = _seen_arm_axis(form, first, D, cs)
@@ -241,8 +250,8 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
     x, y = x - bx, y - by
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
-    if in_line <= NICE:
-        x, y = _reach_with_last_joint(form, first, D, cs, x, y)
+    if in_line <= VAGUE:
+        x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line <= NICE)
     hx, hy, _ = _seen_arm(form, first, D, cs, 1.0, 0.0)
     heading = math.atan2(hy, hx)
     upper, fore = form[first, 0], form[first + 1, 0]
