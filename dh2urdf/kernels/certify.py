@@ -240,7 +240,8 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
     still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
-    Nothing is put on a bound where the limits do not count. A free joint may be outside: another member of its family may not.
+    Nothing is put on a bound where the limits do not count. A free joint may be outside: another
+    member of its family may not.
     """
     inside, moved = True, False
     for i in range(q.shape[0]):
