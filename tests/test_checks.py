@@ -2,11 +2,28 @@
 
 import logging
 import warnings
+from copy import deepcopy
+from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
-from urdf_faults import BODY, FAULTS, KEEP, SOUND, TOOL, arm, fixed, joint, write_meshes
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from lxml import etree
+from urdf_faults import (
+    BODY,
+    FAULTS,
+    KEEP,
+    SOUND,
+    TOOL,
+    arm,
+    box,
+    fixed,
+    joint,
+    mesh,
+    write_meshes,
+)  # fmt: skip
 
 import dh2urdf
 from dh2urdf.checks import RULES, Consumer, Severity, Verdict, ask, check_urdf, consumers
@@ -17,6 +34,8 @@ from dh2urdf.exceptions import UrdfError
 HERE = (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.YOURDFPY, Consumer.MUJOCO)
 ELSEWHERE = (Consumer.PYBULLET, Consumer.DRAKE, Consumer.IKPY)
 ORDER = (Verdict.ACCEPTS, Verdict.MISREADS, Verdict.COMPLAINS, Verdict.REFUSES)
+
+ROBOTS = sorted((Path(pin.__file__).parents[4] / "share/example-robot-data").rglob("*.urdf"))
 
 CASES = [
     pytest.param(rule, text, id=f"{rule}-{k}")
@@ -107,6 +126,14 @@ def test_consumers_do_as_predicted(rule, text, consumer, written, capfd, caplog,
         monkeypatch.setattr(consumers, "PATIENCE", 3.0)
     path = written(text)
     assert verdict_here(consumer, path, capfd, caplog) == predicted(check_urdf(path), consumer)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("consumer", HERE)
+@pytest.mark.parametrize("path", ROBOTS, ids=[path.stem for path in ROBOTS])
+def test_predictions_hold_for_real_robots(path, consumer):
+    """Of every robot of example-robot-data, each consumer makes what the findings say."""
+    assert ask(consumer, path).verdict == predicted(check_urdf(path), consumer)
 
 
 @pytest.mark.exhaustive
@@ -228,6 +255,53 @@ def test_what_is_no_urdf_is_an_error_of_one_line(content, message, tmp_path):
         check_urdf(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_elements_in_odd_places_are_passed_over(written):
+    """Numbers outside joints, inertials and shapes are nobody's, and no rule stumbles on them."""
+    odd = '<origin xyz="-0.0 nan up"/><limit lower="x"/>'
+    text = arm(upper=f"{BODY}{odd}", extra=f"{odd}<gazebo>{odd}</gazebo><!-- note --><?pi?>")
+    assert {f.rule for f in check_urdf(written(text))} <= {"number", "not-finite"}
+
+
+WORDS = [
+    "",
+    "nan",
+    "-0",
+    "1e400",
+    "1 2",
+    "0 0 0",
+    "fore",
+    "upper",
+    "${x}",
+    "revolute",
+    "fixed",
+    "ä b",
+]
+RICH = arm(
+    fore=BODY + box() + mesh("small.stl", "collision"),
+    elbow=joint(extra='<mimic joint="shoulder"/><dynamics damping="0.1"/>', rpy="1.5708 0 0"),
+    extra=KEEP + TOOL + '<material name="m"><color rgba="1 0 0 1"/></material>',
+)
+
+
+@settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WORDS)), max_size=6))
+def test_no_damage_makes_a_rule_stumble(written, damage):
+    """Whatever is dropped from a file, doubled or replaced, findings come and no exception."""
+    root = etree.fromstring(RICH.encode())
+    for where, word in damage:
+        elements = list(root.iter(etree.Element))[1:]
+        element = elements[where % len(elements)]
+        keys = sorted(element.attrib)
+        if word == "":
+            element.getparent().remove(element)
+        elif word == "fixed":
+            element.addnext(deepcopy(element))
+        elif keys:
+            element.set(keys[where % len(keys)], word)
+    findings = check_urdf(written(etree.tostring(root, encoding="unicode")))
+    assert all(finding.mend for finding in findings)
 
 
 def test_a_missing_file_is_an_error(tmp_path):

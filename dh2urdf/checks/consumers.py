@@ -30,7 +30,7 @@ MODULES = {
     Consumer.IKPY: "ikpy",
 }
 
-PATIENCE = 30.0
+PATIENCE = 60.0
 """Seconds after which a consumer counts as hanging."""
 
 LONGEST = 8

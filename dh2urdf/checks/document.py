@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 from collections.abc import Iterator
@@ -89,14 +90,15 @@ class Document:
         return str(joint.get("type", ""))
 
     def numbers(self, element: etree._Element | None, key: str) -> list[float] | None:
-        """Numbers of an attribute; None where they are missing or not as they should be."""
+        """Numbers of an attribute; None where they are missing or not finite numbers."""
         text = None if element is None else element.get(key)
         if element is None or text is None:
             return None
         words = text.split()
         if len(words) != NUMBERS[(element.tag, key)] or not all(map(NUMBER.fullmatch, words)):
             return None
-        return [float(word) for word in words]
+        values = [float(word) for word in words]
+        return values if all(map(math.isfinite, values)) else None
 
     def number(self, element: etree._Element | None, key: str) -> float | None:
         """One number of an attribute, or None."""

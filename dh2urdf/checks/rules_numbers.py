@@ -49,6 +49,8 @@ def xacro(doc: Document) -> Iterator[Found]:
         )
 
 
+OWNERS = ("joint", "inertial", "visual", "collision", "material")
+
 NUMERIC = {("origin", "xyz"), ("origin", "rpy"), ("axis", "xyz")}
 
 
@@ -60,10 +62,11 @@ def _words(doc: Document) -> Iterator[tuple[etree._Element, str, int, list[str]]
 
 
 def _owner(element: etree._Element) -> str:
-    """``joint``, ``inertial``, ``visual``, ``collision`` or ``material``."""
-    while element.tag not in ("joint", "inertial", "visual", "collision", "material"):
-        element = element.getparent()
-    return str(element.tag)
+    """``joint``, ``inertial``, ``visual``, ``collision`` or ``material``; empty for no such."""
+    owner: etree._Element | None = element
+    while owner is not None and owner.tag not in OWNERS:
+        owner = owner.getparent()
+    return "" if owner is None else str(owner.tag)
 
 
 def number(doc: Document) -> Iterator[Found]:
