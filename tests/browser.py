@@ -8,6 +8,9 @@ import numpy as np
 
 ARTIFACTS = Path(__file__).parents[1] / "artifacts"
 CHROMIUM = ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")
+TIMEOUT = 120_000
+"""Patience [ms] with a browser that renders without a GPU on a busy machine."""
+
 ARGUMENTS = [
     "--no-sandbox",
     "--use-gl=angle",
@@ -24,15 +27,24 @@ def chromium():
 class Visitor:
     """One page that shows a view; requests that leave the machine are stopped and kept."""
 
-    def __init__(self, browser, view):
+    def __init__(self, browser, view, width=1400, height=860):
         self.view, self.outside = view, []
         self.context = browser.new_context(
-            viewport={"width": 1400, "height": 860}, accept_downloads=True
+            viewport={"width": width, "height": height}, accept_downloads=True
         )
+        try:
+            self._open()
+        except BaseException:
+            self.context.close()
+            raise
+
+    def _open(self):
+        """Load the page and wait until it talks to the server."""
+        view = self.view
         self.context.route("**/*", self._route)
         before = set(view._server.get_clients())
         self.page = self.context.new_page()
-        self.page.set_default_timeout(45_000)
+        self.page.set_default_timeout(TIMEOUT)
         self.page.goto(view.url)
         self.page.get_by_text("Names of axes").wait_for()
         wait_for(lambda: set(view._server.get_clients()) - before, 60)
@@ -60,6 +72,10 @@ class Visitor:
         return shown.locator(
             "xpath=ancestor::div[2]//*[self::textarea or self::input[not(@type='hidden')]]"
         ).last
+
+    def values(self):
+        """What stands in the visible fields."""
+        return [field.input_value() for field in self.page.locator("input:visible").all()]
 
     def fill(self, label, text):
         """Type a text into a field."""
@@ -97,10 +113,13 @@ class Visitor:
         )
 
     def drag(self, start, end, steps=4):
-        """Press, move slowly, release."""
-        self.page.mouse.move(*start)
+        """Press, move slowly, release; the pointer rests first until a frame has seen it."""
+        self.page.mouse.move(start[0] + 1.0, start[1] + 1.0)
         time.sleep(0.7)
+        self.page.mouse.move(*start)
+        time.sleep(2.0)
         self.page.mouse.down()
+        time.sleep(0.3)
         for k in range(1, steps + 1):
             x, y = (a + (b - a) * k / steps for a, b in zip(start, end, strict=True))
             self.page.mouse.move(x, y)

@@ -1,10 +1,13 @@
 """The browser view without a browser: geometry, server manners, edits, branches."""
 
+import json
 import logging
 import math
+import signal
 import socket
 import subprocess
 import sys
+import urllib.request
 from types import SimpleNamespace
 
 import numpy as np
@@ -21,6 +24,7 @@ from dh2urdf.transforms import rot_x, rot_y, trans
 from dh2urdf.viewer.arm_scene import quaternions
 from dh2urdf.viewer.branches import answer, branch_table, initials
 from dh2urdf.viewer.redundancy import default_joint
+from dh2urdf.viewer.table_tab import new_table
 from dh2urdf.viewer.urdf_drawing import find_mesh, urdf_drawing
 
 VISITOR = SimpleNamespace(client=SimpleNamespace(send_file_download=lambda *_, **__: None))
@@ -358,3 +362,31 @@ def test_meshes_are_found_beside_the_urdf_and_missing_ones_named(tmp_path, monke
 def test_notebook_gets_a_frame(view):
     """In a notebook the view is an iframe at its address."""
     assert f'src="{view.url}"' in view._repr_html_()
+
+
+def test_verb_prints_the_address_and_ends_on_interrupt():
+    """`dh2urdf view` serves the page, and Ctrl-C ends it with status 130 and the port free."""
+    command = [sys.executable, "-m", "dh2urdf", "view", "planar_rr", "--port", "0", "--no-open"]
+    done = subprocess.Popen(
+        [*command, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        lines = [done.stdout.readline()]
+        while lines[-1].strip() != "}":
+            lines.append(done.stdout.readline())
+        address = json.loads("".join(lines))["url"]
+        with urllib.request.urlopen(address) as page:
+            assert page.status == 200
+        done.send_signal(signal.SIGINT)
+        assert done.wait(30) == 130
+    finally:
+        done.kill()
+        done.communicate()
+    with socket.socket() as probe:
+        assert probe.connect_ex(("127.0.0.1", int(address.rpartition(":")[2]))) != 0
+
+
+def test_verb_builds_a_table_from_scratch():
+    """Without a table the view starts from one joint."""
+    assert new_table().n == 1
+    assert Robot.from_dh(new_table()).n == 1
