@@ -1,0 +1,360 @@
+"""What must hold of every solver, through ``Robot.ik``: seven points, over robots and seeds.
+
+Every third configuration is drawn near a singularity. Pinocchio is the referee.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from ik_referee import gaps
+
+import dh2urdf
+from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
+from dh2urdf.transforms import rotation_angle
+
+CLOSED = ("denso_vs6556", "puma560", "ur5", "stanford", "gantry_wrist")
+SHORT = ("planar_rrr", "rpr_new_frame", "rpr_by_inspection")
+ARMS = CLOSED + SHORT
+SEEDS = (0, 1)
+
+
+@cache
+def robot_of(name):
+    return dh2urdf.Robot.from_dh(name)
+
+
+def configurations(name, seed, count=12):
+    """Configurations within the limits, every third with a joint near a quarter turn or zero."""
+    robot = robot_of(name)
+    rng = np.random.default_rng(seed)
+    out = []
+    for k in range(count):
+        q = robot.random_configuration(rng)
+        if k % 3 == 2:
+            j = rng.integers(robot.n)
+            if not robot.slides[j]:
+                q[j] = round(q[j] / (math.pi / 2)) * math.pi / 2 + rng.choice([0, 1e-9, 1e-5])
+                q[j] = np.clip(q[j], robot.lower[j], robot.upper[j])
+        out.append(q)
+    return np.array(out)
+
+
+def pinocchio_residual(robot, q, T):
+    """Position and orientation error by the model that Pinocchio owns."""
+    found = robot.fk(q)
+    turn = rotation_angle(T[:3, :3].T @ found[:3, :3])
+    return max(np.linalg.norm(found[:3, 3] - T[:3, 3]), float(turn))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", ARMS)
+def test_1_every_solution_reaches_the_pose(name, seed):
+    """Pinocchio measures at most 1e-9 for every solution, and verify() says the same."""
+    robot = robot_of(name)
+    for q in configurations(name, seed):
+        T = robot.fk(q)
+        found = robot.ik(T)
+        measured = [pinocchio_residual(robot, s, T) for s in found]
+        assert max(measured) <= 1e-9
+        assert found.verify() == pytest.approx(measured, abs=1e-12)
+        assert found.residual.max() <= 1e-9
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", ARMS)
+def test_2_the_generating_configuration_is_among_the_solutions(name, seed):
+    """The configuration that made the pose is found, or the family that it is on."""
+    robot = robot_of(name)
+    for q in configurations(name, seed):
+        found = robot.ik(robot.fk(q), seed=q)
+        near = gaps(robot.chain, found.q, q).min()
+        sigma = np.linalg.svd(robot.jacobian(q), compute_uv=False)[-1]
+        assert near <= 1e-6 or (sigma < 1e-4 and near <= 1e-3)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", ARMS)
+def test_2_no_solution_is_there_twice(name, seed):
+    """Any two solutions of a pose differ by more than 1e-6 in some joint."""
+    robot = robot_of(name)
+    for q in configurations(name, seed):
+        s = robot.ik(robot.fk(q)).q
+        for i in range(len(s)):
+            assert (gaps(robot.chain, s[:i], s[i]) > 1e-6).all()
+
+
+EDGES = [
+    ("ur5", [0, -math.pi / 2, 0, -math.pi / 2, 0, 0]),
+    ("ur5", [0.3, -1.0, 0.0, 0.4, 1.0, 0.2]),
+    ("ur5", [0.3, -1.0, 1.2, 0.4, 0.0, 0.2]),
+    ("puma560", [0.3, -1.0, 0.2, 0.4, 0.0, 0.2]),
+    ("puma560", [0.3, -1.0, 0.2, 0.4, 1e-6, 0.2]),
+    ("planar_rrr", [0.3, 0.0, 0.2]),
+    ("rpr_new_frame", [0.3, 0.5, 0.0]),
+]
+
+
+@pytest.mark.parametrize(("name", "q"), EDGES)
+def test_3_edges_are_exact(name, q):
+    """Home, straight elbows and wrists in line: found, at 1e-12, with the generating q."""
+    robot = robot_of(name)
+    T = robot.fk(q)
+    found = robot.ik(T, seed=q, within_limits=False)
+    assert len(found) > 0
+    assert found.verify().max() <= 1e-12
+    assert gaps(robot.chain, found[0], np.array(q)) <= 1e-6
+
+
+def test_4_families_are_named_and_nearest_to_the_seed():
+    """A wrist in line names joints 4 and 6 and returns the member that the seed asks for."""
+    robot = robot_of("puma560")
+    q = np.array([0.3, 0.5, 0.2, 0.4, 0.0, 0.2])
+    T = robot.fk(q)
+    free = {f for f in robot.ik(T).free_joints if f}
+    assert free == {(3, 5)}
+    for shift in (-1.0, 0.5, 1.5):
+        seed = q + shift * np.array([0, 0, 0, 1, 0, -1])
+        nearest = robot.ik(T, seed=seed)[0]
+        assert np.abs(nearest - seed).max() < 1e-9
+        assert pinocchio_residual(robot, nearest, T) < 1e-12
+
+
+def test_4_a_family_is_entered_within_the_limits():
+    """Where the representative is outside the limits, a member inside is returned."""
+    table = dh2urdf.load_table("puma560")
+    rows = (*table.rows[:5], replace(table.rows[5], lower=-0.5, upper=0.5))
+    robot = dh2urdf.Robot.from_dh(replace(table, rows=rows))
+    q = np.array([0.3, 0.5, 0.2, 1.7, 0.0, 0.3])
+    T = robot.fk(q)
+    found = robot.ik(T)
+    families = [s for s, f in zip(found, found.free_joints, strict=True) if f]
+    assert len(families) == 1
+    assert (families[0] >= robot.lower).all()
+    assert (families[0] <= robot.upper).all()
+    assert families[0][3] + families[0][5] == pytest.approx(2.0)
+    assert pinocchio_residual(robot, families[0], T) < 1e-9
+    assert np.array_equal(robot.ik_batch(T[None])[0].q, found.q)
+
+
+@pytest.mark.parametrize("name", ["denso_vs6556", "ur5", "planar_rrr"])
+def test_5_out_of_reach_is_empty(name):
+    """Far away and 1e-6 m beyond a stretched arm: no solution, no exception."""
+    robot = robot_of(name)
+    T = np.eye(4)
+    T[0, 3] = 100.0
+    found = robot.ik(T, within_limits=False)
+    assert not found
+    assert found.q.shape == (0, robot.n)
+    assert len(found.verify()) == 0
+    assert "outside the reach" in robot.why_unreachable(T, within_limits=False)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("name", ARMS)
+def test_6_solutions_keep_the_limits(name, seed):
+    """Every angle is inside its range; without limits there are at least as many solutions."""
+    robot = robot_of(name)
+    for q in configurations(name, seed):
+        T = robot.fk(q)
+        kept = robot.ik(T)
+        assert (kept.q >= robot.lower).all()
+        assert (kept.q <= robot.upper).all()
+        assert len(robot.ik(T, within_limits=False)) >= len(kept)
+
+
+def test_6_the_turn_is_the_one_nearest_to_the_seed():
+    """Ranges of two turns: each solution is in the turn nearest to the seed, or in all of them."""
+    robot = robot_of("ur5")
+    for q in configurations("ur5", 3, 6):
+        T = robot.fk(q)
+        near = robot.ik(T, seed=q)
+        assert (np.abs(near.q - q)[:, [0, 1, 3, 4, 5]] <= 2 * math.pi).all()
+        plain = robot.ik(T)
+        assert (np.abs(plain.q) <= math.pi + 1e-12).all()
+        turned = robot.ik(T, turns="all")
+        assert len(turned) > len(plain)
+        assert (turned.q >= robot.lower).all()
+        assert (turned.q <= robot.upper).all()
+        assert turned.verify().max() <= 1e-9
+        again = {tuple(np.round(np.mod(s + 1e-7, 2 * math.pi), 5)) for s in turned.q}
+        assert len(again) == len(plain)
+
+
+def test_7_fewer_than_six_joints_take_the_full_pose_only_when_it_is_feasible():
+    """The RPR arm of the notes: the pose of a configuration yes, turned by 1e-6 no."""
+    for name in ("rpr_new_frame", "rpr_by_inspection"):
+        robot = robot_of(name)
+        q = np.array([0.3, 0.7, 0.4])
+        T = robot.fk(q)
+        assert gaps(robot.chain, robot.ik(T).q, q).min() < 1e-12
+        turned = T.copy()
+        turned[:3, :3] = T[:3, :3] @ dh2urdf.transforms.rot_x(1e-6)[:3, :3]
+        assert not robot.ik(turned)
+
+
+def test_batches_equal_single_calls():
+    """One array out, NaN after the last solution, the same numbers as pose by pose."""
+    for name in ("denso_vs6556", "rpr_new_frame"):
+        robot = robot_of(name)
+        q = configurations(name, 5, 40)
+        Ts = robot.fk(q)
+        done = []
+        batch = robot.ik_batch(Ts, threads=2, progress=lambda *state, done=done: done.append(state))
+        assert done[-1] == (40, 40)
+        assert len(batch) == 40
+        for i, T in enumerate(Ts):
+            single = robot.ik(T)
+            assert batch.count[i] == len(single)
+            assert np.array_equal(batch[i].q, single.q)
+            assert batch[i].branch == single.branch
+            assert np.isnan(batch.q[i, len(single) :]).all()
+            assert np.isnan(batch.residual[i, len(single) :]).all()
+
+
+def test_threads_do_not_change_a_batch():
+    """3,000 poses in one thread and in three: the same arrays."""
+    robot = robot_of("denso_vs6556")
+    Ts = robot.fk(np.random.default_rng(6).uniform(robot.lower, robot.upper, (3000, 6)))
+    one, three = robot.ik_batch(Ts, threads=1), robot.ik_batch(Ts, threads=3)
+    assert np.array_equal(one.q, three.q, equal_nan=True)
+    assert np.array_equal(one.count, three.count)
+
+
+def test_empty_batch():
+    """No poses, no solutions."""
+    batch = robot_of("denso_vs6556").ik_batch(np.empty((0, 4, 4)))
+    assert len(batch) == 0
+    assert batch.q.shape == (0, 8, 6)
+
+
+def test_results_behave_like_sequences():
+    """len, bool, index, slice, iteration, nearest, repr and str."""
+    robot = robot_of("denso_vs6556")
+    q = np.array([0.1, -1.2, 0.5, 0.3, 0.4, 0.5])
+    found = robot.ik(robot.fk(q))
+    assert bool(found)
+    assert len(list(found)) == len(found) == len(found.branch) == len(found.free_joints)
+    assert np.array_equal(found[0], found.q[0])
+    assert len(found[1:]) == len(found) - 1
+    assert np.abs(found.nearest(q) - q).max() < 1e-12
+    assert np.array_equal(found.T, robot.fk(q))
+    assert "of 6 joints" in repr(found)
+    assert str(found).count("residual") == len(found)
+    with pytest.raises(ValueError, match="read-only"):
+        found.q[0, 0] = 1.0
+    assert all("shoulder" in name for name in found.branch)
+    with pytest.raises(LookupError):
+        robot.ik(dh2urdf.transforms.trans(9, 9, 9)).nearest(q)
+
+
+def test_a_held_joint_keeps_its_value():
+    """locked by index and by name: the value in every solution, the rest solved."""
+    robot = robot_of("denso_vs6556")
+    q = np.array([0.1, -1.2, 0.5, 0.3, 0.4, 0.5])
+    T = robot.fk(q)
+    by_index, by_name = robot.ik(T, locked={5: 0.5}), robot.ik(T, locked={"joint_6": 0.5})
+    assert np.array_equal(by_index.q, by_name.q)
+    assert (by_index.q[:, 5] == 0.5).all()
+    assert np.abs(by_index.q - q).max(axis=1).min() < 1e-9
+    assert not robot.ik(T, locked={5: 0.6})
+    qs = configurations("denso_vs6556", 7, 9)[[0, 1, 3, 4]]
+    batch = robot.ik_batch(robot.fk(qs), locked={5: qs[:, 5]})
+    for i, expected in enumerate(qs):
+        assert np.abs(batch[i].q - expected).max(axis=1).min() < 1e-9
+
+
+def six_digits():
+    T = robot_of("denso_vs6556").fk([0.1, -1.2, 0.5, 0.3, 0.4, 0.5])
+    return np.round(T, 6)
+
+
+def test_six_digit_poses_are_accepted_and_measured_as_given():
+    """A pose typed with six digits is solved; the residual is against that pose."""
+    robot = robot_of("denso_vs6556")
+    T = six_digits()
+    found = robot.ik(T)
+    assert len(found) > 0
+    for s in found:
+        assert np.linalg.norm(robot.fk(s)[:3, 3] - T[:3, 3]) <= 1e-9
+
+
+BAD = {
+    "shape": (np.eye(3), "shape"),
+    "scaled": (np.diag([2.0, 2, 2, 1]), "orthonormal"),
+    "nan": (np.full((4, 4), np.nan), "NaN"),
+    "infinite": (np.diag([1.0, 1, 1, np.inf]), "infinity"),
+    "reflection": (np.diag([1.0, 1, -1, 1]), "reflection"),
+    "skewed": (np.eye(4) + 1e-5 * np.eye(4, k=1) * [0, 1, 1, 0], "orthonormal"),
+    "last row": (np.eye(4) + 1e-6 * np.eye(4)[[3, 3, 3, 0]].T, "last row"),
+    "text": ("pose", "numbers"),
+    "many": (np.stack([np.eye(4)] * 2), "ik_batch"),
+    "ragged": ([[1, 0], [1]], "numbers"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_poses_are_one_clear_exception(case):
+    """A pose that is none raises PoseError, whose text says what is wrong."""
+    T, message = BAD[case]
+    with pytest.raises(PoseError, match=message):
+        robot_of("denso_vs6556").ik(T)
+
+
+def test_a_bad_pose_in_a_batch_is_named():
+    """The message says which pose of the batch is bad."""
+    Ts = np.stack([np.eye(4)] * 5)
+    Ts[3, 0, 0] = 2.0
+    with pytest.raises(PoseError, match=r"poses\[3\]"):
+        robot_of("denso_vs6556").ik_batch(Ts)
+
+
+WRONG = {
+    "seed": ({"seed": [1, 2]}, ConfigurationError, r"\(6,\)"),
+    "seed nan": ({"seed": [math.nan] * 6}, ConfigurationError, "NaN"),
+    "index": ({"locked": {6: 0.0}}, ConfigurationError, "0 to 5"),
+    "name": ({"locked": {"joint_7": 0.0}}, NameNotFoundError, "joint_6"),
+    "value": ({"locked": {0: "x"}}, ConfigurationError, "number"),
+    "outside": ({"locked": {0: 9.0}}, ConfigurationError, "within_limits=False"),
+    "all": ({"locked": dict.fromkeys(range(6), 0.0)}, ConfigurationError, "none is left"),
+    "twice": ({"locked": {0: 0.0, "joint_1": 0.0}}, ConfigurationError, "twice"),
+    "many values": ({"locked": {0: [0.0, 0.1]}}, ConfigurationError, "one pose"),
+    "task": ({"task": "wish"}, ConfigurationError, "position"),
+    "turns": ({"turns": "some"}, ConfigurationError, "nearest"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_arguments_are_one_clear_exception(case):
+    """A wrong seed, held joint, task or turn raises an error that says what is allowed."""
+    options, error, message = WRONG[case]
+    robot = robot_of("denso_vs6556")
+    with pytest.raises(error, match=message):
+        robot.ik(robot.fk(np.zeros(6)), **options)
+
+
+def test_poses_come_in_every_dress():
+    """Lists, Fortran order, float32 and pin.SE3 give the same solutions."""
+    import pinocchio as pin
+
+    robot = robot_of("denso_vs6556")
+    T = robot.fk([0.1, -1.2, 0.5, 0.3, 0.4, 0.5])
+    expected = robot.ik(T).q
+    for dress in (T.tolist(), np.asfortranarray(T), pin.SE3(T)):
+        assert np.abs(robot.ik(dress).q - expected).max() < 1e-12
+    assert len(robot.ik_batch([pin.SE3(T), pin.SE3(T)])) == 2
+    assert len(robot.ik_batch(T)) == 1
+    assert robot_of("planar_rr").ik([1.0, 0.5, 0.0], task="position").q.shape == (2, 2)
+
+
+def test_the_target_is_kept_as_it_was():
+    """Writing to the caller's array afterwards does not change the result."""
+    robot = robot_of("denso_vs6556")
+    T = robot.fk([0.1, -1.2, 0.5, 0.3, 0.4, 0.5])
+    found = robot.ik(T)
+    T[:] = 0.0
+    assert found.verify().max() < 1e-12

@@ -1,0 +1,180 @@
+"""``dh2urdf ik`` as a user meets it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+
+import numpy as np
+import pytest
+
+import dh2urdf
+from dh2urdf.cli import main
+
+POSE = ["--xyz", "0.4", "0", "0.3", "--rpy", "0", "180", "0", "--deg"]
+
+
+@pytest.fixture
+def run(capsys, tmp_path, monkeypatch):
+    """Run the command line in an empty folder: status, stdout, stderr."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*argv):
+        with pytest.raises(SystemExit) as stop:
+            main([str(a) for a in argv])
+        out, err = capsys.readouterr()
+        return stop.value.code, out, err
+
+    return call
+
+
+def target():
+    return dh2urdf.transforms.origin_matrix([0.4, 0, 0.3], [0, math.pi, 0])
+
+
+def test_solutions_are_printed_with_branch_and_residual(run):
+    """Eight rows, those inside the limits first, the others marked with by how much."""
+    status, out, _ = run("ik", "denso_vs6556", *POSE)
+    rows = out.splitlines()[2:]
+    assert status == 0
+    assert len(rows) == 8
+    assert "shoulder left, elbow up" in rows[0]
+    assert "outside limits" not in rows[0]
+    assert "outside limits: joint_" in rows[-1]
+    assert "joint_1 [deg]" in out
+
+
+def test_json_has_full_precision(run):
+    """The solutions of --json put the tip at the pose, to 1e-12, by forward kinematics."""
+    status, out, _ = run("ik", "denso_vs6556", *POSE, "--json")
+    found = json.loads(out)
+    robot = dh2urdf.Robot.from_dh("denso_vs6556")
+    assert (status, found["schema"], found["solver"]) == (0, 1, "spherical wrist")
+    assert len(found["solutions"]) == 8
+    for solution in found["solutions"]:
+        assert np.abs(robot.fk(solution["q"]) - target()).max() < 1e-12
+        assert solution["residual"] < 1e-12
+    assert sum(not s["outside_limits"] for s in found["solutions"]) == len(robot.ik(target()))
+
+
+def test_matrix_and_units_name_the_same_pose(run):
+    """--matrix with 12 numbers, and lengths in mm: the same solutions."""
+    cells = [repr(v) for v in target()[:3].ravel().tolist()]
+    a = json.loads(run("ik", "denso_vs6556", *POSE, "--json")[1])
+    b = json.loads(run("ik", "denso_vs6556", "--matrix", *cells, "--json")[1])
+    c = json.loads(run("ik", "denso_vs6556", "--xyz=400mm,0,300mm", "--rpy=0,pi,0", "--json")[1])
+    for other in (b, c):
+        q = [s["q"] for s in other["solutions"]]
+        assert np.abs(np.array(q) - [s["q"] for s in a["solutions"]]).max() < 1e-9
+
+
+def test_seed_sorts(run):
+    """With --seed the first solution is the one nearest to it."""
+    robot = dh2urdf.Robot.from_dh("denso_vs6556")
+    seed = [0, -69, 38, 0, 31, 180]
+    out = run("ik", "denso_vs6556", *POSE, "--seed", *seed, "--json")[1]
+    q = np.array([s["q"] for s in json.loads(out)["solutions"]])
+    distance = np.linalg.norm(q - np.radians(seed), axis=1)
+    assert (np.diff(distance) >= 0).all()
+    assert np.abs(q[0] - np.radians(seed)).max() < 0.02
+    assert robot.n == 6
+
+
+def test_out_of_reach_is_status_1_with_a_reason(run):
+    """The reason names the wrist centre and the distance; nothing is on stdout."""
+    status, out, err = run("ik", "denso_vs6556", "--xyz", "1.5", "0.1", "0.3", "--rpy", 0, 0, 0)
+    assert (status, out) == (1, "")
+    assert "the wrist centre lies 0.8" in err
+    assert "m outside the reach of joints 1 to 3" in err
+
+
+def test_outside_the_limits_is_status_1_and_shown(run):
+    """All solutions outside: they are printed, marked, and the least excess is named."""
+    status, out, err = run("ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg")
+    assert status == 1
+    assert out.count("outside limits") == 8
+    assert "all 8 solutions are outside the joint limits, the nearest by 0.17" in err
+    status, out, _ = run(
+        "ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg", "--within-limits"
+    )
+    assert (status, out) == (1, "")
+
+
+def test_csv_of_many_poses(run, tmp_path):
+    """Each line is a pose; the answer is CSV; a pose without solution is named by its line."""
+    lines = ["z,x,y,roll,pitch,yaw", "0.3,0.4,0,0,180,0", "", "# far", "0,5,0,0,0,0"]
+    (tmp_path / "poses.csv").write_text("\n".join(lines))
+    status, out, err = run("ik", "denso_vs6556", "--csv", "poses.csv", "--deg")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    robot = dh2urdf.Robot.from_dh("denso_vs6556")
+    assert status == 1
+    assert {row["pose"] for row in rows} == {"1"}
+    assert len(rows) == 8
+    for row in rows:
+        q = np.radians([float(row[name]) for name in robot.joint_names])
+        assert np.abs(robot.fk(q) - target()).max() < 1e-12
+    assert "poses.csv:5: no solution" in err
+    found = json.loads(run("ik", "denso_vs6556", "--csv", "poses.csv", "--deg", "--json")[1])
+    assert found["unreached"] == [1]
+
+
+def test_csv_of_matrices(run, tmp_path):
+    """Lines of 16 entries are matrices."""
+    (tmp_path / "poses.csv").write_text(",".join(repr(v) for v in target().ravel().tolist()))
+    status, out, _ = run("ik", "denso_vs6556", "--csv", "poses.csv")
+    assert status == 0
+    assert len(out.splitlines()) == 9
+
+
+def test_tasks_and_held_joints(run):
+    """--task position takes a point; --locked keeps a joint."""
+    found = json.loads(run("ik", "planar_rr", "--xyz=1,0.5,0", "--task", "position", "--json")[1])
+    assert [s["branch"] for s in found["solutions"]] == ["elbow up", "elbow down"]
+    out = run("ik", "denso_vs6556", *POSE, "--locked", "joint_6=0", "--json")[1]
+    assert all(s["q"][5] == 0 for s in json.loads(out)["solutions"])
+
+
+BAD = [
+    (["ik", "denso_vs6556"], "a pose is needed"),
+    (["ik", "denso_vs6556", "--xyz", "1", "2"], "3 numbers are needed, got 2"),
+    (["ik", "denso_vs6556", "--xyz", "1", "2", "3"], "--rpy is needed"),
+    (["ik", "denso_vs6556", "--xyz", "1", "x", "3", "--rpy", "0", "0", "0"], "--xyz"),
+    (["ik", "denso_vs6556", "--matrix", "1", "2"], "12 or 16 numbers"),
+    (["ik", "denso_vs6556", "--matrix", *"2000020000200001"], "orthonormal"),
+    (["ik", "denso_vs6556", "--csv", "nowhere.csv"], "nowhere.csv"),
+    (["ik", "denso_vs6556", *POSE, "--csv", "x.csv"], "stands alone"),
+    (["ik", "denso_vs6556", *POSE, "--locked", "elbow=1"], "joint_1"),
+    (["ik", "denso_vs6556", *POSE, "--locked", "joint_1"], "joint=value"),
+    (["ik", "denso_vs6556", *POSE, "--task", "wish"], "position+axis"),
+    (["ik", "denso_vs6556", *POSE, "--seed", "1"], "6 values"),
+]
+
+
+@pytest.mark.parametrize(("argv", "message"), BAD, ids=[m for _, m in BAD])
+def test_bad_usage_is_one_message_and_status_2(run, argv, message):
+    """Status 2, a message that names what is wrong, no traceback."""
+    status, out, err = run(*argv)
+    assert (status, out) == (2, "")
+    assert message in err
+    assert "Traceback" not in err
+
+
+CSV_FAULTS = {
+    "columns": ("x,y,z\n1,2,3\n", "poses.csv:1: columns x, y, z, roll"),
+    "short": ("x,y,z,roll,pitch,yaw\n1,2,3\n", "poses.csv:2: 3 cells"),
+    "number": ("1,2,3,0,0,zero\n", "poses.csv:1"),
+    "seven": ("1,2,3,4,5,6,7\n", "6 or 12 or 16"),
+    "empty": ("\n", "holds no poses"),
+}
+
+
+@pytest.mark.parametrize("case", CSV_FAULTS)
+def test_a_bad_csv_is_named_by_line(run, tmp_path, case):
+    """The message holds file and line."""
+    text, message = CSV_FAULTS[case]
+    (tmp_path / "poses.csv").write_text(text)
+    status, _, err = run("ik", "denso_vs6556", "--csv", "poses.csv")
+    assert status == 2
+    assert message in err
