@@ -15,7 +15,10 @@ from dh2urdf.ik.solver import Task
 from dh2urdf.ik.tolerances import ACCEPT, FAMILY_RANK, FAMILY_STEP
 from dh2urdf.transforms import Array
 
-__all__ = ["Family", "task_error", "task_jacobian"]
+__all__ = ["Family", "slide_to_seed", "task_error", "task_jacobian"]
+
+SAME = 1e-6
+"""Joint distance [rad or m] at which two members are one, as two solutions are."""
 
 MOST_STEPS = 100
 """Steps along a family before the search for its nearest member is given up."""
@@ -77,25 +80,42 @@ class Family:
         self.chain, self.task, self.T = chain, task, T
         self.free = list(free)
 
-    def nearest(self, q: Array, seed: Array, within_limits: bool) -> Array | None:
+    def nearest(
+        self, q: Array, seed: Array, within_limits: bool, full_turns: bool = True
+    ) -> Array | None:
         """The member of the family through q (n,) with the least motion from the seed.
+
+        ``full_turns``: start also from q with a free joint a turn to either side.
 
         Returns
         -------
         array, shape (n,), or None
             None where no member keeps the limits and ``within_limits`` is asked for.
         """
-        starts = [limits.turned_to(self.chain, q, seed)]
+        start = limits.turned_to(self.chain, q, seed)
+        members = [self._slide(start, seed)]
         for i in self.free:
-            if not self.chain.prismatic[i]:
-                starts += [starts[0] + s * limits.TWO_PI * np.eye(self.chain.n)[i] for s in (1, -1)]
-        members = [self._slide(start, seed) for start in starts]
+            if full_turns and not self.chain.prismatic[i]:
+                turn = limits.TWO_PI * np.eye(self.chain.n)[i]
+                members += [self._slide(start + turn, seed), self._slide(start - turn, seed)]
         if within_limits:
             inside = [m for m in members if bool(limits.inside(self.chain, m))]
             members = inside or self._inside_members(q, seed)
         if not members:
             return None
         return min(members, key=lambda m: float(np.linalg.norm(m - seed)))
+
+    def holds(self, q: Array, seed: Array) -> bool:
+        """Whether the seed reaches the pose and only free joints tell it from the member q (n,)."""
+        error = self._error(seed)
+        if max(np.linalg.norm(error[:3]), np.linalg.norm(error[3:])) > ACCEPT:
+            return False
+        gap = np.abs(limits.turned_to(self.chain, q, seed) - seed)
+        gap = np.where(
+            self.chain.prismatic, gap, np.abs(np.remainder(gap + np.pi, limits.TWO_PI) - np.pi)
+        )
+        gap[self.free] = 0.0
+        return bool(gap.max() <= SAME)
 
     def _slide(self, q: Array, seed: Array) -> Array:
         """Go along the family while that brings q nearer to the seed."""
@@ -168,3 +188,25 @@ class Family:
         rank = int((sigma > FAMILY_RANK * max(float(sigma[0]), 1e-9)).sum())
         null: Array = Vt[rank:].T
         return null
+
+
+def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_limits: bool) -> None:
+    """Move solutions q (k, n) in place, each along its family, to the members nearest to the seed.
+
+    A walk may end where the family turns away from the seed. So where the seed itself is a
+    member and no walk arrives at it, the walk that ends nearest to it gives way; and one walk a
+    family is enough.
+    """
+    chain = next(iter(families.values())).chain
+    goal = limits.turned_to(chain, seed, seed)
+    reachable = not within_limits or bool(limits.inside(chain, goal))
+    around = [k for k, family in families.items() if reachable and family.holds(q[k], goal)]
+    for k, family in families.items():
+        if around == [k]:
+            q[k] = goal
+            continue
+        member = family.nearest(q[k], seed, within_limits, full_turns=k not in around)
+        q[k] = q[k] if member is None else member
+    gaps = {k: float(np.linalg.norm(q[k] - goal)) for k in around}
+    if gaps and min(gaps.values()) > SAME:
+        q[min(gaps, key=lambda k: gaps[k])] = goal

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
-from dh2urdf.ik.families import Family, task_error
+from dh2urdf.ik.families import Family, slide_to_seed, task_error
 from dh2urdf.ik.held import hold
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.shortfall import beyond_limits, shortfall
@@ -163,11 +163,14 @@ class Problem:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         goal = as_configuration(seed, self.chain.n, "seed")
         q = limits.turned_to(self.chain, found.q, goal)
-        for k, mask in enumerate(found.codes[1].tolist()):
-            if mask:
-                family = Family(self.chain, self.task, found.T, joints_of_mask(mask))
-                member = family.nearest(q[k], goal, within_limits)
-                q[k] = q[k] if member is None else member
+        masks = found.codes[1].tolist()
+        families = {
+            k: Family(self.chain, self.task, found.T, joints_of_mask(mask))
+            for k, mask in enumerate(masks)
+            if mask
+        }
+        if families:
+            slide_to_seed(families, q, goal, within_limits)
         order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
         return self._measured(found, q).select(order)
 

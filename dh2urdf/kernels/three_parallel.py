@@ -38,6 +38,9 @@ VAGUE = 1e-6
 """Sine of the angle between axis 6 and the parallel axes below which t6, which rounding turns by
 1e-16 over that sine, may have left the interval in which the planar arm reaches."""
 
+ROUNDING = 1e-12
+"""Turn of the tool [rad] that rounding, also of t1 near its own rim, explains."""
+
 
 @inner_kernel
 def pairs_of_meeting(form, D, slack, pair):
@@ -199,12 +202,12 @@ def _last_joint(form, first, D, cs):
 
 
 @inner_kernel
-def _reach_with_last_joint(form, first, D, cs, x, y, free):
+def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     """Turn t6, free or nearly so, so that the planar arm reaches (lecture notes 8.2).
 
     The point that the arm has to reach goes round a circle about axis 6. It stays where t6 has
     it if that is within reach; else it goes to the middle of what is, or, where t6 is not quite
-    ``free``, by the shortest way to its end. Returns the point.
+    free, by the shortest way to its end, if rounding explains that. Returns the point.
     """
     upper, fore = form[first, 0], form[first + 1, 0]
     near, far = abs(upper - fore), upper + fore
@@ -215,7 +218,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, free):
         return x, y
     low, high = max(near, abs(distance - radius)), min(far, distance + radius)
     goal = 0.5 * (low + high)
-    if not free and low < high:
+    if in_line > NICE and low < high:
         goal = high if length > far else low
     cosine = (distance * distance + radius * radius - goal * goal) / (2.0 * distance * radius)
     cosine = min(max(cosine, -1.0), 1.0)
@@ -225,6 +228,8 @@ def _reach_with_last_joint(form, first, D, cs, x, y, free):
         sine = -sine
     vx, vy = radius * (ux * cosine - uy * sine), radius * (uy * cosine + ux * sine)
     c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
+    if in_line > FREE and in_line * math.hypot(1.0 - c, s) > ROUNDING:
+        return x, y
     _, _, up = _seen_arm_axis(form, first, D, cs)
     s = -s if up > 0.0 else s
     cs[5, 0], cs[5, 1] = cs[5, 0] * c - cs[5, 1] * s, cs[5, 1] * c + cs[5, 0] * s
@@ -251,7 +256,7 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
     if in_line <= VAGUE:
-        x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line <= NICE)
+        x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
     hx, hy, _ = _seen_arm(form, first, D, cs, 1.0, 0.0)
     heading = math.atan2(hy, hx)
     upper, fore = form[first, 0], form[first + 1, 0]

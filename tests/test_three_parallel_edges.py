@@ -1,0 +1,92 @@
+"""Double singularities of UR arms: axis 6 in line and the elbow straight or the arm upright."""
+
+from __future__ import annotations
+
+
+import ik_referee as ref
+import numpy as np
+import pytest
+
+from dh2urdf import Robot
+
+HALF = np.pi / 2
+UPRIGHT = np.array([0, -HALF, 0, -HALF, 0, 0])
+LISTED = [
+    [0, -1.57, 0, -1.57, 0, 0],
+    [0.3, -1.57, 0, -1.57, 0, 0.5],
+    [0, -1.5685689407, 0, -1.5708488462, 0, 0],
+    [-2.1370483663744593, 1.4933990669309187, 0, -0.4237758402314249, 1e-9, 0.982102435973863],
+    [-1.3147736315810614, 1.3842359751504167, 0, 2.3996747606336903, 0, -0.5603229297969121],
+]
+
+
+def check_found(robot, q):
+    """Ik without a seed has q or a family through it, and with q as seed it returns q.
+
+    With q5 not quite zero, a pose rounded to 1e-16 gives q6 to 1e-16 / q5, and the elbow next to
+    straight to the root of that: there a solution of the same pose to rounding, near q, is q.
+    """
+    T = ref.forward(robot.chain, q)
+    found = robot.ik(T, within_limits=False)
+    assert len(found.q), q.tolist()
+    assert found.residual.max() <= 1e-9
+    apart = 2 * np.abs(np.sin((found.q - q) / 2))
+    for row, free in zip(apart, found.free_joints, strict=True):
+        row[list(free)] = 0.0
+    best = apart.max(axis=1).argmin()
+    assert apart[best].max() <= tolerance_of(robot, q, found.q[best], T), q.tolist()
+    seeded = robot.ik(T, within_limits=False, seed=q)
+    assert seeded.residual.max() <= 1e-9
+    apart = ref.gaps(robot.chain, seeded.q, q)
+    best = apart.argmin()
+    assert apart[best] <= tolerance_of(robot, q, seeded.q[best], T), q.tolist()
+
+
+def tolerance_of(robot, q, found, T):
+    """1e-5 rad; 5e-3 where q5 is not quite zero and the pose found is T to rounding."""
+    to_rounding = np.abs(ref.forward(robot.chain, found) - T).max() <= 3e-15
+    return 5e-3 if abs(q[4]) >= 1e-9 and to_rounding else 1e-5
+
+
+@pytest.mark.parametrize("name", ["ur3", "ur5e", "ur10e"])
+def test_listed_poses_keep_their_configuration(name):
+    """Upright arms and straight elbows with the wrist in line have the solution they come from."""
+    robot = Robot.from_dh(name)
+    for q in LISTED:
+        check_found(robot, np.array(q, float))
+
+
+@pytest.mark.parametrize("name", ["ur3", "ur5e", "ur10e"])
+def test_nearly_upright_arms_are_found(name):
+    """From 1e-3 to 1e-11 beside upright, ten arms each, none is lost."""
+    robot = Robot.from_dh(name)
+    rng = np.random.default_rng(5)
+    for size in (1e-3, 1e-5, 1e-7, 1e-9, 1e-11):
+        for _ in range(10):
+            q = UPRIGHT.copy()
+            q[[1, 3]] += size * rng.normal(size=2)
+            check_found(robot, q)
+
+
+@pytest.mark.parametrize("sine", [0.0, 1e-12, 1e-9, 1e-6])
+def test_straight_elbow_with_the_wrist_in_line_is_found(sine):
+    """At q3 = 0 with q5 from 0 to 1e-6, sixty random configurations are all found."""
+    robot = Robot.from_dh("ur10e")
+    rng = np.random.default_rng(6)
+    for _ in range(60):
+        q = rng.uniform(-3, 3, 6)
+        q[2], q[4] = 0.0, sine
+        check_found(robot, q)
+
+
+def test_a_seed_on_a_family_is_its_nearest_member():
+    """With the wrist in line, 20 seeds that reach the pose are the first solution."""
+    robot = Robot.from_dh("ur10e")
+    rng = np.random.default_rng(7)
+    for _ in range(20):
+        q = rng.uniform(-3, 3, 6)
+        q[4] = 0.0
+        T = ref.forward(robot.chain, q)
+        for within_limits in (False, True):
+            found = robot.ik(T, within_limits=within_limits, seed=q)
+            assert np.abs(found.q[0] - q).max() <= 1e-6
