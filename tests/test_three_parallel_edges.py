@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import ik_referee as ref
 import numpy as np
 import pytest
