@@ -11,6 +11,7 @@ import pytest
 from dh2urdf import DHConvention, DHRow, DHTable
 from dh2urdf.dh_io import near_misses, parse_table, read_table
 from dh2urdf.dh_io.near_misses import rounded_pi
+from dh2urdf.exceptions import TableFileError
 
 
 def warnings(*rows: str, units: str = "m, angle: rad", convention: str = "standard") -> list[str]:
@@ -164,11 +165,13 @@ def test_an_all_zero_row_with_a_purpose_is_not_told(rows: list[str], convention:
     assert warnings(*rows, convention=convention) == []
 
 
-def test_a_modified_header_over_a_standard_table_is_told() -> None:
-    """``a_{i-1}`` belongs to modified tables."""
+def test_a_modified_header_over_a_standard_table_is_refused() -> None:
+    """``a_{i-1}`` belongs to modified tables; both columns are named."""
     text = "# convention: standard\n# units: m, deg\na_{i-1},alpha_{i-1},d_i,theta_i\n1,0,0,0\n"
-    found = parse_table(text, "csv", "arm.csv").warnings
-    assert [w.split(": ")[2].split(" is ")[0] for w in found] == ["a_{i-1}", "alpha_{i-1}"]
+    with pytest.raises(TableFileError) as caught:
+        parse_table(text, "csv", "arm.csv")
+    found = caught.value.problems
+    assert [p.split(": ")[2].split(" is ")[0] for p in found] == ["a_{i-1}", "alpha_{i-1}"]
     assert not parse_table(text.replace("standard", "modified"), "csv").warnings
 
 
