@@ -38,6 +38,7 @@ def ours(results, work):
     return [r for r in results.of(work) if r.contestant == "dh2urdf"]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("work", ["ik one, public", "ik one, bare", "ik batch"])
 def test_quick_run_finds_every_solution(quick, work):
     """Ours finds all that anybody finds, nothing wrong, with residuals at rounding."""
@@ -48,6 +49,7 @@ def test_quick_run_finds_every_solution(quick, work):
         assert row.residual < 1e-9, row
 
 
+@pytest.mark.exhaustive
 def test_quick_run_covers_every_class(quick):
     """One arm a class is solved, by one call and in a batch."""
     for work in ("ik one, public", "ik batch"):
@@ -55,6 +57,7 @@ def test_quick_run_covers_every_class(quick):
         assert solved >= {a.family for a in ARMS} - {"any 6R"}
 
 
+@pytest.mark.exhaustive
 def test_quick_run_places_batches_rightly(quick):
     """FK of a batch differs from the referee by rounding only."""
     assert ours(quick, "fk batch")
@@ -62,6 +65,7 @@ def test_quick_run_places_batches_rightly(quick):
         assert row.residual < 1e-13
 
 
+@pytest.mark.exhaustive
 def test_quick_run_solves_the_edges(quick):
     """Every edge pose has solutions, as many as ever anybody returned for isolated ones."""
     counts = {r.arm: r.extra["solutions"] for r in ours(quick, "ik edge")}
@@ -78,12 +82,14 @@ def test_quick_run_solves_the_edges(quick):
     assert all(counts[key] >= value for key, value in least.items()), counts
 
 
+@pytest.mark.exhaustive
 def test_import_loads_neither_numba_nor_pinocchio(quick):
     """What comes with ``import dh2urdf`` is NumPy."""
     (row,) = ours(quick, "import")
     assert row.extra.get("loaded", []) == []
 
 
+@pytest.mark.exhaustive
 def test_results_name_machine_versions_and_commit(quick):
     """A figure can be traced to what it was measured on."""
     assert set(quick.about) == {"commit", "machine", "versions", "load_average", "seconds"}

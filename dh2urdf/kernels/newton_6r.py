@@ -8,7 +8,15 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, inlined, reduce_columns, solve_upper, vector_kernel
+from dh2urdf.kernels.lanes import (
+    COLUMN,
+    LANES,
+    MASK,
+    inlined,
+    reduce_columns,
+    solve_upper,
+    vector_kernel,
+)
 
 __all__ = ["chain_frames", "newton_step", "pose_error"]
 
