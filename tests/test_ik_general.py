@@ -1,0 +1,191 @@
+"""Arms that no closed form covers, and all others, through the general 6R solver."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from ik_referee import arm, draw, forward, gaps, jacobians, search, shipped, solve
+
+import dh2urdf
+from dh2urdf.ik.general_6r import General6R
+from dh2urdf.ik.solver import SOLVERS, Task, select_solver
+
+pytestmark = pytest.mark.exhaustive
+
+NON_PIEPER = ["fanuc_crx10ia", "fanuc_crx10ia_l", "kinova_jaco2", "xarm6", "abb_gofa5"]
+
+# Manseur and Doty 1989: an arm whose poses have up to 16 real solutions; rows of (d, a, alpha).
+DEGREE = math.pi / 180
+SIXTEEN = (
+    (0, 0.3, math.pi / 2),
+    (0, 1.0, DEGREE),
+    (0.2, 0, math.pi / 2),
+    (0, 1.5, DEGREE),
+    (0, 0, math.pi / 2),
+    (0, 0, DEGREE),
+)
+
+
+def generic(seed):
+    """A chain of six random rows."""
+    rng = np.random.default_rng(seed)
+    rows = rng.uniform((-0.5, -0.5, -3.1), (0.5, 0.5, 3.1), (6, 3))
+    return arm(tuple(map(tuple, rows.tolist())), seed=seed)
+
+
+CHAINS = {name: shipped(name) for name in NON_PIEPER}
+CHAINS |= {f"generic{seed}": generic(seed) for seed in range(8)}
+CHAINS |= {"manseur_doty": arm(SIXTEEN)}
+
+CLOSED_FORMS = [
+    name
+    for name in dh2urdf.list_tables()
+    if shipped(name).n == 6
+    and not shipped(name).prismatic.any()
+    and not isinstance(select_solver(shipped(name)), General6R)
+]
+
+
+def regularity(chain, q):
+    """Smallest singular value of the Jacobian at configurations (k, n), lengths relative."""
+    J = jacobians(chain, q)
+    J[..., :3, :] /= chain.size
+    return np.linalg.svd(J, compute_uv=False)[..., -1]
+
+
+def sweep(chain, m, seed):
+    """Solve random poses; the generating configurations, the poses and what was found."""
+    q = draw(chain, m, seed)
+    Ts = forward(chain, q)
+    return q, Ts, solve(chain, Ts)
+
+
+def check_sweep(chain, m, seed):
+    """All contracts but completeness, and the rows whose own configuration is missing."""
+    q, Ts, found = sweep(chain, m, seed)
+    exists = np.arange(found.q.shape[1]) < found.count[:, None]
+    solutions, owner = found.q[exists], np.repeat(np.arange(m), found.count)
+    error = forward(chain, solutions) - Ts[owner]
+    assert np.abs(error).max() <= 1e-9 * max(1.0, chain.size)
+    assert found.residual[exists].max() <= 1e-9
+    assert np.median(found.residual[exists]) <= 1e-13
+    for i in range(found.q.shape[1]):
+        for j in range(i):
+            apart = gaps(chain, np.nan_to_num(found.q[:, i]), np.nan_to_num(found.q[:, j]))
+            assert apart[exists[:, i]].min(initial=1.0) > 1e-6
+    least = np.full(m, np.inf)
+    np.minimum.at(least, owner, regularity(chain, solutions))
+    assert not (found.count[least > 1e-3] % 2).any()
+    away = np.where(exists, gaps(chain, np.nan_to_num(found.q), q[:, None]), np.inf).min(axis=1)
+    allowed = np.maximum(1e-6, 1e-12 / np.maximum(regularity(chain, q), 1e-12))
+    return np.flatnonzero(away > allowed)
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_generating_configuration_is_found(name):
+    """Of 500 random poses each has its own configuration among distinct, certified solutions."""
+    assert select_solver(CHAINS[name]).name == "general 6R"
+    assert len(check_sweep(CHAINS[name], 500, seed=2)) == 0
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_generating_configuration_is_found_in_100_000_poses(name):
+    """Of 100,000 random poses each has its own configuration among its solutions."""
+    missing = [len(check_sweep(CHAINS[name], 5_000, seed)) for seed in range(20)]
+    assert sum(missing) == 0
+
+
+@pytest.mark.parametrize("name", NON_PIEPER)
+def test_solutions_are_verified_by_pinocchio(name):
+    """Pinocchio places the tip at the target, 1e-9, for all solutions within the limits."""
+    robot = dh2urdf.Robot.from_dh(name)
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        q = robot.random_configuration(rng)
+        found = robot.ik(robot.fk(q))
+        assert found.verify().max() <= 1e-9
+        assert np.all((found.q >= robot.lower) & (found.q <= robot.upper))
+        assert np.abs(found.nearest(q) - q).max() < 1e-6
+
+
+@pytest.mark.parametrize("name", ["fanuc_crx10ia", "kinova_jaco2", "generic0", "manseur_doty"])
+def test_the_count_is_that_of_an_independent_search(name):
+    """Damped Newton from 1,000 random starts finds the same solutions and no others."""
+    chain = CHAINS[name]
+    _, Ts, found = sweep(chain, 1, seed=5)
+    for i, T in enumerate(Ts):
+        others = search(chain, T, seed=i, starts=1000)
+        assert len(others) == found.count[i]
+        mine = found.of(i)[0]
+        assert gaps(chain, others[:, None], mine[None]).min(axis=1).max() < 1e-6
+
+
+def test_sixteen_solutions_are_found_whole():
+    """The arm of Manseur and Doty has poses with 16 solutions, the most that a 6R arm can have."""
+    _, _, found = sweep(CHAINS["manseur_doty"], 2000, seed=0)
+    assert found.count.max() == 16
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_the_general_solver_equals_the_closed_form(name):
+    """Every shipped arm with a closed form has the same solutions by elimination."""
+    chain = shipped(name)
+    Ts = forward(chain, draw(chain, 40, seed=4))
+    closed = solve(chain, Ts)
+    general = solve(chain, Ts, solver=General6R(chain))
+    for i in range(len(Ts)):
+        q, p = closed.of(i)[0], general.of(i)[0]
+        if regularity(chain, q).min() < 1e-3:
+            continue
+        assert len(q) == len(p)
+        assert gaps(chain, q[:, None], p[None]).min(axis=1).max() < 1e-6
+
+
+def test_most_poses_are_compared():
+    """The comparison with the closed forms leaves out few poses as singular."""
+    kept = [
+        (regularity(shipped(name), draw(shipped(name), 40, seed=4)) >= 1e-3).mean()
+        for name in CLOSED_FORMS
+    ]
+    assert len(CLOSED_FORMS) >= 25
+    assert min(kept) > 0.9
+
+
+@pytest.mark.parametrize("name", ["xarm6", "fanuc_crx10ia"])
+def test_limits_drop_what_no_turn_brings_inside(name):
+    """Solutions within the limits are those without limits that some full turn brings inside."""
+    robot = dh2urdf.Robot.from_dh(name)
+    rng = np.random.default_rng(3)
+    for _ in range(40):
+        T = robot.fk(robot.random_configuration(rng))
+        inside, anywhere = robot.ik(T), robot.ik(T, within_limits=False)
+        turns = 2 * math.pi * np.arange(-2, 3)
+        values = anywhere.q[:, :, None] + turns
+        fits = (values >= robot.lower[:, None]) & (values <= robot.upper[:, None])
+        assert len(inside) == np.count_nonzero(fits.any(axis=2).all(axis=1))
+
+
+def test_no_joint_of_a_regular_solution_is_free():
+    """Random poses of a generic arm have isolated solutions only."""
+    chain = CHAINS["generic1"]
+    assert not sweep(chain, 100, seed=1)[2].free.any()
+
+
+def test_the_solver_explains_itself():
+    """The explanation names the method, and each better class with what kept it away."""
+    robot = dh2urdf.Robot.from_dh("fanuc_crx10ia")
+    assert str(robot.solver) == "general 6R"
+    text = robot.solver.explain()
+    assert "Raghavan" in text
+    before = [row.name for row in SOLVERS]
+    for name in before[: before.index("general 6R")]:
+        assert f"not {name}: " in text
+
+
+def test_other_tasks_are_not_for_this_solver():
+    """For a position alone the general solver says that it is not meant."""
+    obstacle = General6R.obstacle(CHAINS["generic0"], Task.POSITION)
+    assert obstacle == "it solves for the full pose, not for position"

@@ -1,0 +1,362 @@
+"""Arms of seven joints: one held, one swept, and what lies between the samples."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from ik_referee import forward, gaps, jacobians
+
+import dh2urdf
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.ik import limits
+from dh2urdf.ik.self_motion import nearest_members
+from dh2urdf.ik.swept import sample_values
+
+pytestmark = pytest.mark.exhaustive
+
+ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
+SWEPT = {
+    "franka_fer": "fer_joint7",
+    "franka_fr3": "fr3_joint7",
+    "kuka_iiwa7": "joint_a3",
+    "kuka_iiwa14": "joint_a3",
+    "xarm7": "joint7",
+    "kinova_gen3": "Actuator3",
+}
+
+# Joints that can be held so that the others have a closed form. With the elbow of an arm held that
+# has a spherical shoulder and wrist, the others have a joint to spare.
+CLOSED = {
+    "franka_fer": (3, 4, 5, 6),
+    "franka_fr3": (3, 4, 5, 6),
+    "kuka_iiwa7": (0, 1, 2, 4, 5, 6),
+    "kuka_iiwa14": (0, 1, 2, 4, 5, 6),
+    "xarm7": (3, 4, 5, 6),
+    "kinova_gen3": (0, 1, 2, 3),
+}
+HELD_CLOSED = [(name, joint) for name, joints in CLOSED.items() for joint in joints]
+HELD_GENERAL = [
+    (name, joint)
+    for name in ("franka_fer", "xarm7", "kinova_gen3")
+    for joint in range(7)
+    if joint not in CLOSED[name]
+]
+
+
+@cache
+def robot_of(name):
+    return dh2urdf.Robot.from_dh(name)
+
+
+def generic_seven(slide=None, seed=0):
+    """Seven random rows; one of them may slide."""
+    rng = np.random.default_rng(seed)
+    rows = []
+    for i in range(7):
+        theta, d, a, alpha = rng.uniform((-3, -0.4, -0.4, -3), (3, 0.4, 0.4, 3))
+        kind = JointType.PRISMATIC if i == slide else JointType.REVOLUTE
+        low, high = (0.0, 0.5) if i == slide else (-2.9, 2.9)
+        rows.append(
+            DHRow(theta=theta, d=d, a=a, alpha=alpha, joint_type=kind, lower=low, upper=high)
+        )
+    return dh2urdf.Robot.from_dh(DHTable(tuple(rows), DHConvention.STANDARD, name="seven"))
+
+
+def draw(robot, m, seed):
+    """Configurations within the limits, one in three with a nearly straight elbow."""
+    rng = np.random.default_rng(seed)
+    q = rng.uniform(robot.lower, robot.upper, (m, 7))
+    near = rng.random(m) < 1 / 3
+    straight = np.clip(0.0, robot.lower[3], robot.upper[3])
+    q[near, 3] = straight + 10.0 ** rng.uniform(-5, -1, near.sum()) * np.sign(q[near, 3] - straight)
+    return np.clip(q, robot.lower, robot.upper)
+
+
+def held_regularity(robot, q, joint):
+    """Smallest singular value of the Jacobian without a joint, lengths relative, (k,)."""
+    J = np.delete(jacobians(robot.chain, q), joint, axis=-1)
+    J[..., :3, :] /= robot.chain.size
+    return np.linalg.svd(J, compute_uv=False)[..., -1]
+
+
+def check_held(robot, joint, m, seed):
+    """All contracts but completeness, and the rows whose own configuration is missing."""
+    q = draw(robot, m, seed)
+    Ts = forward(robot.chain, q)
+    batch = robot.ik_batch(Ts, locked={joint: q[:, joint]})
+    exists = np.arange(batch.q.shape[1]) < batch.count[:, None]
+    found, owner = batch.q[exists], np.repeat(np.arange(m), batch.count)
+    assert np.abs(forward(robot.chain, found) - Ts[owner]).max() <= 2e-9
+    assert np.array_equal(found[:, joint], q[owner, joint])
+    assert np.all((found >= robot.lower - 1e-12) & (found <= robot.upper + 1e-12))
+    for i in range(batch.q.shape[1]):
+        for j in range(i):
+            both = exists[:, i]
+            apart = gaps(robot.chain, batch.q[both, i], batch.q[both, j])
+            assert apart.min(initial=1.0) > 1e-6
+    away = gaps(robot.chain, np.where(exists[..., None], batch.q, 9.0), q[:, None])
+    away = np.where(exists, away, np.inf).min(axis=1)
+    regular = held_regularity(robot, q, joint)
+    return np.flatnonzero(away > np.maximum(1e-6, 1e-13 / np.maximum(regular, 1e-15) ** 2))
+
+
+@pytest.mark.parametrize(("name", "joint"), HELD_CLOSED)
+def test_the_generating_configuration_is_found_at_its_own_value(name, joint):
+    """Of 500 poses, straight elbows among them, each has its configuration at its held value."""
+    assert len(check_held(robot_of(name), joint, 500, seed=joint)) == 0
+
+
+@pytest.mark.parametrize(("name", "joint"), HELD_GENERAL)
+def test_any_other_joint_can_be_held_too(name, joint):
+    """Where holding a joint leaves no closed form the general solver finds the configuration."""
+    assert len(check_held(robot_of(name), joint, 30, seed=joint)) == 0
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", ARMS)
+def test_the_generating_configuration_is_found_in_100_000_poses(name):
+    """At the value of the swept joint each of 100,000 poses has its own configuration."""
+    robot = robot_of(name)
+    joint = robot.joint_names.index(SWEPT[name])
+    assert sum(len(check_held(robot, joint, 10_000, seed)) for seed in range(10)) == 0
+
+
+@pytest.mark.parametrize("slide", [0, 3, 6])
+def test_a_sliding_joint_can_be_held(slide):
+    """An arm of six turning joints with a slide somewhere is solved at the slide's values."""
+    robot = generic_seven(slide, seed=slide)
+    q = np.random.default_rng(0).uniform(robot.lower, robot.upper, (10, 7))
+    batch = robot.ik_batch(robot.fk(q), locked={slide: q[:, slide]})
+    for i in range(10):
+        assert gaps(robot.chain, batch[i].q, q[i]).min() < 1e-6
+    assert str(robot.solver) == f"general 6R, joint_{slide + 1} swept"
+
+
+@pytest.mark.parametrize(("name", "joint"), [("franka_fer", 6), ("kuka_iiwa14", 2)])
+def test_single_calls_equal_the_batch(name, joint):
+    """A batch with a value for each pose has the solutions of one call a pose, by name too."""
+    robot = robot_of(name)
+    q = draw(robot, 40, seed=8)
+    Ts = robot.fk(q)
+    batch = robot.ik_batch(Ts, locked={joint: q[:, joint]}, threads=2)
+    for i in range(40):
+        one = robot.ik(Ts[i], locked={robot.joint_names[joint]: q[i, joint]})
+        assert np.abs(one.q - batch[i].q).max(initial=0.0) < 1e-9
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_values_at_which_axes_line_up_are_like_others(name):
+    """At 0, near 0 and at quarter turns of the held joint the configuration is found."""
+    robot = robot_of(name)
+    joint = robot.joint_names.index(SWEPT[name])
+    values = [0.0, 1e-10, 1e-8, -1e-6, 1e-4, math.pi / 2, -math.pi / 2, math.pi / 2 - 1e-9]
+    rng = np.random.default_rng(3)
+    q = np.repeat(rng.uniform(robot.lower, robot.upper, (20, 7)), len(values), axis=0)
+    q[:, joint] = np.tile(values, 20)
+    batch = robot.ik_batch(robot.fk(q), locked={joint: q[:, joint]})
+    away = [gaps(robot.chain, batch[i].q, q[i]).min(initial=9.0) for i in range(len(q))]
+    assert max(away) < 1e-6
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_the_swept_joint_is_named(name):
+    """The solver says which joint it sweeps, why, and what solves for the others."""
+    solver = robot_of(name).solver
+    family = "shoulder" if name[0] in "fx" else "wrist"
+    assert str(solver) == f"spherical {family}, {SWEPT[name]} swept"
+    assert f"{SWEPT[name]} at 16 values" in solver.explain()
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_sweep_is_the_union_of_its_values(name):
+    """Without a held joint the solutions are those at the samples, each verified by Pinocchio."""
+    robot = robot_of(name)
+    joint = robot.joint_names.index(SWEPT[name])
+    rng = np.random.default_rng(5)
+    for samples in (1, 7):
+        T = robot.fk(rng.uniform(0.7 * robot.lower, 0.7 * robot.upper))
+        found = robot.ik(T, samples=samples)
+        values = sample_values(robot.chain, joint, samples, True)
+        single = [robot.ik(T, locked={joint: v}).q for v in values]
+        if found and np.isin(found.q[:, joint], values).all():
+            assert np.abs(found.q - np.concatenate(single)).max() < 1e-9
+        else:
+            assert sum(len(q) for q in single) == 0
+        assert found.verify().max(initial=0.0) <= 1e-9
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_reachable_poses_have_solutions(name):
+    """A pose that is reached in a short interval only is not called out of reach."""
+    robot = robot_of(name)
+    q = np.random.default_rng(6).uniform(robot.lower, robot.upper, (150, 7))
+    batch = robot.ik_batch(robot.fk(q), samples=4)
+    assert batch.count.min() > 0
+    exists = np.arange(batch.q.shape[1]) < batch.count[:, None]
+    Ts = np.repeat(robot.fk(q), batch.count, axis=0)
+    assert np.abs(forward(robot.chain, batch.q[exists]) - Ts).max() <= 2e-9
+    assert limits.inside(robot.chain, batch.q[exists]).all()
+
+
+def brute_force_distance(robot, T, seed, samples):
+    """Distance from a seed to the nearest of many samples."""
+    q = robot.ik(T, samples=samples).q
+    return np.linalg.norm(limits.turned_to(robot.chain, q, seed) - seed, axis=1).min()
+
+
+@pytest.mark.parametrize("name", ["franka_fer", "kuka_iiwa14", "xarm7", "kinova_gen3"])
+def test_the_nearest_solution_is_nearer_than_any_sample(name):
+    """With a seed the first solution is as near as the best of 1,000 values of the swept joint."""
+    robot = robot_of(name)
+    rng = np.random.default_rng(7)
+    for _ in range(15):
+        T = robot.fk(rng.uniform(robot.lower, robot.upper))
+        seed = rng.uniform(robot.lower, robot.upper)
+        found = robot.ik(T, seed=seed)
+        distances = np.linalg.norm(found.q - seed, axis=1)
+        assert np.all(np.diff(distances) >= 0.0)
+        assert distances[0] <= brute_force_distance(robot, T, seed, 1000) + 1e-7
+        assert limits.inside(robot.chain, found.q).all()
+        assert found.verify().max() <= 1e-9
+
+
+@pytest.mark.parametrize("name", ["franka_fer", "kuka_iiwa14"])
+def test_no_step_along_the_self_motion_comes_nearer(name):
+    """At the nearest solution away from limits the self-motion is square to the way to the seed."""
+    robot = robot_of(name)
+    rng = np.random.default_rng(9)
+    checked = 0
+    for _ in range(20):
+        T = robot.fk(rng.uniform(robot.lower, robot.upper))
+        seed = rng.uniform(robot.lower, robot.upper)
+        q = nearest_members(robot.solver, T, seed, within_limits=True)[0][0]
+        if np.min(np.minimum(q - robot.lower, robot.upper - q)) < 1e-3:
+            continue
+        checked += 1
+        tangent = np.linalg.svd(jacobians(robot.chain, q))[2][-1]
+        assert abs(tangent @ (seed - q)) < 1e-7
+    assert checked >= 3
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_seed_that_solves_the_pose_is_returned(name):
+    """The seed's own pose gives the seed back."""
+    robot = robot_of(name)
+    rng = np.random.default_rng(4)
+    for _ in range(10):
+        q = rng.uniform(robot.lower, robot.upper)
+        T = robot.fk(q)
+        assert np.abs(robot.ik(T, seed=q)[0] - q).max() < 1e-7
+        assert np.abs(robot.ik(T).nearest(q) - q).max() < 1e-7
+
+
+def is_at_an_end(robot, joint, q):
+    """Whether q has a joint at a limit, or the swept joint at a turning point of its curve."""
+    margin = np.minimum(q - robot.lower, robot.upper - q).min()
+    return margin < 1e-8 or held_regularity(robot, q, joint) < 1e-4
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_intervals_end_where_reach_ends(name):
+    """Just inside an end the pose has a solution at a limit or a fold; just outside it has none."""
+    robot = robot_of(name)
+    joint = robot.joint_names.index(SWEPT[name])
+    low, high = robot.lower[joint], robot.upper[joint]
+    rng = np.random.default_rng(11)
+    for _ in range(4):
+        q = rng.uniform(robot.lower, robot.upper)
+        T = robot.fk(q)
+        intervals = robot.ik_intervals(T)
+        assert np.all(np.diff(intervals.ravel()) > 0.0)
+        assert ((intervals[:, 0] <= q[joint]) & (q[joint] <= intervals[:, 1])).any()
+        for end, inward in [
+            (e, s) for pair in intervals for e, s in zip(pair, (1, -1), strict=True)
+        ]:
+            at_end = robot.ik(T, locked={joint: min(max(end, low), high)})
+            assert at_end
+            if low < end < high:
+                assert any(is_at_an_end(robot, joint, p) for p in at_end)
+                beyond = end - 1e-6 * inward
+                assert not robot.ik(T, locked={joint: min(max(beyond, low), high)})
+
+
+@pytest.mark.parametrize("name", ["franka_fer", "xarm7"])
+def test_intervals_agree_with_many_held_values(name):
+    """A held value has a solution exactly if it lies in an interval."""
+    robot = robot_of(name)
+    joint = robot.joint_names.index(SWEPT[name])
+    T = robot.fk(np.random.default_rng(12).uniform(robot.lower, robot.upper))
+    intervals = robot.ik_intervals(T)
+    values = np.random.default_rng(0).uniform(robot.lower[joint], robot.upper[joint], 2000)
+    batch = robot.ik_batch(np.repeat(T[None], 2000, axis=0), locked={joint: values})
+    inside = ((intervals[:, :1] <= values) & (values <= intervals[:, 1:])).any(axis=0)
+    near = np.abs(intervals.reshape(-1, 1) - values).min(axis=0) < 1e-6
+    assert np.array_equal(inside[~near], (batch.count > 0)[~near])
+
+
+def test_intervals_without_limits_cover_a_turn():
+    """Without limits an interval lies in one turn, and is wider than within the limits."""
+    robot = robot_of("kuka_iiwa14")
+    T = robot.fk(np.random.default_rng(13).uniform(0.5 * robot.lower, 0.5 * robot.upper))
+    free, bound = robot.ik_intervals(T, within_limits=False), robot.ik_intervals(T)
+    assert np.ptp(free) <= 2 * math.pi + 1e-12
+    assert np.diff(free, axis=1).sum() >= np.diff(bound, axis=1).sum()
+
+
+def test_an_unreachable_pose_has_no_interval():
+    """A pose 5 m away has no solution, no interval, and none near a seed."""
+    robot = robot_of("franka_fer")
+    T = np.eye(4)
+    T[0, 3] = 5.0
+    assert robot.ik_intervals(T).shape == (0, 2)
+    assert not robot.ik(T)
+    assert not robot.ik(T, seed=np.zeros(7), within_limits=False)
+
+
+def test_an_arm_without_any_closed_form_is_swept():
+    """Seven skew axes: an end is held, the general solver does the rest."""
+    robot = generic_seven(seed=3)
+    q = np.random.default_rng(2).uniform(robot.lower, robot.upper)
+    T = robot.fk(q)
+    found = robot.ik(T, samples=8)
+    assert str(robot.solver) == "general 6R, joint_1 swept"
+    assert found.verify().max() <= 1e-9
+    assert np.abs(robot.ik(T, seed=q)[0] - q).max() < 1e-6
+
+
+def test_holding_the_elbow_names_the_joints_left_free():
+    """With the elbow of an iiwa held the rest still moves: the solutions name the free joints."""
+    robot = robot_of("kuka_iiwa14")
+    q = np.array([0.3, 0.5, -0.2, 0.9, 0.4, -0.6, 0.1])
+    found = robot.ik(robot.fk(q), locked={3: 0.9})
+    assert found
+    assert found.verify().max() <= 1e-9
+    assert all(set(free) >= {0, 2, 4, 6} for free in found.free_joints)
+
+
+WRONG = {
+    "zero": ({"samples": 0}, "samples: a whole number from 1, not 0"),
+    "float": ({"samples": 2.5}, "samples: a whole number from 1, not 2.5"),
+    "both": ({"samples": 4, "locked": {6: 0.1}}, "samples: a joint is swept or locked, not both"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_samples_are_one_clear_exception(case):
+    """The message says what is allowed."""
+    arguments, message = WRONG[case]
+    with pytest.raises(ConfigurationError, match=message):
+        robot_of("franka_fer").ik(np.eye(4), **arguments)
+
+
+def test_a_sweep_of_six_joints_is_refused():
+    """An arm without a joint to spare has neither samples nor intervals."""
+    robot = dh2urdf.Robot.from_dh("ur5")
+    with pytest.raises(ConfigurationError, match="no joint is swept"):
+        robot.ik(np.eye(4), samples=4)
+    with pytest.raises(ConfigurationError, match="no joint is swept"):
+        robot.ik_intervals(np.eye(4))
