@@ -345,3 +345,16 @@ def test_limits_drop_solutions_but_keep_families():
     kept = referee.solve(narrow, T[None], within_limits=True).of(0)[0]
     assert len(kept) == 1
     assert referee.gaps(chain, kept[0], q) < 1e-9
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_a_configuration_on_its_bounds_is_kept(name):
+    """Rounding takes a joint over its bound by 1e-16; it is put on the bound, not dropped."""
+    chain = named(name)
+    for q in referee.draw(chain, 20, 9):
+        tight = referee.with_limits(chain, q, q + 0.5)
+        T = referee.forward(chain, q)
+        kept = referee.solve(tight, T[None], within_limits=True).of(0)[0]
+        assert len(kept) >= 1
+        assert (kept >= tight.lower).all()
+        assert np.abs(kept - q).max(axis=1).min() <= 1e-6

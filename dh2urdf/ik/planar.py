@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -126,9 +127,6 @@ class PlanarArm(SolverBase):
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         super().__init__(chain, task, others)
-        from dh2urdf.kernels.planar import solve_planar
-
-        self._kernel: BatchKernel = solve_planar
         frames = axis_frames(chain)
         T_first_base = inverse(frames[0])
         last = chain.tool if chain.n == 2 else frames[2]
@@ -148,6 +146,12 @@ class PlanarArm(SolverBase):
                 float(np.clip(0.0, chain.lower[0], chain.upper[0])),
             ]
         )
+
+    @cached_property
+    def _kernel(self) -> BatchKernel:
+        from dh2urdf.kernels.planar import solve_planar
+
+        return solve_planar  # type: ignore[no-any-return]
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 
 import numpy as np
 
@@ -29,14 +30,17 @@ class ShortPosition(SolverBase):
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         super().__init__(chain, task, others)
-        from dh2urdf.kernels.short_position import solve_short_positions
-
-        self._kernel: BatchKernel = solve_short_positions
         frames = axis_frames(chain)
         self.tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
         steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
         self.frames = np.ascontiguousarray(np.stack(steps))
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
+
+    @cached_property
+    def _kernel(self) -> BatchKernel:
+        from dh2urdf.kernels.short_position import solve_short_positions
+
+        return solve_short_positions  # type: ignore[no-any-return]
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION) -> str | None:

@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 
 __all__ = ["dual_conjugate", "dual_of_pose", "dual_product", "dual_times_joint"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def dual_of_pose(T, unit, out):
     """Write the dual quaternion of T (4, 4), lengths divided by ``unit``, to out (8,).
 
@@ -44,14 +44,14 @@ def dual_of_pose(T, unit, out):
     out[7] = tz * w + tx * y - ty * x
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def dual_conjugate(a, out):
     """Write the inverse of a unit dual quaternion: vector parts with the other sign."""
     out[0], out[1], out[2], out[3] = a[0], -a[1], -a[2], -a[3]
     out[4], out[5], out[6], out[7] = a[4], -a[5], -a[6], -a[7]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@inner_kernel
 def _hamilton(a, i, b, j):
     """Hamilton's product of the quaternions at a[i:] and b[j:]."""
     p, q, r, s = a[i], a[i + 1], a[i + 2], a[i + 3]
@@ -64,7 +64,7 @@ def _hamilton(a, i, b, j):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def dual_product(a, b, out):
     """Write ``a b`` to out (8,), which may be a or b."""
     r0, r1, r2, r3 = _hamilton(a, 0, b, 0)
@@ -74,7 +74,7 @@ def dual_product(a, b, out):
     out[4], out[5], out[6], out[7] = m0 + n0, m1 + n1, m2 + n2, m3 + n3
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def dual_times_joint(a, slides, out):
     """Write ``a k`` (turning) or ``a e k`` (sliding) to out (8,): the factor of v."""
     w, x, y, z = a[0], a[1], a[2], a[3]

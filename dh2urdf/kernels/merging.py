@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from dh2urdf.kernels.certify import POLISH, TWO_PI, _move, polish, pose_residual
+from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = ["merge_solutions"]
 
@@ -14,7 +13,7 @@ NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _one(links, joints, T, q, p, accuracy, middle, start, work):
     """Whether q and p are near, and the pose is reached as well half way between them.
 
@@ -42,7 +41,7 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch, work):
     """Keep one of each group of solutions that are one, the best; the new count.
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import work_array
 from dh2urdf.kernels.position_task import finish_position
 from dh2urdf.kernels.trig import elbow_angle
@@ -27,7 +27,7 @@ ELBOW_UP = 0
 ELBOW_DOWN = 2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def planar_rr(l1, l2, x, y, slack, rest, out):
     """Both elbows of the planar RR arm.
 
@@ -67,7 +67,7 @@ def planar_rr(l1, l2, x, y, slack, rest, out):
     return count, False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _one_link(l1, l2, x, y, slack, rest, out):
     """The arm with a link of no length: a circle, and one angle free."""
     length, distance = l1 + l2, math.hypot(x, y)
@@ -79,7 +79,7 @@ def _one_link(l1, l2, x, y, slack, rest, out):
     return 1, True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve_planar(
     links, joints, plane, form, pose, Ts, within_limits, q, residual, count, branch, free
 ):
@@ -141,7 +141,7 @@ def solve_planar(
             )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _heading(F, T, N):
     """Angle about the axes from the tool at q = 0 to T: that of ``F R N``."""
     g0, g1 = 0.0, 0.0

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import (
     ACCEPT,
@@ -22,6 +21,7 @@ from dh2urdf.kernels.certify import (
     _move,
 )
 from dh2urdf.kernels.chain import _joint_times_link, _load
+from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, _null_direction
 from dh2urdf.kernels.merging import NEAR
 
@@ -31,7 +31,7 @@ MAX_STEPS = 12
 """Newton steps before a candidate is given up; a sound one needs two or three."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def position_residual(links, joints, T, q):
     """Distance [m] of the tool at q (n,) from the origin of T (4, 4)."""
     r = _load(links[0])
@@ -41,7 +41,7 @@ def position_residual(links, joints, T, q):
     return math.sqrt(x * x + y * y + z * z)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _normal_equations(links, joints, T, q, work):
     """``J^T J`` to ``work[:, 8:]`` (lower triangle), ``J^T e`` to ``work[:, 6]``, three rows."""
     n = q.shape[0]
@@ -62,7 +62,7 @@ def _normal_equations(links, joints, T, q, work):
             work[i, 8 + j] = zx * work[j, 0] + zy * work[j, 1] + zz * work[j, 2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _polish(links, joints, T, q, work):
     """Newton's method, damped where it does not help; q (n,) in place, returns the residual."""
     residual = position_residual(links, joints, T, q)
@@ -91,7 +91,7 @@ def _polish(links, joints, T, q, work):
     return residual
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family, see :mod:`dh2urdf.kernels.families`."""
     _normal_equations(links, joints, T, q, work)
@@ -111,7 +111,7 @@ def _free_joints(links, joints, T, q, trial, work):
     return mask if away > 0.25 * WALK * WALK else np.int64(0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _gap(joints, i, a, b):
     """Difference of two values of joint i, without full turns."""
     gap = b - a
@@ -120,7 +120,7 @@ def _gap(joints, i, a, b):
     return gap
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _one(links, joints, T, q, p, accuracy, middle):
     """Whether two solutions are one, see :mod:`dh2urdf.kernels.merging`."""
     largest = 0.0
@@ -133,7 +133,7 @@ def _one(links, joints, T, q, p, accuracy, middle):
     return largest <= CLUSTER or position_residual(links, joints, T, middle) <= accuracy
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _into_limits(links, joints, T, q):
     """Turn q (n,) into its limits, overshoot of rounding onto the bound; whether that succeeds."""
     for i in range(q.shape[0]):
@@ -160,7 +160,7 @@ def _into_limits(links, joints, T, q):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def finish_position(links, joints, T, within_limits, q, residual, branch, free, count, trial, work):
     """Certify the candidates of one position in place; returns how many solutions are left.
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = ["add_candidates"]
 
@@ -24,7 +24,7 @@ SLACK = 1e-6
 """Relative negative discriminant that is clamped to a double root; the residual decides."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
     """Append the configurations that a null space holds.
 
@@ -71,7 +71,7 @@ def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _append(w, shape, joints, x, unit, q, count):
     """Append the configuration of one null vector, if it is one and there is room."""
     if count >= q.shape[0]:
@@ -87,7 +87,7 @@ def _append(w, shape, joints, x, unit, q, count):
     return count + 1 if ok else count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _split(w, at, first, second, joints, unit, row):
     """Take a product apart: the larger column is the first joint's, the larger row the other's.
 
@@ -108,7 +108,7 @@ def _split(w, at, first, second, joints, unit, row):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _write(u, v, joint, joints, unit, row):
     """The joint value of (u : v); False where there is none."""
     if joints[joint, 0] == 0.0:
@@ -120,7 +120,7 @@ def _write(u, v, joint, joints, unit, row):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _mixed(p, r, at):
     """Half of the mixed determinant of the 2 x 2 slots of two vectors."""
     return 0.5 * (
@@ -128,7 +128,7 @@ def _mixed(p, r, at):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _meet_line(basis, at, shape, joints, x, unit, q, count):
     """Append the points of the line between basis rows ``at`` and ``at + 1`` that are products.
 
@@ -167,7 +167,7 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
     return count, conditions
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _hold(basis, nullity, shape, place, slides, value, unit):
     """Vectors of the null space with one joint at a value, to rows 3, 4, 5 of the basis.
 

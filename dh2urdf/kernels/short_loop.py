@@ -19,8 +19,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.dual_quaternions import dual_product, dual_times_joint
 
 __all__ = ["SAMPLES", "determinant_series", "factor", "loop_columns", "loop_matrix", "null_basis"]
@@ -35,7 +35,7 @@ SAMPLE_TABLE = np.stack(
 ) * (2.0 / SAMPLES)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _pair_columns(loop, joints, first, second, out):
     """Products ``z_a L_a z_b L_b`` to out (4, 8), row 2 i + j with z_a the i-th factor of joint a.
 
@@ -55,7 +55,7 @@ def _pair_columns(loop, joints, first, second, out):
             dual_product(out[k + 1], loop[second], out[k + 1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def loop_columns(loop, joints, order, out):
     """Columns of A_0 (rows 0 to 3 of out), A_1 (4 to 7) and -B (8 to 11).
 
@@ -82,7 +82,7 @@ def loop_columns(loop, joints, order, out):
         out[8 + k, 0], out[8 + k, 4] = -out[8 + k, 0], -out[8 + k, 4]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def loop_matrix(columns, used, u, v, M):
     """M at (u_x : v_x), column ``used[k]`` of the pairs (0 to 3 left, 4 to 7 right) in row k.
 
@@ -102,7 +102,7 @@ def loop_matrix(columns, used, u, v, M):
     return size
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def factor(M, size, order):
     """Householder's QR with column pivoting, in place; R in the leading entries of the rows.
 
@@ -155,7 +155,7 @@ def factor(M, size, order):
     return determinant
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def null_basis(M, size, order, nullity, basis):
     """Vectors that a factored matrix takes to (nearly) zero, in the order of its columns.
 
@@ -186,7 +186,7 @@ def null_basis(M, size, order, nullity, basis):
             basis[k, i] /= largest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def determinant_series(columns, used, M, order, series):
     """``det M`` along x: coefficients of 1, cos y, sin y, cos 2y, sin 2y to series (5,).
 

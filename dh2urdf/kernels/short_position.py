@@ -16,8 +16,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import work_array
 from dh2urdf.kernels.position_task import finish_position
 from dh2urdf.kernels.short_loop import SAMPLE_ANGLE, SAMPLE_TABLE, SAMPLES
@@ -41,7 +41,7 @@ STEEP = 0.1
 """Cosine between a slide and the axis before it from which the height alone gives the slide."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _applied(A, v, out):
     """Write the point ``A v`` to out (3,)."""
     x, y, z = v[0], v[1], v[2]
@@ -49,7 +49,7 @@ def _applied(A, v, out):
         out[i] = A[i, 0] * x + A[i, 1] * y + A[i, 2] * z + A[i, 3]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _applied_inverse(A, v, out):
     """Write the point ``A^-1 v`` to out (3,)."""
     x, y, z = v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]
@@ -57,13 +57,13 @@ def _applied_inverse(A, v, out):
         out[i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _square(v):
     """Squared length of a vector."""
     return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turn(v, w, rest):
     """Angle about z from v to w; ``rest`` where both are on the axis."""
     c, s = v[0] * w[0] + v[1] * w[1], v[0] * w[1] - v[1] * w[0]
@@ -72,7 +72,7 @@ def _turn(v, w, rest):
     return math.atan2(s, c)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _condition(slides, A, p, v, work):
     """F(v): zero where joints 1 and 2 can bring v to p."""
     w = work[0]
@@ -102,7 +102,7 @@ def _condition(slides, A, p, v, work):
     return steep * steep * (_square(w) - _square(v)) + 2.0 * steep * rise * along + rise * rise
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _slide_values(w, direction, square, height, unit):
     """Values t at which ``w + t direction`` has a squared length and a height.
 
@@ -128,7 +128,7 @@ def _slide_values(w, direction, square, height, unit):
     return (1, second, 0.0) if good_second else (0, 0.0, 0.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _two_turns(A, p, v, rest, unit, work, out):
     """Values of two turning joints that bring v to p, to out (2, 2); how many."""
     a, c, s = A[0, 3], A[2, 2], A[2, 1]
@@ -161,7 +161,7 @@ def _two_turns(A, p, v, rest, unit, work, out):
     return rows
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _pair(slides, A, p, v, rest, unit, work, out):
     """Values of joints 1 and 2 that bring v to p, to out (2, 2); how many."""
     if not slides[0] and not slides[1]:
@@ -197,7 +197,7 @@ def _pair(slides, A, p, v, rest, unit, work, out):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _third(slides, B, tip, cosine, sine, v):
     """The point as joint 2 sees it, ``v = B Z_3 tip`` at (cos, sin); a slide is ``sin / cos``."""
     v[0], v[1], v[2] = tip[0], tip[1], tip[2]
@@ -208,7 +208,7 @@ def _third(slides, B, tip, cosine, sine, v):
     _applied(B, v, v)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _third_joint(slides, frames, tip, p, rest, unit, series, roots, work):
     """Values of joint 3, as cosine and sine in rows 1 and 2 of roots; how many."""
     v = work[3]
@@ -248,7 +248,7 @@ def _third_joint(slides, frames, tip, p, rest, unit, series, roots, work):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _candidates(slides, frames, tip, T, rest, unit, roots, work, pairs, q):
     """Candidate configurations of one point, to q (FEW, n); how many."""
     n = q.shape[1]
@@ -281,7 +281,7 @@ def _candidates(slides, frames, tip, T, rest, unit, roots, work, pairs, q):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve_short_positions(
     links, joints, frames, tip, rest_unit, Ts, within_limits, q, residual, count, branch, free
 ):
