@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +13,7 @@ from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["ShortChain", "ThreeSlides"]
+__all__ = ["ShortChain"]
 
 MOST_JOINTS = 5
 
@@ -61,21 +62,35 @@ class ShortChain(SolverBase):
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         super().__init__(chain, task, others)
-        from dh2urdf.kernels.short_chains import solve_short_chains
-
-        self._kernel: BatchKernel = solve_short_chains
         self.ends = inverse(self.links[[0, -1]])
         self.unit = chain.size
-        self.loop = _loop_links(self.links, self.unit)
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
-        cuts = range(self.cuts(chain))
-        shapes = np.array([_shape(chain.prismatic, s) for s in cuts], np.int64)
-        used = np.array([_slots(chain.prismatic, shape) for shape in shapes])
+
+    @cached_property
+    def _kernel(self) -> BatchKernel:
+        from dh2urdf.kernels.short_chains import solve_short_chains
+
+        return solve_short_chains  # type: ignore[no-any-return]
+
+    @cached_property
+    def loop(self) -> Array:
+        """Dual quaternions of the links between the joints, shape (n, 8)."""
+        return _loop_links(self.links, self.unit)
+
+    @cached_property
+    def plan(self) -> tuple[IntArray, IntArray]:
+        """Cuts of the loop, best first, and their slots: shapes (s, 8) and (s, 8)."""
+        cuts = range(CUTS[self.chain.n])
+        shapes = np.array([_shape(self.chain.prismatic, s) for s in cuts], np.int64)
+        used = np.array([_slots(self.chain.prismatic, shape) for shape in shapes], np.int64)
         qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
-        best = sorted(range(len(shapes)), key=lambda s: qualities[s])
+        best = sorted(cuts, key=lambda s: qualities[s])
         rows = [[*shapes[s], qualities[s].nullity] for s in best]
-        self.shapes = np.array(rows, np.int64).reshape(-1, 8)
-        self.used = np.array([used[s] for s in best], np.int64).reshape(-1, 8)
+        slots = [used[s] for s in best]
+        return (
+            np.array(rows, np.int64).reshape(-1, 8),
+            np.array(slots, np.int64).reshape(-1, 8),
+        )
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -90,20 +105,15 @@ class ShortChain(SolverBase):
             return "some joints can move while the tool stays"
         return None
 
-    @classmethod
-    def cuts(cls, chain: SerialChain) -> int:
-        """Number of ways to cut the loop that are compared."""
-        return CUTS[chain.n]
-
     def details(self) -> str:
         """Name the pairs of joints and what is solved."""
         kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
-        a, b, x, c, d = (int(i) for i in self.shapes[0, :5])
+        a, b, x, c, d = (int(i) for i in self.plan[0][0, :5])
         pairs = [", ".join(str(i + 1) for i in pair if i >= 0) for pair in ((a, b), (c, d))]
         text = f"{kinds}; the closed loop cut into joints {' | '.join(p for p in pairs if p)}"
         if x >= 0:
             return f"{text}, joint {x + 1} from a quartic, the others from a null vector"
-        equation = ", a quadratic equation" if self.shapes[0, 7] == 2 else ""
+        equation = ", a quadratic equation" if self.plan[0][0, 7] == 2 else ""
         return f"{text}, linear in dual quaternions{equation}"
 
     def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
@@ -151,8 +161,7 @@ class ShortChain(SolverBase):
             self.joints,
             self.ends,
             self.loop,
-            self.shapes,
-            self.used,
+            *self.plan,
             self.rest_unit,
             Ts,
             within_limits,
@@ -161,37 +170,6 @@ class ShortChain(SolverBase):
             count_out,
             branch_out,
             free_out,
-        )
-
-
-class ThreeSlides(ShortChain):
-    """Three sliding joints and two or three turning ones: the orientation is solved first."""
-
-    name = "three slides"
-
-    @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
-        """Say what keeps orientation and position from being decoupled; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
-        if chain.n not in (5, 6) or chain.prismatic.sum() != SLIDES:
-            return "it needs three sliding joints and two or three turning ones"
-        if spare_joints(chain, task):
-            return "some joints can move while the tool stays"
-        return None
-
-    @classmethod
-    def cuts(cls, chain: SerialChain) -> int:
-        """No loop is cut."""
-        return 0
-
-    def details(self) -> str:
-        """Name the kinds of joints and what is solved."""
-        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
-        turning = [str(i + 1) for i in np.flatnonzero(~self.chain.prismatic)]
-        return (
-            f"{kinds}; joints {', '.join(turning)} from the orientation alone, "
-            "the slides from three linear equations"
         )
 
 

@@ -200,7 +200,7 @@ SOLVERS: tuple[SolverRow, ...] = (
     SolverRow(
         "three slides",
         "three sliding joints and two or three turning ones",
-        "dh2urdf.ik.short",
+        "dh2urdf.ik.three_slides",
         "ThreeSlides",
     ),
     SolverRow(

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from dh2urdf.kernels.certify import ACCEPT, _normal_equations, polish
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, _move, _normal_equations, polish
+from dh2urdf.kernels.compiled import inner_kernel
 
-__all__ = ["free_joints", "work_array"]
+__all__ = ["free_joints", "one_of_each_family", "work_array"]
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
@@ -21,13 +21,13 @@ MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def work_array(n):
     """Scratch as :func:`dh2urdf.kernels.certify.new_work` makes it, for jitted callers."""
     return np.empty((n, n + 8))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
 
@@ -73,7 +73,7 @@ def _null_direction(work):
     return 1.0 / (size * trace)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 
@@ -106,3 +106,40 @@ def free_joints(links, joints, T, q, trial, work):
         if gap > MOVES:
             mask |= np.int64(1) << np.int64(i)
     return mask if away > 0.25 * WALK * WALK else np.int64(0)
+
+
+@inner_kernel
+def one_of_each_family(joints, rest, q, residual, branch, free, count):
+    """Keep one representative of each singular family; the new count.
+
+    Solutions with the same free joints are taken for one family. The one whose first free joint
+    is at rest stays; without one, the first.
+    """
+    kept = 0
+    for k in range(count):
+        keep = True
+        for j in range(count):
+            if j == k or free[k] == 0 or free[j] != free[k]:
+                continue
+            mine, other = (
+                _at_rest(joints, rest, q[k], free[k]),
+                _at_rest(joints, rest, q[j], free[k]),
+            )
+            if (other and not mine) or (not other and not mine and j < k):
+                keep = False
+        if keep:
+            _move(q, residual, branch, free, k, kept)
+            kept += 1
+    return kept
+
+
+@inner_kernel
+def _at_rest(joints, rest, q, mask):
+    """Whether the first joint of a mask is at its rest value, up to full turns."""
+    first = 0
+    while not mask >> first & 1:
+        first += 1
+    gap = q[first] - rest[first]
+    if joints[first, 0] == 0.0:
+        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+    return abs(gap) <= CLUSTER

@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from dh2urdf.kernels.certify import CLUSTER, TWO_PI, _move, finish_pose
+from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
-from dh2urdf.kernels.families import free_joints, work_array
+from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
 from dh2urdf.kernels.merging import merge_solutions
 from dh2urdf.kernels.short_candidates import add_candidates
 from dh2urdf.kernels.short_loop import (
@@ -26,7 +26,6 @@ from dh2urdf.kernels.short_loop import (
     loop_matrix,
     null_basis,
 )
-from dh2urdf.kernels.three_slides import SLIDE_ROWS, three_slides
 from dh2urdf.kernels.trig import trig_roots
 
 __all__ = ["close_loop", "solve_short_chains"]
@@ -42,7 +41,7 @@ ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def close_loop(ends, T, unit, pose, loop):
     """Write the last link of the loop, ``(L_0^-1 T L_n^-1)^-1``, to the last row of loop."""
     r = _joint_times_link(_load(ends[0]), False, 0.0, T)
@@ -52,7 +51,7 @@ def close_loop(ends, T, unit, pose, loop):
     dual_conjugate(last, last)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q, count):
     """Append the candidates of the matrix at x, for each nullity that it may have.
 
@@ -79,7 +78,7 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
     return count, tried
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q, count):
     """Append all candidates that one cut of the loop gives.
 
@@ -120,44 +119,7 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     return count, doubt
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def _one_of_each_family(joints, rest, q, residual, branch, free, count):
-    """Keep one representative of each singular family; the new count.
-
-    Solutions with the same free joints are taken for one family. The one whose first free joint
-    is at rest stays; without one, the first.
-    """
-    kept = 0
-    for k in range(count):
-        keep = True
-        for j in range(count):
-            if j == k or free[k] == 0 or free[j] != free[k]:
-                continue
-            mine, other = (
-                _at_rest(joints, rest, q[k], free[k]),
-                _at_rest(joints, rest, q[j], free[k]),
-            )
-            if (other and not mine) or (not other and not mine and j < k):
-                keep = False
-        if keep:
-            _move(q, residual, branch, free, k, kept)
-            kept += 1
-    return kept
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _at_rest(joints, rest, q, mask):
-    """Whether the first joint of a mask is at its rest value, up to full turns."""
-    first = 0
-    while not mask >> first & 1:
-        first += 1
-    gap = q[first] - rest[first]
-    if joints[first, 0] == 0.0:
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
-    return abs(gap) <= CLUSTER
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve_short_chains(
     links,
     joints,
@@ -174,7 +136,7 @@ def solve_short_chains(
     branch,
     free,
 ):
-    """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints, or of six of which three slide.
+    """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 
     Parameters
     ----------
@@ -186,8 +148,7 @@ def solve_short_chains(
     loop_links : array, shape (n, 8)
         Dual quaternions of the links between the joints; the last row is written here.
     shapes : int64 array, shape (s, 8)
-        Cuts of the loop, best first, see ``add_candidates``; last the nullity to expect. None
-        where three joints slide.
+        Cuts of the loop, best first, see ``add_candidates``; last the nullity to expect.
     used : int64 array, shape (s, columns)
         Slots that each way has.
     rest_unit : array, shape (n + 1,)
@@ -199,61 +160,39 @@ def solve_short_chains(
     work = work_array(n)
     loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, 5))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
-    order, turning = np.empty(8, np.int64), np.empty(3, np.int64)
-    slides = np.empty((SLIDE_ROWS, 4))
+    order = np.empty(8, np.int64)
     many_q, many_residual = np.empty((FEW, n)), np.empty(FEW)
     many_branch, many_free = np.empty(FEW, np.int64), np.empty(FEW, np.int64)
+    many = many_q, many_residual, many_branch, many_free
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
         close_loop(ends, T, unit, pose, loop)
-        found, doubt = 0, False
-        if shapes.shape[0] == 0:
-            found = three_slides(links, joints, T, many_q, turning, slides)
-            for k in range(found):
-                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
-            found = finish_pose(
-                links, joints, T, False, many_q, many_residual, many_branch, many_free, found, work
-            )
+        found = 0
         for s in range(shapes.shape[0]):
             before = found
-            found, unclear = _candidates(
-                loop, shapes[s], used[s], joints, rest, unit, scratch, order, roots, many_q, found
+            shape, slots = shapes[s], used[s]
+            found, doubt = _candidates(
+                loop, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )
             for k in range(before, found):
                 many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
-            found = finish_pose(
-                links, joints, T, False, many_q, many_residual, many_branch, many_free, found, work
-            )
-            doubt = doubt or unclear
+            found = finish_pose(links, joints, T, False, *many, found, work)
             if not doubt:
                 break
-        found = merge_solutions(
-            links, joints, T, many_q, many_residual, many_branch, many_free, found, trial, work
-        )
+        found = merge_solutions(links, joints, T, *many, found, trial, work)
         for k in range(found):
             many_free[k] = free_joints(links, joints, T, many_q[k], trial[0], work)
-        found = _one_of_each_family(
-            joints, rest, many_q, many_residual, many_branch, many_free, found
-        )
-        kept = 0
+        found = one_of_each_family(joints, rest, *many, found)
+        if within_limits:
+            found = finish_pose(links, joints, T, True, *many, found, work)
+        found = min(found, q.shape[1])
         for k in range(found):
-            if kept == q.shape[1]:
-                break
-            if within_limits and many_free[k] == 0 and not _inside(joints, many_q[k]):
-                continue
             for j in range(n):
-                q[i, kept, j] = many_q[k, j]
-            residual[i, kept] = many_residual[k]
-            branch[i, kept], free[i, kept] = many_branch[k], many_free[k]
-            kept += 1
-        count[i] = kept
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _inside(joints, q):
-    """Whether q keeps its limits."""
-    for j in range(q.shape[0]):
-        if q[j] < joints[j, 1] or q[j] > joints[j, 2]:
-            return False
-    return True
+                q[i, k, j] = many_q[k, j]
+            residual[i, k], branch[i, k], free[i, k] = (
+                many_residual[k],
+                many_branch[k],
+                many_free[k],
+            )
+        count[i] = found

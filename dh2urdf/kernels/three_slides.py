@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+import numpy as np
 
+from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
 from dh2urdf.kernels.trig import linear_trig
 
-__all__ = ["SLIDE_ROWS", "three_slides"]
+__all__ = ["solve_three_slides"]
 
 FLAT = 1e-7
 """Volume of three unit directions that lie in a plane, to rounding of a table's angles."""
@@ -27,11 +30,11 @@ SLACK = 1e-6
 IN_LINE = 1e-10
 """Sine of the middle angle at which only the sum or difference of the outer two is known."""
 
-SLIDE_ROWS = 26
+ROWS = 26
 """Rows of scratch: four links and the middle rotation, 4 x 4; the slides' equations."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turning_links(links, joints, turning, scratch):
     """Products of the links between the turning joints, to rows of scratch; how many turn."""
     count = 0
@@ -48,7 +51,7 @@ def _turning_links(links, joints, turning, scratch):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _between(A, T, C, B):
     """``B = A^T R C^T`` of rotations, to the upper left of B (4, 4)."""
     for i in range(3):
@@ -59,7 +62,7 @@ def _between(A, T, C, B):
             B[i, j] = u0 * C[j, 0] + u1 * C[j, 1] + u2 * C[j, 2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _turned(first, cosine, sine, second, out):
     """``first Rz second`` of rotations, to the upper left of out."""
     for i in range(3):
@@ -69,7 +72,7 @@ def _turned(first, cosine, sine, second, out):
             out[i, j] = a * second[0, j] + b * second[1, j] + first[i, 2] * second[2, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _outer(M, B):
     """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
     across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
@@ -82,8 +85,8 @@ def _outer(M, B):
     return x, y
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def three_slides(links, joints, T, q, turning, scratch):
+@inner_kernel
+def _candidates(links, joints, T, q, turning, scratch):
     """Candidate configurations of a pose, at most two, in the first rows of q.
 
     Parameters
@@ -92,7 +95,7 @@ def three_slides(links, joints, T, q, turning, scratch):
         See :func:`dh2urdf.kernels.certify.finish_pose`.
     q : array, shape (>= 2, n), out
     turning : int64 array, shape (3,), scratch
-    scratch : array, shape (SLIDE_ROWS, 4)
+    scratch : array, shape (ROWS, 4)
 
     Returns
     -------
@@ -127,7 +130,7 @@ def three_slides(links, joints, T, q, turning, scratch):
     return max(found, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _slides(links, joints, T, q, columns):
     """Solve for the slides of q (n,) with its turning joints known; 1.
 
@@ -158,7 +161,7 @@ def _slides(links, joints, T, q, columns):
     return 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _least_motion(columns, out):
     """Normal equations of the slides, damped by ``DAMPING``: least squares, least motion."""
     for j in range(4):
@@ -168,7 +171,7 @@ def _least_motion(columns, out):
                 out[j, i] += columns[i, k] * columns[j, k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _volume(a, b, c):
     """Determinant of three vectors."""
     return (
@@ -176,3 +179,33 @@ def _volume(a, b, c):
         + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
     )
+
+
+@kernel
+def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, count, branch, free):
+    """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
+
+    Parameters
+    ----------
+    links, joints
+        See :func:`dh2urdf.kernels.certify.finish_pose`.
+    rest : array, shape (n,)
+        Value of the first free joint of a family's representative.
+    Ts, within_limits, q, residual, count, branch, free
+        See :class:`dh2urdf.ik.solver.Solver`.
+    """
+    n = joints.shape[0]
+    work, trial = work_array(n), np.empty(n)
+    turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))
+    for i in range(Ts.shape[0]):
+        T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
+        found = _candidates(links, joints, T, q[i], turning, scratch)
+        for k in range(found):
+            residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
+        found = finish_pose(links, joints, T, False, *rows, found, work)
+        for k in range(found):
+            free[i, k] = free_joints(links, joints, T, q[i, k], trial, work)
+        found = one_of_each_family(joints, rest, *rows, found)
+        if within_limits:
+            found = finish_pose(links, joints, T, True, *rows, found, work)
+        count[i] = found

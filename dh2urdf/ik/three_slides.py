@@ -1,0 +1,72 @@
+"""Three sliding joints with two or three turning ones: the orientation is solved first."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.transforms import Array
+
+__all__ = ["ThreeSlides"]
+
+SLIDES = 3
+
+
+class ThreeSlides(SolverBase):
+    """Turning joints from the orientation alone, then the slides from linear equations."""
+
+    name = "three slides"
+    kmax = 2
+
+    def __init__(
+        self,
+        chain: SerialChain,
+        task: Task = Task.POSE,
+        others: tuple[tuple[str, str], ...] = (),
+    ) -> None:
+        super().__init__(chain, task, others)
+        self.rest = np.clip(0.0, chain.lower, chain.upper)
+
+    @cached_property
+    def _kernel(self) -> BatchKernel:
+        from dh2urdf.kernels.three_slides import solve_three_slides
+
+        return solve_three_slides  # type: ignore[no-any-return]
+
+    @classmethod
+    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+        """Say what keeps orientation and position from being decoupled; None if nothing does."""
+        if task is not Task.POSE:
+            return f"it solves for the full pose, not for {task.value}"
+        if chain.n not in (5, 6) or chain.prismatic.sum() != SLIDES:
+            return "it needs three sliding joints and two or three turning ones"
+        if spare_joints(chain, task):
+            return "some joints can move while the tool stays"
+        return None
+
+    def details(self) -> str:
+        """Name the kinds of joints and what is solved."""
+        kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
+        turning = [str(i + 1) for i in np.flatnonzero(~self.chain.prismatic)]
+        return (
+            f"{kinds}; joints {', '.join(turning)} from the orientation alone, "
+            "the slides from three linear equations"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
+        outputs = q_out, residual_out, count_out, branch_out, free_out
+        self._kernel(self.links, self.joints, self.rest, Ts, within_limits, *outputs)
