@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
     from dh2urdf.dh_io import write_table as save_table
     from dh2urdf.extract import Extraction, extract_dh
+    from dh2urdf.ik.path import IKPath
+    from dh2urdf.ik.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+    from dh2urdf.ik.solutions import IKBatch, IKSolutions
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
@@ -36,6 +39,9 @@ __version__ = "0.1.0"
 _LATE = {
     "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
     "Extraction": ("dh2urdf.extract", "Extraction"),
+    "IKBatch": ("dh2urdf.ik.solutions", "IKBatch"),
+    "IKPath": ("dh2urdf.ik.path", "IKPath"),
+    "IKSolutions": ("dh2urdf.ik.solutions", "IKSolutions"),
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
     "UrdfOptions": ("dh2urdf.conversions.dh_to_urdf", "UrdfOptions"),
@@ -43,9 +49,13 @@ _LATE = {
     "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),
     "load_table": ("dh2urdf.robots", "load_table"),
+    "planar_reach": ("dh2urdf.ik.planar", "planar_reach"),
+    "planar_rr_ik": ("dh2urdf.ik.planar", "planar_rr_ik"),
+    "planar_rrr_ik": ("dh2urdf.ik.planar", "planar_rrr_ik"),
     "save_table": ("dh2urdf.dh_io", "write_table"),
     "to_convention": ("dh2urdf.conversions.convention", "to_convention"),
     "urdf_text": ("dh2urdf.conversions.write_urdf", "urdf_text"),
+    "wrist_centre": ("dh2urdf.ik.planar", "wrist_centre"),
     "write_urdf": ("dh2urdf.conversions.write_urdf", "write_urdf"),
 }
 """Public names whose modules are imported when they are first asked for."""
@@ -57,6 +67,9 @@ __all__ = [
     "DHTable",
     "Dh2UrdfError",
     "Extraction",
+    "IKBatch",
+    "IKPath",
+    "IKSolutions",
     "JointType",
     "Origin",
     "Robot",
@@ -70,10 +83,14 @@ __all__ = [
     "extract_dh",
     "list_tables",
     "load_table",
+    "planar_reach",
+    "planar_rr_ik",
+    "planar_rrr_ik",
     "save_table",
     "to_convention",
     "transforms",
     "urdf_text",
+    "wrist_centre",
     "write_urdf",
 ]
 
