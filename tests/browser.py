@@ -51,7 +51,7 @@ class Visitor:
         (self.id,) = set(view._server.get_clients()) - before
         note = self.page.locator(".mantine-Notification-closeButton")
         if note.count():
-            note.first.click()
+            note.first.evaluate("button => button.click()")
 
     def _route(self, route):
         url = route.request.url

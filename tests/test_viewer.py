@@ -23,6 +23,7 @@ from dh2urdf.exceptions import ConfigurationError, ServerError
 from dh2urdf.transforms import rot_x, rot_y, trans
 from dh2urdf.viewer.arm_scene import quaternions
 from dh2urdf.viewer.branches import answer, branch_table, initials
+from dh2urdf.viewer.ik_tab import default_task, dragged_axes
 from dh2urdf.viewer.redundancy import default_joint
 from dh2urdf.viewer.table_tab import new_table
 from dh2urdf.viewer.urdf_drawing import find_mesh, urdf_drawing
@@ -264,7 +265,7 @@ def test_target_moves_arm_and_ghosts():
         found = shown._ik.answer
         assert len(found.q) == 8
         scales = shown._ik.ghosts.handles[0].batched_scales
-        assert scales.sum() == 7
+        assert np.count_nonzero(scales) == 7
         assert scales[found.current] == 0
         drawn = shown._ik.ghosts
         poses = drawn.drawing.poses(found.q[3])
@@ -305,6 +306,23 @@ def test_singular_joints_are_named_and_underlined():
     found = answer(robot, robot.fk(q), q, task="pose", within=False, locked=None)
     assert "Singular: joint_4, joint_6" in found.words
     assert "underline" in branch_table(found, robot)
+
+
+@pytest.mark.parametrize(
+    ("name", "task", "axes"),
+    [
+        ("planar_rr", "position", (True, True, False)),
+        ("planar_rrr", "pose", (True, True, False)),
+        ("omron_cobra600", "pose", (True, True, True)),
+        ("xarm5", "position+axis", (True, True, True)),
+        ("ur5e", "pose", (True, True, True)),
+    ],
+)
+def test_target_asks_what_the_arm_can_do(name, task, axes):
+    """A planar arm's target stays in its plane; fewer joints are asked for less than a pose."""
+    robot = Robot.from_dh(name)
+    assert default_task(robot) == task
+    assert dragged_axes(robot) == axes
 
 
 def test_branch_initials():

@@ -23,6 +23,10 @@ SLIM = 0.93
 """Size of a ghost's bodies against the arm's, so that coinciding surfaces do not flicker."""
 
 
+STAGGER = 0.004
+"""How much smaller each ghost is than the one before it, for the same reason."""
+
+
 def quaternions(R: Array) -> Array:
     """Unit quaternions, w first as the scene wants them, of rotations (..., 3, 3).
 
@@ -161,7 +165,7 @@ class Ghosts:
         scales = np.zeros(self.count, np.float32)
         for k, q in enumerate(configurations[: self.count]):
             poses[k] = self.drawing.poses(q)
-            scales[k] = float(k != skip)
+            scales[k] = 0.0 if k == skip else 1.0 - STAGGER * k
         turns = quaternions(poses[..., :3, :3]).astype(np.float32)
         places = poses[..., :3, 3].astype(np.float32)
         for handle, node in zip(self.handles, self.moving, strict=True):

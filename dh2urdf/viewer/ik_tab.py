@@ -16,6 +16,7 @@ from dh2urdf.viewer import html
 from dh2urdf.viewer.arm_scene import Ghosts, quaternions
 from dh2urdf.viewer.branches import Answer, answer, branch_table
 from dh2urdf.viewer.redundancy import Redundancy
+from dh2urdf.workspace import common_axis, task_of
 
 __all__ = ["IKTab"]
 
@@ -80,7 +81,12 @@ class IKTab:
         self.ghosts = Ghosts(self.server, drawing, MOST_GHOSTS, self._go)
         size = max(robot.chain.size, 1e-3)
         self.target = self.server.scene.add_transform_controls(
-            "/target", scale=GIZMO * size, line_width=3.0, depth_test=False, visible=False
+            "/target",
+            scale=GIZMO * size,
+            line_width=3.0,
+            depth_test=False,
+            visible=False,
+            active_axes=dragged_axes(robot),
         )
         self.target.on_update(self._dragged)
         self.task.value = default_task(robot)
@@ -217,10 +223,18 @@ class IKTab:
 
 
 def default_task(robot: Robot) -> str:
-    """What an arm of so many joints can be asked to reach."""
-    if robot.n >= 6 or robot.n == 4:
-        return "pose"
-    return "position+axis" if robot.n == 5 else "position"
+    """What a target that is dragged about can ask of an arm of this kind."""
+    return "position+axis" if robot.n == 5 else task_of(robot).name
+
+
+def dragged_axes(robot: Robot) -> tuple[bool, bool, bool]:
+    """Axes of the tip along which the target slides; not across the plane of a planar arm."""
+    axis, flat = common_axis(robot)
+    if axis is None or not flat or robot.n > 3:
+        return True, True, True
+    across = np.abs(robot.chain.tool[axis, :3]) > 1.0 - 1e-9
+    x, y, z = (not bool(a) for a in across)
+    return x, y, z
 
 
 def _pose(handle: Any) -> Array:

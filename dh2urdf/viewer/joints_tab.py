@@ -54,7 +54,7 @@ class JointsTab:
     def _slider(self, k: int, name: str, value: float) -> Any:
         unit = "mm" if self.robot.slides[k] else "°"
         low, high = (float(v * self.scale[k]) for v in (self.low[k], self.high[k]))
-        low, high = math.floor(low * 100) / 100, math.ceil(high * 100) / 100
+        low, high = round(low, 2), round(high, 2)
         slider = self.gui.add_slider(
             f"{name} [{unit}]",
             min=low,

@@ -7,7 +7,13 @@ configurations, which says where an arm lingers, not what it reaches.
 from dh2urdf.workspace.maps import branch_counts, dexterity
 from dh2urdf.workspace.planar import PlanarArm, planar_arm
 from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
-from dh2urdf.workspace.task import Task, default_orientation, task_of, uniform_rotations
+from dh2urdf.workspace.task import (
+    Task,
+    common_axis,
+    default_orientation,
+    task_of,
+    uniform_rotations,
+)
 
 __all__ = [
     "PLANES",
@@ -17,6 +23,7 @@ __all__ = [
     "Task",
     "branch_counts",
     "caption",
+    "common_axis",
     "default_orientation",
     "dexterity",
     "planar_arm",
