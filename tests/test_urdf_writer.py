@@ -164,6 +164,14 @@ def test_options_are_honoured():
     assert "<collision>" in dh2urdf.urdf_text(table, dh2urdf.UrdfOptions(collision=True))
 
 
+def test_a_missing_bound_is_named():
+    """A table that gives one bound of two is told which was made up."""
+    table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, upper=1.0),), "standard")
+    options = dh2urdf.UrdfOptions()
+    _, warnings = dh2urdf.conversions.dh_to_urdf.urdf_text_and_warnings(table, options)
+    assert warnings == ("joint_1 (lower): no limits in the table; written as +-2 pi rad",)
+
+
 @pytest.mark.parametrize("name", ["ur5", "gantry", "puma560"])
 def test_rounded_files_differ_by_what_rounding_explains(name, tmp_path):
     """A file rounded to 3, 5 or 9 decimals is written, and its error says what that cost."""

@@ -267,7 +267,7 @@ class _Writer:
             (JointType.PRISMATIC, f"+-{reach:.6g} m, as far as the table's lengths sum to"),
         ):
             names = [
-                name
+                name + _half(row)
                 for name, row in zip(self.table.joint_names, self.table.joints, strict=True)
                 if row.joint_type is kind and (row.lower is None or row.upper is None)
             ]
@@ -299,6 +299,13 @@ class _Writer:
         if self.options.digits is not None:
             number = round(number, self.options.digits)
         return repr(number + 0.0)
+
+
+def _half(row: DHRow) -> str:
+    """Which bound is missing, where the other is given."""
+    if row.lower is None and row.upper is None:
+        return ""
+    return " (lower)" if row.lower is None else " (upper)"
 
 
 def _whole(values: Iterable[float]) -> str:
