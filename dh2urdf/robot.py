@@ -27,7 +27,7 @@ from dh2urdf.exceptions import ConfigurationError, VerificationError
 from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robot_pictures import RobotPictures
 from dh2urdf.robots import load_table
-from dh2urdf.transforms import Array, pose_error
+from dh2urdf.transforms import Array, as_floats, pose_error
 
 __all__ = ["Robot"]
 
@@ -326,6 +326,6 @@ class Robot(RobotIK, RobotPictures):
 def _numbers(q: ArrayLike) -> Array:
     """q as an array of floats."""
     try:
-        return np.asarray(q, dtype=np.float64)
+        return as_floats(q)
     except (TypeError, ValueError):
         raise ConfigurationError(f"q: expected numbers, got {q!r:.60}") from None

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.exceptions import PoseError
 
 __all__ = [
+    "as_floats",
     "check_pose",
     "inverse",
     "matrix_to_rpy",
@@ -41,6 +42,22 @@ ORTHONORMAL_TOLERANCE = 1e-6
 
 ZYZ_SINGULAR = 1e-9
 """``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""
+
+
+def as_floats(values: ArrayLike) -> Array:
+    """Real numbers as a float array of their shape; a float array itself.
+
+    Raises
+    ------
+    TypeError, ValueError
+        No numbers, ragged, or complex ones, which NumPy would cut down to their real parts.
+    """
+    array = np.asarray(values)
+    if array.dtype.char == "d":
+        return array
+    if array.dtype.kind == "c":
+        raise TypeError("complex numbers")
+    return array.astype(float)
 
 
 def rotation(axis: ArrayLike, angle: float) -> Array:
@@ -205,7 +222,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
         row other than (0, 0, 0, 1). The message names the index of the first bad pose.
     """
     try:
-        m = np.asarray(getattr(T, "homogeneous", T), float)
+        m = as_floats(getattr(T, "homogeneous", T))
     except (TypeError, ValueError):
         raise PoseError(f"{what}: expected numbers of shape (..., 4, 4), got {T!r:.60}") from None
     if m.ndim < 2 or m.shape[-2:] != (4, 4):
@@ -217,7 +234,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
     off = np.abs(gram - np.eye(3)).max(axis=(-2, -1))
     if (off > ORTHONORMAL_TOLERANCE).any():
         raise PoseError(
-            f"{what}{_where(off > ORTHONORMAL_TOLERANCE)}: rotation part is not orthonormal, "
+            f"{what}{_where(np.asarray(off > ORTHONORMAL_TOLERANCE))}: rotation part is not orthonormal, "
             f"R^T R differs from 1 by {off.max():.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e})"
         )
     det = np.linalg.det(R)

@@ -154,6 +154,47 @@ def test_5_out_of_reach_is_empty(name):
     assert "outside the reach" in robot.why_unreachable(T, within_limits=False)
 
 
+@pytest.mark.parametrize("distance", [1e3, 1e9, 1e200, 1e308])
+def test_5_out_of_reach_is_explained_at_any_distance(distance):
+    """A target as far as floats go gives the distance, and no overflow."""
+    robot = robot_of("ur5")
+    T = robot.fk(np.zeros(6))
+    T[1, 3] = -distance
+    assert not robot.ik(T)
+    assert "outside the reach" in robot.why_unreachable(T)
+    assert f"{distance:.0e}"[-3:] in robot.why_unreachable(T) or distance < 1e4
+
+
+@pytest.mark.parametrize("within_limits", [True, False])
+@pytest.mark.parametrize("name", ["puma560", "ur5", "stanford"])
+def test_4_no_sample_of_a_family_is_nearer_to_a_seed(name, within_limits):
+    """Walking along the free joints in small steps finds no member nearer than the one returned."""
+    robot, rng = robot_of(name), np.random.default_rng(7)
+    checked = 0
+    for _ in range(6):
+        q = robot.random_configuration(rng)
+        q[4] = 0.0
+        T, seed = robot.fk(q), rng.uniform(-3.0, 3.0, 6)
+        found = robot.ik(T, seed=seed, within_limits=within_limits)
+        for member, free in zip(found, found.free_joints, strict=True):
+            if free != (3, 5):
+                continue
+            checked += 1
+            others = np.repeat(member[None], 4001, axis=0)
+            steps = np.linspace(-2 * np.pi, 2 * np.pi, 4001)
+            others[:, 3] += steps
+            with_sum = others.copy()
+            with_sum[:, 5] += steps
+            others[:, 5] -= steps
+            lines = [x for x in (others, with_sum) if pinocchio_residual(robot, x[99], T) < 1e-9]
+            assert len(lines) == 1
+            inside = ((lines[0] >= robot.lower) & (lines[0] <= robot.upper)).all(axis=1)
+            rivals = lines[0][inside] if within_limits else lines[0]
+            nearest = np.linalg.norm(rivals - seed, axis=1).min()
+            assert np.linalg.norm(member - seed) <= nearest + 1e-9
+    assert checked >= 3 or name == "ur5"
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("name", ARMS)
 def test_6_solutions_keep_the_limits(name, seed):
@@ -294,6 +335,7 @@ BAD = {
     "text": ("pose", "numbers"),
     "many": (np.stack([np.eye(4)] * 2), "ik_batch"),
     "ragged": ([[1, 0], [1]], "numbers"),
+    "complex": (np.eye(4) * (1 + 0j), "numbers"),
 }
 
 
@@ -315,6 +357,7 @@ def test_a_bad_pose_in_a_batch_is_named():
 
 WRONG = {
     "seed": ({"seed": [1, 2]}, ConfigurationError, r"\(6,\)"),
+    "seed complex": ({"seed": [1j] * 6}, ConfigurationError, "numbers"),
     "seed nan": ({"seed": [math.nan] * 6}, ConfigurationError, "NaN"),
     "index": ({"locked": {6: 0.0}}, ConfigurationError, "0 to 5"),
     "name": ({"locked": {"joint_7": 0.0}}, NameNotFoundError, "joint_6"),

@@ -72,6 +72,17 @@ def test_a_singular_family_is_entered_where_the_path_comes_from():
     assert np.abs(path.q - q).max() < 1e-7
 
 
+def test_of_equal_ways_the_one_near_the_middle_of_the_limits_is_taken():
+    """Without a start, no joint begins a turn away from where it could."""
+    robot = robot_of("ur5")
+    path = robot.ik_path(
+        robot.fk(line([3.0, -1.0, 1.0, -0.5, 0.5, 0.0], [2.5, -1.5, 1, 0, 1, 1], 9))
+    )
+    assert path.continuous
+    middle = 0.5 * (robot.lower + robot.upper)
+    assert np.abs(path.q[0] - middle).max() <= math.pi + 1e-9
+
+
 def test_a_break_is_named():
     """Where no branch goes on, the path says between which poses and which joint jumps."""
     robot = robot_of("planar_rrr")

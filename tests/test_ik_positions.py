@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from test_short_chains import HALF, chain_of
 
+import dh2urdf
 from dh2urdf.ik.families import task_error
 from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.solver import Task, select_solver
@@ -176,3 +177,10 @@ def test_task_error_counts_what_the_task_asks_for():
     assert size(about_x, Task.POSITION_AXIS) == pytest.approx(0.6)
     assert size(about_x, Task.POSITION) < 1e-15
     assert size(about_z, Task.POSE) == pytest.approx(0.6)
+
+
+def test_a_joint_that_moves_alone_is_held_at_one_value():
+    """No other value of the joint about the tool is tried: none could reach what rest does not."""
+    chain = dh2urdf.Robot.from_dh("xarm5").chain
+    solver = select_solver(chain, Task.POSITION_AXIS)
+    assert solver.values == [(0.0,)]

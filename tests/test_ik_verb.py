@@ -70,6 +70,24 @@ def test_matrix_and_units_name_the_same_pose(run):
         assert np.abs(np.array(q) - [s["q"] for s in a["solutions"]]).max() < 1e-9
 
 
+@pytest.mark.parametrize(
+    "rpy",
+    [
+        ["0", "-90deg", "0"],
+        ["0", "-pi/2", "0"],
+        ["0,-pi/2,0"],
+        ["-(pi-pi)", "-1.570796326794897", "0"],
+    ],
+)
+def test_values_may_begin_with_a_minus(run, rpy):
+    """A minus before a number with a unit, pi or a bracket is no option."""
+    status, out = run("ik", "puma560", "--xyz", "0.5", "-100mm", "0.2", "--rpy", *rpy, "--json")[:2]
+    assert status == 0
+    T = np.array(json.loads(out)["T_base_tip"])
+    expected = [[0, 0, -1, 0.5], [0, 1, 0, -0.1], [1, 0, 0, 0.2], [0, 0, 0, 1]]
+    assert np.abs(T - expected).max() < 1e-12
+
+
 def test_seed_sorts(run):
     """With --seed the first solution is the one nearest to it."""
     robot = dh2urdf.Robot.from_dh("denso_vs6556")

@@ -7,6 +7,7 @@ Exit status: 0 done, 1 checked and found wrong or no solution, 2 bad usage or ba
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Sequence
 
@@ -28,12 +29,15 @@ VERBS = {
 }
 """Each is the function ``<verb>_`` of ``dh2urdf.cli.<verb>_verb``, loaded when it is called."""
 
+_NEGATIVE = re.compile(r"-(?=.*[\dπi])(?:[\d.,()*/+e-]|pi|π|deg|rad|mm|cm|m)+")
+"""A value such as ``-pi/2`` or ``-90deg``, which is not an option."""
+
 
 def main(argv: Sequence[str] | None = None) -> None:
     """Run one verb and exit with its status."""
     tokens = list(sys.argv[1:] if argv is None else argv)
     debug = "--debug" in tokens
-    tokens = [t for t in tokens if t != "--debug"]
+    tokens = ["0" + t if _NEGATIVE.fullmatch(t) else t for t in tokens if t != "--debug"]
     try:
         status = _run(tokens)
         sys.stdout.flush()

@@ -51,11 +51,9 @@ def ik_(
     robot
         A table file, the name of a table that ships, or a URDF.
     xyz
-        Position of the tip in the base: metres; 400mm also does. --xyz=0.4,-200mm,0.3 for
-        values that begin with a minus and are no plain number.
+        Position of the tip in the base: metres; 400mm also does.
     rpy
         Roll, pitch, yaw of the tip: radians (degrees with --deg); 90deg, pi/2 also do.
-        --rpy=0,-pi/2,0 as above.
     matrix
         The pose as 16 or 12 numbers, row by row.
     csv

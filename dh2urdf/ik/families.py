@@ -1,18 +1,21 @@
 """Singular families: from one representative to the member that the user wants.
 
 Where joints are free, the solutions form a curve (seldom a surface) in joint space. A member is
-moved along the null space of the Jacobian of the free joints and put back on the curve by
-Newton's method on the exact chain.
+moved along it by the kernels for self-motions, on the chain whose other joints are held.
 """
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
+from dh2urdf.ik.held import hold
 from dh2urdf.ik.solver import Task
-from dh2urdf.ik.tolerances import ACCEPT, FAMILY_RANK, FAMILY_STEP
+from dh2urdf.ik.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.transforms import Array
 
 __all__ = ["Family", "slide_to_seed", "task_error", "task_jacobian"]
@@ -20,8 +23,11 @@ __all__ = ["Family", "slide_to_seed", "task_error", "task_jacobian"]
 SAME = 1e-6
 """Joint distance [rad or m] at which two members are one, as two solutions are."""
 
-MOST_STEPS = 100
-"""Steps along a family before the search for its nearest member is given up."""
+MOST_STEPS = 200
+"""Steps each way of a walk along a family."""
+
+STARTS = 8
+"""Members inside the limits, nearest to a seed first, that are moved on towards it."""
 
 
 def task_error(T_found: Array, T: Array, task: Task) -> Array:
@@ -74,120 +80,85 @@ class Family:
         Target.
     free : tuple of int
         Indices of the joints that move along the family.
+    q : array, shape (n,)
+        The representative.
     """
 
-    def __init__(self, chain: SerialChain, task: Task, T: Array, free: tuple[int, ...]) -> None:
-        self.chain, self.task, self.T = chain, task, T
+    def __init__(
+        self, chain: SerialChain, task: Task, T: Array, free: tuple[int, ...], q: Array
+    ) -> None:
+        self.chain, self.task, self.T, self.q = chain, task, T, q
         self.free = list(free)
+        self.moving = hold(chain, {i: float(q[i]) for i in range(chain.n) if i not in free})
 
-    def nearest(
-        self, q: Array, seed: Array, within_limits: bool, full_turns: bool = True
-    ) -> Array | None:
-        """The member of the family through q (n,) with the least motion from the seed.
+    def nearest(self, seed: Array, within_limits: bool, full_turns: bool = True) -> Array | None:
+        """The member of the family with the least motion from the seed (n,).
 
-        ``full_turns``: start also from q with a free joint a turn to either side.
+        ``full_turns``: start also from the representative with a free joint a turn to either
+        side.
 
         Returns
         -------
         array, shape (n,), or None
             None where no member keeps the limits and ``within_limits`` is asked for.
         """
-        start = limits.turned_to(self.chain, q, seed)
-        members = [self._slide(start, seed)]
-        for i in self.free:
-            if full_turns and not self.chain.prismatic[i]:
-                turn = limits.TWO_PI * np.eye(self.chain.n)[i]
-                members += [self._slide(start + turn, seed), self._slide(start - turn, seed)]
+        start = limits.turned_to(self.chain, self.q, seed)
+        turns = np.diag(np.where(self.moving.prismatic, 0.0, limits.TWO_PI)) * full_turns
+        starts = start[self.free] + np.concatenate([turns[:1] * 0.0, turns, -turns])
+        members = self._slide(np.unique(starts, axis=0), seed, within_limits=False)
         if within_limits:
-            inside = [m for m in members if bool(limits.inside(self.chain, m))]
-            members = inside or self._inside_members(q, seed)
-        if not members:
+            inside = members[self._inside(start, members)]
+            members = inside if len(inside) else self._inside_members(start, seed)
+        if not len(members):
             return None
-        return min(members, key=lambda m: float(np.linalg.norm(m - seed)))
+        start[self.free] = min(members, key=lambda m: float(np.linalg.norm(m - seed[self.free])))
+        return start
 
-    def holds(self, q: Array, seed: Array) -> bool:
-        """Whether the seed reaches the pose and only free joints tell it from the member q (n,)."""
-        error = self._error(seed)
+    def holds(self, seed: Array) -> bool:
+        """Whether the seed reaches the pose and only free joints tell it from the members."""
+        error = task_error(self.chain.fk(seed)[None], self.T, self.task)[0]
         if max(np.linalg.norm(error[:3]), np.linalg.norm(error[3:])) > ACCEPT:
             return False
-        gap = np.abs(limits.turned_to(self.chain, q, seed) - seed)
+        gap = np.abs(limits.turned_to(self.chain, self.q, seed) - seed)
         gap = np.where(
             self.chain.prismatic, gap, np.abs(np.remainder(gap + np.pi, limits.TWO_PI) - np.pi)
         )
         gap[self.free] = 0.0
         return bool(gap.max() <= SAME)
 
-    def _slide(self, q: Array, seed: Array) -> Array:
-        """Go along the family while that brings q nearer to the seed."""
-        for _ in range(MOST_STEPS):
-            tangent = self._tangent(q)
-            step = tangent @ (tangent.T @ (seed - q)[self.free])
-            longest = float(np.abs(step).max(initial=0.0))
-            if longest < 1e-12:
-                break
-            moved = self._moved(q, step)
-            if moved is None:
-                moved = self._moved(q, step * min(1.0, FAMILY_STEP / longest))
-            if moved is None or np.linalg.norm(moved - seed) >= np.linalg.norm(q - seed):
-                break
-            q = moved
-        return q
+    def _inside(self, start: Array, members: Array) -> NDArray[np.bool_]:
+        """Which members (k, f), with the other joints as in start (n,), keep all limits."""
+        whole = np.repeat(start[None], len(members), axis=0)
+        whole[:, self.free] = members
+        return limits.inside(self.chain, whole)
 
-    def _inside_members(self, q: Array, seed: Array) -> list[Array]:
-        """Samples of the family that keep the limits, by walking it both ways."""
-        found = []
-        for sign in (1.0, -1.0):
-            member, heading = q, None
-            for _ in range(2 * MOST_STEPS):
-                tangent = self._tangent(member)
-                if tangent.shape[1] == 0:
-                    break
-                along = tangent[:, 0] if heading is None else tangent @ (tangent.T @ heading)
-                length = float(np.linalg.norm(along))
-                if length < FAMILY_RANK:
-                    break
-                along = along * (sign if heading is None else 1.0) / length
-                moved = self._moved(member, FAMILY_STEP * along)
-                if moved is None:
-                    break
-                member, heading = moved, along
-                turned = limits.turned_to(self.chain, member, seed)
-                if bool(limits.inside(self.chain, turned)):
-                    found.append(turned)
-        return found
+    def _slide(self, members: Array, seed: Array, within_limits: bool) -> Array:
+        """Move members (k, f) along the family to where they are nearest to the seed (n,)."""
+        from dh2urdf.kernels.self_motion import nearest_members
 
-    def _moved(self, q: Array, step: Array) -> Array | None:
-        """Q with its free joints moved by step and put back on the family; None if that fails."""
-        out = q.copy()
-        out[self.free] += step
-        for _ in range(4):
-            error = self._error(out)
-            size = float(np.abs(error).max())
-            if size <= 1e-14:
-                return out
-            if size > 0.5 * FAMILY_STEP * self.chain.size:
-                return None
-            J = self._jacobian(out)
-            out[self.free] += np.linalg.pinv(J, rcond=FAMILY_RANK) @ error
-        return out if float(np.abs(self._error(out)).max()) <= ACCEPT else None
+        out = np.ascontiguousarray(members)
+        nearest_members(*self._constants, within_limits, out, seed[self.free], np.empty(len(out)))
+        return out
 
-    def _error(self, q: Array) -> Array:
-        """Task error of q (n,)."""
-        row: Array = task_error(self.chain.fk(q)[None], self.T, self.task)[0]
-        return row
+    def _inside_members(self, start: Array, seed: Array) -> Array:
+        """Members (k, f) inside the limits that are nearest to the seed, found by a walk."""
+        from dh2urdf.kernels.self_motion import walk_family
 
-    def _jacobian(self, q: Array) -> Array:
-        """Rows of the task, columns of the free joints: derivative of the pose."""
-        columns: Array = task_jacobian(self.chain, self.task, q[None])[0][:, self.free]
-        return columns
+        walk = np.empty((2, MOST_STEPS, len(self.free)))
+        counts = walk_family(*self._constants, FAMILY_STEP, start[self.free], walk)
+        found = np.concatenate([way[:count] for way, count in zip(walk, counts, strict=True)])
+        found = limits.turned_to(self.moving, found, seed[self.free])
+        found = found[self._inside(start, found)]
+        order = np.argsort(np.linalg.norm(found - seed[self.free], axis=1), kind="stable")
+        return self._slide(found[order[:STARTS]], seed, within_limits=True)
 
-    def _tangent(self, q: Array) -> Array:
-        """Orthonormal directions of the free joints that leave the task alone, shape (f, d)."""
-        J = self._jacobian(q)
-        _, sigma, Vt = np.linalg.svd(J)
-        rank = int((sigma > FAMILY_RANK * max(float(sigma[0]), 1e-9)).sum())
-        null: Array = Vt[rank:].T
-        return null
+    @cached_property
+    def _constants(self) -> tuple[Array, Array, int, Array, float]:
+        """First arguments of the kernels: links, joints, task, target, unit."""
+        part = self.moving
+        joints = np.column_stack([part.prismatic, part.lower, part.upper]).astype(float)
+        task = list(Task).index(self.task)
+        return np.array(part.links), joints, task, np.array(self.T), self.chain.size
 
 
 def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_limits: bool) -> None:
@@ -200,12 +171,12 @@ def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_lim
     chain = next(iter(families.values())).chain
     goal = limits.turned_to(chain, seed, seed)
     reachable = not within_limits or bool(limits.inside(chain, goal))
-    around = [k for k, family in families.items() if reachable and family.holds(q[k], goal)]
+    around = [k for k, family in families.items() if reachable and family.holds(goal)]
     for k, family in families.items():
         if around == [k]:
             q[k] = goal
             continue
-        member = family.nearest(q[k], seed, within_limits, full_turns=k not in around)
+        member = family.nearest(seed, within_limits, full_turns=k not in around)
         q[k] = q[k] if member is None else member
     gaps = {k: float(np.linalg.norm(q[k] - goal)) for k in around}
     if gaps and min(gaps.values()) > SAME:

@@ -27,6 +27,9 @@ MOST_STATES = 512
 BREAK = 1e9
 """Cost of one break [rad or m]: more than any motion without one."""
 
+UNWOUND = 1e-6
+"""Cost of a beginning per distance from the middle of the limits: decides between equals only."""
+
 
 @dataclass(frozen=True, eq=False)
 class IKPath:
@@ -141,7 +144,8 @@ def _first_stage(
     q = problem.with_all_turns(found).q
     if not 0 < len(q) <= MOST_STATES:
         q = found.q
-    return _Stage(pose, q, np.zeros(len(q)), np.zeros(len(q), np.int64))
+    wound = np.linalg.norm(q - limits.middle(problem.chain), axis=1)
+    return _Stage(pose, q, UNWOUND * wound, np.zeros(len(q), np.int64))
 
 
 def _next_stage(
@@ -187,10 +191,10 @@ def _with_members(
     for q, free in zip(found.q, found.free_joints, strict=True):
         if not free:
             continue
-        family = Family(problem.chain, problem.task, found.T, free)
+        family = Family(problem.chain, problem.task, found.T, free, q)
         best = last.q[np.argsort(last.cost, kind="stable")[:8]]
         goals = [*best, *(ahead.q if ahead is not None else ())]
-        members = (family.nearest(q, goal, within_limits) for goal in goals)
+        members = (family.nearest(goal, within_limits) for goal in goals)
         rows += [member[None] for member in members if member is not None]
     return np.concatenate(rows)
 

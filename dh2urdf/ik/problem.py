@@ -151,8 +151,8 @@ class Problem:
         q, keep = found.q.copy(), np.ones(len(found), np.bool_)
         middle = limits.middle(self.chain)
         for k in np.flatnonzero(~limits.inside(self.chain, q)):
-            family = Family(self.chain, self.task, found.T, found.free_joints[k])
-            member = family.nearest(q[k], middle, within_limits=True)
+            family = Family(self.chain, self.task, found.T, found.free_joints[k], q[k])
+            member = family.nearest(middle, within_limits=True)
             keep[k] = member is not None
             q[k] = q[k] if member is None else member
         return self._measured(found, q).select(keep)
@@ -165,7 +165,7 @@ class Problem:
         q = limits.turned_to(self.chain, found.q, goal)
         masks = found.codes[1].tolist()
         families = {
-            k: Family(self.chain, self.task, found.T, joints_of_mask(mask))
+            k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k])
             for k, mask in enumerate(masks)
             if mask
         }

@@ -2,7 +2,8 @@
 
 Where a joint can move in every configuration while the task stays satisfied, there is a
 one-parameter family through every solution. Joints are then held so that the rest determine the
-task, at rest or at the first of a row of values at which the pose is reached.
+task, at rest or at the first of a row of values at which the pose is reached; at rest only, where
+the joints that are held are the only ones to move along the family.
 """
 
 from __future__ import annotations
@@ -65,9 +66,9 @@ class RedundantChain(SolverBase):
         anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))
         self.idle = int(np.bitwise_or.reduce(anywhere))
         self._solvers: dict[tuple[float, ...], HeldJoints] = {}
-        self.values = list(
-            itertools.product(*(_values(chain, i, len(self.held)) for i in self.held))
-        )
+        alone = self.idle == sum(1 << i for i in self.held)
+        rows = [_values(chain, i, len(self.held))[: 1 if alone else None] for i in self.held]
+        self.values = list(itertools.product(*rows))
         self.kmax = self._solver(self.values[0]).kmax
 
     @classmethod

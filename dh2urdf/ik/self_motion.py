@@ -141,6 +141,7 @@ def nearest_members(
     residual : array, shape (k,)
     """
     from dh2urdf.kernels import self_motion
+    from dh2urdf.kernels.damped import POSE
 
     chain = solver.chain
     if within_limits:
@@ -151,7 +152,7 @@ def nearest_members(
     q = np.ascontiguousarray(q[:STARTS])
     residual = np.empty(len(q))
     self_motion.nearest_members(
-        solver.links, solver.joints, T, chain.size, within_limits, q, seed, residual
+        solver.links, solver.joints, POSE, T, chain.size, within_limits, q, seed, residual
     )
     order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
     kept: list[int] = []

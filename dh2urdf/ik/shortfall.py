@@ -22,12 +22,18 @@ __all__ = ["beyond_limits", "closest", "shortfall"]
 STARTS = 64
 STEPS = 60
 
+FAR = 1e6
+"""Distance, in sizes of the arm, at which the arm is a point."""
+
 STIFF = 1e3
 """Weight of the position against the orientation where the position comes first."""
 
 
 def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     """Say what part of a pose T (4, 4) a chain cannot reach, limits aside, and by how much."""
+    away = math.dist(T[:3, 3], chain.links[0, :3, 3])
+    if away > FAR * chain.size:
+        return f"the point lies {_metres(away)} outside the reach of the tool"
     if chain.n == 6 and task is Task.POSE and AxisLines(chain).spherical(3):
         centre = AxisLines(chain).points[4]
         point = T[:3, :3] @ (inverse(chain.tool)[:3] @ np.append(centre, 1.0)) + T[:3, 3]
@@ -110,4 +116,6 @@ def _at(point: Array) -> Array:
 
 def _metres(gap: float) -> str:
     """A distance with as many digits as mean something."""
+    if gap >= 1e4:
+        return f"{gap:.5g} m"
     return f"{gap:.3f} m" if gap >= 5e-4 else f"{gap:.2g} m"

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.transforms import as_floats
 
 if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem
@@ -258,7 +259,7 @@ def _read_only(view: Array) -> Array:
 def as_configuration(q: ArrayLike, n: int, what: str) -> Array:
     """Check a configuration: n finite numbers, shape (n,)."""
     try:
-        out = np.asarray(q, float)
+        out = as_floats(q)
     except (TypeError, ValueError):
         raise ConfigurationError(f"{what}: expected {n} numbers, got {q!r:.60}") from None
     if out.shape != (n,):

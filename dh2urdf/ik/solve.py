@@ -23,7 +23,7 @@ from dh2urdf.ik.solutions import IKBatch, IKSolutions
 from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.ik.swept import SweptJoint
 from dh2urdf.ik.swept_problem import SweptProblem
-from dh2urdf.transforms import Array, check_pose
+from dh2urdf.transforms import Array, as_floats, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
 
@@ -302,7 +302,9 @@ def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:
 def _one_pose(T: ArrayLike, problem: Problem) -> Array:
     """A checked copy of one pose, shape (1, 4, 4)."""
     try:
-        m = np.array(getattr(T, "homogeneous", T), np.float64, order="C", ndmin=3)
+        m = np.array(getattr(T, "homogeneous", T), order="C", ndmin=3)
+        if m.dtype.char != "d":
+            m = as_floats(m)
     except (TypeError, ValueError):
         m = check_pose(T)
     if m.shape == (1, 4, 4):
@@ -322,7 +324,7 @@ def _one_pose(T: ArrayLike, problem: Problem) -> Array:
 def _poses(Ts: ArrayLike, problem: Problem) -> Array:
     """Checked poses, shape (m, 4, 4), C-contiguous."""
     try:
-        m = np.ascontiguousarray(getattr(Ts, "homogeneous", Ts), np.float64)
+        m = np.ascontiguousarray(as_floats(getattr(Ts, "homogeneous", Ts)))
     except (TypeError, ValueError):
         m = check_pose(Ts, what="poses")
     if m.shape == (4, 4):

@@ -16,10 +16,12 @@ from dh2urdf.kernels.certify import _turn_between, residual_of
 from dh2urdf.kernels.chain import _joint_times_link, _load
 
 __all__ = [
+    "POSE",
     "add_transposed",
     "error_and_jacobian",
     "make_damped",
     "pose_and_jacobian",
+    "reduce_to_task",
     "restore",
     "solve_damped",
 ]
@@ -32,6 +34,9 @@ MOST_STEPS = 10
 
 FLOOR = 1e-14
 """Damping relative to the trace of ``J J^T``: keeps the Cholesky factor real, no more."""
+
+POSE, POSITION, POSITION_AXIS = 0, 1, 2
+"""Tasks: the whole pose, its position, its position and the direction of the tool's z axis."""
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -74,9 +79,40 @@ def pose_and_jacobian(links, joints, T, q, unit, damped):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def error_and_jacobian(links, joints, T, q, unit, damped):
-    """:func:`pose_and_jacobian`, and the residual of q against T."""
-    return residual_of(pose_and_jacobian(links, joints, T, q, unit, damped), T)
+def reduce_to_task(task, T, r, damped):
+    """Reduce error and Jacobian in ``damped`` to a task; the residual [m and rad].
+
+    The pose r is what :func:`pose_and_jacobian` found.
+    """
+    J, _, e, _ = damped
+    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    position = math.sqrt(x * x + y * y + z * z)
+    if task == POSE:
+        return residual_of(r, T)
+    if task == POSITION:
+        for i in range(J.shape[0]):
+            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
+        e[3], e[4], e[5] = 0.0, 0.0, 0.0
+        return position
+    zx, zy, zz = r[2], r[6], r[10]
+    for i in range(J.shape[0]):
+        along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
+        J[i, 3], J[i, 4], J[i, 5] = J[i, 3] - along * zx, J[i, 4] - along * zy, J[i, 5] - along * zz
+    e[3] = zy * T[2, 2] - zz * T[1, 2]
+    e[4] = zz * T[0, 2] - zx * T[2, 2]
+    e[5] = zx * T[1, 2] - zy * T[0, 2]
+    turn = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+    if zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0:
+        size = max(turn, 1e-6)
+        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
+        turn = math.pi
+    return max(position, turn)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def error_and_jacobian(links, joints, task, T, q, unit, damped):
+    """:func:`pose_and_jacobian` of a task, and the residual of q against T."""
+    return reduce_to_task(task, T, pose_and_jacobian(links, joints, T, q, unit, damped), damped)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -129,13 +165,13 @@ def add_transposed(damped, factor, dq):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def restore(links, joints, T, unit, q, dq, damped):
+def restore(links, joints, task, T, unit, q, dq, damped):
     """Newton's method by shortest steps, q (n,) in place; returns the residual.
 
     Stops when the residual is rounding, or no longer falls. ``dq`` (n,) is scratch.
     """
     n = q.shape[0]
-    residual = error_and_jacobian(links, joints, T, q, unit, damped)
+    residual = error_and_jacobian(links, joints, task, T, q, unit, damped)
     for _ in range(MOST_STEPS):
         if residual <= RESTORED:
             break
@@ -145,7 +181,7 @@ def restore(links, joints, T, unit, q, dq, damped):
         add_transposed(damped, 1.0, dq)
         for i in range(n):
             q[i] += dq[i]
-        after = error_and_jacobian(links, joints, T, q, unit, damped)
+        after = error_and_jacobian(links, joints, task, T, q, unit, damped)
         if not after < residual:
             for i in range(n):
                 q[i] -= dq[i]

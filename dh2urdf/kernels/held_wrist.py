@@ -28,7 +28,7 @@ from numba import njit
 from dh2urdf.kernels.certify import ACCEPT, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.circle_pair import circle_pair
-from dh2urdf.kernels.damped import make_damped, restore
+from dh2urdf.kernels.damped import POSE, make_damped, restore
 from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
 from dh2urdf.kernels.position_arm import (
     FREE,
@@ -239,6 +239,6 @@ def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, cou
             for j in range(7):
                 source = j if j < which[HELD] else j - 1
                 q[i, kept, j] = values[i] if j == which[HELD] else rest[k, source]
-            if restore(frames[:8], joints, T, unit, q[i, kept], work, damped) <= ACCEPT:
+            if restore(frames[:8], joints, POSE, T, unit, q[i, kept], work, damped) <= ACCEPT:
                 kept += 1
         count[i] = kept

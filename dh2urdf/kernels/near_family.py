@@ -14,7 +14,7 @@ import numpy as np
 from dh2urdf.kernels import spherical_wrist, three_parallel
 from dh2urdf.kernels.certify import ACCEPT, finish_pose, polish
 from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import error_and_jacobian, make_damped, solve_damped
+from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped, solve_damped
 from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import add_wrist
 from dh2urdf.kernels.three_parallel import _last_joint, _slope_of_last, add_pairs, outer_pairs
@@ -38,7 +38,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
         for j in range(6):
             doubt = doubt or abs(q[k, j] - start[j]) > most
         if not doubt:
-            error_and_jacobian(links, joints, T, q[k], unit, damped)
+            error_and_jacobian(links, joints, POSE, T, q[k], unit, damped)
             solve_damped(damped, 0.0)
             for a in range(6):
                 doubt = doubt or damped[1][a, a] < regular

@@ -15,8 +15,14 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, residual_of
-from dh2urdf.kernels.damped import add_transposed, make_damped, pose_and_jacobian, solve_damped
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI
+from dh2urdf.kernels.damped import (
+    add_transposed,
+    make_damped,
+    pose_and_jacobian,
+    reduce_to_task,
+    solve_damped,
+)
 
 __all__ = ["find_solutions"]
 
@@ -35,40 +41,6 @@ DAMPING = 1e-3
 DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
 
-POSE, POSITION, POSITION_AXIS = 0, 1, 2
-"""Tasks."""
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _task_error(task, T, r, damped):
-    """Reduce error and Jacobian in ``damped`` to a task; the residual [m and rad].
-
-    The pose r is what :func:`dh2urdf.kernels.damped.error_and_jacobian` found.
-    """
-    J, _, e, _ = damped
-    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
-    position = math.sqrt(x * x + y * y + z * z)
-    if task == POSE:
-        return residual_of(r, T)
-    if task == POSITION:
-        for i in range(J.shape[0]):
-            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
-        e[3], e[4], e[5] = 0.0, 0.0, 0.0
-        return position
-    zx, zy, zz = r[2], r[6], r[10]
-    for i in range(J.shape[0]):
-        along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
-        J[i, 3], J[i, 4], J[i, 5] = J[i, 3] - along * zx, J[i, 4] - along * zy, J[i, 5] - along * zz
-    e[3] = zy * T[2, 2] - zz * T[1, 2]
-    e[4] = zz * T[0, 2] - zx * T[2, 2]
-    e[5] = zx * T[1, 2] - zy * T[0, 2]
-    turn = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
-    if zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0:
-        size = max(turn, 1e-6)
-        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
-        turn = math.pi
-    return max(position, turn)
-
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
@@ -79,7 +51,7 @@ def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
             total += coupling[k, v] * q[v]
         work[k] = total
     r = pose_and_jacobian(links, joints, T, work, unit, whole)
-    residual = _task_error(task, T, r, whole)
+    residual = reduce_to_task(task, T, r, whole)
     for a in range(6):
         part[2][a] = whole[2][a]
         for v in range(q.shape[0]):

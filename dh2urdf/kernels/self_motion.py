@@ -18,6 +18,7 @@ from numba import njit
 
 from dh2urdf.kernels.certify import ACCEPT
 from dh2urdf.kernels.damped import (
+    POSE,
     add_transposed,
     error_and_jacobian,
     make_damped,
@@ -25,7 +26,7 @@ from dh2urdf.kernels.damped import (
     solve_damped,
 )
 
-__all__ = ["enter_limits", "nearest_members"]
+__all__ = ["enter_limits", "nearest_members", "walk_family"]
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -45,9 +46,9 @@ SHORTEST = 1e-10
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _project(links, joints, T, unit, q, seed, step, damped):
+def _project(links, joints, task, T, unit, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
-    error_and_jacobian(links, joints, T, q, unit, damped)
+    error_and_jacobian(links, joints, task, T, q, unit, damped)
     J, _, e, _ = damped
     n = q.shape[0]
     for i in range(n):
@@ -97,14 +98,14 @@ def _outside(joints, q):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _go_nearer(links, joints, T, unit, within_limits, q, seed, scratch, damped):
+def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     n = q.shape[0]
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
     distance2 = _distance2(q, seed)
     length = 1.0
     for move in range(MOST_STEPS):
-        size = _project(links, joints, T, unit, q, seed, step, damped)
+        size = _project(links, joints, task, T, unit, q, seed, step, damped)
         if size <= ARRIVED:
             break
         if move > 0:
@@ -124,7 +125,7 @@ def _go_nearer(links, joints, T, unit, within_limits, q, seed, scratch, damped):
         while length * size > SHORTEST:
             for i in range(n):
                 trial[i] = q[i] + length * step[i]
-            good = restore(links, joints, T, unit, trial, work, damped) <= ACCEPT
+            good = restore(links, joints, task, T, unit, trial, work, damped) <= ACCEPT
             good = good and _distance2(trial, seed) < distance2
             if good and not (within_limits and _outside(joints, trial)):
                 moved = True
@@ -139,13 +140,15 @@ def _go_nearer(links, joints, T, unit, within_limits, q, seed, scratch, damped):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def nearest_members(links, joints, T, unit, within_limits, q, seed, residual):
+def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residual):
     """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
 
     Parameters
     ----------
     links, joints
         The chain, see :mod:`dh2urdf.kernels.certify`.
+    task : int
+        What of the pose counts, see :mod:`dh2urdf.kernels.damped`.
     T : array, shape (4, 4)
     unit : float
         Size of the arm [m].
@@ -159,8 +162,8 @@ def nearest_members(links, joints, T, unit, within_limits, q, seed, residual):
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((5, n))
     for k in range(q.shape[0]):
-        _go_nearer(links, joints, T, unit, within_limits, q[k], seed, scratch, damped)
-        residual[k] = error_and_jacobian(links, joints, T, q[k], unit, damped)
+        _go_nearer(links, joints, task, T, unit, within_limits, q[k], seed, scratch, damped)
+        residual[k] = error_and_jacobian(links, joints, task, T, q[k], unit, damped)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -174,11 +177,11 @@ def _excess(joints, q, i):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _tangent(links, joints, T, unit, q, guess, tangent, damped):
+def _tangent(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
     for i in range(q.shape[0]):
         guess[i] += q[i]
-    size = _project(links, joints, T, unit, q, guess, tangent, damped)
+    size = _project(links, joints, task, T, unit, q, guess, tangent, damped)
     for i in range(q.shape[0]):
         guess[i] -= q[i]
         tangent[i] /= max(size, 1e-300)
@@ -208,7 +211,7 @@ def enter_limits(links, joints, T, unit, q, entered):
         last = math.inf
         for _ in range(MOST_STEPS):
             along, across, total = 0.0, 0.0, 0.0
-            if not _tangent(links, joints, T, unit, q[k], guess, tangent, damped):
+            if not _tangent(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
                 break
             for i in range(n):
                 guess[i] = tangent[i]
@@ -227,7 +230,47 @@ def enter_limits(links, joints, T, unit, q, entered):
             step = min(max(step, -LONGEST), LONGEST)
             for i in range(n):
                 trial[i] = q[k, i] + step * tangent[i]
-            if not restore(links, joints, T, unit, trial, work, damped) <= ACCEPT:
+            if not restore(links, joints, POSE, T, unit, trial, work, damped) <= ACCEPT:
                 break
             for i in range(n):
                 q[k, i] = trial[i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def walk_family(links, joints, task, T, unit, length, q, members):
+    """Members of the family through q (n,), by walking away from it both ways.
+
+    Parameters
+    ----------
+    links, joints, task, T, unit
+        As for :func:`nearest_members`.
+    length : float
+        Length of a step [rad or m].
+    q : array, shape (n,)
+    members : array, shape (2, k, n), out
+        As many steps each way at most.
+
+    Returns
+    -------
+    int64 array, shape (2,)
+        Members found each way.
+    """
+    n = q.shape[0]
+    damped, scratch = make_damped(n), np.empty((3, n))
+    tangent, guess, work = scratch[0], scratch[1], scratch[2]
+    counts = np.zeros(2, np.int64)
+    for way in range(2):
+        at = q
+        for i in range(n):
+            guess[i] = (1.0 + 0.1 * i) * (1.0 - 2.0 * way)
+        for k in range(members.shape[1]):
+            if not _tangent(links, joints, task, T, unit, at, guess, tangent, damped):
+                break
+            for i in range(n):
+                guess[i] = tangent[i]
+                members[way, k, i] = at[i] + length * tangent[i]
+            at = members[way, k]
+            if not restore(links, joints, task, T, unit, at, work, damped) <= ACCEPT:
+                break
+            counts[way] = k + 1
+    return counts
