@@ -234,7 +234,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
     off = np.abs(gram - np.eye(3)).max(axis=(-2, -1))
     if (off > ORTHONORMAL_TOLERANCE).any():
         raise PoseError(
-            f"{what}{_where(np.asarray(off > ORTHONORMAL_TOLERANCE))}: rotation part is not orthonormal, "
+            f"{what}{_where(off > ORTHONORMAL_TOLERANCE)}: rotation part is not orthonormal, "
             f"R^T R differs from 1 by {off.max():.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e})"
         )
     det = np.linalg.det(R)
@@ -246,7 +246,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
     return m
 
 
-def _where(bad: NDArray[np.bool_]) -> str:
+def _where(bad: np.bool_ | NDArray[np.bool_]) -> str:
     """Index of the first bad pose of a stack, as a suffix of its name."""
     if bad.ndim == 0:
         return ""
