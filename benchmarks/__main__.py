@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import time
+from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
-from benchmarks import machine
+from benchmarks.apart import do_apart
+from benchmarks.machine import Watch
 from benchmarks.results import LATEST, Results
 
 WORK = (
@@ -48,23 +53,38 @@ def main() -> int:
     out = given.out or LATEST.with_name(name)
     results = run(chosen, quick=given.quick)
     results.save(out)
-    print(f"{len(results.rows)} rows in {results.about['seconds']} s: {out}")
-    return 0
+    about = results.about
+    print(f"{len(results.rows)} rows in {about['seconds']} s: {out}")
+    print(f"others used {about['others']} cores" + (", too much" if results.busy else ""))
+    for what, why in results.failed.items():
+        print(f"failed: {what}: {why}", file=sys.stderr)
+    return 1 if results.failed else 0
 
 
 def run(chosen: tuple[str, ...] | list[str], *, quick: bool) -> Results:
     """Do the chosen work, in the order of :data:`WORK`."""
-    from importlib import import_module
-
-    results = Results(quick)
-    start, before = time.perf_counter(), machine.load_average()
-    for name in WORK:
-        if name in chosen:
-            begin = time.perf_counter()
-            import_module(f"benchmarks.work.{name}").run(results)
-            print(f"{name}: {time.perf_counter() - begin:.0f} s", file=sys.stderr)
-    results.describe(time.perf_counter() - start, [before, machine.load_average()])
+    results, watch = Results(quick), Watch()
+    with TemporaryDirectory() as cache:
+        if not quick:  # every kernel from the sources as they are: Numba misses changed callees
+            os.environ["NUMBA_CACHE_DIR"] = cache
+        for name in WORK:
+            for keys in _parts(name, quick) if name in chosen else ():
+                begin = time.perf_counter()
+                if wrong := do_apart(results, f"benchmarks.work.{name}", keys):
+                    results.failed[f"{name} {' '.join(keys)}"] = wrong
+                seconds = time.perf_counter() - begin
+                print(f"{name} {' '.join(keys)}: {seconds:.0f} s", file=sys.stderr)
+    results.describe(watch)
     return results
+
+
+def _parts(name: str, quick: bool) -> Iterator[tuple[str, ...]]:
+    """What is done in one process: one arm or task, all of them in the short run."""
+    work = import_module(f"benchmarks.work.{name}")
+    if quick:
+        yield work.QUICK
+    else:
+        yield from ((key,) for key in work.KEYS)
 
 
 if __name__ == "__main__":

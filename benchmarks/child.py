@@ -1,7 +1,7 @@
 """What has to be measured in a process of its own; prints one JSON object.
 
-``python -m benchmarks.child imports dh2urdf`` and so on; called by ``benchmarks.work.processes``
-and ``benchmarks.work.memory``.
+``python -m benchmarks.child imports dh2urdf`` and so on; called by ``benchmarks.apart``,
+``benchmarks.work.processes`` and ``benchmarks.work.memory``.
 """
 
 from __future__ import annotations
@@ -54,9 +54,10 @@ def memory(key: str, contestant: str, poses: str) -> dict[str, object]:
     from benchmarks.arms import arm_named
     from benchmarks.contestant import BatchContestant
     from benchmarks.peers import contestants
+    from benchmarks.results import Results
 
     arm = arm_named(key)
-    own = next(c for c in contestants(arm, {}) if c.name == contestant)
+    own = next(c for c in contestants(arm, Results()) if c.name == contestant)
     assert isinstance(own, BatchContestant)
     _, T = arm.draw(int(poses))
     own.solve_batch(own.encode_batch(T[:1000]), 2)
@@ -65,9 +66,21 @@ def memory(key: str, contestant: str, poses: str) -> dict[str, object]:
     before = _peak()
     answer = own.solve_batch(native, 2)
     after = _peak()
-    parts = [getattr(answer, k, None) for k in ("q", "residual", "count", "joints")]
+    parts = [getattr(answer, name, None) for name in OUTPUTS]
     arrays = sum(a.nbytes for a in parts if isinstance(a, np.ndarray))
     return {"bytes": (after - before) / int(poses), "arrays": arrays / int(poses)}
+
+
+OUTPUTS = ("q", "residual", "count", "branch_code", "free_mask", "joints", "n_solutions")
+"""Arrays of answers, ours and py-ikgeo's."""
+
+
+def work(module: str, folder: str) -> dict[str, object]:
+    """A piece of work; its rows go to a file in the folder."""
+    from benchmarks.apart import do_here
+
+    do_here(module, Path(folder))
+    return {}
 
 
 def _peak() -> int:
@@ -78,5 +91,5 @@ def _peak() -> int:
 
 if __name__ == "__main__":
     task, *arguments = sys.argv[1:]
-    answer = {"imports": imports, "first": first, "memory": memory}[task](*arguments)
-    print(json.dumps(answer))
+    tasks = {"imports": imports, "first": first, "memory": memory, "work": work}
+    print(json.dumps(tasks[task](*arguments)))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import gc
 import random
-import resource
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,6 +14,9 @@ from itertools import cycle, islice
 from typing import Any
 
 import numpy as np
+
+from benchmarks.machine import worked
+from benchmarks.marker import at_work
 
 __all__ = ["Timing", "each", "interleaved"]
 
@@ -45,16 +47,13 @@ def each(call: Callable[[Any], Any], items: Sequence[Any], seconds: float = 1e-3
 
     Short blocks, many rounds: on a busy machine most of them are not interrupted.
     """
-    start = time.perf_counter()
-    done = 0
-    while done < len(items) and time.perf_counter() - start < 0.01:
-        call(items[done])
-        done += 1
-    per_call = (time.perf_counter() - start) / done
-    count = max(1, min(10 * len(items), round(seconds / per_call)))
     turn = cycle(items)
+    count = 0
 
     def block() -> int:
+        nonlocal count
+        count = count or round(seconds / _per_call(call, items))
+        count = max(1, min(10 * len(items), count))
         for item in islice(turn, count):
             call(item)
         return count
@@ -62,17 +61,31 @@ def each(call: Callable[[Any], Any], items: Sequence[Any], seconds: float = 1e-3
     return block
 
 
+def _per_call(call: Callable[[Any], Any], items: Sequence[Any]) -> float:
+    """Seconds of a call, roughly."""
+    start = time.perf_counter()
+    done = 0
+    while done < len(items) and time.perf_counter() - start < 0.01:
+        call(items[done])
+        done += 1
+    return (time.perf_counter() - start) / done
+
+
 def interleaved(
     blocks: Mapping[str, Block], budget: float, *, least: int = 5, most: int = 60
 ) -> dict[str, Timing]:
     """Time blocks in turn until the budget [s] is spent.
 
-    Each runs once before it counts. At least ``least`` rounds are made, whatever the budget, but
+    A block is named for its contestant, with more behind a bar where there are several. Each runs
+    once before it counts. At least ``least`` rounds are made, whatever the budget, but
     a block that alone has taken more than the budget in three rounds gets three.
     """
     wall: dict[str, list[float]] = {name: [] for name in blocks}
     processor: dict[str, list[float]] = {name: [] for name in blocks}
-    units = {name: block() for name, block in blocks.items()}
+    units = {}
+    for name, block in blocks.items():
+        at_work(owner(name))
+        units[name] = block()
     order = list(blocks)
     chance = random.Random(0)
     start = time.perf_counter()
@@ -82,9 +95,10 @@ def interleaved(
         for name in order:
             if k >= 3 and sum(wall[name]) * units[name] > budget:
                 continue
-            begin, worked = time.perf_counter(), _worked()
+            at_work(owner(name))
+            begin, processed = time.perf_counter(), worked()
             done = blocks[name]()
-            processor[name].append((_worked() - worked) / done)
+            processor[name].append((worked() - processed) / done)
             wall[name].append((time.perf_counter() - begin) / done)
         if k + 1 >= least and time.perf_counter() - start > budget:
             break
@@ -92,7 +106,6 @@ def interleaved(
     return {name: Timing.of(s, units[name], processor[name]) for name, s in wall.items()}
 
 
-def _worked() -> float:
-    """Processor time of this process, its threads and the processes that it waited for [s]."""
-    children = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + children.ru_utime + children.ru_stime
+def owner(name: str) -> str:
+    """The contestant of a block: what stands before the bar in its name."""
+    return name.partition("|")[0]

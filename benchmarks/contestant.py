@@ -79,12 +79,12 @@ class BatchContestant(IKContestant):
 class FKContestant:
     """Forward kinematics of one arm: one configuration, many, or both.
 
-    ``many`` takes (m, n) and the number of threads and returns poses; ``to_poses`` makes
-    comparable poses (m, 4, 4) of what it returned, untimed.
+    ``many`` takes (m, n) and returns poses; ``to_poses`` makes comparable poses (m, 4, 4) of what
+    it returned, untimed.
     """
 
     name: str
     one: Callable[[Any], Any] | None = None
-    many: Callable[[Any, int], Any] | None = None
+    many: Callable[[Any], Any] | None = None
     encode: Callable[[Array], Any] = lambda q: q
     to_poses: Callable[[Any], Array] = np.asarray

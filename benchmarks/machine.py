@@ -1,15 +1,17 @@
-"""What a figure has to name: machine, versions, commit, and how busy the machine was."""
+"""What a figure has to name: machine, versions, commit, and what others did on the machine."""
 
 from __future__ import annotations
 
 import os
 import platform
+import resource
 import subprocess
 import sys
+import time
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-__all__ = ["commit", "describe", "load_average", "versions"]
+__all__ = ["Watch", "commit", "describe", "load_average", "versions", "worked"]
 
 PACKAGES = (
     "dh2urdf",
@@ -89,3 +91,40 @@ def commit() -> str:
 def load_average() -> list[float]:
     """Load of the machine over 1, 5 and 15 minutes."""
     return [round(v, 2) for v in os.getloadavg()]
+
+
+def worked() -> float:
+    """Processor time of this process, its threads and the processes that it waited for [s]."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
+
+
+class Watch:
+    """From when it is made: time that went by, and processor time that others had of it.
+
+    Attributes
+    ----------
+    load : list of float
+        Load averages at the beginning.
+    """
+
+    def __init__(self) -> None:
+        self.load = load_average()
+        self._start = time.perf_counter(), _machine_worked(), worked()
+
+    def seconds(self) -> float:
+        """Time since the beginning [s]."""
+        return time.perf_counter() - self._start[0]
+
+    def others(self) -> float:
+        """Cores that other programs, or other guests of the host, have used on average."""
+        _, machine, own = self._start
+        return max(0.0, _machine_worked() - machine - (worked() - own)) / self.seconds()
+
+
+def _machine_worked() -> float:
+    """Processor time of everything on the machine [s]; 0 where the system does not say."""
+    for line in _lines("/proc/stat")[:1]:
+        user, nice, system, _, _, irq, softirq, steal = (float(v) for v in line.split()[1:9])
+        return (user + nice + system + irq + softirq + steal) / os.sysconf("SC_CLK_TCK")
+    return 0.0

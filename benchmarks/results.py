@@ -13,7 +13,9 @@ from benchmarks.clock import Timing
 
 __all__ = ["LATEST", "Results", "Row"]
 
-SCHEMA = 1
+SCHEMA = 2
+OTHERS = 0.25
+"""Cores that other programs may use before the machine counts as busy."""
 LATEST = Path(__file__).parent / "results" / "latest.json"
 """The run that the README shows."""
 
@@ -60,16 +62,27 @@ class Row:
 
 @dataclass
 class Results:
-    """All rows of one run, and what it ran on."""
+    """All rows of one run, and what it ran on.
+
+    ``left_out`` says why a peer or a figure is missing, ``failed`` which work of ours broke, and
+    ``excluded`` names the peers that have broken their process.
+    """
 
     quick: bool = False
     rows: list[Row] = field(default_factory=list)
     left_out: dict[str, str] = field(default_factory=dict)
+    failed: dict[str, str] = field(default_factory=dict)
+    excluded: set[str] = field(default_factory=set)
     about: dict[str, Any] = field(default_factory=dict)
 
     def add(self, row: Row) -> None:
         """Keep a row."""
         self.rows.append(row)
+
+    def include(self, part: Results) -> None:
+        """Keep what a part of the work found."""
+        self.rows += part.rows
+        self.left_out |= part.left_out
 
     def of(self, work: str, arm: str | None = None) -> Iterator[Row]:
         """Rows of one piece of work."""
@@ -80,8 +93,7 @@ class Results:
     @property
     def busy(self) -> bool:
         """Whether other work kept the machine from giving us its time."""
-        loads = [load[0] for load in self.about["load_average"]]
-        return bool(max(loads) > self.about["machine"]["cores"])
+        return bool(self.about["others"] > OTHERS)
 
     def undisturbed(self) -> Results:
         """The same results with processor time in place of time on the clock.
@@ -95,14 +107,15 @@ class Results:
         ]
         return replace(self, rows=rows)
 
-    def describe(self, seconds: float, load: list[list[float]]) -> None:
-        """Write down machine, versions, commit, load before and after, and duration."""
+    def describe(self, watch: machine.Watch) -> None:
+        """Write down machine, versions, commit, duration and what others did meanwhile."""
         self.about = {
             "commit": machine.commit(),
             "machine": machine.describe(),
             "versions": machine.versions(),
-            "load_average": load,
-            "seconds": round(seconds),
+            "load_average": [watch.load, machine.load_average()],
+            "others": round(watch.others(), 2),
+            "seconds": round(watch.seconds()),
         }
 
     def save(self, path: Path) -> None:
@@ -114,6 +127,7 @@ class Results:
             "quick": self.quick,
             **self.about,
             "left_out": self.left_out,
+            "failed": self.failed,
             "rows": rows,
         }
         path.write_text(json.dumps(document, indent=1) + "\n")
@@ -125,4 +139,5 @@ class Results:
         if document.pop("schema") != SCHEMA:
             raise ValueError(f"{path}: another version's results; run the benchmarks again")
         rows = [Row(**row) for row in document.pop("rows")]
-        return cls(document.pop("quick"), rows, document.pop("left_out"), document)
+        known = {key: document.pop(key) for key in ("quick", "left_out", "failed")}
+        return cls(rows=rows, about=document, **known)

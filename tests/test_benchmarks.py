@@ -9,8 +9,11 @@ import numpy as np
 import pytest
 
 from benchmarks import referee
+from benchmarks.apart import do_apart
 from benchmarks.arms import ARMS, arm_named
 from benchmarks.clock import interleaved
+from benchmarks.peers import IK_PEERS
+from benchmarks.peers.forward import BUILDERS
 from benchmarks.render import BEGIN, END, block, fastest, seconds, shown
 from benchmarks.results import LATEST, Results, Row
 from benchmarks.work.edges import EDGES
@@ -18,55 +21,36 @@ from benchmarks.work.edges import EDGES
 ROOT = Path(__file__).parents[1]
 
 
-@pytest.fixture(scope="module")
-def quick(tmp_path_factory):
-    """Results of ``python -m benchmarks --quick``."""
-    out = tmp_path_factory.mktemp("benchmarks") / "quick.json"
-    done = subprocess.run(
-        [sys.executable, "-m", "benchmarks", "--quick", "--out", str(out)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    return Results.load(out)
-
-
 def ours(results, work):
     """Our rows of a piece of work."""
     return [r for r in results.of(work) if r.contestant == "dh2urdf"]
 
 
-@pytest.mark.exhaustive
-@pytest.mark.parametrize("work", ["ik one, public", "ik one, bare", "ik batch"])
-def test_quick_run_finds_every_solution(quick, work):
+def finds_every_solution(quick):
     """Ours finds all that anybody finds, nothing wrong, with residuals at rounding."""
-    rows = ours(quick, work)
-    assert rows
-    for row in rows:
-        assert (row.recall, row.wrong) == (1.0, 0), row
-        assert row.residual < 1e-9, row
+    for work in ("ik one, public", "ik one, bare", "ik batch"):
+        rows = ours(quick, work)
+        assert rows
+        for row in rows:
+            assert (row.recall, row.wrong) == (1.0, 0), row
+            assert row.residual < 1e-9, row
 
 
-@pytest.mark.exhaustive
-def test_quick_run_covers_every_class(quick):
+def covers_every_class(quick):
     """One arm a class is solved, by one call and in a batch."""
     for work in ("ik one, public", "ik batch"):
         solved = {arm_named(r.arm).family for r in ours(quick, work)}
         assert solved >= {a.family for a in ARMS} - {"any 6R"}
 
 
-@pytest.mark.exhaustive
-def test_quick_run_places_batches_rightly(quick):
+def places_batches_rightly(quick):
     """FK of a batch differs from the referee by rounding only."""
     assert ours(quick, "fk batch")
     for row in ours(quick, "fk batch"):
         assert row.residual < 1e-13
 
 
-@pytest.mark.exhaustive
-def test_quick_run_solves_the_edges(quick):
+def solves_the_edges(quick):
     """Every edge pose has solutions, as many as ever anybody returned for isolated ones."""
     counts = {r.arm: r.extra["solutions"] for r in ours(quick, "ik edge")}
     assert set(counts) == {e.key for e in EDGES}
@@ -82,18 +66,82 @@ def test_quick_run_solves_the_edges(quick):
     assert all(counts[key] >= value for key, value in least.items()), counts
 
 
-@pytest.mark.exhaustive
-def test_import_loads_neither_numba_nor_pinocchio(quick):
+def imports_neither_numba_nor_pinocchio(quick):
     """What comes with ``import dh2urdf`` is NumPy."""
     (row,) = ours(quick, "import")
     assert row.extra.get("loaded", []) == []
 
 
-@pytest.mark.exhaustive
-def test_results_name_machine_versions_and_commit(quick):
+def whole_processes_take_longer_than_the_interpreter(quick):
+    """The processor time of a command is that of its process, in the unit of its wall time."""
+    rows = {r.contestant: r for r in quick.of("process")}
+    bare = rows.pop("Python itself")
+    assert set(rows) >= {"convert", "extract", "fk"}
+    assert all(r.processor > bare.processor > 1e-3 for r in rows.values())
+
+
+def names_machine_versions_and_commit(quick):
     """A figure can be traced to what it was measured on."""
-    assert set(quick.about) == {"commit", "machine", "versions", "load_average", "seconds"}
+    named = {"commit", "machine", "versions", "load_average", "others", "seconds"}
+    assert set(quick.about) == named
     assert quick.about["versions"].keys() >= {"numpy", "numba", "pin"}
+
+
+def names_every_peer_that_is_missing(quick):
+    """A peer takes part or is left out with a reason; the Pinocchio loop takes part."""
+    there = {r.contestant for r in quick.rows}
+    for name in {entry.name for entry in IK_PEERS} | set(BUILDERS):
+        absent = any(key == name or key.startswith(f"{name}, ") for key in quick.left_out)
+        assert name in there or absent, name
+    assert there >= {"dh2urdf", "Pinocchio loop"}
+
+
+def test_the_short_run_answers_rightly(tmp_path):
+    """``python -m benchmarks --quick`` ends well with any peers or none, and all of it is right."""
+    out = tmp_path / "quick.json"
+    done = subprocess.run(
+        [sys.executable, "-m", "benchmarks", "--quick", "--out", str(out)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    quick = Results.load(out)
+    for holds in (
+        finds_every_solution,
+        covers_every_class,
+        places_batches_rightly,
+        solves_the_edges,
+        imports_neither_numba_nor_pinocchio,
+        whole_processes_take_longer_than_the_interpreter,
+        names_machine_versions_and_commit,
+        names_every_peer_that_is_missing,
+    ):
+        holds(quick)
+
+
+@pytest.mark.parametrize(
+    ("way", "reason"),
+    [
+        ("crash", "ended by SIGSEGV"),
+        ("raise", "RuntimeError: no such arm"),
+        ("hang", "no end after 5 s"),
+    ],
+)
+def test_a_peer_that_breaks_its_process_is_named_and_left_out(way, reason):
+    """The work is done without it; the others' rows are there once."""
+    results = Results()
+    assert do_apart(results, "tests.broken_work", ("bad", way), patience=5.0) == ""
+    assert [row.contestant for row in results.rows] == ["good"]
+    assert results.left_out == {f"bad, broken_work bad {way}": reason}
+
+
+def test_what_breaks_in_our_own_hands_is_a_failure():
+    """Ours is never left out: the run says what went wrong and has no rows of it."""
+    results = Results()
+    assert "no such arm" in do_apart(results, "tests.broken_work", ("dh2urdf", "raise"))
+    assert (results.rows, results.left_out) == ([], {})
 
 
 def test_referee_rejects_and_counts():

@@ -8,6 +8,8 @@ from importlib import import_module
 
 from benchmarks.arms import Arm
 from benchmarks.contestant import IKContestant, NotCoveredError
+from benchmarks.marker import at_work
+from benchmarks.results import Results
 
 __all__ = ["IK_PEERS", "Entry", "contestants"]
 
@@ -44,14 +46,17 @@ IK_PEERS = (
 """All solvers of inverse kinematics, ours first."""
 
 
-def contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[IKContestant]:
+def contestants(arm: Arm, results: Results) -> Iterator[IKContestant]:
     """Solvers built for an arm; ``left_out`` learns of those that are not there or refuse."""
     for entry in IK_PEERS:
+        if entry.name in results.excluded:
+            continue
+        at_work(entry.name)
         try:
             yield entry.load()(arm)
         except NotCoveredError as reason:
-            left_out[f"{entry.name}, {arm.key}"] = str(reason)
-        except ModuleNotFoundError as error:
+            results.left_out[f"{entry.name}, {arm.key}"] = str(reason)
+        except ImportError as error:
             if entry is IK_PEERS[0]:
                 raise
-            left_out[entry.name] = f"not installed ({error})"
+            results.left_out[entry.name] = f"not installed ({error})"

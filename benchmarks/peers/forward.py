@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from benchmarks.arms import Arm
 from benchmarks.contestant import FKContestant
+from benchmarks.marker import at_work
+from benchmarks.results import Results
 from dh2urdf import DHConvention, Robot, urdf_text
 
 __all__ = ["forward_contestants"]
@@ -20,13 +22,16 @@ __all__ = ["forward_contestants"]
 Array = NDArray[np.float64]
 
 
-def forward_contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[FKContestant]:
+def forward_contestants(arm: Arm, results: Results) -> Iterator[FKContestant]:
     """All that can place this arm's tool; a missing package is named in ``left_out``."""
     for name, build in BUILDERS.items():
+        if name in results.excluded:
+            continue
+        at_work(name)
         try:
             contestant = build(arm)
-        except ModuleNotFoundError as error:
-            left_out[name] = f"not installed ({error})"
+        except ImportError as error:
+            results.left_out[name] = f"not installed ({error})"
             continue
         if contestant is not None:
             yield contestant
@@ -34,7 +39,7 @@ def forward_contestants(arm: Arm, left_out: dict[str, str]) -> Iterator[FKContes
 
 def _ours(arm: Arm) -> FKContestant:
     robot = Robot.from_dh(arm.table)
-    return FKContestant("dh2urdf", robot.fk, lambda q, threads: robot.fk(q))
+    return FKContestant("dh2urdf", robot.fk, robot.fk)
 
 
 def _pinocchio(arm: Arm) -> FKContestant:
@@ -49,7 +54,7 @@ def _pinocchio(arm: Arm) -> FKContestant:
         T: Array = pin.updateFramePlacement(model, data, tool).homogeneous
         return T
 
-    def many(q: Array, threads: int) -> Array:
+    def many(q: Array) -> Array:
         out = np.empty((len(q), 4, 4))
         for i, qi in enumerate(q):
             pin.forwardKinematics(model, data, qi)
@@ -80,9 +85,7 @@ def _py_ikgeo(arm: Arm) -> FKContestant | None:
         return T
 
     robot = peer.robot
-    return FKContestant(
-        "py-ikgeo", robot.forward, lambda q, threads: robot.batch_forward(q), to_poses=to_poses
-    )
+    return FKContestant("py-ikgeo", robot.forward, robot.batch_forward, to_poses=to_poses)
 
 
 def _py_opw(arm: Arm) -> FKContestant | None:
@@ -94,7 +97,7 @@ def _py_opw(arm: Arm) -> FKContestant | None:
     return FKContestant(
         "py-opw",
         robot.forward,
-        lambda q, threads: robot.batch_forward(q),
+        robot.batch_forward,
         to_poses=lambda answer: answer.as_matrix(),
     )
 
@@ -115,7 +118,7 @@ def _toolbox(arm: Arm) -> FKContestant | None:
         return None
     links = [rtb.RevoluteDH(d=r.d, a=r.a, alpha=r.alpha, offset=r.theta) for r in arm.rows]
     ets = rtb.DHRobot(links).ets()
-    return FKContestant("roboticstoolbox", ets.eval, lambda q, threads: ets.eval(q))
+    return FKContestant("roboticstoolbox", ets.eval, ets.eval)
 
 
 def _ikpy(arm: Arm) -> FKContestant:

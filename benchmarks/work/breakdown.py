@@ -13,10 +13,11 @@ from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
 Array = NDArray[np.float64]
 
+KEYS = QUICK = ("puma560", "ur5")
 MANY = 64
 """Poses of the batch that is set against the single pose."""
 
@@ -26,11 +27,11 @@ def _empty(a, b, c, d, e, f, g, h, i, j, k):  # type: ignore[no-untyped-def]
     """A kernel that does nothing with ten arrays and a flag."""
 
 
-def run(results: Results) -> None:
-    """The single call of the closed forms, and forward kinematics."""
-    for key in ("puma560", "ur5"):
+def run(results: Results, keys: tuple[str, ...]) -> None:
+    """The single call of the closed forms, and forward kinematics of the last arm."""
+    for key in keys:
         _add(results, key, _inverse_parts(key))
-    _add(results, "ur5", _forward_parts("ur5"))
+    _add(results, keys[-1], _forward_parts(keys[-1]))
 
 
 def _add(results: Results, key: str, parts: dict[str, tuple[Callable[[], object], int]]) -> None:

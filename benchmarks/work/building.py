@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from benchmarks.arms import ARMS, Arm
+from benchmarks.arms import ARMS, Arm, arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.contestant import IKContestant, NotCoveredError
 from benchmarks.peers import contestants
 from benchmarks.results import Results, Row
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
+KEYS = tuple(arm.key for arm in ARMS)
 QUICK = ("puma560", "ur5")
 
 
-def run(results: Results) -> None:
+def run(results: Results, keys: tuple[str, ...]) -> None:
     """Construction alone; ours includes the robot, its model and its first solution."""
-    for arm in ARMS:
-        if results.quick and arm.key not in QUICK:
-            continue
-        blocks = {type(c).name: _block(type(c), arm) for c in contestants(arm, results.left_out)}
+    for arm in map(arm_named, keys):
+        blocks = {type(c).name: _block(type(c), arm) for c in contestants(arm, results)}
         for name, timing in interleaved(blocks, 0.1 if results.quick else 3.0, most=20).items():
             results.add(Row.timed("build", arm.key, name, timing))
 

@@ -11,7 +11,7 @@ from benchmarks.arms import arm_named
 from benchmarks.peers import contestants
 from benchmarks.results import Results, Row
 
-__all__ = ["EDGES", "Edge", "run"]
+__all__ = ["EDGES", "KEYS", "QUICK", "Edge", "run"]
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,16 @@ EDGES = (
 )
 
 
-def run(results: Results) -> None:
-    """Count the exact solutions of each edge pose."""
-    for edge in EDGES:
+KEYS = QUICK = ("ur5", "puma560")
+"""Arms with edge poses."""
+
+
+def run(results: Results, keys: tuple[str, ...]) -> None:
+    """Count the exact solutions of each edge pose of these arms."""
+    for edge in (e for e in EDGES if e.arm in keys):
         arm = arm_named(edge.arm)
         T = referee.fk(arm.table, edge.q[None])
-        for c in contestants(arm, results.left_out):
+        for c in contestants(arm, results):
             answer = c.configurations(c.solve(c.encode(T)[0]))
             verdict = referee.judge(arm.table, T, [answer])
             results.add(

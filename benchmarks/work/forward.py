@@ -8,20 +8,24 @@ from benchmarks import referee
 from benchmarks.arms import Arm, arm_named
 from benchmarks.clock import Block, each, interleaved
 from benchmarks.contestant import FKContestant
+from benchmarks.marker import at_work
 from benchmarks.peers.forward import forward_contestants
 from benchmarks.results import Results, Row
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
-ARMS = ("ur5", "kuka_kr6_r700", "franka_fer")
+KEYS = ("ur5", "kuka_kr6_r700", "franka_fer")
+"""Arms that most peers know."""
+
+QUICK = KEYS[:1]
 MANY = 100_000
 
 
-def run(results: Results) -> None:
-    """FK of the arms that most peers know."""
-    for key in ARMS[:1] if results.quick else ARMS:
+def run(results: Results, keys: tuple[str, ...]) -> None:
+    """FK of these arms."""
+    for key in keys:
         arm = arm_named(key)
-        contestants = [c for c in forward_contestants(arm, results.left_out) if _right(c, arm)]
+        contestants = [c for c in forward_contestants(arm, results) if _right(c, arm)]
         _single(results, arm, contestants)
         _batch(results, arm, contestants)
 
@@ -52,13 +56,14 @@ def _batch(results: Results, arm: Arm, contestants: list[FKContestant]) -> None:
     for c in contestants:
         if c.many is None:
             continue
-        found = c.to_poses(c.many(q, 2))
+        at_work(c.name)
+        found = c.to_poses(c.many(q))
         errors[c.name] = float(referee.residuals(found, T).max())
 
         def block(c: FKContestant = c) -> int:
-            c.many(q, 2)
+            c.many(q)
             return m
 
         blocks[c.name] = block
     for name, timing in interleaved(blocks, 0.2 if results.quick else 10.0, most=25).items():
-        results.add(Row.timed("fk batch", arm.key, name, timing, threads=2, residual=errors[name]))
+        results.add(Row.timed("fk batch", arm.key, name, timing, residual=errors[name]))

@@ -9,17 +9,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import referee
-from benchmarks.arms import ARMS, Arm
+from benchmarks.arms import ARMS, Arm, arm_named
 from benchmarks.clock import Block, each, interleaved
 from benchmarks.contestant import BatchContestant, IKContestant
+from benchmarks.marker import at_work
 from benchmarks.peers import contestants
 from benchmarks.referee import Verdict
 from benchmarks.results import Results, Row
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
 Array = NDArray[np.float64]
 
+KEYS = tuple(arm.key for arm in ARMS)
 QUICK = ("puma560", "ur5", "jaco2_urdf", "franka_fer")
 """Arms of the short run: one a class."""
 
@@ -27,12 +29,10 @@ BATCH = {"spherical wrist": 100_000, "three parallel axes": 100_000, "7R, one he
 """Poses of a batch; 2,000 for the other classes."""
 
 
-def run(results: Results) -> None:
-    """All classes of arms."""
-    for arm in ARMS:
-        if results.quick and arm.key not in QUICK:
-            continue
-        entrants = list(contestants(arm, results.left_out))
+def run(results: Results, keys: tuple[str, ...]) -> None:
+    """One pose a call and many, of these arms."""
+    for arm in map(arm_named, keys):
+        entrants = list(contestants(arm, results))
         _single(results, arm, entrants)
         _batch(results, arm, [c for c in entrants if isinstance(c, BatchContestant)])
 
@@ -40,10 +40,7 @@ def run(results: Results) -> None:
 def _single(results: Results, arm: Arm, entrants: Sequence[IKContestant]) -> None:
     """Recall on the same poses for all, then the bare and the public call, interleaved."""
     q, T = arm.draw(10 if results.quick else 200)
-    verdicts = {
-        c.name: referee.judge(arm.table, T, [c.configurations(c.solve(p)) for p in c.encode(T)])
-        for c in entrants
-    }
+    verdicts = {c.name: _verdict(c, arm, T) for c in entrants}
     known = referee.truth(list(verdicts.values()), q)
     for c in entrants:
         if not verdicts[c.name].found:
@@ -66,6 +63,13 @@ def _single(results: Results, arm: Arm, entrants: Sequence[IKContestant]) -> Non
                 **_judged(verdicts[name], known, arm, own),
             )
         )
+
+
+def _verdict(own: IKContestant, arm: Arm, T: Array) -> Verdict:
+    """What the referee says of a contestant's answers to poses T (m, 4, 4)."""
+    at_work(own.name)
+    answers = [own.configurations(own.solve(pose)) for pose in own.encode(T)]
+    return referee.judge(arm.table, T, answers)
 
 
 def _judged(
@@ -97,6 +101,7 @@ def _batch(results: Results, arm: Arm, entrants: Sequence[BatchContestant]) -> N
     blocks: dict[str, Block] = {}
     verdicts = {}
     for c in entrants:
+        at_work(c.name)
         few = min(m, 2_000)
         answer = c.solve_batch(c.encode_batch(T[:few]), 2)
         verdicts[c.name] = referee.judge(arm.table, T[:few], c.batch_configurations(answer))

@@ -8,16 +8,19 @@ from benchmarks.peers import contestants
 from benchmarks.results import Results, Row
 from benchmarks.work.processes import child
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
-ARMS = ("puma560", "ur5")
+KEYS = ("puma560", "ur5")
+QUICK = KEYS[:1]
+GIVE_BACK = {"MALLOC_MMAP_THRESHOLD_": "65536"}
+"""Environment in which freed arrays go back to the system: none is there to be filled again."""
 
 
-def run(results: Results) -> None:
+def run(results: Results, keys: tuple[str, ...]) -> None:
     """All batch solvers on the closed-form arms."""
     m = 20_000 if results.quick else 200_000
-    for key in ARMS[:1] if results.quick else ARMS:
-        for c in contestants(arm_named(key), results.left_out):
+    for key in keys:
+        for c in contestants(arm_named(key), results):
             if isinstance(c, BatchContestant):
-                found = child("memory", key, c.name, str(m))
+                found = child("memory", key, c.name, str(m), **GIVE_BACK)
                 results.add(Row("memory", key, c.name, size=m, threads=2, extra=found))

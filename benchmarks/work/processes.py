@@ -13,14 +13,14 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.apart import ROOT
 from benchmarks.arms import arm_named
 from benchmarks.clock import Block, Timing, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import save_table, urdf_text
 
-__all__ = ["child", "run"]
+__all__ = ["KEYS", "QUICK", "child", "run"]
 
-ROOT = Path(__file__).parent.parent.parent
 IMPORTS = {
     "dh2urdf": "dh2urdf",
     "EAIK": "eaik.IK_Homogeneous",
@@ -34,13 +34,12 @@ FIRST = ("puma560", "ur5", "fanuc_crx10ia", "franka_fer")
 """Arms of the first calls, one a class."""
 
 
-def child(*arguments: str, cache: str | None = None) -> dict[str, Any]:
-    """Run ``benchmarks.child`` and read its answer; ``cache`` is where kernels are kept."""
-    env = {**os.environ, **({"NUMBA_CACHE_DIR": cache} if cache else {})}
+def child(*arguments: str, **env: str) -> dict[str, Any]:
+    """Run ``benchmarks.child``, with more in its environment, and read its answer."""
     done = subprocess.run(
         [sys.executable, "-m", "benchmarks.child", *arguments],
         cwd=ROOT,
-        env=env,
+        env={**os.environ, **env},
         capture_output=True,
         text=True,
         check=False,
@@ -51,12 +50,10 @@ def child(*arguments: str, cache: str | None = None) -> dict[str, Any]:
     return found
 
 
-def run(results: Results) -> None:
-    """Imports, first calls, the command line."""
-    _imports(results)
-    _first_calls(results)
-    with TemporaryDirectory() as folder:
-        _command_line(results, Path(folder))
+def run(results: Results, keys: tuple[str, ...]) -> None:
+    """Imports, first calls, the command line, of which the keys name some."""
+    for key in keys:
+        TASKS[key](results)
 
 
 def _imports(results: Results) -> None:
@@ -82,17 +79,22 @@ def _timing(answers: list[dict[str, Any]]) -> Timing:
 
 def _first_calls(results: Results) -> None:
     """A fresh installation compiles; the next start reads the kernels from their cache."""
-    for key in FIRST[:0] if results.quick else FIRST:
+    for key in FIRST:
         with TemporaryDirectory() as cache:
-            cold = child("first", key, cache=cache)
-            warm = [child("first", key, cache=cache) for _ in range(5)]
+            cold = child("first", key, NUMBA_CACHE_DIR=cache)
+            warm = [child("first", key, NUMBA_CACHE_DIR=cache) for _ in range(5)]
         for work, found in (("first call, compiling", [cold]), ("first call, cached", warm)):
             parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
             results.add(Row.timed(work, key, "dh2urdf", _timing(found), extra=parts))
 
 
-def _command_line(results: Results, folder: Path) -> None:
+def _command_line(results: Results) -> None:
     """``convert`` and ``extract`` as a shell starts them, beside a bare interpreter."""
+    with TemporaryDirectory() as folder:
+        _verbs(results, Path(folder))
+
+
+def _verbs(results: Results, folder: Path) -> None:
     table, urdf = folder / "arm.yaml", folder / "given.urdf"
     save_table(arm_named("ur5").table, table)
     urdf.write_text(urdf_text(arm_named("ur5").table))
@@ -119,3 +121,12 @@ def _process(arguments: list[str]) -> Callable[[], int]:
         return 1
 
     return block
+
+
+TASKS: dict[str, Callable[[Results], None]] = {
+    "imports": _imports,
+    "first calls": _first_calls,
+    "command line": _command_line,
+}
+KEYS = tuple(TASKS)
+QUICK = ("imports", "command line")

@@ -5,20 +5,23 @@ from __future__ import annotations
 from benchmarks.arms import arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.contestant import BatchContestant, NotCoveredError
+from benchmarks.marker import at_work
 from benchmarks.peers.ours import Ours
 from benchmarks.results import Results, Row
 
-__all__ = ["run"]
+__all__ = ["KEYS", "QUICK", "run"]
 
 MOST = {"puma560": 1_000_000, "ur5": 1_000_000, "fanuc_crx10ia": 10_000}
 """Arms and their largest batch."""
 
+KEYS = QUICK = tuple(MOST)
 
-def run(results: Results) -> None:
+
+def run(results: Results, keys: tuple[str, ...]) -> None:
     """Ours, and EAIK where it is there, up to 100,000 poses."""
-    for key, most in MOST.items():
+    for key in keys:
         for m in (10**k for k in range(7)):
-            if m <= (min(most, 100) if results.quick else most):
+            if m <= (100 if results.quick else MOST[key]):
                 _one_size(results, key, m)
 
 
@@ -26,7 +29,7 @@ def _one_size(results: Results, key: str, m: int) -> None:
     arm = arm_named(key)
     _, T = arm.draw(m)
     blocks: dict[str, Block] = {}
-    for own in _solvers(key, m):
+    for own in _solvers(key, m, results):
         for threads in (1, 2):
             blocks[f"{own.name}|{threads}"] = _block(own, T, threads)
     budget = 0.05 if results.quick else 1.5
@@ -35,17 +38,20 @@ def _one_size(results: Results, key: str, m: int) -> None:
         results.add(Row.timed("scaling", key, contestant, timing, size=m, threads=int(threads)))
 
 
-def _solvers(key: str, m: int) -> list[BatchContestant]:
+def _solvers(key: str, m: int, results: Results) -> list[BatchContestant]:
     arm = arm_named(key)
-    found: list[BatchContestant] = []
+    found: list[BatchContestant] = [Ours(arm)]
+    if m > 100_000 or "EAIK" in results.excluded:
+        return found
+    at_work("EAIK")
     try:
-        found.append(Ours(arm))
-        if m <= 100_000:
-            from benchmarks.peers.eaik import Eaik
+        from benchmarks.peers.eaik import Eaik
 
-            found.append(Eaik(arm))
-    except (ModuleNotFoundError, NotCoveredError):
-        pass
+        found.append(Eaik(arm))
+    except NotCoveredError as reason:
+        results.left_out[f"EAIK, {key}"] = str(reason)
+    except ImportError as error:
+        results.left_out["EAIK"] = f"not installed ({error})"
     return found
 
 
