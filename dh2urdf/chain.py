@@ -69,6 +69,12 @@ class SerialChain:
         return out
 
     @cached_property
+    def tables(self) -> tuple[Array, Array]:
+        """Links (n + 1, 4, 4) and joints (n, 3: sliding, lower, upper), as kernels take them."""
+        joints = np.column_stack([self.prismatic, self.lower, self.upper]).astype(float)
+        return np.array(self.links), joints
+
+    @cached_property
     def joint_frames(self) -> Array:
         """Frame of each joint in base at q = 0, z along the axis, shape (n, 4, 4)."""
         frames, T = [], np.eye(4)

@@ -155,10 +155,7 @@ class Family:
     @cached_property
     def _constants(self) -> tuple[Array, Array, int, Array, float]:
         """First arguments of the kernels: links, joints, task, target, unit."""
-        part = self.moving
-        joints = np.column_stack([part.prismatic, part.lower, part.upper]).astype(float)
-        task = list(Task).index(self.task)
-        return np.array(part.links), joints, task, np.array(self.T), self.chain.size
+        return *self.moving.tables, self.task.number, np.array(self.T), self.chain.size
 
 
 def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_limits: bool) -> None:

@@ -37,13 +37,15 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     """Configurations q (..., n) with each angle in the turn nearest to the reference.
 
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
-    nearest one is kept.
+    nearest one is kept. The reference (..., n) is broadcast to the same shape.
     """
-    turns = np.round((reference - q) / TWO_PI)
-    most = np.floor((chain.upper + LIMIT_SLACK - q) / TWO_PI)
-    least = np.ceil((chain.lower - LIMIT_SLACK - q) / TWO_PI)
-    turns = np.where(least <= most, np.clip(turns, least, most), turns)
-    return _trimmed(chain, np.where(chain.prismatic, q, q + TWO_PI * turns))
+    from dh2urdf.kernels.arrange import turn_to
+
+    shape = np.broadcast_shapes(q.shape, reference.shape)
+    out = np.array(np.broadcast_to(q, shape), order="C")
+    goal = np.ascontiguousarray(np.broadcast_to(reference, shape))
+    turn_to(chain.tables[1], LIMIT_SLACK, goal.reshape(-1, chain.n), out.reshape(-1, chain.n))
+    return out
 
 
 def _trimmed(chain: SerialChain, q: Array) -> Array:

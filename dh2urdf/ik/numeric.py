@@ -129,12 +129,11 @@ class NumericProblem:
         first = None if seed is None else as_configuration(seed, n, "seed")
         q, residual = np.empty((solutions, n)), np.empty(solutions)
         count, tried = find_solutions(
-            np.array(chain.links),
-            np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float),
+            *chain.tables,
             np.ascontiguousarray(self.coupling, dtype=float),
             np.ascontiguousarray(self.offset, dtype=float),
             bounds,
-            list(Task).index(wanted),
+            wanted.number,
             target,
             chain.size,
             self._starts(starts, first, bounds, np.random.default_rng(rng)),

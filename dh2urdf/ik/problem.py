@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -55,9 +56,14 @@ class Problem:
     task : Task
     referee : callable
         Forward kinematics that is independent of the kernels.
-    values : array, shape (1, h) or (m, h), optional
+
+    Attributes
+    ----------
+    values : array, shape (1, h) or (m, h), or None
         Values of the held joints, for all poses or for each; with a ``HeldSolver`` only.
     """
+
+    values: Array | None = None
 
     def __init__(
         self,
@@ -65,23 +71,31 @@ class Problem:
         solver: Solver | HeldSolver,
         task: Task,
         referee: ForwardKinematics,
-        values: Array | None = None,
     ) -> None:
         self.chain, self.solver, self.task = chain, solver, task
-        self.referee, self.values = referee, values
+        self.referee = referee
         self.branch_words = branch_words_of(solver)
         self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
-        self._solve = self._solve_held if isinstance(solver, HeldSolver) else solver.solve_batch
+        self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
         from dh2urdf.kernels.poses import first_bad_pose
 
         self.first_bad_pose: Callable[[Array], int] = first_bad_pose
+
+    def at(self, values: Array) -> Problem:
+        """The same problem with its joints held at other values."""
+        other = copy.copy(self)
+        other.values = values
+        return other
 
     def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
         """All solutions of one checked pose Ts (1, 4, 4)."""
         q, residual = np.empty(self._shape), np.empty(self._rows)
         branch, free = np.zeros(self._rows, np.int64), np.zeros(self._rows, np.int64)
         count = np.empty(1, np.int64)
-        self._solve(Ts, within_limits, q, residual, count, branch, free)
+        if self.values is None:
+            self._solve(Ts, within_limits, q, residual, count, branch, free)
+        else:
+            self._solve_held(Ts, within_limits, q, residual, count, branch, free)
         found = IKSolutions(self, Ts, (q, residual, branch, free), 0, int(count[0]))
         if any(free.tolist()[0]):
             return self._families_inside(found, within_limits)
@@ -122,7 +136,8 @@ class Problem:
         assert isinstance(self.solver, HeldSolver)
         assert self.values is not None
         values = self.values if len(self.values) == 1 else self.values[rows]
-        values = np.ascontiguousarray(np.broadcast_to(values, (len(Ts), values.shape[1])))
+        if len(values) < len(Ts):
+            values = np.repeat(values, len(Ts), axis=0)
         self.solver.solve_held(Ts, values, within_limits, *arrays)
 
     def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
@@ -161,18 +176,22 @@ class Problem:
         self, found: IKSolutions, seed: ArrayLike, within_limits: bool = True
     ) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
+        from dh2urdf.kernels.arrange import measure_and_sort, turn_to
+
         goal = as_configuration(seed, self.chain.n, "seed")
-        q = limits.turned_to(self.chain, found.q, goal)
-        masks = found.codes[1].tolist()
+        q, residual, (branch, free) = found.q.copy(), found.residual.copy(), found.codes
+        links, joints = self.chain.tables
+        turn_to(joints, LIMIT_SLACK, goal[None], q)
         families = {
-            k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k])
-            for k, mask in enumerate(masks)
+            k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k].copy())
+            for k, mask in enumerate(free.tolist())
             if mask
         }
         if families:
             slide_to_seed(families, q, goal, within_limits)
-        order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
-        return self._measured(found, q).select(order)
+        arrays = q, residual, branch.copy(), free.copy()
+        measure_and_sort(links, joints, self.task.number, found.T, goal, *arrays)
+        return IKSolutions.of(self, found.T, *arrays)
 
     def with_all_turns(self, found: IKSolutions, seed: ArrayLike | None = None) -> IKSolutions:
         """Each solution in every turn that the limits allow, sorted by distance from a seed."""

@@ -257,9 +257,9 @@ def _read_only(view: Array) -> Array:
 
 
 def as_configuration(q: ArrayLike, n: int, what: str) -> Array:
-    """Check a configuration: n finite numbers, shape (n,)."""
+    """A checked copy of a configuration: n finite numbers, shape (n,)."""
     try:
-        out = as_floats(q)
+        out = np.array(as_floats(q), order="C")
     except (TypeError, ValueError):
         raise ConfigurationError(f"{what}: expected {n} numbers, got {q!r:.60}") from None
     if out.shape != (n,):

@@ -46,11 +46,18 @@ class InverseKinematics:
     def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
         self.chain, self.referee = chain, referee
         self._solvers: dict[tuple[Any, ...], Solver | HeldSolver] = {}
+        self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
         self._run_once: set[int] = set()
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_solvers": {}, "_plain": None, "_run_once": set()}
+        fresh: dict[str, Any] = {
+            "_solvers": {},
+            "_problems": {},
+            "_plain": None,
+            "_run_once": set(),
+        }
+        return {**self.__dict__, **fresh}
 
     @property
     def solver(self) -> Solver:
@@ -206,8 +213,11 @@ class InverseKinematics:
         except ValueError:
             lengths = sorted({len(v) for v in held.values()})
             raise ConfigurationError(f"locked: different numbers of values, {lengths}") from None
-        solver = self._solver(wanted, joints)
-        return Problem(self.chain, solver, wanted, self.referee, values)
+        key = (wanted, *joints)
+        if key not in self._problems:
+            solver = self._solver(wanted, joints)
+            self._problems[key] = Problem(self.chain, solver, wanted, self.referee)
+        return self._problems[key].at(values)
 
     def _free_problem(self, task: Task, samples: int | None) -> Problem:
         """The problem of a task with no joint held."""
@@ -234,9 +244,8 @@ class InverseKinematics:
         problem = self.problem(task, locked, within_limits, samples)
         if id(problem.solver) not in self._run_once:
             with notice_if_slow():
-                values = None if problem.values is None else problem.values[:1]
-                trial = Problem(self.chain, problem.solver, problem.task, self.referee, values)
-                trial.solve_many(self.chain.tool[None], False, 1, None)
+                trial = problem if problem.values is None else problem.at(problem.values[:1])
+                trial.solve_many(np.array(self.chain.tool[None]), False, 1, None)
             self._run_once.add(id(problem.solver))
         if problem.values is None and problem.task is Task.POSE and samples is None:
             self._plain = problem
@@ -324,7 +333,7 @@ def _one_pose(T: ArrayLike, problem: Problem) -> Array:
 def _poses(Ts: ArrayLike, problem: Problem) -> Array:
     """Checked poses, shape (m, 4, 4), C-contiguous."""
     try:
-        m = np.ascontiguousarray(as_floats(getattr(Ts, "homogeneous", Ts)))
+        m = np.require(as_floats(getattr(Ts, "homogeneous", Ts)), requirements=["C", "W"])
     except (TypeError, ValueError):
         m = check_pose(Ts, what="poses")
     if m.shape == (4, 4):

@@ -44,6 +44,11 @@ class Task(StrEnum):
     POSITION = "position"
     POSITION_AXIS = "position+axis"
 
+    @property
+    def number(self) -> int:
+        """The task's number in the kernels."""
+        return list(Task).index(self)
+
 
 class Solver(Protocol):
     """All solutions of many poses of one chain."""
@@ -126,8 +131,7 @@ class SolverBase:
         others: tuple[tuple[str, str], ...] = (),
     ) -> None:
         self.chain, self.task, self.others = chain, task, others
-        self.links = np.array(chain.links)
-        self.joints = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
+        self.links, self.joints = chain.tables
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:

@@ -1,0 +1,90 @@
+"""Solutions of one pose towards a seed: full turns, residuals, order."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.certify import TWO_PI, pose_residual
+from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
+
+__all__ = ["measure_and_sort", "turn_to"]
+
+
+@kernel
+def turn_to(joints, slack, reference, q):
+    """Bring each angle of q (k, n) into the turn nearest to the reference (k or 1, n), in place.
+
+    A turn inside the limits goes before a nearer one outside; where no turn is inside, the
+    nearest one is kept. What is beyond a limit by no more than ``slack`` is put onto it.
+
+    Parameters
+    ----------
+    joints : array, shape (n, 3)
+        Sliding, lower, upper.
+    slack : float
+        Excess [rad or m] that is the rounding of a full turn.
+    reference : array, shape (k, n) or (1, n)
+    q : array, shape (k, n)
+    """
+    for k in range(q.shape[0]):
+        for i in range(q.shape[1]):
+            lower, upper = joints[i, 1], joints[i, 2]
+            if joints[i, 0] == 0.0:
+                value = q[k, i]
+                turns = np.rint((reference[min(k, len(reference) - 1), i] - value) / TWO_PI)
+                most = np.floor((upper + slack - value) / TWO_PI)
+                least = np.ceil((lower - slack - value) / TWO_PI)
+                if least <= most:
+                    turns = min(max(turns, least), most)
+                q[k, i] = value + TWO_PI * turns
+            if q[k, i] > upper and q[k, i] - upper <= slack:
+                q[k, i] = upper
+            elif q[k, i] < lower and lower - q[k, i] <= slack:
+                q[k, i] = lower
+
+
+@inner_kernel
+def _swap(q, residual, branch, free, distance, a, b):
+    """Exchange two rows."""
+    for i in range(q.shape[1]):
+        q[a, i], q[b, i] = q[b, i], q[a, i]
+    residual[a], residual[b] = residual[b], residual[a]
+    branch[a], branch[b] = branch[b], branch[a]
+    free[a], free[b] = free[b], free[a]
+    distance[a], distance[b] = distance[b], distance[a]
+
+
+@kernel
+def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
+    """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
+
+    Parameters
+    ----------
+    links, joints
+        The chain, see :mod:`dh2urdf.kernels.certify`.
+    task : int
+        What of the pose counts, see :mod:`dh2urdf.kernels.damped`.
+    T : array, shape (4, 4)
+    seed : array, shape (n,)
+    q : array, shape (k, n)
+        Solutions, sorted in place with their branch codes and masks of free joints.
+    residual : array, shape (k,), out
+    branch, free : int64 array, shape (k,)
+    """
+    damped, distance = make_damped(q.shape[1]), np.empty(q.shape[0])
+    for k in range(q.shape[0]):
+        if task == POSE:
+            residual[k] = pose_residual(links, joints, T, q[k])
+        else:
+            residual[k] = error_and_jacobian(links, joints, task, T, q[k], 1.0, damped)
+        total = 0.0
+        for i in range(q.shape[1]):
+            total += (q[k, i] - seed[i]) * (q[k, i] - seed[i])
+        distance[k] = math.sqrt(total)
+        row = k
+        while row > 0 and distance[row] < distance[row - 1]:
+            _swap(q, residual, branch, free, distance, row, row - 1)
+            row -= 1
