@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import os
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -83,8 +82,8 @@ class Problem:
 
     def at(self, values: Array) -> Problem:
         """The same problem with its joints held at other values."""
-        other = copy.copy(self)
-        other.values = values
+        other = object.__new__(Problem)
+        other.__dict__.update(self.__dict__, values=values)
         return other
 
     def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:

@@ -274,7 +274,7 @@ class InverseKinematics:
             if i in held:
                 raise ConfigurationError(f"locked: joint {self.chain.names[i]!r} is held twice")
             try:
-                values = np.atleast_1d(np.asarray(value, float))
+                values = np.array(as_floats(value), ndmin=1)
             except (TypeError, ValueError):
                 values = np.array([np.nan])
             if values.ndim != 1 or not np.isfinite(values).all():
