@@ -26,7 +26,7 @@ class IKContestant(ABC):
 
     ``encode`` and ``configurations`` translate between the arm's frames and joints and the
     solver's and are never timed. ``solve`` is the bare documented call; ``array`` what its user
-    does to hold the answer as an array.
+    does to hold the solutions as an array.
     """
 
     name: ClassVar[str]
@@ -44,7 +44,7 @@ class IKContestant(ABC):
 
     @abstractmethod
     def array(self, answer: Any) -> Array:
-        """The answer as an array (k, n) in the solver's own joints."""
+        """The solutions of an answer, and only these, as an array (k, n) of the solver's joints."""
 
     def encode(self, Ts: Array) -> Sequence[Any]:
         """Poses (m, 4, 4) in the form that the solver takes, one by one."""

@@ -8,14 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import referee
+from benchmarks import machine, referee
 from benchmarks.apart import do_apart
 from benchmarks.arms import ARMS, arm_named
 from benchmarks.clock import interleaved
+from benchmarks.compare import fastest, seconds
 from benchmarks.peers import IK_PEERS
 from benchmarks.peers.forward import BUILDERS
-from benchmarks.render import BEGIN, END, block, fastest, seconds, shown
+from benchmarks.render import BEGIN, END, PAGES, between, shown
 from benchmarks.results import LATEST, Results, Row
+from benchmarks.targets import target_rows
 from benchmarks.work.edges import EDGES
 
 ROOT = Path(__file__).parents[1]
@@ -210,11 +212,38 @@ def test_results_come_back_from_their_file(tmp_path):
     assert (again.rows, again.left_out, again.quick) == (results.rows, results.left_out, True)
 
 
-def test_readme_shows_the_latest_results():
-    """The README's block is what the results file renders to, letter by letter; else none."""
-    text = (ROOT / "README.md").read_text()
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.parent.name)
+def test_pages_show_the_latest_results(page):
+    """A page's block is what the results file renders to, letter by letter; else it is empty."""
+    block = between(page.read_text())
     if not LATEST.exists():
-        assert BEGIN not in text
+        assert block == f"{BEGIN}{END}"
         return
     assert not json.loads(LATEST.read_text())["quick"]
-    assert text.split(BEGIN)[1].split(END)[0] == f"\n{block(shown(LATEST))}"
+    assert block == PAGES[page](shown(LATEST))
+
+
+def test_a_target_is_met_or_missed_by_what_was_measured():
+    """Seven times is not eight, and the page says what stands in the way."""
+
+    def verdict(microseconds):
+        results = Results(about={"others": 0.0})
+        for name, value in (("dh2urdf", microseconds), ("EAIK", 8.0)):
+            results.add(Row("ik batch", "ur5", name, value * 1e-6, threads=2))
+        return next(iter(target_rows(results)))
+
+    assert verdict(0.9)[2:] == ("ur5 900 ns, 8.9 ×", "met")
+    assert verdict(1.1)[2] == "ur5 1.1 µs, 7.3 ×"
+    assert verdict(1.1)[3].startswith("**missed**: ")
+
+
+def test_what_others_used_is_what_we_did_not(monkeypatch):
+    """Of five seconds that the machine worked, two are ours and three are the others'."""
+    clock = {"machine": 100.0, "own": 10.0, "time": 0.0}
+    monkeypatch.setattr(machine, "_machine_worked", lambda: clock["machine"])
+    monkeypatch.setattr(machine, "worked", lambda: clock["own"])
+    monkeypatch.setattr(machine.time, "perf_counter", lambda: clock["time"])
+    watch = machine.Watch()
+    clock.update(machine=105.0, own=12.0, time=4.0)
+    assert watch.others() == pytest.approx(0.75)
+    assert Results(about={"others": watch.others()}).busy

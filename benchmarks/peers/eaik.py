@@ -36,11 +36,13 @@ class Eaik(BatchContestant):
         return self.robot.IK(pose)
 
     def array(self, answer: Any) -> Array:
-        return np.array(answer.Q)
+        """Those not flagged as least squares: a quarter of the UR5's poses have some that are."""
+        q: Array = answer.Q[~answer.is_LS]
+        return q
 
     def configurations(self, answer: Any) -> Array:
-        """Those not flagged as least squares, the held joint put in its place."""
-        q = np.array(answer.Q).reshape(len(answer.Q), -1)[~np.array(answer.is_LS, bool)]
+        """The same, the held joint put in its place."""
+        q = self.array(answer) if len(answer.Q) else np.empty((0, self.n))
         if self.held and q.shape[1] == self.n - 1:
             q = np.insert(q, self.held[0], self.held[1], axis=1)
         return q.reshape(-1, self.n)

@@ -44,8 +44,8 @@ class IkGeo(IKContestant):
         return self.robot.get_ik(*pose)
 
     def array(self, answer: Any) -> Array:
-        return np.array([q for q, _ in answer])
+        """Those not flagged as least squares."""
+        return np.array([q for q, is_ls in answer if not is_ls])
 
     def configurations(self, answer: Any) -> Array:
-        """Those not flagged as least squares."""
-        return np.array([q for q, is_ls in answer if not is_ls]).reshape(-1, 6)
+        return self.array(answer).reshape(-1, 6)

@@ -8,16 +8,22 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from benchmarks.arms import arm_named
+from benchmarks.arms import Arm, arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
+from dh2urdf.ik.held_solver import HeldSolver
 
 __all__ = ["KEYS", "QUICK", "run"]
 
 Array = NDArray[np.float64]
+Parts = dict[str, tuple[Callable[[], object], int]]
+"""Calls by name, and how many poses each takes."""
 
-KEYS = QUICK = ("puma560", "ur5")
+KEYS = QUICK = ("puma560", "ur5", "franka_fer")
+FRESH = 100_000
+"""Poses of the batch whose memory is filled."""
+
 MANY = 64
 """Poses of the batch that is set against the single pose."""
 
@@ -28,13 +34,15 @@ def _empty(a, b, c, d, e, f, g, h, i, j, k):  # type: ignore[no-untyped-def]
 
 
 def run(results: Results, keys: tuple[str, ...]) -> None:
-    """The single call of the closed forms, and forward kinematics of the last arm."""
+    """The single call of closed forms, and forward kinematics."""
     for key in keys:
-        _add(results, key, _inverse_parts(key))
-    _add(results, keys[-1], _forward_parts(keys[-1]))
+        arm = arm_named(key)
+        _add(results, key, _held_parts(arm) if arm.held else _inverse_parts(arm))
+        if key == "ur5":
+            _add(results, key, _forward_parts(arm))
 
 
-def _add(results: Results, key: str, parts: dict[str, tuple[Callable[[], object], int]]) -> None:
+def _add(results: Results, key: str, parts: Parts) -> None:
     blocks = {name: _block(call, units) for name, (call, units) in parts.items()}
     for name, timing in interleaved(blocks, 0.2 if results.quick else 3.0, most=400).items():
         results.add(Row.timed("breakdown", key, name, timing, size=parts[name][1]))
@@ -63,25 +71,40 @@ def _outputs(m: int, kmax: int, n: int) -> tuple[NDArray[np.generic], ...]:
     )
 
 
-def _inverse_parts(key: str) -> dict[str, tuple[Callable[[], object], int]]:
-    arm = arm_named(key)
+def _inverse_parts(arm: Arm) -> Parts:
     robot = Robot.from_dh(arm.table)
     _, T = arm.draw(MANY)
     solver = robot.solver
     one, many = (_outputs(m, solver.kmax, arm.n) for m in (1, MANY))
     single = T[:1].copy()
     arrays = [single] * 5 + list(one)
+    row = sum(a.nbytes for a in one) // 8
     return {
         "robot.ik": (lambda: robot.ik(T[0], within_limits=False), 1),
         "solver, one pose": (lambda: solver.solve_batch(single, False, *one), 1),
         "entry into an empty kernel": (lambda: _empty(*arrays, False), 1),
         "arrays of the answer": (lambda: _outputs(1, solver.kmax, arm.n), 1),
         "solver, a pose of many": (lambda: solver.solve_batch(T, False, *many), MANY),
+        "filling fresh memory of its answer": (lambda: np.full((FRESH, row), 1.0), FRESH),
     }
 
 
-def _forward_parts(key: str) -> dict[str, tuple[Callable[[], object], int]]:
-    arm = arm_named(key)
+def _held_parts(arm: Arm) -> Parts:
+    """An arm of seven joints whose held one has its value in every pose."""
+    robot = Robot.from_dh(arm.table)
+    _, T = arm.draw(MANY)
+    solver = robot.solver_for(locked=arm.locked)
+    assert isinstance(solver, HeldSolver)
+    values = np.full((MANY, 1), arm.held[1] if arm.held else 0.0)
+    one, many = (_outputs(m, solver.kmax, arm.n) for m in (1, MANY))
+    return {
+        "robot.ik": (lambda: robot.ik(T[0], within_limits=False, locked=arm.locked), 1),
+        "solver, one pose": (lambda: solver.solve_held(T[:1], values[:1], False, *one), 1),
+        "solver, a pose of many": (lambda: solver.solve_held(T, values, False, *many), MANY),
+    }
+
+
+def _forward_parts(arm: Arm) -> Parts:
     robot = Robot.from_dh(arm.table)
     m = 10_000
     q, _ = arm.draw(m)

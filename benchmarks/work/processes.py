@@ -27,6 +27,7 @@ IMPORTS = {
     "ssik prebuilt": "ssik.prebuilt.universal_robots.ur5_ik",
     "py-ikgeo": "py_ikgeo_kinematics",
     "Pinocchio": "pinocchio",
+    "Numba": "numba",
     "roboticstoolbox": "roboticstoolbox",
     "ikpy": "ikpy.chain",
 }
@@ -83,8 +84,10 @@ def _first_calls(results: Results) -> None:
         with TemporaryDirectory() as cache:
             cold = child("first", key, NUMBA_CACHE_DIR=cache)
             warm = [child("first", key, NUMBA_CACHE_DIR=cache) for _ in range(5)]
+            kernels = [path.stat().st_size for path in Path(cache).rglob("*.nbc")]
         for work, found in (("first call, compiling", [cold]), ("first call, cached", warm)):
             parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
+            parts |= {"kernels": len(kernels), "code": sum(kernels)}
             results.add(Row.timed(work, key, "dh2urdf", _timing(found), extra=parts))
 
 
