@@ -146,6 +146,7 @@ class RobotIK:
         Parameters
         ----------
         Ts : array_like, shape (m, 4, 4)
+            ``T_base_tip``, lengths in [m].
         within_limits, locked, task
             As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
         samples : int, optional
@@ -154,6 +155,15 @@ class RobotIK:
             Threads to use; by default one per processor.
         progress : callable, optional
             Called with the number of poses done and their total.
+
+        Returns
+        -------
+        IKBatch
+            NaN-padded; ``batch[i]`` are the solutions of pose i.
+
+        Raises
+        ------
+        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
         """
         return self._ik.solve_batch(
             Ts,

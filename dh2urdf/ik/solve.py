@@ -77,36 +77,7 @@ class InverseKinematics:
         turns: str = "nearest",
         samples: int | None = None,
     ) -> IKSolutions:
-        """All configurations that put the tool at a pose.
-
-        Parameters
-        ----------
-        T : array_like, shape (4, 4), or pinocchio.SE3
-            ``T_base_tool``, lengths in [m]; for task ``position`` a point (3,) will do.
-        seed : array_like, shape (n,), optional
-            Configuration to be near to: solutions are sorted by their distance from it, full
-            turns and singular families are resolved towards it.
-        within_limits : bool
-            Leave out solutions outside the joint limits.
-        locked : mapping of index or name to float, optional
-            Joints held at a value.
-        task : {"pose", "position", "position+axis"}
-            What of the pose has to be reached; axis is the tool's z.
-        turns : {"nearest", "all"}
-            For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
-            without one), or all of them as separate solutions.
-        samples : int, optional
-            Values of the swept joint of an arm with one joint to spare; 16 without it.
-
-        Returns
-        -------
-        IKSolutions
-            Empty where the pose is out of reach.
-
-        Raises
-        ------
-        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
-        """
+        """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         problem = self._plain
         if problem is None or locked is not None or task != "pose" or samples is not None:
             problem = self._compiled(task, locked, within_limits, samples)
@@ -130,20 +101,7 @@ class InverseKinematics:
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> IKBatch:
-        """All configurations of many poses.
-
-        Parameters
-        ----------
-        Ts : array_like, shape (m, 4, 4)
-        within_limits, locked, task
-            As for a single pose; a joint may be held at a value for each pose, shape (m,).
-        samples : int, optional
-            As for a single pose.
-        threads : int, optional
-            Threads to use; by default one per processor.
-        progress : callable, optional
-            Called with the number of poses done and their total.
-        """
+        """All configurations of many poses, see :meth:`dh2urdf.Robot.ik_batch`."""
         if threads is not None and threads < 1:
             raise ConfigurationError(f"threads: at least 1, not {threads}")
         problem = self._compiled(task, locked, within_limits, samples)
@@ -177,13 +135,7 @@ class InverseKinematics:
         return problem.why_none(_one_pose(T, problem)[0], within_limits)
 
     def intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
-        """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`.
-
-        Raises
-        ------
-        PoseError, ConfigurationError
-            Also for an arm without a joint to spare.
-        """
+        """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
         problem = self._compiled(Task.POSE, None, within_limits)
         if not isinstance(problem, SweptProblem):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
