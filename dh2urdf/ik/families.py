@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
-from dh2urdf.ik.held import hold
+from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solver import Task
 from dh2urdf.ik.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.transforms import Array

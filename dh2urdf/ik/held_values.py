@@ -6,9 +6,10 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.general_6r import General6R
-from dh2urdf.ik.held import HeldJoints, hold, without_end
+from dh2urdf.ik.held import HeldJoints
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_wrist import TRIAL_VALUE, HeldWrist
+from dh2urdf.ik.part_chains import hold, without_end
 from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
 from dh2urdf.transforms import Array
 

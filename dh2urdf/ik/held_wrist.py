@@ -10,8 +10,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
-from dh2urdf.ik.held import hold, without_end
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.part_chains import hold, without_end
 from dh2urdf.ik.solver import IntArray
 from dh2urdf.ik.spherical_wrist import SphericalWrist
 from dh2urdf.ik.tolerances import SLACK

@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family, slide_to_seed, task_error
-from dh2urdf.ik.held import hold
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.solutions import (
     IKBatch,

@@ -14,7 +14,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.held import HeldJoints, hold
+from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.ik.tolerances import FAMILY_RANK
 from dh2urdf.transforms import Array
