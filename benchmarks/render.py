@@ -42,6 +42,7 @@ def shown(path: Path) -> Results:
 
 def speed(results: Results) -> str:
     """The block of the main README."""
+    picture = PLOT.relative_to(ROOT).as_posix()
     parts = [
         "## Speed",
         "All solutions of a random reachable pose; medians of interleaved runs, per pose, with the "
@@ -50,8 +51,9 @@ def speed(results: Results) -> str:
             ("class", "arm", "one call", "fastest peer", "batch", "fastest peer", "found"),
             sections.ik_rows(results),
         ),
-        f"![Time per pose against recall]({PLOT.relative_to(ROOT).as_posix()})",
-        f"{_where(results)}. All figures, the method, the limits and where we lose: "
+        f"![Time per pose against recall]({picture})",
+        f"{_where(results)}. `python -m benchmarks --render` wrote the table and `{picture}`. "
+        "All figures, the method, the limits and where we lose: "
         "[benchmarks](benchmarks/README.md).",
     ]
     return _marked(parts)

@@ -42,6 +42,7 @@ IK_PEERS = (
     Entry("crx-kinematics", "crx", "CrxKinematics"),
     Entry("ikdh", "ikdh", "Ikdh"),
     Entry("frankik", "frankik", "Frankik"),
+    Entry("roboticstoolbox", "toolbox", "Toolbox"),
 )
 """All solvers of inverse kinematics, ours first."""
 

@@ -15,7 +15,7 @@ from benchmarks.arms import Arm
 from benchmarks.contestant import FKContestant
 from benchmarks.marker import at_work
 from benchmarks.results import Results
-from dh2urdf import DHConvention, Robot, urdf_text
+from dh2urdf import Robot, urdf_text
 
 __all__ = ["forward_contestants"]
 
@@ -110,14 +110,11 @@ def _ur_analytic(arm: Arm) -> FKContestant | None:
     return FKContestant("ur-analytic-ik", lambda q: ur5.forward_kinematics(*q))
 
 
-def _toolbox(arm: Arm) -> FKContestant | None:
+def _toolbox(arm: Arm) -> FKContestant:
     """The toolbox's elementary transforms, evaluated in C: its fastest way."""
-    import roboticstoolbox as rtb
+    from benchmarks.peers.toolbox import elementary_transforms
 
-    if arm.table.convention is not DHConvention.STANDARD or any(r.sign < 0 for r in arm.rows):
-        return None
-    links = [rtb.RevoluteDH(d=r.d, a=r.a, alpha=r.alpha, offset=r.theta) for r in arm.rows]
-    ets = rtb.DHRobot(links).ets()
+    ets = elementary_transforms(arm)
     return FKContestant("roboticstoolbox", ets.eval, ets.eval)
 
 
