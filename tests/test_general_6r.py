@@ -1,133 +1,22 @@
-"""The general 6R solver against forward kinematics written here and a search from many seeds."""
+"""The general 6R solver against kinematics written apart from it and a search from many seeds."""
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
-
-from dh2urdf.kernels.general_6r import (
-    make_work_6r,
-    plan_general_6r,
-    solve_general_6r,
-    solve_general_6r_batch,
+from general_6r_arms import (
+    ARMS,
+    DEG,
+    PI,
+    angular_distance,
+    forward,
+    links_of,
+    newton_search,
+    residuals,
+    twist_and_jacobian,
 )
 
-PI = math.pi
-DEG = PI / 180.0
-BEND = 0.0741 / math.sqrt(3.0)
-
-# Rows (theta, d, a, alpha) of standard DH tables. CRX-10iA, Jaco 2, xArm 6 and GoFa 5: makers'
-# data sheets. Manseur & Doty 1989: the arm with 16 real solutions. Puma 560: Corke. UR5: maker.
-ARMS = {
-    "crx10ia": [
-        (0, 0.245, 0, -PI / 2),
-        (-PI / 2, 0, 0.54, 0),
-        (0, 0, 0, -PI / 2),
-        (0, 0.54, 0, PI / 2),
-        (0, -0.15, 0, -PI / 2),
-        (0, 0.16, 0, 0),
-    ],
-    "jaco2": [
-        (0, 0.2755, 0, PI / 2),
-        (-PI / 2, 0, 0.41, PI),
-        (PI / 2, -0.0098, 0, PI / 2),
-        (0, -0.2073 - BEND, 0, PI / 3),
-        (PI, -2 * BEND, 0, PI / 3),
-        (0, -0.16 - BEND, 0, PI),
-    ],
-    "xarm6": [
-        (0, 0.267, 0, -PI / 2),
-        (-1.3849179, 0, 0.28948866, 0),
-        (1.3849179, 0, 0.0775, -PI / 2),
-        (0, 0.3425, 0, PI / 2),
-        (0, 0, 0.076, -PI / 2),
-        (0, 0.097, 0, 0),
-    ],
-    "gofa5": [
-        (0, 0.265, 0, -PI / 2),
-        (-PI / 2, 0, 0.444, 0),
-        (0, 0, 0.11, -PI / 2),
-        (0, 0.47, 0, PI / 2),
-        (0, 0, 0.08, -PI / 2),
-        (PI, 0.101, 0, 0),
-    ],
-    "manseur_doty": [
-        (0, 0, 0.3, PI / 2),
-        (0, 0, 1.0, DEG),
-        (0, 0.2, 0, PI / 2),
-        (0, 0, 1.5, DEG),
-        (0, 0, 0, PI / 2),
-        (0, 0, 0, DEG),
-    ],
-    "ur5": [
-        (0, 0.089159, 0, PI / 2),
-        (0, 0, -0.425, 0),
-        (0, 0, -0.39225, 0),
-        (0, 0.10915, 0, PI / 2),
-        (0, 0.09465, 0, -PI / 2),
-        (0, 0.0823, 0, 0),
-    ],
-    "puma560": [
-        (0, 0, 0, PI / 2),
-        (0, 0, 0.4318, 0),
-        (0, 0.15005, 0.0203, -PI / 2),
-        (0, 0.4318, 0, PI / 2),
-        (0, 0, 0, -PI / 2),
-        (0, 0, 0, 0),
-    ],
-}
-for _seed in range(8):
-    _rng = np.random.default_rng(_seed)
-    ARMS[f"random{_seed}"] = [
-        (*_rng.uniform((-PI, -0.5, -0.5), (PI, 0.5, 0.5)), _rng.uniform(-PI, PI)) for _ in range(6)
-    ]
-for _name in ("ur5", "puma560"):
-    for _exponent in (12, 9, 6, 4, 3):
-        _rng = np.random.default_rng(_exponent)
-        ARMS[f"{_name}_1e-{_exponent}"] = [
-            tuple(
-                x + 10.0**-_exponent * e for x, e in zip(row, _rng.uniform(-1, 1, 4), strict=True)
-            )
-            for row in ARMS[_name]
-        ]
-
-
-def dh_matrix(theta, d, a, alpha):
-    """``Rz(theta) Tz(d) Tx(a) Rx(alpha)`` of angles (m,) as (m, 4, 4)."""
-    c, s = np.cos(theta), np.sin(theta)
-    ca, sa = math.cos(alpha), math.sin(alpha)
-    T = np.zeros((*np.shape(theta), 4, 4))
-    T[..., 0, 0], T[..., 0, 1], T[..., 0, 2], T[..., 0, 3] = c, -s * ca, s * sa, a * c
-    T[..., 1, 0], T[..., 1, 1], T[..., 1, 2], T[..., 1, 3] = s, c * ca, -c * sa, a * s
-    T[..., 2, 1], T[..., 2, 2], T[..., 2, 3], T[..., 3, 3] = sa, ca, d, 1.0
-    return T
-
-
-def forward(rows, q):
-    """``T_base_tool`` (m, 4, 4) of configurations (m, 6): the product of the table's rows."""
-    T = np.broadcast_to(np.eye(4), (len(q), 4, 4))
-    for i, (theta, d, a, alpha) in enumerate(rows):
-        T = T @ dh_matrix(q[:, i] + theta, d, a, alpha)
-    return T
-
-
-def links_of(rows):
-    """The constant transforms around the joints: links[0] = 1, links[i] = row i at q = 0."""
-    return np.array([np.eye(4)] + [dh_matrix(np.float64(row[0]), *row[1:]) for row in rows])
-
-
-def residuals(T, target):
-    """Larger of position and orientation error, (m,)."""
-    position = np.linalg.norm(T[:, :3, 3] - target[:, :3, 3], axis=1)
-    chord = np.linalg.norm(T[:, :3, :3] - target[:, :3, :3], axis=(1, 2))
-    return np.maximum(position, chord / math.sqrt(2.0))
-
-
-def angular_distance(a, b):
-    """Largest joint difference, wrapped, over the last axis."""
-    return np.abs((a - b + PI) % (2 * PI) - PI).max(axis=-1)
+from dh2urdf.kernels.general_6r import plan_general_6r, replan_general_6r, solve_general_6r
 
 
 def solve_poses(rows, poses):
@@ -135,7 +24,7 @@ def solve_poses(rows, poses):
     m = len(poses)
     q, residual = np.zeros((m, 16, 6)), np.zeros((m, 16))
     count = np.zeros(m, dtype=np.int64)
-    solve_general_6r_batch(*plan_general_6r(links_of(rows)), poses, q, residual, count)
+    solve_general_6r(plan_general_6r(links_of(rows)), poses, q, residual, count)
     return q, residual, count
 
 
@@ -174,49 +63,6 @@ def test_generating_configuration_is_found_in_100_000_poses(name):
     misses, odd = check_sweep(ARMS[name], 100_000, seed=77)
     assert misses == 0
     assert odd <= 10
-
-
-def newton_search(rows, pose, starts, seed):
-    """Isolated solutions of one pose by damped Newton from many random seeds, (k, 6)."""
-    rng = np.random.default_rng(seed)
-    q = rng.uniform(-PI, PI, (starts, 6))
-    damping = np.full(starts, 1e-2)
-    error, J = twist_and_jacobian(rows, q, pose)
-    for _ in range(80):
-        normal = J.transpose(0, 2, 1) @ J + damping[:, None, None] * np.eye(6)
-        step = np.linalg.solve(normal, J.transpose(0, 2, 1) @ error[:, :, None])[:, :, 0]
-        step *= np.minimum(1.0, 0.6 / np.abs(step).max(axis=1))[:, None]
-        new_error, new_J = twist_and_jacobian(rows, q + step, pose)
-        better = (new_error**2).sum(axis=1) < (error**2).sum(axis=1)
-        q[better] += step[better]
-        error[better], J[better] = new_error[better], new_J[better]
-        damping = np.where(better, np.maximum(damping * 0.2, 1e-14), np.minimum(damping * 4, 1e3))
-    reached = (np.abs(error).max(axis=1) < 1e-10) & (np.linalg.svd(J)[1][:, -1] > 1e-3)
-    distinct = []
-    for x in q[reached]:
-        if all(angular_distance(x, y) > 1e-4 for y in distinct):
-            distinct.append(x)
-    return np.array(distinct).reshape(-1, 6)
-
-
-def twist_and_jacobian(rows, q, pose):
-    """Twist to the pose (m, 6), linear over angular, and geometric Jacobian (m, 6, 6)."""
-    T = np.broadcast_to(np.eye(4), (len(q), 4, 4))
-    frames = []
-    for i, (theta, d, a, alpha) in enumerate(rows):
-        frames.append(T)
-        T = T @ dh_matrix(q[:, i] + theta, d, a, alpha)
-    J = np.empty((len(q), 6, 6))
-    for i, frame in enumerate(frames):
-        J[:, :3, i] = np.cross(frame[:, :3, 2], T[:, :3, 3] - frame[:, :3, 3])
-        J[:, 3:, i] = frame[:, :3, 2]
-    turn = pose[:3, :3] @ T[:, :3, :3].transpose(0, 2, 1)
-    axis = np.stack([turn[:, 2, 1], turn[:, 0, 2], turn[:, 1, 0]], axis=1) / 2
-    axis -= np.stack([turn[:, 1, 2], turn[:, 2, 0], turn[:, 0, 1]], axis=1) / 2
-    sine = np.linalg.norm(axis, axis=1)
-    angle = np.arctan2(sine, (np.trace(turn, axis1=1, axis2=2) - 1) / 2)
-    axis *= (angle / np.maximum(sine, 1e-12))[:, None]
-    return np.hstack([pose[:3, 3] - T[:, :3, 3], axis]), J
 
 
 def check_against_search(rows, configurations, starts):
@@ -313,16 +159,35 @@ def test_singular_poses_have_a_solution(name, degrees):
     assert (residual[0, : count[0]] <= 1e-9).all()
 
 
-def test_one_pose_and_a_batch_agree():
-    """The kernel for one pose and that for many return the same numbers."""
+def test_what_was_solved_before_does_not_matter():
+    """Poses one by one, in the reverse order, give the same numbers as all at once."""
     rows = ARMS["gofa5"]
-    plan = plan_general_6r(links_of(rows))
+    arm = plan_general_6r(links_of(rows))
     poses = np.ascontiguousarray(forward(rows, np.random.default_rng(3).uniform(-PI, PI, (20, 6))))
     q, residual, count = solve_poses(rows, poses)
-    work = make_work_6r()
-    for m, pose in enumerate(poses):
-        one_q, one_residual = np.zeros((16, 6)), np.zeros(16)
-        k = solve_general_6r(*plan, pose, one_q, one_residual, work)
+    for m in reversed(range(20)):
+        one_q, one_residual, found = np.zeros((1, 16, 6)), np.zeros((1, 16)), np.zeros(1, np.int64)
+        solve_general_6r(arm, poses[m : m + 1], one_q, one_residual, found)
+        k = found[0]
         assert k == count[m]
-        np.testing.assert_array_equal(one_q[:k], q[m, :k])
-        np.testing.assert_array_equal(one_residual[:k], residual[m, :k])
+        np.testing.assert_array_equal(one_q[0, :k], q[m, :k])
+        np.testing.assert_array_equal(one_residual[0, :k], residual[m, :k])
+
+
+def test_an_arm_with_other_links_keeps_its_eliminations():
+    """Planned again with its own links, an arm gives the same solutions; another arm, its own."""
+    arms = [links_of(ARMS[name]) for name in ("gofa5", "crx10ia")]
+    poses = np.ascontiguousarray(
+        forward(ARMS["gofa5"], np.random.default_rng(8).uniform(-PI, PI, (20, 6)))
+    )
+    plans = [plan_general_6r(arms[0])]
+    plans.append(replan_general_6r(plans[0], arms[0]))
+    plans.append(replan_general_6r(replan_general_6r(plans[0], arms[1]), arms[0]))
+    results = []
+    for plan in plans:
+        q, residual, count = np.zeros((20, 16, 6)), np.zeros((20, 16)), np.zeros(20, np.int64)
+        solve_general_6r(plan, poses, q, residual, count)
+        results.append((q, count))
+    for q, count in results[1:]:
+        np.testing.assert_array_equal(count, results[0][1])
+        np.testing.assert_array_equal(q, results[0][0])

@@ -8,16 +8,13 @@ from functools import cache
 
 import numpy as np
 import pytest
-from ik_referee import draw, forward, gaps, jacobians, shipped, solve
+from ik_referee import draw, forward, gaps, jacobians, random_pose, shipped, solve
 
 import dh2urdf
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
-from dh2urdf.conversions.dh_to_urdf import UrdfOptions
-from dh2urdf.conversions.write_urdf import urdf_text
 from dh2urdf.ik.general_6r import General6R
 from dh2urdf.ik.solver import select_solver
-
-pytestmark = pytest.mark.exhaustive
+from dh2urdf.transforms import inverse, matrix_to_rpy
 
 ARMS = ["ur5", "puma560"]
 NOISE = [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3]
@@ -137,22 +134,56 @@ def test_a_rounded_arm_keeps_all_its_solutions(name, digits):
     assert compared > 10
 
 
-@pytest.mark.parametrize(("digits", "distance"), [(4, 1e-5), (6, 1e-6)])
-def test_a_rounded_urdf_is_solved_like_the_table(tmp_path, digits, distance):
-    """A URDF with 1.5708 for pi/2 gives a solver that says what was done and how far it is."""
-    path = tmp_path / "ur5.urdf"
-    options = UrdfOptions(digits=digits, embed_table=False)
-    path.write_text(urdf_text(dh2urdf.load_table("ur5"), options))
-    robot = dh2urdf.Robot.from_urdf(path, base="base_link", tip="tool0")
-    assert str(robot.solver) == "nearly three parallel axes"
+def scattered_urdf(chain, digits, seed):
+    """A URDF as a CAD program writes it: frames turned anyhow, all numbers rounded."""
+    rng = np.random.default_rng(seed)
+    T_base_last, parts, parent = np.eye(4), ['<robot name="cad"><link name="base"/>'], "base"
+    for i in range(chain.n + 1):
+        T_base_new = random_pose(rng, 0.0)
+        axis = "1 0 0"
+        if i < chain.n:
+            along = chain.axes[i]
+            T_base_new[:3, 3] = chain.points[i] + rng.uniform(-0.2, 0.2) * along
+            axis = " ".join(f"{x:.{digits}f}" for x in T_base_new[:3, :3].T @ along)
+        else:
+            T_base_new = chain.tool
+        T = inverse(T_base_last) @ T_base_new
+        xyz = " ".join(f"{x:.{digits}f}" for x in T[:3, 3])
+        rpy = " ".join(f"{x:.{digits}f}" for x in matrix_to_rpy(T[:3, :3]))
+        kind = "revolute" if i < chain.n else "fixed"
+        parts.append(
+            f'<link name="l{i}"/><joint name="j{i}" type="{kind}"><parent link="{parent}"/>'
+            f'<child link="l{i}"/><origin xyz="{xyz}" rpy="{rpy}"/><axis xyz="{axis}"/>'
+            '<limit lower="-3.1" upper="3.1" effort="1" velocity="1"/></joint>'
+        )
+        T_base_last, parent = T_base_new, f"l{i}"
+    return "".join([*parts, "</robot>"])
+
+
+@pytest.mark.parametrize("digits", [4, 6])
+@pytest.mark.parametrize(
+    ("name", "family"), [("ur5", "three parallel axes"), ("puma560", "spherical wrist")]
+)
+def test_a_rounded_urdf_keeps_all_its_solutions(tmp_path, name, family, digits):
+    """A CAD export with few digits is solved for itself, and says how far it is from its family."""
+    path = tmp_path / "cad.urdf"
+    path.write_text(scattered_urdf(shipped(name), digits, seed=1))
+    robot = dh2urdf.Robot.from_urdf(path)
+    assert str(robot.solver) == f"nearly {family}"
     stated = float(re.search(r"up to (\S+) \(m, rad\) away", robot.solver.explain())[1])
-    assert 0.1 * distance < stated < 10 * distance
-    rng = np.random.default_rng(0)
-    for _ in range(20):
-        q = robot.random_configuration(rng)
-        found = robot.ik(robot.fk(q), seed=q)
-        assert np.abs(found[0] - q).max() < 1e-8
+    assert 0.1 * 10.0**-digits < stated < 20 * 10.0**-digits
+    exact, rng = shipped(name), np.random.default_rng(0)
+    compared = 0
+    for _ in range(60):
+        q = rng.uniform(-3, 3, 6)
+        found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+        assert np.abs(found[0] - q).max() < 1e-6
         assert found.verify().max() < 1e-9
+        before = solve(exact, forward(exact, q)[None]).of(0)[0]
+        if regularity(exact, before).min() > 0.05:
+            compared += 1
+            assert len(found) == len(before)
+    assert compared > 5
 
 
 def test_a_calibrated_arm_with_frames_far_out_is_solved():

@@ -12,8 +12,6 @@ from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError, NoSolverError, PoseError
 from dh2urdf.ik.solver import SOLVERS
 
-pytestmark = pytest.mark.exhaustive
-
 MIMIC = """<robot name="paired"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
 <link name="tip"/>
 <joint name="one" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/>

@@ -16,8 +16,6 @@ from dh2urdf.ik import limits
 from dh2urdf.ik.self_motion import nearest_members
 from dh2urdf.ik.swept import sample_values
 
-pytestmark = pytest.mark.exhaustive
-
 ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
 SWEPT = {
     "franka_fer": "fer_joint7",
@@ -238,7 +236,7 @@ def test_no_step_along_the_self_motion_comes_nearer(name):
             continue
         checked += 1
         tangent = np.linalg.svd(jacobians(robot.chain, q))[2][-1]
-        assert abs(tangent @ (seed - q)) < 1e-7
+        assert abs(tangent @ (seed - q)) < 1e-6
     assert checked >= 3
 
 

@@ -12,7 +12,7 @@ from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.kernels.general_6r import Plan
+    from dh2urdf.kernels.general_6r import Arm
 
 __all__ = ["General6R"]
 
@@ -34,18 +34,19 @@ class General6R(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
-        plan: Plan | None = None,
+        plan: Arm | None = None,
     ) -> None:
         super().__init__(chain, task, others)
         from dh2urdf.kernels.finish import finish_batch
-        from dh2urdf.kernels.general_6r import plan_general_6r, solve_general_6r_batch
+        from dh2urdf.kernels.general_6r import plan_general_6r, solve_general_6r
 
-        self.plan = plan or plan_general_6r(self.links)
-        self._solve, self._finish = solve_general_6r_batch, finish_batch
+        self.plan = plan_general_6r(self.links) if plan is None else plan
+        self._kernel, self._finish = solve_general_6r, finish_batch
+        self._idle: list[Arm] = []
 
     def like(self, chain: SerialChain) -> General6R:
         """The solver of a chain that differs little, with the same eliminations if they do."""
-        from dh2urdf.kernels.held_general import replan_general_6r
+        from dh2urdf.kernels.general_6r import replan_general_6r
 
         plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
         solver = General6R(chain, self.task, plan=plan)
@@ -58,10 +59,19 @@ class General6R(SolverBase):
         poses = np.stack([self.chain.fk(row) for row in q])
         found, residual = np.empty((TRIALS, self.kmax, 6)), np.empty((TRIALS, self.kmax))
         count = np.zeros(TRIALS, np.int64)
-        self._solve(*self.plan, poses, found, residual, count)
+        self._solve(poses, found, residual, count)
         gap = np.abs(np.remainder(found - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)
         gap[np.arange(self.kmax) >= count[:, None]] = np.inf
         return bool((gap.min(axis=1) < SAME).all())
+
+    def _solve(self, Ts: Array, q: Array, residual: Array, count: IntArray) -> None:
+        """Run the kernel on a copy of the plan that no other thread has."""
+        try:
+            arm = self._idle.pop()
+        except IndexError:
+            arm = self.plan.copy()
+        self._kernel(arm, Ts, q, residual, count)
+        self._idle.append(arm)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -76,7 +86,7 @@ class General6R(SolverBase):
 
     def solve_unfinished(self, Ts: Array, q_out: Array, count_out: IntArray) -> None:
         """Candidates of poses Ts (m, 4, 4), limits or not: q (m, 16, 6) and count (m,)."""
-        self._solve(*self.plan, Ts, q_out, np.empty(q_out.shape[:2]), count_out)
+        self._solve(Ts, q_out, np.empty(q_out.shape[:2]), count_out)
 
     def details(self) -> str:
         """Name the axes and the method."""
@@ -97,5 +107,5 @@ class General6R(SolverBase):
     ) -> None:
         """Solve poses Ts (m, 4, 4) in two jitted calls."""
         outputs = (q_out, residual_out, count_out)
-        self._solve(*self.plan, Ts, *outputs)
+        self._solve(Ts, *outputs)
         self._finish(self.links, self.joints, Ts, within_limits, *outputs, branch_out, free_out)

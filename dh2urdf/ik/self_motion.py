@@ -21,7 +21,8 @@ VALUES = 128
 """Values of the swept joint at which curves are looked for."""
 
 FEW = 32
-"""The same, where a sweep has found nothing: most such poses are out of reach."""
+"""The same, where a sweep at ``GRID`` values has found nothing: most such poses are out of
+reach."""
 
 APART = 0.1
 """Joint distance [rad or m] of members that are worth returning side by side."""
@@ -43,7 +44,7 @@ GRID = 720
 def few_members(
     solver: SweptJoint, T: Array, within_limits: bool, most: int
 ) -> tuple[Array, Array]:
-    """Some solutions of a pose (4, 4) on curves that are short in the swept joint.
+    """Some solutions of a pose (4, 4) on curves that a coarse sweep has missed.
 
     Returns
     -------
@@ -51,9 +52,13 @@ def few_members(
     residual : array, shape (k,)
     """
     chain = solver.chain
-    if within_limits:
+    values = sample_values(chain, solver.joint, GRID, within_limits)
+    outputs = new_outputs(1, GRID * solver.held.kmax, chain.n)
+    solver.solve_at(values, np.array(T[None]), within_limits, *outputs)
+    q = outputs[0][0, : outputs[2][0]]
+    if not len(q) and within_limits:
         q = inside_members(solver, T, limits.middle(chain), most, FEW)
-    else:
+    elif not len(q):
         q = limits.turned_to(chain, _on_curves(solver, T, FEW), limits.middle(chain))
     kept: list[int] = []
     for k in range(len(q)):

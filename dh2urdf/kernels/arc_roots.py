@@ -55,6 +55,9 @@ SHALLOW = 0.03
 FLAT = 1e4
 """An arc on which f is below this many times the noise is in doubt."""
 
+CLEAR = 1e3
+"""An arc without a root on which f comes below this many times the noise is in doubt."""
+
 UNSURE = 1e-6
 """A root whose place is uncertain by more than this [rad] is in doubt."""
 
@@ -156,11 +159,11 @@ def circle_arcs(samples, series, turned, arcs):
 
 
 @vector_kernel
-def window_nodes(centre, half_tan, cosines, sines):
-    """Cosines and sines of the 24 places at which a window is sampled."""
+def window_nodes(centre, half_tan, hidden):
+    """Cosines and sines, (2, 24), of the places at which a window is sampled."""
     for k in range(LANES):
         q = centre + 2.0 * math.atan(half_tan * NODE[k])
-        cosines[k], sines[k] = math.cos(q), math.sin(q)
+        hidden[0, k], hidden[1, k] = math.cos(q), math.sin(q)
 
 
 @vector_kernel
@@ -326,12 +329,12 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
         Number of roots written.
     """
     stack[0, 17], stack[0, 18] = -half_tan, half_tan
-    top = 0
+    top = np.int64(0)
     while top >= 0 and count < LANES - 1:
         row = stack[top]
         changes, crossing, place, smallest, largest = _shape(row)
         length = 2.0 * (row[18] - row[17])
-        if largest < FLAT * noise:
+        if largest < FLAT * noise or (changes == 0 and smallest < CLEAR * noise):
             _doubt(spans, row, centre)
         if changes == 1:
             fine = 1e-8 / length

@@ -12,13 +12,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.chain import _joint_times_link, _load
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.compiled import helper_kernel, inner_kernel, kernel
 
-__all__ = ["finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
+__all__ = ["ANYWHERE", "finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -44,6 +43,9 @@ TINY_DAMPING = 1e-18
 MAX_TURN = 0.3
 """Longest Newton step of one joint [rad or m]."""
 
+ANYWHERE = np.bool_(False)
+"""No limits: as the literal False, `finish_pose` would be compiled once more for its type."""
+
 TWO_PI = 2.0 * math.pi
 
 
@@ -52,7 +54,7 @@ def new_work(n: int) -> NDArray[np.float64]:
     return np.empty((n, n + 8))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@helper_kernel
 def residual_of(r, T):
     """Residual of a pose r (twelve scalars) against a target T (4, 4).
 
@@ -67,7 +69,7 @@ def residual_of(r, T):
     return math.sqrt(max(x * x + y * y + z * z, ex * ex + ey * ey + ez * ez))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@helper_kernel
 def _turn_between(r, T):
     """Rotation vector (sine long) from r to T in base axes, and ``trace(r^T T)``."""
     ex = r[4] * T[2, 0] - r[8] * T[1, 0] + r[5] * T[2, 1] - r[9] * T[1, 1]
@@ -216,7 +218,7 @@ def _move_along(q, work, longest):
         q[i] += scale * work[i, 7]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@helper_kernel
 def _principal(angle):
     """Bring an angle into [-pi, pi]."""
     if -math.pi <= angle <= math.pi:
@@ -309,7 +311,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     the smaller residual stays.
     """
     n = q.shape[1]
-    kept = 0
+    kept = np.int64(0)
     for k in range(count):
         if residual[k] < 0.0 or residual[k] > POLISH:
             residual[k] = polish(links, joints, T, q[k], work)
@@ -328,7 +330,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             kept += 1
         elif residual[kept] < residual[twin]:
             _move(q, residual, branch, free, kept, twin)
-    solutions = 0
+    solutions = np.int64(0)
     for k in range(kept):
         certified = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
         if certified < 0.0 and within_limits:

@@ -12,11 +12,12 @@ import numpy as np
 from numba import njit
 
 from dh2urdf.kernels.chain_lanes import BLOCK, ROWS, fits, lanes_fk
+from dh2urdf.kernels.compiled import helper_kernel
 
 __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_batch"]
 
 
-@njit(cache=True, nogil=True, inline="always")
+@helper_kernel
 def _times_joint(r, slides, q):
     """``R Z(q)`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
     r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
@@ -52,7 +53,7 @@ def _times_joint(r, slides, q):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@helper_kernel
 def _times_link(r, link):
     """``R link`` of a pose held in twelve scalars."""
     r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
@@ -75,13 +76,13 @@ def _times_link(r, link):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@helper_kernel
 def _joint_times_link(r, slides, q, link):
     """``R Z(q) link`` of a pose held in twelve scalars."""
     return _times_link(_times_joint(r, slides, q), link)
 
 
-@njit(cache=True, nogil=True, inline="always")
+@helper_kernel
 def _load(link):
     """The twelve scalars of a pose."""
     return (
@@ -100,7 +101,7 @@ def _load(link):
     )
 
 
-@njit(cache=True, nogil=True, inline="always")
+@helper_kernel
 def _store(r, T):
     """Write twelve scalars as a homogeneous matrix."""
     T[0, 0], T[0, 1], T[0, 2], T[0, 3] = r[0], r[1], r[2], r[3]

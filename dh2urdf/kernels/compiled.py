@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from numba import njit
 
-__all__ = ["block_kernel", "inner_kernel", "kernel"]
+__all__ = ["block_kernel", "helper_kernel", "inner_kernel", "kernel"]
 
 kernel = njit(cache=True, nogil=True, error_model="numpy")
 """For functions that Python calls."""
@@ -27,3 +27,13 @@ block_kernel = njit(
     no_cfunc_wrapper=True,
 )
 """For inner functions that are to become vector code, with fused multiply-add."""
+
+helper_kernel = njit(
+    cache=True,
+    nogil=True,
+    error_model="numpy",
+    forceinline=True,
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
+)
+"""For a few lines that many kernels share: always inlined, by LLVM, not statement by statement."""

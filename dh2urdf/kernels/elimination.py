@@ -33,15 +33,13 @@ SQRT2 = math.sqrt(2.0)
 
 
 @vector_kernel
-def close_loop(chain, target, shift, reverse, loop):
+def close_loop(chain, shift, reverse, loop):
     """Write the loop of ``Z_1 C_1 ... C_5 Z_6 = target``, cut before joint ``shift``.
 
     Parameters
     ----------
-    chain : (5, 12)
-        The constant transforms C_1 ... C_5, rows of (3, 4) matrices.
-    target : (12,)
-        The pose of frame 6.
+    chain : (6, 12)
+        The constant transforms C_1 ... C_5 and the target, rows of (3, 4) matrices.
     shift, reverse : int
         Label i is joint ``(shift + i) % 6``; reversed, joint ``(5 - shift - i) % 6`` with the
         opposite angle.
@@ -49,20 +47,12 @@ def close_loop(chain, target, shift, reverse, loop):
         The transform after each label.
     """
     for i in range(6):
-        if reverse == 0:
-            joint = (shift + i) % 6
-            if joint == 5:
-                _invert(target, loop[i])
-            else:
-                for e in range(12):
-                    loop[i, e] = chain[joint, e]
+        joint = (shift + i) % 6 if reverse == 0 else (10 - shift - i) % 6
+        if (joint == 5) == (reverse == 0):
+            _invert(chain[joint], loop[i])
         else:
-            joint = (10 - shift - i) % 6
-            if joint == 5:
-                for e in range(12):
-                    loop[i, e] = target[e]
-            else:
-                _invert(chain[joint], loop[i])
+            for e in range(12):
+                loop[i, e] = chain[joint, e]
 
 
 @vector_kernel
@@ -75,8 +65,9 @@ def _invert(a, out):
 
 
 @vector_kernel
-def _write_functions(lx, ly, lz, px, py, pz, out, column):
+def _write_functions(line, out, column):
     """The fourteen functions of the line through p along l, to a column of out (14, m)."""
+    lx, ly, lz, px, py, pz = line
     pp = px * px + py * py + pz * pz
     pl2 = 2.0 * (px * lx + py * ly + pz * lz)
     out[0, column], out[1, column], out[2, column] = px, py, pz
@@ -132,7 +123,7 @@ def _turn_line(sample, line):
 
 
 @vector_kernel
-def left_coefficients(loop, samples, left):
+def left_coefficients(loop, samples, lefts, e):
     """Coefficients of the left side's fourteen functions.
 
     Joint 3, the hidden one, stays as (1, cos, sin). Joints 4 and 5 are written in (1, x, x^2) and
@@ -145,31 +136,30 @@ def left_coefficients(loop, samples, left):
         The closed loop.
     samples : (14, 27)
         Scratch.
-    left : (14, 27), out
-        Column ``9 m + 3 i + j`` for (1, cos, sin), the power of x and that of y.
+    lefts : (k, 14, 27), out
+        Of ``lefts[e]``, column ``9 m + 3 i + j`` for (1, cos, sin), the power of x and that of y.
     """
+    left = lefts[e]
     start = (loop[4, 2], loop[4, 6], loop[4, 10], loop[4, 3], loop[4, 7], loop[4, 11])
     for c in range(3):
         line5 = _move_line(loop[3], _turn_line(c, start))
         for b in range(3):
             line4 = _move_line(loop[2], _turn_line(b, line5))
             for a in range(3):
-                lx, ly, lz, px, py, pz = _turn_line(a, line4)
-                _write_functions(lx, ly, lz, px, py, pz, left, 9 * a + 3 * b + c)
+                _write_functions(_turn_line(a, line4), samples, 9 * a + 3 * b + c)
     for f in range(14):
         for i in range(9):
-            y0, y1, y2 = left[f, i], left[f, i + 9], left[f, i + 18]
+            y0, y1, y2 = samples[f, i], samples[f, i + 9], samples[f, i + 18]
             samples[f, i] = (y0 + y1 + y2) / 3.0
             samples[f, i + 9] = (2.0 * y0 - y1 - y2) / 3.0
             samples[f, i + 18] = (y1 - y2) * INV_SQRT3
         for a in range(0, 27, 9):
             for i in range(a, a + 3):
                 y0, y1, y2 = samples[f, i], samples[f, i + 3], samples[f, i + 6]
-                left[f, i] = y0
-                left[f, i + 3] = (y1 - y2) * (2.0 * INV_SQRT3)
-                left[f, i + 6] = (2.0 * (y1 + y2) - y0) / 3.0
+                samples[f, i + 3] = (y1 - y2) * (2.0 * INV_SQRT3)
+                samples[f, i + 6] = (2.0 * (y1 + y2) - y0) / 3.0
             for i in range(a, a + 9, 3):
-                y0, y1, y2 = left[f, i], left[f, i + 1], left[f, i + 2]
+                y0, y1, y2 = samples[f, i], samples[f, i + 1], samples[f, i + 2]
                 left[f, i] = y0
                 left[f, i + 1] = (y1 - y2) * (SQRT2 * INV_SQRT3)
                 left[f, i + 2] = (2.0 * (y1 + y2) - y0) / 3.0
@@ -186,8 +176,7 @@ def right_coefficients(loop, samples, right):
         line1 = _move_line_back(loop[0], _turn_line((3 - a) % 3, start))
         for b in range(3):
             line2 = _move_line_back(loop[1], _turn_line((3 - b) % 3, line1))
-            lx, ly, lz, px, py, pz = line2
-            _write_functions(lx, ly, lz, px, py, pz, samples, 3 * a + b)
+            _write_functions(line2, samples, 3 * a + b)
     for f in range(14):
         for a in range(3):
             i = 3 * a
@@ -260,11 +249,12 @@ def reduce_right(right, beta, basis):
 
 
 @vector_kernel
-def six_equations(right, basis, left, equations):
-    """Project the left side on the null space: ``equations`` (6, 27), columns as in left.
+def six_equations(right, basis, lefts, e, equations):
+    """Project left side e on the null space: ``equations`` (6, 27), columns as in left.
 
     The constant of the right side is brought over, times ``(1 + x^2)(1 + y^2)``.
     """
+    left = lefts[e]
     for r in range(6):
         for m in range(27):
             equations[r, m] = 0.0

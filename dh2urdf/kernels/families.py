@@ -115,7 +115,7 @@ def one_of_each_family(joints, rest, q, residual, branch, free, count):
     Solutions with the same free joints are taken for one family. The one whose first free joint
     is at rest stays; without one, the first.
     """
-    kept = 0
+    kept = np.int64(0)
     for k in range(count):
         keep = True
         for j in range(count):

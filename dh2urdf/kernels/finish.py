@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import ANYWHERE, finish_pose
 from dh2urdf.kernels.families import free_joints
 
 __all__ = ["finish_batch"]
@@ -27,16 +27,12 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
     n = q.shape[2]
     work, trial = np.empty((n, n + 8)), np.empty(n)
     for i in range(Ts.shape[0]):
-        found = count[i]
+        found, rows = count[i], (q[i], residual[i], branch[i], free[i])
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
-        found = finish_pose(
-            links, joints, Ts[i], False, q[i], residual[i], branch[i], free[i], found, work
-        )
+        found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, found, work)
         for k in range(found):
             free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial, work)
         if within_limits:
-            found = finish_pose(
-                links, joints, Ts[i], True, q[i], residual[i], branch[i], free[i], found, work
-            )
+            found = finish_pose(links, joints, Ts[i], within_limits, *rows, found, work)
         count[i] = found

@@ -19,24 +19,22 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.kernels.elimination import close_loop, left_coefficients
-from dh2urdf.kernels.general_6r_passes import (
+from dh2urdf.kernels.arm_6r import ARM_6R, MOST
+from dh2urdf.kernels.general_6r_follow import follow, isolated
+from dh2urdf.kernels.general_6r_roots import (
     eliminate,
     find_roots,
-    follow,
-    inner_target,
-    isolated,
     nudge,
-    rate_elimination,
+    place_target,
+    prepare,
     simple_roots,
 )
-from dh2urdf.kernels.general_6r_work import make_work_6r
-from dh2urdf.kernels.lanes import vector_kernel
+from dh2urdf.kernels.lanes import entry_kernel, inlined
 
-__all__ = ["Plan", "make_work_6r", "plan_general_6r", "solve_general_6r", "solve_general_6r_batch"]
+__all__ = ["Arm", "plan_general_6r", "replan_general_6r", "solve_general_6r"]
 
 Array: TypeAlias = NDArray[np.float64]
-Plan: TypeAlias = tuple[Array, Array, Array, Array, float, Array, NDArray[np.int64], Array]
+Arm: TypeAlias = NDArray[np.void]
 
 TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 """Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
@@ -50,8 +48,8 @@ USABLE = 0.3
 WORTH = 0.03
 """Solutions a pose that one more digit in the seeds outweighs."""
 
-MOST = 3
-"""Eliminations kept."""
+DEAREST = 6.0
+"""Most digits that spans of doubt, which take time, count for."""
 
 ATTEMPTS = 3
 """Rounds of all eliminations, from the second one on for a pose nearby."""
@@ -99,27 +97,42 @@ def _random_poses(links: Array) -> Array:
     return poses
 
 
-def _rank(
-    fixed: tuple[Array, Array, Array, Array, float, Array],
-    choices: NDArray[np.int64],
-    lefts: Array,
-    poses: Array,
-) -> NDArray[np.int64]:
-    """Indices of the eliminations to keep, best first: by solutions found, then by precision."""
-    rating = np.empty(POSES)
-    out_q, residual = np.empty((POSES, 16, 6)), np.empty((POSES, 16))
-    count = np.empty(POSES, dtype=np.int64)
-    found, digits = np.empty(12), np.empty(12)
-    for k, (shift, reverse) in enumerate(choices):
-        one = slice(k, k + 1)
-        rate_elimination(*fixed, shift, reverse, lefts[k], poses, rating)
-        solve_general_6r_batch(*fixed, choices[one], lefts[one], poses, out_q, residual, count)
-        found[k], digits[k] = count.mean(), -rating.mean()
+def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
+    """The eliminations to keep, best first: by solutions found, then by precision."""
+    eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
+    outputs = np.empty((1, 16, 6)), np.empty((1, 16)), np.zeros(1, np.int64)
+    found, digits = np.zeros(12), np.zeros(12)
+    for k, elimination in enumerate(eliminations):
+        _choose(arm, [elimination])
+        for m in range(POSES):
+            solve_general_6r(arm, poses[m : m + 1], *outputs)
+            seeded, spans = arm["first"][0]
+            found[k] += outputs[2][0] / POSES
+            digits[k] -= min(math.log10(max(seeded, 1e-16)) + min(spans, DEAREST), 0.0) / POSES
     order = np.argsort(-found - digits * WORTH)
-    return order[found[order] >= USABLE * found.max()][:MOST]
+    return [eliminations[k] for k in order if found[k] >= USABLE * found.max()][:MOST]
 
 
-def plan_general_6r(links: Array) -> Plan:
+def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
+    """Prepare some eliminations."""
+    arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
+    arm["ready"] = 0
+    solve_general_6r(
+        arm, np.empty((0, 4, 4)), np.empty((0, 16, 6)), np.empty((0, 16)), np.empty(0, np.int64)
+    )
+
+
+def _place(arm: Arm, links: Array) -> None:
+    """Set the links (7, 4, 4) of an arm."""
+    short = _short_links(links)
+    size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
+    arm["links"], arm["size"], arm["ends"] = _flat(links), size, np.linalg.inv(short[[0, 6]])
+    arm["turns"] = np.cos(TURN), np.sin(TURN)
+    arm["chain"][0, :5] = _flat(short[1:6])
+    arm["chain"][0, :5, 3::4] /= size
+
+
+def plan_general_6r(links: Array) -> Arm:
     """Prepare an arm of six revolute joints.
 
     Parameters
@@ -129,124 +142,75 @@ def plan_general_6r(links: Array) -> Plan:
 
     Returns
     -------
-    tuple
-        The first arguments of `solve_general_6r` and `solve_general_6r_batch`.
+    array, shape (1,)
+        The record that `solve_general_6r` takes.
     """
-    links = np.asarray(links, dtype=float)
-    short = _short_links(links)
-    size = float(max(np.linalg.norm(short[1:6, :3, 3], axis=1).max(), 1e-300))
-    chain = _flat(short[1:6])
-    chain[:, 3::4] /= size
-    base_inverse, tool_inverse = np.linalg.inv(short[0]), np.linalg.inv(short[6])
-    turns = np.array([np.cos(TURN), np.sin(TURN)])
-    fixed = (_flat(links), chain, base_inverse, tool_inverse, size, turns)
-    choices = np.array([[shift, reverse] for reverse in (0, 1) for shift in range(6)])
-    lefts = np.zeros((12, 14, 27))
-    loop, samples = np.zeros((6, 12)), np.zeros((14, 27))
-    for k, (shift, reverse) in enumerate(choices):
-        close_loop(chain, np.eye(4)[:3].ravel(), shift, reverse, loop)
-        left_coefficients(loop, samples, lefts[k])
-    best = _rank(fixed, choices, lefts, _random_poses(links))
-    return (*fixed, np.ascontiguousarray(choices[best]), np.ascontiguousarray(lefts[best]))
+    arm = np.zeros(1, ARM_6R)
+    _place(arm, links)
+    _choose(arm, _rank(arm, _random_poses(links)))
+    return arm
 
 
-@vector_kernel
-def solve_general_6r(
-    links,
-    chain,
-    base_inverse,
-    tool_inverse,
-    size,
-    turns,
-    choices,
-    lefts,
-    T,
-    out_q,
-    out_residual,
-    work,
-):
-    """All solutions of one pose.
+def replan_general_6r(arm: Arm, links: Array) -> Arm:
+    """The record of an arm with other links (7, 4, 4), with the eliminations of an arm.
 
-    Parameters
-    ----------
-    links, chain, base_inverse, tool_inverse, size, turns, choices, lefts
-        The plan of the arm, from `plan_general_6r`.
-    T : (4, 4)
-        Target ``T_base_tool``.
-    out_q : (16, 6), out
-        Joint angles in (-pi, pi] [rad].
-    out_residual : (16,), out
-        Larger of position error [m] and orientation error [rad].
-    work : tuple of arrays
-        From `make_work_6r`; not to be shared between threads.
-
-    Returns
-    -------
-    int
-        Number of solutions written.
+    Some 20 times faster than :func:`plan_general_6r`. Eliminations that are good for one arm are
+    so for nearly all that differ in the value of a held joint.
     """
-    spans, slopes = work[20], work[21]
-    inner_target(base_inverse, tool_inverse, size, T, work[1], work[0])
-    found, trials = np.int64(0), choices.shape[0]
+    other = arm.copy()
+    _place(other, links)
+    _choose(other, [tuple(row) for row in arm["choices"][0, : arm["trials"][0]].tolist()])
+    return other
+
+
+@inlined
+def _solve_pose(T, out_q, out_residual, arm):
+    """All solutions of one pose; their number."""
+    spans, first, trials = arm["spans"], arm["first"], arm["trials"]
+    place_target(T, arm)
+    found = np.int64(0)
+    first[0] = 1.0
     for trial in range(ATTEMPTS * trials):
         e = trial % trials
         if e == 0 and trial > 0:
-            nudge(work[0], trial // trials)
-        shift, reverse = choices[e, 0], choices[e, 1]
-        eliminate(chain, shift, reverse, lefts[e], work)
-        before, simple, doubt, count = found, 0, 0, 0
-        for again in range(2):
-            if again == 1 and spans[0, 0] == 0.0:
-                break
-            count = find_roots(again, work)
-            if count < 0:
-                break
-            if again == 0:
-                simple = simple_roots(count, slopes)
-            if count > 0:
-                found, retried = follow(
-                    links, size, count, found, shift, reverse, turns, out_q, out_residual, work
-                )
-                doubt += retried
-        fits = count >= 0 and found % 2 == 0 and found >= simple
-        confirmed = doubt == 0 if before == 0 else found == before
-        if fits and confirmed and found + trial > 0 and isolated(found, work[42]):
+            nudge(arm["chain"], trial // trials)
+        eliminate(e, arm)
+        before, retried = found, np.int64(0)
+        count = find_roots(arm)
+        if count < 0:
+            continue
+        simple = simple_roots(count, arm["slopes"])
+        if count > 0:
+            found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
+            if trial == 0:
+                first[0], first[1] = seeded, spans[0, 0]
+        sure = retried == 0 and spans[1, 0] == 0.0 if before == 0 else found == before
+        fits = found % 2 == 0 and found >= simple and found + trial > 0
+        if sure and fits and isolated(found, arm["kept"]):
             break
     return found
 
 
-@vector_kernel
-def solve_general_6r_batch(
-    links,
-    chain,
-    base_inverse,
-    tool_inverse,
-    size,
-    turns,
-    choices,
-    lefts,
-    Ts,
-    out_q,
-    out_residual,
-    out_count,
-):
-    """`solve_general_6r` for many poses.
+@entry_kernel
+def solve_general_6r(arms, Ts, out_q, out_residual, out_count):
+    """All solutions of many poses.
 
-    Ts (m, 4, 4); out_q (m, 16, 6), out_residual (m, 16) and out_count (m,) are written.
+    Parameters
+    ----------
+    arms : record array, shape (1,)
+        From `plan_general_6r`; not to be shared between threads.
+    Ts : array, shape (m, 4, 4)
+        Targets ``T_base_tool``.
+    out_q : array, shape (m, 16, 6), out
+        Joint angles in (-pi, pi] [rad].
+    out_residual : array, shape (m, 16), out
+        Larger of position error [m] and orientation error [rad].
+    out_count : int64 array, shape (m,), out
+        Number of solutions written.
     """
-    work = make_work_6r()
+    arm = arms[0]
+    if arm["ready"] == 0:
+        prepare(arm)
+        arm["ready"] = 1
     for m in range(Ts.shape[0]):
-        out_count[m] = solve_general_6r(
-            links,
-            chain,
-            base_inverse,
-            tool_inverse,
-            size,
-            turns,
-            choices,
-            lefts,
-            Ts[m],
-            out_q[m],
-            out_residual[m],
-            work,
-        )
+        out_count[m] = _solve_pose(Ts[m], out_q[m], out_residual[m], arm)

@@ -20,10 +20,10 @@ __all__ = [
     "COLUMN",
     "LANES",
     "MASK",
+    "entry_kernel",
     "inlined",
     "null_vectors",
     "reduce_columns",
-    "second_null_vectors",
     "solve_upper",
     "vector_kernel",
 ]
@@ -33,18 +33,25 @@ COLUMN = 6 * LANES
 MASK = 0xFFFFF
 TINY = 1e-300
 PIVOT = 1e-60
+SWEEPS = 2
 
-OPTIONS = {"cache": True, "nogil": True, "fastmath": {"contract"}, "error_model": "numpy"}
+OPTIONS = {"nogil": True, "fastmath": {"contract"}, "error_model": "numpy"}
+INNER = {**OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def vector_kernel(function):
-    """Compile with fused multiply-add and without a test of every division."""
-    return njit(**OPTIONS)(function)
+    """Compile with fused multiply-add and without a test of every division, for kernels to call."""
+    return njit(**INNER)(function)
+
+
+def entry_kernel(function):
+    """Compile likewise, for Python to call, and keep the machine code with all that it calls."""
+    return njit(cache=True, **OPTIONS)(function)
 
 
 def inlined(function):
     """Compile as a part of its callers: for large functions with few callers, to save time."""
-    return njit(inline="always", **OPTIONS)(function)
+    return njit(inline="always", **INNER)(function)
 
 
 @vector_kernel
@@ -144,32 +151,24 @@ def solve_upper_transposed(A, b, n):
 
 
 @vector_kernel
-def null_vectors(A, b, n, sweeps):
-    """Unit vectors b that R maps to nearly nothing: inverse iteration on ``R^T R``."""
-    for k in range(6 * LANES):
-        b[k] = 1.0
-    for _ in range(sweeps):
-        solve_upper_transposed(A, b, n)
-        _normalise(b, n)
-        solve_upper(A, b, n)
-        _normalise(b, n)
+def null_vectors(A, known, b, first, n):
+    """Unit vectors b that R maps to nearly nothing: inverse iteration on ``R^T R``.
 
-
-@vector_kernel
-def second_null_vectors(A, b, n, sweeps, second):
-    """Unit vectors orthogonal to b that R maps to the next smallest, to ``second``."""
+    Unless they are the first ones, they are orthogonal to the unit vectors ``known``.
+    """
+    slope = 0.0 if first else 0.3
     for i in range(6):
         r = i * LANES
         for k in range(n):
-            second[r + k] = 1.0 - 0.3 * i
-    for _ in range(sweeps):
-        _orthogonalise(b, n, second)
-        solve_upper_transposed(A, second, n)
-        _normalise(second, n)
-        solve_upper(A, second, n)
-        _normalise(second, n)
-    _orthogonalise(b, n, second)
-    _normalise(second, n)
+            b[r + k] = 1.0 - slope * i
+    for sweep in range(SWEEPS + 1):
+        if not first:
+            _orthogonalise(known, n, b)
+        _normalise(b, n)
+        if sweep < SWEEPS:
+            solve_upper_transposed(A, b, n)
+            _normalise(b, n)
+            solve_upper(A, b, n)
 
 
 @vector_kernel

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.certify import POLISH, TWO_PI, _move, polish, pose_residual
 from dh2urdf.kernels.compiled import inner_kernel
 
@@ -53,7 +55,7 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
     work : array
         From :func:`dh2urdf.kernels.certify.new_work`.
     """
-    kept = 0
+    kept = np.int64(0)
     for k in range(count):
         twin = -1
         for j in range(kept):

@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.kernels import spherical_wrist, three_parallel
-from dh2urdf.kernels.certify import ACCEPT, finish_pose, polish
+from dh2urdf.kernels.certify import ACCEPT, ANYWHERE, finish_pose, polish
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped, solve_damped
 from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
@@ -42,7 +42,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
             solve_damped(damped, 0.0)
             for a in range(6):
                 doubt = doubt or damped[1][a, a] < regular
-    left = finish_pose(links, joints, T, False, q, residual, branch, free, found, work)
+    left = finish_pose(links, joints, T, ANYWHERE, q, residual, branch, free, found, work)
     for k in range(left):
         branch[k], free[k] = -1, 0
     return -1 - left if doubt or left < found else left

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.lanes import (
     COLUMN,
     LANES,
@@ -166,7 +168,7 @@ def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines,
         _newton_system(frames, error, n, A)
     for k in range(n):
         scale[k] = 1.0
-    reduce_columns(A, 6, 7, n, scale, V, beta)
+    reduce_columns(A, np.int64(6), np.int64(7), n, scale, V, beta)
     for i in range(6):
         a = (6 * COLUMN + i * LANES) & MASK
         e = (i * LANES) & MASK

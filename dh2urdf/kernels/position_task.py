@@ -170,7 +170,7 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
         See :func:`dh2urdf.kernels.certify.finish_pose`; free masks are found here.
     trial : array, shape (n,), scratch
     """
-    kept = 0
+    kept = np.int64(0)
     for k in range(count):
         residual[k] = _polish(links, joints, T, q[k], work)
         if not residual[k] <= ACCEPT:
@@ -187,7 +187,7 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
             kept += 1
         elif residual[k] < residual[twin]:
             _move(q, residual, branch, free, k, twin)
-    solutions = 0
+    solutions = np.int64(0)
     for k in range(kept):
         free[k] = _free_joints(links, joints, T, q[k], trial, work)
         inside = _into_limits(links, joints, T, q[k])

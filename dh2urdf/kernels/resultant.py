@@ -16,6 +16,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, reduce_columns, vector_kernel
 
 __all__ = ["resultants", "split_pairs", "two_joints"]
@@ -25,13 +27,13 @@ HALF = 3 * LANES
 
 
 @vector_kernel
-def _fill(equations, term, cosines, sines, n, A, column):
+def _fill(equations, term, hidden, n, A, column):
     """One column of the six equations at the hidden joint's values."""
     for r in range(6):
         e0, e1, e2 = equations[r, term], equations[r, 9 + term], equations[r, 18 + term]
         a = (column * COLUMN + r * LANES) & MASK
         for k in range(n):
-            A[a + k] = e0 + e1 * cosines[k] + e2 * sines[k]
+            A[a + k] = e0 + e1 * hidden[0, k] + e2 * hidden[1, k]
 
 
 @vector_kernel
@@ -44,15 +46,15 @@ def _keep_lower_half(A, source, W, target, half):
 
 
 @vector_kernel
-def resultants(equations, cosines, sines, n, A, W, determinant, V, beta):
+def resultants(equations, hidden, n, A, W, determinant, V, beta):
     """Determinants at n values of the hidden joint; W (6 x 6 lanes) is left triangular.
 
     Parameters
     ----------
     equations : (6, 27)
         Columns ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
-    cosines, sines : (24,)
-        Of the hidden joint.
+    hidden : (2, 24)
+        Cosines and sines of the hidden joint.
     A : (9 * 144,), scratch
     W : (6 * 144,), out
     determinant : (24,), out
@@ -65,20 +67,20 @@ def resultants(equations, cosines, sines, n, A, W, determinant, V, beta):
         for term in range(9):
             block, j = term // 3, term % 3
             column = term if half == 0 else 3 * (2 - block) + j
-            _fill(equations, term, cosines, sines, n, A, column)
-        reduce_columns(A, 3, 9, n, determinant, V, beta)
+            _fill(equations, term, hidden, n, A, column)
+        reduce_columns(A, np.int64(3), np.int64(9), n, determinant, V, beta)
         for column in range(3, 9):
             target = column - 3 if half == 0 else (column if column < 6 else column - 6)
             _keep_lower_half(A, column, W, target, half)
-    reduce_columns(W, 5, 6, n, determinant, V, beta)
+    reduce_columns(W, np.int64(5), np.int64(6), n, determinant, V, beta)
     last = 5 * COLUMN + 5 * LANES
     for k in range(n):
         determinant[k] *= W[last + k]
 
 
 @vector_kernel
-def two_joints(b, n, cx, sx, cy, sy):
-    """Cosines and sines of the two joints from the rank-one vectors ``(v, x v)``."""
+def two_joints(b, n, x, y):
+    """Cosines and sines, (2, 24), of the two joints from the rank-one vectors ``(v, x v)``."""
     for k in range(n):
         p0, p1, p2 = b[k], b[LANES + k], b[2 * LANES + k]
         r0, r1, r2 = b[3 * LANES + k], b[4 * LANES + k], b[5 * LANES + k]
@@ -87,14 +89,14 @@ def two_joints(b, n, cx, sx, cy, sy):
         pr = p0 * r0 + p1 * r1 + p2 * r2
         h = 1.0 / (math.sqrt((pp - rr) * (pp - rr) + 4.0 * pr * pr) + 1e-300)
         c, s = (pp - rr) * h, 2.0 * pr * h
-        cx[k], sx[k] = c, s
+        x[0, k], x[1, k] = c, s
         wp = 1.0 + c if c > 0.0 else s
         wr = s if c > 0.0 else 1.0 - c
         v0, v1, v2 = wp * p0 + wr * r0, wp * p1 + wr * r1, wp * p2 + wr * r2
         c = v0 - v2 if v0 + v2 > 0.0 else v2 - v0
         s = SQRT2 * v1 if v0 + v2 > 0.0 else -SQRT2 * v1
         h = 1.0 / (math.sqrt(c * c + s * s) + 1e-300)
-        cy[k], sy[k] = c * h, s * h
+        y[0, k], y[1, k] = c * h, s * h
 
 
 @vector_kernel

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import ANYWHERE, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
@@ -177,7 +177,7 @@ def solve_short_chains(
             )
             for k in range(before, found):
                 many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
-            found = finish_pose(links, joints, T, False, *many, found, work)
+            found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
             if not doubt:
                 break
         found = merge_solutions(links, joints, T, *many, found, trial, work)
@@ -185,7 +185,7 @@ def solve_short_chains(
             many_free[k] = free_joints(links, joints, T, many_q[k], trial[0], work)
         found = one_of_each_family(joints, rest, *many, found)
         if within_limits:
-            found = finish_pose(links, joints, T, True, *many, found, work)
+            found = finish_pose(links, joints, T, within_limits, *many, found, work)
         found = min(found, q.shape[1])
         for k in range(found):
             for j in range(n):

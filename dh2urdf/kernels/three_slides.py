@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import ANYWHERE, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
@@ -202,10 +202,10 @@ def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, coun
         found = _candidates(links, joints, T, q[i], turning, scratch)
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
-        found = finish_pose(links, joints, T, False, *rows, found, work)
+        found = finish_pose(links, joints, T, ANYWHERE, *rows, found, work)
         for k in range(found):
             free[i, k] = free_joints(links, joints, T, q[i, k], trial, work)
         found = one_of_each_family(joints, rest, *rows, found)
         if within_limits:
-            found = finish_pose(links, joints, T, True, *rows, found, work)
+            found = finish_pose(links, joints, T, within_limits, *rows, found, work)
         count[i] = found

@@ -1,0 +1,82 @@
+"""What the general 6R solver knows of an arm, and the arrays that it works in: one record."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.kernels.arc_roots import SPANS, STACK, TERMS
+from dh2urdf.kernels.lanes import COLUMN, LANES
+
+__all__ = ["ARM_6R", "MOST", "OWN"]
+
+MOST = 3
+"""Eliminations kept."""
+
+OWN = MOST
+"""Left side that depends on the pose."""
+
+_INTEGERS = {
+    "trials": (),  # number of eliminations
+    "choices": (MOST, 2),  # where each cuts the loop, and in which direction
+    "ready": (),  # whether their left sides are known
+}
+
+_ARM = {
+    "size": (),  # longest of the short links [m]
+    "links": (7, 12),  # T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]
+    "ends": (2, 4, 4),  # inverses of the first and the last of the short links
+    "turns": (2, 6),  # cosines and sines of the joints' zeros inside the solver
+    "chain": (6, 12),  # short links in between, in parts of the size; then the target
+    "lefts": (MOST + 1, 14, 27),  # left sides
+}
+
+_WORK = {
+    "target": 12,
+    "loop": (6, 12),  # closed loop
+    "samples": (14, 27),  # of the fourteen functions
+    "right": (9, 14),  # right side and its reflectors
+    "basis": (14, 14),  # its orthogonal basis
+    "factors": 16,  # its reflectors' factors
+    "equations": (6, 27),
+    "A": 9 * COLUMN,  # lanes of 6 x 9 matrices
+    "W": 9 * COLUMN,  # lanes of 6 x 6 matrices
+    "V": COLUMN,  # reflector
+    "beta": LANES,  # its factor
+    "determinant": LANES,
+    "series": LANES,
+    "turned": (TERMS, LANES),  # series turned to each arc
+    "arcs": (TERMS, LANES),  # Bernstein coefficients of the arcs
+    "stack": (STACK, TERMS + 2),  # arcs being halved
+    "casteljau": LANES,
+    "roots": LANES,
+    "slopes": LANES,  # at the roots
+    "spans": (2, SPANS + 1),  # spans of doubt, their number first
+    "fresh": (2, SPANS + 1),  # those in a window
+    "null": COLUMN,  # null vectors
+    "second": COLUMN,  # second null vectors
+    "hidden": (2, LANES),  # cosine and sine of joint 3 of the loop
+    "fourth": (2, LANES),  # of joint 4
+    "fifth": (2, LANES),  # of joint 5
+    "loop_cosines": COLUMN,  # of all six
+    "loop_sines": COLUMN,
+    "cosines": COLUMN,  # of the arm's joints
+    "sines": COLUMN,
+    "frames": 7 * 12 * LANES,
+    "functions": 14 * LANES,  # the fourteen functions
+    "pairs": 4 * LANES,  # joints 1 and 2 of the loop
+    "error": COLUMN,  # of the pose
+    "position": LANES,  # its length
+    "angle": LANES,
+    "before": LANES,  # the error before
+    "seen": LANES,  # solutions that a root led to
+    "q": 6,
+    "kept": LANES,  # determinants of the solutions' Jacobians
+    "first": 2,  # error of the first seeds, spans of doubt then
+}
+
+ARM_6R = np.dtype(
+    [(name, np.int64, shape) for name, shape in _INTEGERS.items()]
+    + [(name, np.float64, shape) for name, shape in {**_ARM, **_WORK}.items()],
+    align=True,
+)
+"""The record; while one is in use, another thread needs a copy."""

@@ -1,0 +1,236 @@
+"""From roots to solutions: seeds for all joints, Newton on the exact chain, a list without doubles.
+
+Everything works on the record `ARM_6R`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.lanes import (
+    LANES,
+    MASK,
+    inlined,
+    null_vectors,
+    vector_kernel,
+)
+from dh2urdf.kernels.loop_angles import left_frames, other_joints
+from dh2urdf.kernels.newton_6r import chain_frames, newton_step, pose_error
+from dh2urdf.kernels.resultant import resultants, split_pairs, two_joints
+
+__all__ = ["follow", "isolated"]
+
+TOLERANCE = 1e-9
+"""Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
+
+CONVERGED = 2e-15
+"""Error at which a lane is not polished further, relative to the arm's size."""
+
+MOST_STEPS = 40
+DAMPED_STEPS = 12
+"""Damped steps before undamped ones: those are safer, these more precise."""
+
+SAME = 1e-6
+"""Solutions closer than this [rad] are one."""
+
+SHARP = 1e-13
+"""Residual above which a solution has not converged: it lies beside a double one."""
+
+VALLEY = 100.0
+"""Distance [rad] to the double solution, in square roots of such a residual."""
+
+SINGULAR = 1e-6
+"""Determinant of the Jacobian, in parts of size cubed, below which a solution is singular."""
+
+MEMBERS = 8
+"""Most singular solutions kept."""
+
+
+@vector_kernel
+def _seeds(e, count, copies, arm):
+    """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
+
+    Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
+    """
+    loop, right, basis, factors = arm["loop"], arm["right"], arm["basis"], arm["factors"]
+    W, b, second, frames = arm["W"], arm["null"], arm["second"], arm["frames"]
+    turns, roots, hidden, fourth, fifth = (
+        arm["turns"],
+        arm["roots"],
+        arm["hidden"],
+        arm["fourth"],
+        arm["fifth"],
+    )
+    c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
+    shift, reverse = arm["choices"][e, 0], arm["choices"][e, 1]
+    lanes = count * copies
+    n = (lanes + 7) // 8 * 8
+    for k in range(n):
+        root = roots[min(k // copies, count - 1)]
+        hidden[0, k], hidden[1, k] = math.cos(root), math.sin(root)
+    resultants(arm["equations"], hidden, n, arm["A"], W, arm["determinant"], arm["V"], arm["beta"])
+    for copy in range(copies):
+        null_vectors(W, b, second if copy > 0 else b, copy == 0, n)
+    if copies == 2:
+        split_pairs(b, second, n)
+    two_joints(b, n, fourth, fifth)
+    for k in range(n):
+        c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
+        c[3 * LANES + k], s[3 * LANES + k] = fourth[0, k], fourth[1, k]
+        c[4 * LANES + k], s[4 * LANES + k] = fifth[0, k], fifth[1, k]
+    left_frames(loop, c, s, n, frames)
+    other_joints(loop, right, factors, basis, frames, n, c, s, arm["functions"], arm["pairs"])
+    for i in range(6):
+        joint = (shift + i) % 6 if reverse == 0 else (11 - shift - i) % 6
+        sign = 1.0 if reverse == 0 else -1.0
+        p = (i * LANES) & MASK
+        o = (joint * LANES) & MASK
+        tc, ts = turns[0, joint], turns[1, joint]
+        for k in range(n):
+            x, z = c[p + k], sign * s[p + k]
+            cosines[o + k] = x * tc - z * ts
+            sines[o + k] = z * tc + x * ts
+    return lanes
+
+
+@vector_kernel
+def _polish(lanes, damped, arm):
+    """Newton on the exact chain until every lane has converged or has ceased to.
+
+    Leaves the determinant of the Jacobian, in parts of the arm's size cubed, in ``determinant``.
+
+    Returns
+    -------
+    float
+        The largest error of the seeds.
+    """
+    target, A, J, V, beta = arm["target"], arm["A"], arm["W"], arm["V"], arm["beta"]
+    cosines, sines, frames = arm["cosines"], arm["sines"], arm["frames"]
+    links, size, scale = arm["links"], arm["size"], arm["determinant"]
+    error, position, angle, before = arm["error"], arm["position"], arm["angle"], arm["before"]
+    n = (lanes + 7) // 8 * 8
+    goal = CONVERGED * max(size, 1.0)
+    weight = 1.0 / size
+    seeded = 0.0
+    for k in range(lanes):
+        before[k] = math.inf
+    for step in range(MOST_STEPS + 1):
+        chain_frames(links, cosines, sines, n, frames)
+        pose_error(target, frames, n, error, position, angle)
+        going = 0
+        for k in range(lanes):
+            now = max(position[k], angle[k])
+            if step == 0:
+                seeded = max(seeded, position[k] * weight, angle[k])
+            if now <= goal:
+                for i in range(6):
+                    error[i * LANES + k] = 0.0
+            elif step < 6 or step == DAMPED_STEPS or now < 0.7 * before[k]:
+                going += 1
+            before[k] = now
+        if (going == 0 and step > 0) or step == MOST_STEPS:
+            break
+        if step == DAMPED_STEPS:
+            damped = 0
+        newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines)
+    for k in range(lanes):
+        product = abs(scale[k])
+        scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
+    return seeded
+
+
+@vector_kernel
+def _place(k, found, out_q, out_residual, arm):
+    """Store lane k unless it missed the target or is known.
+
+    Of a family of solutions only some members are kept, to leave room for the isolated ones.
+
+    Returns
+    -------
+    int, int
+        The number of solutions, and the index of this one; -1 if it missed.
+    """
+    cosines, sines, position, angle = (
+        arm["cosines"],
+        arm["sines"],
+        arm["position"],
+        arm["angle"],
+    )
+    size, q, determinant, kept = arm["size"], arm["q"], arm["determinant"], arm["kept"]
+    residual = max(position[k], angle[k])
+    if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
+        return found, -1
+    for i in range(6):
+        q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
+    place, singular, members = found, -1, 0
+    for f in range(found):
+        far = 0.0
+        for i in range(6):
+            d = abs(q[i] - out_q[f, i])
+            far = max(far, min(d, 2.0 * math.pi - d))
+        loose = max(residual, out_residual[f])
+        if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
+            place = f
+            break
+        if kept[f] < SINGULAR:
+            singular = f
+            members += 1
+    if place == found:
+        if determinant[k] < SINGULAR and members >= MEMBERS:
+            return found, singular
+        if found == out_q.shape[0]:
+            if singular < 0:
+                return found, -1
+            place = singular
+    elif residual >= out_residual[place]:
+        return found, place
+    out_residual[place], kept[place] = residual, determinant[k]
+    for i in range(6):
+        out_q[place, i] = q[i]
+    return max(found, place + 1), place
+
+
+@inlined
+def follow(e, count, found, out_q, out_residual, arm):
+    """Append the solutions that a list of roots leads to.
+
+    A double root, a root that leads nowhere and one that leads where another went are taken for
+    two solutions with the same value of the hidden joint, and tried again as such.
+
+    Returns
+    -------
+    int, int, float
+        The number of solutions, how many roots had to be tried again, and the largest error of
+        the first seeds.
+    """
+    roots, slopes, seen = arm["roots"], arm["slopes"], arm["seen"]
+    again, seeded = np.int64(0), 0.0
+    for copies in range(1, 3):
+        _seeds(e, count, copies, arm)
+        error = _polish(count * copies, copies - 1, arm)
+        seeded = error if copies == 1 else seeded
+        for f in range(LANES):
+            seen[f] = 0.0
+        for lane in range(count * copies):
+            found, place = _place(lane, found, out_q, out_residual, arm)
+            if copies == 1:
+                if place < 0 or seen[place] > 0.0 or slopes[lane] == 0.0:
+                    roots[again] = roots[lane]
+                    again += 1
+                if place >= 0:
+                    seen[place] = 1.0
+        count = min(again, LANES // 2)
+        if count == 0:
+            break
+    return found, again, seeded
+
+
+@vector_kernel
+def isolated(found, kept):
+    """Whether none of the solutions is singular, by the determinants of their Jacobians."""
+    for f in range(found):
+        if kept[f] < SINGULAR:
+            return False
+    return True

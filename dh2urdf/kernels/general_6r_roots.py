@@ -1,0 +1,216 @@
+"""The hidden joint's values at one pose: close the loop, eliminate, find the roots.
+
+Everything works on the record `ARM_6R`.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.arc_roots import (
+    ARC,
+    ARC_TAN,
+    CIRCLE_COS,
+    CIRCLE_SIN,
+    SPANS,
+    TERMS,
+    circle_arcs,
+    roots_on_arc,
+    window_arc,
+    window_nodes,
+)
+from dh2urdf.kernels.arm_6r import OWN
+from dh2urdf.kernels.elimination import (
+    close_loop,
+    left_coefficients,
+    reduce_right,
+    right_coefficients,
+    six_equations,
+)
+from dh2urdf.kernels.lanes import LANES, inlined, vector_kernel
+from dh2urdf.kernels.resultant import resultants
+
+__all__ = ["eliminate", "find_roots", "nudge", "place_target", "prepare", "simple_roots"]
+
+HOPELESS = 1e-2
+"""Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
+
+QUIET = 1e-10
+"""Noise, in the same measure, above which another elimination is asked too."""
+
+MARGIN = 1.1
+"""How much wider than a span of doubt its window is."""
+
+NARROWER = 2.4
+"""Length, in quarter lengths of a window, below which a span in it is sampled in turn."""
+
+EDGE = 1e-7
+"""Angle [rad] by which a root may lie outside its span."""
+
+INSIDE, OUTSIDE = np.bool_(True), np.bool_(False)
+"""Which roots to keep; as literals they would have a kernel compiled twice."""
+
+NUDGE = 1e-3
+"""Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
+
+
+@vector_kernel
+def place_target(T, arm):
+    """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
+    ends, chain, target, size = arm["ends"], arm["chain"], arm["target"], arm["size"]
+    for i in range(3):
+        for j in range(4):
+            target[4 * i + j] = T[i, j]
+    for i in range(3):
+        b0, b1, b2 = ends[0, i, 0], ends[0, i, 1], ends[0, i, 2]
+        x0 = b0 * T[0, 0] + b1 * T[1, 0] + b2 * T[2, 0]
+        x1 = b0 * T[0, 1] + b1 * T[1, 1] + b2 * T[2, 1]
+        x2 = b0 * T[0, 2] + b1 * T[1, 2] + b2 * T[2, 2]
+        x3 = b0 * T[0, 3] + b1 * T[1, 3] + b2 * T[2, 3] + ends[0, i, 3]
+        for j in range(4):
+            t = x0 * ends[1, 0, j] + x1 * ends[1, 1, j] + x2 * ends[1, 2, j]
+            chain[5, 4 * i + j] = (t + x3) / size if j == 3 else t
+
+
+@vector_kernel
+def nudge(chain, attempt):
+    """Move the target of the eliminations a little, another way at each attempt.
+
+    At a symmetric pose every determinant may vanish identically; solutions of a pose nearby are
+    as good as seeds. A turn by ``2 atan(NUDGE)`` about one skew axis and a shift along another.
+    """
+    t = NUDGE if attempt == 1 else -1.7 * NUDGE
+    x, y, z = 0.36 * t, -0.80 * t, 0.48 * t
+    f = 2.0 / (1.0 + t * t)
+    for j in range(4):
+        a, b, c = chain[5, j], chain[5, 4 + j], chain[5, 8 + j]
+        u, v, w = a + y * c - z * b, b + z * a - x * c, c + x * b - y * a
+        chain[5, j] = a + f * (y * w - z * v)
+        chain[5, 4 + j] = b + f * (z * u - x * w)
+        chain[5, 8 + j] = c + f * (x * v - y * u)
+    chain[5, 3] += 0.64 * t
+    chain[5, 7] += 0.48 * t
+    chain[5, 11] -= 0.60 * t
+
+
+@vector_kernel
+def prepare(arm):
+    """The left sides of the eliminations, as far as they do not depend on the pose."""
+    choices = arm["choices"]
+    for e in range(arm["trials"]):
+        close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
+        left_coefficients(arm["loop"], arm["samples"], arm["lefts"], e)
+
+
+@vector_kernel
+def eliminate(e, arm):
+    """The six equations of elimination e."""
+    loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
+    right, basis = arm["right"], arm["basis"]
+    close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
+    right_coefficients(loop, samples, right)
+    reduce_right(right, arm["factors"], basis)
+    left = e
+    if 2 <= (5 - choices[e, 0]) % 6 <= 4:
+        left = np.int64(OWN)
+        left_coefficients(loop, samples, lefts, left)
+    six_equations(right, basis, lefts, left, arm["equations"])
+
+
+@inlined
+def _sample(k, arm):
+    """Bernstein coefficients from new samples, one arc a column of ``arcs``.
+
+    The whole circle if k is 0, else span of doubt k.
+
+    Returns
+    -------
+    int, float, float, float
+        Number of arcs, middle of the first [rad], tangent of a quarter of their length, noise;
+        no arc where the polynomial says nothing.
+    """
+    determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
+    spans, hidden, beta = arm["spans"], arm["hidden"], arm["beta"]
+    middle, half_tan = 0.0, ARC_TAN
+    if k == 0:
+        for i in range(LANES):
+            hidden[0, i], hidden[1, i] = CIRCLE_COS[i], CIRCLE_SIN[i]
+    else:
+        middle = 0.5 * (spans[0, k] + spans[1, k])
+        half_tan = math.tan(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
+        window_nodes(middle, half_tan, hidden)
+    lanes = hidden.shape[1]
+    resultants(arm["equations"], hidden, lanes, arm["A"], arm["W"], determinant, arm["V"], beta)
+    if k > 0:
+        return 1, middle, half_tan, window_arc(determinant, half_tan, series, arcs)
+    noise, largest = circle_arcs(determinant, series, arm["turned"], arcs)
+    spans[1, 0] = 1.0 if noise > QUIET * largest else 0.0
+    return (LANES if noise < HOPELESS * largest else 0), middle, half_tan, noise
+
+
+@vector_kernel
+def _keep(roots, slopes, first, count, low, high, inside):
+    """Of the roots from ``first`` on keep those inside, or outside, of an interval."""
+    kept = first
+    for r in range(first, count):
+        if (low - EDGE <= roots[r] <= high + EDGE) == inside:
+            roots[kept], slopes[kept] = roots[r], slopes[r]
+            kept += 1
+    return kept
+
+
+@vector_kernel
+def find_roots(arm):
+    """Roots of the polynomial and its slopes there, to ``roots`` and ``slopes``.
+
+    First on the whole circle. Spans of doubt that this leaves are sampled each on its own, and so
+    are spans still in doubt within one that are much narrower; the roots there are replaced.
+    ``spans[1, 0]`` is set to 1 if doubt remains.
+
+    Returns
+    -------
+    int
+        Number of roots; -1 where the polynomial says nothing.
+    """
+    arcs, stack, roots, slopes = arm["arcs"], arm["stack"], arm["roots"], arm["slopes"]
+    spans, fresh, casteljau = arm["spans"], arm["fresh"], arm["casteljau"]
+    count, k = np.int64(0), np.int64(0)
+    spans[0, 0] = 0.0
+    while k <= spans[0, 0]:
+        number, middle, half_tan, noise = _sample(k, arm)
+        if number == 0:
+            return -1
+        first = count
+        fresh[0, 0] = 0.0
+        for arc in range(number):
+            for i in range(TERMS):
+                stack[0, i] = arcs[i, arc]
+            count = roots_on_arc(
+                stack, middle + arc * ARC, half_tan, noise, casteljau, fresh, count, roots, slopes
+            )
+        if k > 0:
+            count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], INSIDE)
+        last = int(spans[0, 0])
+        for n in range(1, int(fresh[0, 0]) + 1):
+            low, high = fresh[0, n], fresh[1, n]
+            if last < SPANS and (k == 0 or high - low < NARROWER * half_tan):
+                count = _keep(roots, slopes, first, count, low, high, OUTSIDE)
+                last += 1
+                spans[0, last], spans[1, last] = low, high
+            else:
+                spans[1, 0] = 1.0
+        spans[0, 0] = last
+        k += 1
+    return count
+
+
+@vector_kernel
+def simple_roots(count, slopes):
+    """How many of the roots are simple."""
+    simple = 0
+    for r in range(count):
+        if slopes[r] > 0.0:
+            simple += 1
+    return simple

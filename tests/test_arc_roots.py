@@ -1,0 +1,127 @@
+"""Real roots of trigonometric polynomials whose roots are known by construction."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numba import njit
+
+from dh2urdf.kernels.arc_roots import (
+    ARC,
+    ARC_TAN,
+    SPANS,
+    STACK,
+    TERMS,
+    circle_arcs,
+    roots_on_arc,
+    window_arc,
+    window_nodes,
+)
+
+CIRCLE = 2 * math.pi * np.arange(24) / 24
+
+
+def product(q, roots):
+    """``prod sin((q - r) / 2)`` over sixteen roots, complex ones in pairs: degree 8."""
+    values = np.prod([np.sin((q - r) / 2) for r in roots], axis=0)
+    assert np.abs(np.imag(values)).max() < 1e-12
+    return np.real(values)
+
+
+@njit
+def roots_around(samples, q, slopes):
+    """Roots of all arcs of the circle: their number, the noise, the largest coefficient."""
+    arcs, stack = np.zeros((TERMS, 24)), np.zeros((STACK, TERMS + 2))
+    noise, largest = circle_arcs(samples, np.zeros(24), np.zeros((TERMS, 24)), arcs)
+    spans, scratch = np.zeros((2, SPANS + 1)), np.zeros(24)
+    count = np.int64(0)
+    for k in range(24):
+        stack[0, :TERMS] = arcs[:, k]
+        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, spans, count, q, slopes)
+    return count, noise, largest
+
+
+@njit
+def nodes_of(middle, half_tan):
+    """Cosines and sines of a window's nodes."""
+    nodes = np.zeros((2, 24))
+    window_nodes(middle, half_tan, nodes)
+    return nodes
+
+
+@njit
+def arc_of(samples, half_tan):
+    """Bernstein coefficients on a window, and their noise."""
+    arcs = np.zeros((TERMS, 24))
+    noise = window_arc(samples, half_tan, np.zeros(24), arcs)
+    return arcs, noise
+
+
+def found_roots(roots):
+    """Roots and slopes that the arcs of the whole circle give."""
+    q, slopes = np.zeros(24), np.zeros(24)
+    count, noise, largest = roots_around(product(CIRCLE, roots), q, slopes)
+    assert noise < 1e-14 * largest
+    return np.mod(q[:count], 2 * math.pi), slopes[:count]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_sixteen_real_roots_are_found(seed):
+    """Sixteen random real roots, at least 0.01 rad apart, are all found to 1e-6, and no other."""
+    rng = np.random.default_rng(seed)
+    roots = np.cumsum(rng.uniform(0.02, 1.0, 16))
+    roots *= 6.2 / roots[-1]
+    q, slopes = found_roots(roots)
+    assert len(q) == 16
+    assert (slopes > 0).all()
+    np.testing.assert_allclose(np.sort(q), np.sort(np.mod(roots, 2 * math.pi)), atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_complex_roots_are_not_reported(seed):
+    """Six real roots among ten complex ones, 0.1 or more from the axis, are found alone."""
+    rng = np.random.default_rng(seed)
+    real = np.sort(rng.uniform(0, 2 * math.pi, 6))
+    pairs = rng.uniform(0, 2 * math.pi, 5) + 1j * rng.uniform(0.1, 1.0, 5)
+    q, slopes = found_roots([*real, *pairs, *pairs.conj()])
+    np.testing.assert_allclose(np.sort(q[slopes > 0]), real, atol=1e-6)
+    assert (slopes > 0).all()
+
+
+@pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4, 1e-5])
+@pytest.mark.parametrize("place", [0.1, 0.1309, 3.0])
+def test_close_roots_are_told_apart(gap, place):
+    """Two roots closer than an arc by far are two simple roots, also across an arc's end."""
+    others = [0.7, 1.4, 2.2, 4.0, 4.9, 5.5]
+    pairs = [2.5 + 0.4j, 3.6 + 0.7j, 4.4 + 0.3j, 5.9 + 1.0j]
+    close = [place - gap / 2, place + gap / 2]
+    q, slopes = found_roots([*others, *close, *pairs, *np.conj(pairs)])
+    near = np.sort(q[np.abs(q - place) < 0.02])
+    np.testing.assert_allclose(near, close, atol=0.05 * gap)
+    assert len(q) == 8
+    assert (slopes > 0).all()
+
+
+@pytest.mark.parametrize("imaginary", [1e-2, 1e-3, 1e-5, 0.0])
+@pytest.mark.parametrize("place", [0.1, 3.0])
+def test_complex_pairs_near_the_axis_count_as_double_roots(imaginary, place):
+    """A pair that almost touches the real axis is reported, once, with slope zero."""
+    others = [0.7, 1.4, 2.2, 4.0, 4.9, 5.5]
+    pairs = [place + 1j * imaginary, 2.5 + 0.4j, 3.6 + 0.7j, 4.4 + 0.3j, 5.9 + 1.0j]
+    q, slopes = found_roots([*others, *pairs, *np.conj(pairs)])
+    assert (slopes > 0).sum() + 2 * (slopes == 0).sum() >= 8
+    assert np.abs(q - place).min() < 1e-2
+
+
+def test_a_window_gives_the_same_polynomial():
+    """Bernstein coefficients from samples of a window evaluate to the polynomial at its ends."""
+    roots = [0.7, 1.4, 2.2, 4.0, 4.9, 5.5, 2.5 + 1j, 2.5 - 1j, *np.linspace(0.1, 6.0, 8)]
+    half_tan, middle = 0.1, 1.9
+    c, s = nodes_of(middle, half_tan)
+    arcs, noise = arc_of(product(np.arctan2(s, c), roots), half_tan)
+    ends = middle + 2 * np.arctan(np.array([-half_tan, half_tan]))
+    expected = product(ends, roots) * (1 + half_tan**2) ** 8
+    np.testing.assert_allclose(arcs[[0, TERMS - 1], 0], expected, rtol=1e-9)
+    assert noise < 1e-12 * np.abs(arcs).max()
