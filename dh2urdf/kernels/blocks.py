@@ -29,7 +29,7 @@ __all__ = [
     "TURN",
     "VALID",
 ]
-__all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure"]
+__all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure", "settle"]
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -224,8 +224,8 @@ def _values(form, joints, joint_of, within_limits, rows, n, S):
 
 
 @block_kernel
-def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
-    """Write the solutions of all clean lanes; the others get a count of -1.
+def settle(form, joints, table, within_limits, n, S):
+    """Joint values of all lanes, and which solutions there are with these.
 
     Parameters
     ----------
@@ -240,6 +240,13 @@ def emit(form, joints, table, within_limits, first, n, S, q, residual, count, br
             flag, valid = BLOCK * (INSIDE + row_of[k, j]) & MASK, BLOCK * (VALID + k) & MASK
             for i in range(n):
                 S[valid + i] *= S[flag + i]
+
+
+@block_kernel
+def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
+    """Write the solutions of all clean lanes; the others get a count of -1."""
+    settle(form, joints, table, within_limits, n, S)
+    row_of = table[1]
     for i in range(n):
         if S[BLOCK * DIRTY + i] != 0.0:
             count[first + i] = -1

@@ -61,6 +61,7 @@ def make_scratch():
         np.empty((3, 2, 2)),  # 8 two equations
         np.empty((3, 5)),  # 9 a quartic
         np.empty((4, 4)),  # 10 its pairs
+        np.empty((2, 4, 4)),  # 11 what goes before and after the poses of a block
     )
 
 

@@ -25,24 +25,19 @@ from dh2urdf.kernels.blocks import (
     SIN,
     TURN,
     VALID,
-    WORK,
-    emit,
+    VALUES,
+    settle,
 )
 from dh2urdf.kernels.certify import POLISH
 from dh2urdf.kernels.compiled import block_kernel, inner_kernel, kernel
-from dh2urdf.kernels.held_joint import insert_held
 from dh2urdf.kernels.held_wrist import (
-    ENDS,
     HELD,
     LINK,
-    ORIENTED,
-    ORIENTED_LINKS,
     REVERSED,
-    SLIDES,
     make_scratch,
-    oriented_pose,
     solve_held_pose,
 )
+from dh2urdf.kernels.held_wrist_load import LEVER, UPPER, load_block
 
 __all__ = ["solve_held_blocks"]
 
@@ -51,49 +46,8 @@ ROW_OF = np.array(
     [[2 + (k & 3), 6 + (k & 3), k >> 1 & 1, 10 + k, 18 + k, 26 + k] for k in range(8)]
 )
 
-UPPER, LEVER, POINT = WORK, WORK + 12, WORK + 15
-"""S1 (twelve, rotation first); the point whose position error counts (three); S1 Z3 w for both
-values of joint 3 (six)."""
-
-
-@inner_kernel
-def _lever(frames, which, value, out):
-    """Point in frame 6, or in frame 0 of a reversed arm, where the user's tool origin is."""
-    slides, k, reversed_ = which[SLIDES] != 0, which[ORIENTED], which[REVERSED] != 0
-    x, y, z = 0.0, 0.0, 0.0
-    if reversed_ and k == 0:
-        end = frames[ORIENTED_LINKS]
-        c, s, slide = (1.0, 0.0, value) if slides else (math.cos(value), math.sin(value), 0.0)
-        tx, ty, tz = end[0, 3], end[1, 3], end[2, 3]
-        x = -(end[0, 0] * tx + end[1, 0] * ty + end[2, 0] * tz)
-        y = -(end[0, 1] * tx + end[1, 1] * ty + end[2, 1] * tz)
-        z = -(end[0, 2] * tx + end[1, 2] * ty + end[2, 2] * tz) - slide
-        x, y = c * x + s * y, c * y - s * x
-    elif not reversed_ and k == 6:
-        end = frames[ORIENTED_LINKS + 7]
-        c, s, slide = (1.0, 0.0, value) if slides else (math.cos(value), math.sin(value), 0.0)
-        x, y = c * end[0, 3] - s * end[1, 3], s * end[0, 3] + c * end[1, 3]
-        z = end[2, 3] + slide
-    E = frames[ENDS] if reversed_ else frames[ENDS + 2]
-    for i in range(3):
-        out[i] = E[i, 0] * x + E[i, 1] * y + E[i, 2] * z + E[i, 3]
-
-
-@inner_kernel
-def _load_block(frames, which, values, Ts, first, n, scratch, lever, S):
-    """Target, S1 and lever of each pose, one a lane."""
-    D, link = scratch[1], scratch[2][1]
-    for i in range(n):
-        oriented_pose(frames, which, values[first + i], Ts[first + i], scratch)
-        _lever(frames, which, values[first + i], lever)
-        for r in range(3):
-            for j in range(3):
-                S[BLOCK * (3 * r + j) + i] = D[r, j]
-                S[BLOCK * (UPPER + 3 * r + j) + i] = link[r, j]
-            S[BLOCK * (9 + r) + i] = D[r, 3]
-            S[BLOCK * (UPPER + 9 + r) + i] = link[r, 3]
-            S[BLOCK * (LEVER + r) + i] = lever[r]
-        S[BLOCK * DIRTY + i] = 0.0
+POINT = LEVER + 3
+"""S1 Z3 w for both values of joint 3 (six)."""
 
 
 @block_kernel
@@ -338,14 +292,32 @@ def _measure(form, S0, S2, seen_from_tool, n, S, solution):
 
 
 @inner_kernel
-def _into_order(which, value, q, branch, free, count):
-    """Rows of q (kmax, 7) from the oriented arm's six joints to the chain's seven, in place."""
-    for k in range(count):
-        if which[REVERSED] != 0:
-            for j in range(3):
-                q[k, j], q[k, 5 - j] = q[k, 5 - j], q[k, j]
-        branch[k] = -1
-    insert_held(which[HELD], value, q, free, count)
+def _places(which):
+    """Where in the chain the oriented arm's six joints are."""
+    place = np.empty(6, np.int64)
+    for j in range(6):
+        moving = 5 - j if which[REVERSED] != 0 else j
+        place[j] = moving if moving < which[HELD] else moving + 1
+    return place
+
+
+@block_kernel
+def _write(held, place, values, first, n, S, q, residual, count, branch, free):
+    """Write the solutions of all clean lanes in the chain's order; the others get -1."""
+    for i in range(n):
+        if S[BLOCK * DIRTY + i] != 0.0:
+            count[first + i] = -1
+            continue
+        found = 0
+        for k in range(8):
+            if S[BLOCK * (VALID + k) + i] > 0.0:
+                for j in range(6):
+                    q[first + i, found, place[j]] = S[BLOCK * (VALUES + ROW_OF[k, j]) + i]
+                q[first + i, found, held] = values[first + i]
+                residual[first + i, found] = S[BLOCK * (RESIDUAL + k) + i]
+                branch[first + i, found], free[first + i, found] = -1, 0
+                found += 1
+        count[first + i] = found
 
 
 @kernel
@@ -356,32 +328,32 @@ def solve_held_blocks(
     scratch, lever, S = make_scratch(), np.empty(3), np.zeros(ROWS * BLOCK)
     seen_from_tool = which[REVERSED] != 0
     oriented_joints = joints[::-1].copy() if seen_from_tool else joints.copy()
-    S0, S2 = frames[LINK], frames[LINK + 2]
+    S0, S2, place = frames[LINK], frames[LINK + 2], _places(which)
     m = Ts.shape[0]
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
-        _load_block(frames, which, values, Ts, first, n, scratch, lever, S)
+        load_block(frames, which, values, Ts, first, n, scratch, lever, S)
         _elbows(S2, form[3, 3], slack, n, S)
         _shoulders(S0, slack, n, S)
         _wrists(form, S0, S2, n, S)
         for k in range(8):
             _measure(form, S0, S2, seen_from_tool, n, S, k)
+        settle(form, oriented_joints, (JOINT_OF, ROW_OF), within_limits, n, S)
         out = q, residual, count, branch, free
-        emit(form, oriented_joints, (JOINT_OF, ROW_OF), within_limits, first, n, S, *out)
+        _write(which[HELD], place, values, first, n, S, *out)
         for i in range(first, first + n):
-            pose_out = q[i], residual[i], branch[i], free[i]
             if count[i] >= 0:
-                _into_order(which, values[i], q[i], branch[i], free[i], count[i])
-            else:
-                count[i] = solve_held_pose(
-                    frames,
-                    which,
-                    form,
-                    joints,
-                    slack,
-                    values[i],
-                    Ts[i],
-                    within_limits,
-                    *pose_out,
-                    scratch,
-                )
+                continue
+            pose_out = q[i], residual[i], branch[i], free[i]
+            count[i] = solve_held_pose(
+                frames,
+                which,
+                form,
+                joints,
+                slack,
+                values[i],
+                Ts[i],
+                within_limits,
+                *pose_out,
+                scratch,
+            )
