@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.chain import _joint_times_link, _load
-from dh2urdf.kernels.compiled import helper_kernel, inner_kernel, kernel
+from dh2urdf.kernels.compiled import helper_kernel, inner_kernel
 
 __all__ = ["ANYWHERE", "finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
 
@@ -84,7 +84,7 @@ def _turn_between(r, T):
     return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
 
 
-@kernel
+@inner_kernel
 def pose_residual(links, joints, T, q):
     """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
     r = _load(links[0])
@@ -167,7 +167,7 @@ def _damped_step(work, damping):
     return longest
 
 
-@kernel
+@inner_kernel
 def polish(links, joints, T, q, work):
     """Newton's method on the exact chain, q (n,) in place; returns the residual.
 
@@ -280,7 +280,7 @@ def _move(q, residual, branch, free, source, target):
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
 
 
-@kernel
+@inner_kernel
 def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
