@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from benchmarks.apart import do_apart
-from benchmarks.machine import Watch
+from benchmarks.machine import Watch, worked
 from benchmarks.results import LATEST, Results
 
 WORK = (
@@ -69,11 +69,12 @@ def run(chosen: tuple[str, ...] | list[str], *, quick: bool) -> Results:
             os.environ["NUMBA_CACHE_DIR"] = cache
         for name in WORK:
             for keys in _parts(name, quick) if name in chosen else ():
-                begin = time.perf_counter()
+                begin, processor = time.perf_counter(), worked()
                 if wrong := do_apart(results, f"benchmarks.work.{name}", keys):
                     results.failed[f"{name} {' '.join(keys)}"] = wrong
-                seconds = time.perf_counter() - begin
-                print(f"{name} {' '.join(keys)}: {seconds:.0f} s", file=sys.stderr)
+                seconds, processor = time.perf_counter() - begin, worked() - processor
+                spent = f"{seconds:.0f} s, {processor:.0f} s of the processor"
+                print(f"{name} {' '.join(keys)}: {spent}", file=sys.stderr)
     results.describe(watch)
     return results
 
