@@ -325,7 +325,7 @@ def solve_held_blocks(
     frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
-    scratch, lever, S = make_scratch(), np.empty(3), np.zeros(ROWS * BLOCK)
+    scratch, lever, S = make_scratch(), np.empty(3), np.empty(ROWS * BLOCK)
     seen_from_tool = which[REVERSED] != 0
     oriented_joints = joints[::-1].copy() if seen_from_tool else joints.copy()
     S0, S2, place = frames[LINK], frames[LINK + 2], _places(which)
