@@ -28,6 +28,9 @@ __all__ = ["ArmView", "view"]
 CLOSE = 1.15
 """From the row that is explained to the eye, against the arm's size."""
 
+PANEL = 400
+"""Width of the panel [px]."""
+
 logger = logging.getLogger("dh2urdf")
 
 
@@ -90,6 +93,7 @@ class ArmView:
         self._scenes: list[Any] = []
         self._row_scene: RowScene | None = None
         self._server.gui.main_panel.dock_right()
+        self._server.gui.main_panel.set_width(PANEL)
         tabs = self._server.gui.add_tab_group()
         self._joints = JointsTab(self._server.gui, tabs.add_tab("Joints"), self._moved)
         table_tab = tabs.add_tab("DH table")
@@ -151,7 +155,7 @@ class ArmView:
             self._ik.build(robot, drawing, q)
             for note in notes:
                 self._table.say(note)
-            self._stage = set_stage(self._server, robot, arm, q)
+            self._stage = set_stage(self._server, robot, arm, drawing, q)
             self._show_row(self._table.row)
             self._switch_frames()
             self._redraw()
@@ -184,8 +188,11 @@ class ArmView:
                 self._ik.put_away()
             self._show_row(i)
             self._redraw()
-        if visitor is None:
-            return
+        if visitor is not None:
+            self._bring_near(visitor)
+
+    def _bring_near(self, visitor: Any) -> None:
+        """Bring the eye of one visitor to the row that is explained, or to the whole arm."""
         if self._row_scene is None or self._row_scene.picture is None:
             look_at(visitor, *self._stage)
         else:
@@ -221,13 +228,15 @@ class ArmView:
         with self._lock:
             self._build(self.robot, self._q)
 
-    def _edited(self, table: DHTable) -> None:
+    def _edited(self, table: DHTable, visitor: Any = None) -> None:
         """Rebuild the arm from an edited table; joints that it kept stay where they are."""
         robot = Robot.from_dh(table)
         with self._lock:
             old = dict(zip(self.robot.joint_names, self._q.tolist(), strict=True))
             q = np.array([old.get(name, 0.0) for name in robot.joint_names])
             self._build(robot, np.clip(q, robot.lower, robot.upper))
+        if visitor is not None:
+            self._bring_near(visitor)
 
     def _repr_html_(self) -> str:
         return (
