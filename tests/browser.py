@@ -101,9 +101,9 @@ class Visitor:
         """What stands in the visible fields."""
         return [field.input_value() for field in self.page.locator("input:visible").all()]
 
-    def fill(self, handle, text):
-        """Type a text into a field, until the server has it."""
-        field = self.field(handle.label)
+    def fill(self, label, text, handle):
+        """Type a text into the field with a label, until its handle on the server has it."""
+        field = self.field(label)
         field.fill(text)
         field.press("Enter")
         field.press("Tab")

@@ -1,4 +1,4 @@
-"""Floor, light and the eye."""
+"""Floor, lights and the eye."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 
-__all__ = ["look_at", "set_stage"]
+__all__ = ["cast_shadows", "light", "look_at", "set_stage"]
 
 FIELD_OF_VIEW = math.radians(38.0)
 DIRECTION = np.array([0.80, -1.0, 0.62])
@@ -62,7 +62,6 @@ def set_stage(
         fade_distance=5.0 * span,
         shadow_opacity=0.12,
     )
-    _light(server)
     camera = server.initial_camera
     eye = middle + DISTANCE * span * DIRECTION / float(np.linalg.norm(DIRECTION))
     camera.position = eye
@@ -79,15 +78,20 @@ def _lowest(drawing: Drawing) -> float:
     return float(min([0.0, *heights]))
 
 
-def _light(server: Any) -> None:
-    """A sun with shadows, sky and ground, and a weak light from where the eye starts.
+def light(server: Any) -> None:
+    """A sun, sky and ground, and a weak light from the side.
 
     An environment map would delay the first picture: pages fade in only once it is unpacked.
     """
     scene = server.scene
     scene.configure_environment_map(hdri=None)
-    scene.configure_default_lights(enabled=True, cast_shadow=True)
+    scene.configure_default_lights(enabled=True, cast_shadow=False)
     scene.add_light_hemisphere(
         "/light/sky", sky_color=SKY, ground_color=GROUND, intensity=1.7, position=(0.0, 0.0, 1.0)
     )
     scene.add_light_directional("/light/fill", intensity=0.7, position=FILL, cast_shadow=False)
+
+
+def cast_shadows(server: Any) -> None:
+    """Let the sun cast shadows, which without a GPU take longer to draw than all the rest."""
+    server.scene.configure_default_lights(enabled=True, cast_shadow=True)

@@ -69,8 +69,8 @@ class TableTab:
             "a": gui.add_text("a [m]", ""),
             "alpha": gui.add_text("α [deg]", ""),
             "sign": gui.add_dropdown("sign of q", ("+1", "-1")),
-            "lower": gui.add_text("lower limit [deg or m]", ""),
-            "upper": gui.add_text("upper limit [deg or m]", ""),
+            "lower": gui.add_text("lower [deg or m]", ""),
+            "upper": gui.add_text("upper [deg or m]", ""),
         }
         self.apply = gui.add_button("Apply to the row")
         self.rows = gui.add_button_group("Rows", ("Add below", "Remove"))

@@ -19,7 +19,7 @@ from dh2urdf.viewer.door import LOOPBACK, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.ik_tab import IKTab
 from dh2urdf.viewer.joints_tab import JointsTab
-from dh2urdf.viewer.stage import look_at, set_stage
+from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
 from dh2urdf.viewer.table_tab import TableTab
 from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
@@ -27,6 +27,9 @@ __all__ = ["ArmView", "view"]
 
 CLOSE = 1.15
 """From the row that is explained to the eye, against the arm's size."""
+
+SHADOWS_AFTER = 3.0
+"""From a visitor's coming to the sun's shadows [s]; the first picture does not wait for them."""
 
 PANEL = 400
 """Width of the panel [px]."""
@@ -100,8 +103,11 @@ class ArmView:
         self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
         self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
         self._show_frames, self._show_names, self._show_meshes = self._options()
+        light(self._server)
         with self._lock:
             self._build(robot, config)
+        self._shadows: threading.Timer | None = None
+        self._server.on_client_connect(self._welcome)
 
     @property
     def q(self) -> Array:
@@ -121,7 +127,17 @@ class ArmView:
         """Stop the server; pages that are open lose their connection."""
         if not self._stopped.is_set():
             self._stopped.set()
+            self._ik.close()
+            if self._shadows is not None:
+                self._shadows.cancel()
             quietly(self._server.stop)
+
+    def _welcome(self, _: Any) -> None:
+        """Let shadows fall once the first visitor has seen a picture."""
+        if self._shadows is None:
+            self._shadows = threading.Timer(SHADOWS_AFTER, cast_shadows, (self._server,))
+            self._shadows.daemon = True
+            self._shadows.start()
 
     def _options(self) -> tuple[Any, Any, Any]:
         """Switches of what the scene shows, under the tabs."""
