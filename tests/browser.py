@@ -18,6 +18,14 @@ ARGUMENTS = [
     "--enable-unsafe-swiftshader",
 ]
 
+NO_NOTES = ".mantine-Notification-root { display: none }"
+"""Keeps the browser's remark on slow rendering out of the pictures."""
+
+FRAMES = """count => new Promise(done => {
+    const next = left => left ? requestAnimationFrame(() => next(left - 1)) : done();
+    next(count);
+})"""
+
 
 def chromium():
     """Path of the browser, None where there is none."""
@@ -25,13 +33,17 @@ def chromium():
 
 
 class Visitor:
-    """One page that shows a view; requests that leave the machine are stopped and kept."""
+    """One page that shows a view; requests that leave the machine are stopped and kept.
 
-    def __init__(self, browser, view, width=1400, height=860):
-        self.view, self.outside = view, []
+    ``sharpness`` below one draws fewer pixels of the scene, for pages that draw many frames.
+    """
+
+    def __init__(self, browser, view, width=1280, height=800, sharpness=1.0):
+        self.view, self.outside, self.sharpness = view, [], sharpness
         self.context = browser.new_context(
             viewport={"width": width, "height": height}, accept_downloads=True
         )
+        self.context.set_default_timeout(TIMEOUT)
         try:
             self._open()
         except BaseException:
@@ -39,32 +51,44 @@ class Visitor:
             raise
 
     def _open(self):
-        """Load the page and wait until it talks to the server."""
+        """Load the page and wait until it talks to the server and has drawn a frame."""
         view = self.view
         self.context.route("**/*", self._route)
         before = set(view._server.get_clients())
         self.page = self.context.new_page()
-        self.page.set_default_timeout(TIMEOUT)
-        self.page.goto(view.url)
+        self.page.on("websocket", self._socket)
+        self.page.goto(f"{view.url}?fixedDpr={self.sharpness}")
         self.page.get_by_text("Names of axes").wait_for()
-        wait_for(lambda: set(view._server.get_clients()) - before, 60)
+        wait_for(lambda: set(view._server.get_clients()) - before)
         (self.id,) = set(view._server.get_clients()) - before
-        note = self.page.locator(".mantine-Notification-closeButton")
-        if note.count():
-            note.first.evaluate("button => button.click()")
+        self.page.add_style_tag(content=NO_NOTES)
+        self.frames(3)
+
+    def frames(self, count):
+        """Wait until the page has drawn some frames; what was sent before is in them."""
+        self.page.evaluate(FRAMES, count)
+
+    def _local(self, url):
+        host = self.view.url.partition("://")[2]
+        return url.startswith(("data:", "blob:", f"http://{host}", f"ws://{host}"))
+
+    def _socket(self, socket):
+        if not self._local(socket.url):
+            self.outside.append(socket.url)
 
     def _route(self, route):
-        url = route.request.url
-        if url.startswith((self.view.url, "data:", "blob:")):
+        if self._local(route.request.url):
             route.continue_()
         else:
-            self.outside.append(url)
+            self.outside.append(route.request.url)
             route.abort()
 
     def tab(self, name):
         """Open a tab."""
-        self.page.get_by_role("tab", name=name).click()
-        time.sleep(0.5)
+        tab = self.page.get_by_role("tab", name=name)
+        tab.click()
+        wait_for(lambda: tab.get_attribute("aria-selected") == "true")
+        self.frames(2)
 
     def field(self, label):
         """The visible input with a label."""
@@ -77,20 +101,19 @@ class Visitor:
         """What stands in the visible fields."""
         return [field.input_value() for field in self.page.locator("input:visible").all()]
 
-    def fill(self, label, text):
-        """Type a text into a field."""
+    def fill(self, label, text, handle):
+        """Type a text into the field with a label, until its handle on the server has it."""
         field = self.field(label)
         field.fill(text)
         field.press("Enter")
         field.press("Tab")
-        time.sleep(0.4)
+        wait_for(lambda: str(handle.value) == text)
 
     def choose(self, label, option):
         """Choose an option of a dropdown."""
         self.field(label).click()
-        time.sleep(0.3)
         self.page.get_by_role("option", name=option, exact=True).click()
-        time.sleep(0.5)
+        wait_for(lambda: self.field(label).input_value() == option)
 
     def button(self, name):
         """A button by its text."""
@@ -113,32 +136,52 @@ class Visitor:
         )
 
     def drag(self, start, end, steps=4):
-        """Press, move slowly, release; the pointer rests first until a frame has seen it."""
-        self.page.mouse.move(start[0] + 1.0, start[1] + 1.0)
-        time.sleep(0.7)
-        self.page.mouse.move(*start)
-        time.sleep(2.0)
-        self.page.mouse.down()
-        time.sleep(0.3)
+        """Press, move, release; every step is drawn before the next."""
+        mouse = self.page.mouse
+        mouse.move(start[0] + 1.0, start[1] + 1.0)
+        self.frames(2)
+        mouse.move(*start)
+        self.frames(2)
+        mouse.down()
         for k in range(1, steps + 1):
-            x, y = (a + (b - a) * k / steps for a, b in zip(start, end, strict=True))
-            self.page.mouse.move(x, y)
-            time.sleep(0.3)
-        self.page.mouse.up()
-        time.sleep(0.5)
+            mouse.move(*(a + (b - a) * k / steps for a, b in zip(start, end, strict=True)))
+            self.frames(2)
+        mouse.up()
+        self.frames(2)
 
     def screenshot(self, name):
-        """Keep a picture of the page among the artefacts."""
+        """Keep a picture of the page among the artefacts, once it stands still."""
         ARTIFACTS.mkdir(exist_ok=True)
-        time.sleep(1.5)
-        self.page.screenshot(path=ARTIFACTS / f"{name}.png")
+        self.view._server.flush()
+        seen = [b""]
+
+        def stands():
+            self.frames(3)
+            seen.append(self.page.screenshot(animations="disabled"))
+            return seen[-1] == seen[-2]
+
+        wait_for(stands)
+        (ARTIFACTS / f"{name}.png").write_bytes(seen[-1])
 
     def close(self):
         """Close the page."""
         self.context.close()
 
 
-def wait_for(condition, seconds=40.0):
+def still(value, seconds=60.0):
+    """What a changing array comes to rest at: the same on looks half a second apart."""
+    looks = [value()]
+
+    def rests():
+        time.sleep(0.5)
+        looks.append(value())
+        return np.array_equal(looks[-1], looks[-2])
+
+    wait_for(rests, seconds)
+    return looks[-1]
+
+
+def wait_for(condition, seconds=60.0):
     """Wait until a condition holds; fail where it does not in time."""
     end = time.monotonic() + seconds
     while not condition():

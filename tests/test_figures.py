@@ -281,9 +281,9 @@ def test_picture_shows_itself_in_a_notebook():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-@pytest.mark.parametrize("q", [[0.1], [0.1, math.nan], [[0.1, 0.2]]])
+@pytest.mark.parametrize("q", [[0.1], [0.1, math.nan], [[0.1, 0.2]], 3.0, ["a", "b"]])
 def test_bad_configuration_is_named(q):
-    """A q of the wrong length or with NaN raises with the joints' names."""
+    """A q of the wrong shape, with NaN or of words raises with the joints' names."""
     with pytest.raises(ConfigurationError, match="joint_1, joint_2"):
         figure(Robot.from_dh("planar_rr"), q)
 

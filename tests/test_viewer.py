@@ -153,6 +153,27 @@ def test_scene_stands_where_the_robot_does(view):
     np.testing.assert_allclose(elbow.position, [math.cos(0.7), math.sin(0.7), 0.0], atol=1e-12)
 
 
+def test_frames_are_drawn_where_the_table_puts_them(view):
+    """The DH frames appear once asked for, at the frames of the table, and follow the arm."""
+    assert view._frames.roots == []
+    view._show_frames.value = True
+    view._switch_frames()
+    for q in ([0.0, 0.0], [0.7, 0.4]):
+        view.q = q
+        expected = view.robot.table.frames(np.array(q))[:, :3, 3]
+        places = [root.position for root in view._frames.roots]
+        np.testing.assert_allclose(places, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["planar_rr", "ur5e", "gantry_wrist"])
+def test_floor_lies_under_the_base(name):
+    """No body of the base reaches through the floor, and the floor is not above the origin."""
+    with Robot.from_dh(name).view(port=0) as shown:
+        floor = shown._server.scene._handle_from_node_name["/floor"].position[2]
+        bodies = np.concatenate([s.vertices for s in shown._scene.drawing.nodes[0].surfaces])
+        assert floor == pytest.approx(min(0.0, bodies[:, 2].min()), abs=1e-12)
+
+
 def choose(view, row):
     """Choose a row as a visitor does."""
     view._table.choose(row)

@@ -8,7 +8,7 @@ from contextlib import ExitStack, closing
 import numpy as np
 import pinocchio as pin
 import pytest
-from browser import ARGUMENTS, Visitor, chromium, wait_for
+from browser import ARGUMENTS, Visitor, chromium, still, wait_for
 
 import dh2urdf
 from dh2urdf import DHTable, Robot
@@ -74,14 +74,16 @@ def test_row_is_explained_with_values_and_case(shown):
 
 def test_target_is_dragged_and_branches_follow(shown):
     """The gizmo pulled along its z axis moves the tip there, all eight branches listed."""
-    view, visitor = shown(Robot.from_dh("ur5e"), START)
+    view, visitor = shown(Robot.from_dh("ur5e"), START, sharpness=0.4)
     visitor.tab("IK")
     visitor.field("Target").click(force=True)
     visitor.page.get_by_text("8 solutions.").wait_for()
     T = view.robot.fk(START)
     size = 0.22 * view.robot.chain.size
     grip = T[:3, 3] + 0.35 * size * T[:3, 2]
-    visitor.drag(visitor.pixel(grip), visitor.pixel(grip + 0.12 * T[:3, 2]), steps=6)
+    visitor.drag(visitor.pixel(grip), visitor.pixel(grip + 0.12 * T[:3, 2]))
+    wait_for(lambda: np.abs(view.q - START).max() > 0.0)
+    still(lambda: view.q)
     moved = view.robot.fk(view.q)[:3, 3] - T[:3, 3]
     assert 0.05 < moved @ T[:3, 2] < 0.25
     np.testing.assert_allclose(moved - (moved @ T[:3, 2]) * T[:3, 2], 0.0, atol=2e-3)
@@ -90,7 +92,6 @@ def test_target_is_dragged_and_branches_follow(shown):
     np.testing.assert_allclose(
         view.robot.fk(found.q), np.broadcast_to(view._ik._T, (len(found.q), 4, 4)), atol=1e-8
     )
-    visitor.screenshot("view-branches")
 
 
 def test_line_of_the_branch_table_moves_the_arm(shown):
@@ -99,6 +100,7 @@ def test_line_of_the_branch_table_moves_the_arm(shown):
     visitor.tab("IK")
     visitor.field("Target").click(force=True)
     visitor.page.get_by_text("8 solutions.").wait_for()
+    visitor.screenshot("view-branches")
     T = view.robot.fk(view.q)
     line = visitor.page.locator("[data-ik=branches] tbody tr").nth(4)
     line.click()
@@ -113,7 +115,7 @@ def test_edited_cell_rebuilds_the_arm_and_the_urdf_is_saved(shown, tmp_path):
     visitor.tab("DH table")
     visitor.choose("Explain row", "2")
     visitor.page.get_by_text("Edit the row").click()
-    visitor.fill("a₂ [m]", "1.25*2")
+    visitor.fill("a₂ [m]", "1.25*2", view._table.cells["a"])
     visitor.button("Apply to the row").click()
     visitor.page.get_by_text("The arm was rebuilt").wait_for()
     np.testing.assert_allclose(view.robot.fk([0.0, 0.0])[0, 3], 3.5)
@@ -137,7 +139,7 @@ def test_malformed_edit_says_so_and_changes_nothing(shown):
     visitor.tab("DH table")
     visitor.choose("Explain row", "1")
     visitor.page.get_by_text("Edit the row").click()
-    visitor.fill("a₁ [m]", "one metre")
+    visitor.fill("a₁ [m]", "one metre", view._table.cells["a"])
     visitor.button("Apply to the row").click()
     alert = visitor.page.get_by_role("alert").filter(has_text="Nothing was changed")
     alert.wait_for()
@@ -182,6 +184,7 @@ def test_stopped_server_lets_its_port_go(shown):
     port = int(view.url.rpartition(":")[2])
     with socket.socket() as probe:
         assert probe.connect_ex(("127.0.0.1", port)) != 0
+    visitor.page.locator(".mantine-Loader-root:visible").wait_for()
     visitor.screenshot("view-stopped")
 
 

@@ -57,8 +57,6 @@ def view_(
             emit_json("view", url=shown.url, host=host)
         else:
             emit(shown.url)
-        if host not in {"127.0.0.1", "localhost", "::1"}:
-            note(f"warning: listening on {host}: other machines can reach and move this view")
         note("Ctrl-C ends the view")
         import sys
 

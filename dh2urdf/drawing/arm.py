@@ -70,7 +70,10 @@ def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:
     """The configuration asked for, checked, or zero brought within the limits, shape (n,)."""
     if q is None:
         return np.clip(np.zeros(robot.n), robot.lower, robot.upper)
-    config = np.asarray(q, float)
+    try:
+        config = np.asarray(q, float)
+    except (TypeError, ValueError):
+        config = np.empty(0)
     if config.shape != (robot.n,) or not np.isfinite(config).all():
         names = ", ".join(robot.joint_names)
         raise ConfigurationError(f"q: expected {robot.n} finite numbers ({names}), got {q!r:.80}")

@@ -157,6 +157,7 @@ class Ghosts:
             cast_shadow=False,
             receive_shadow=False,
             lod="off",
+            visible=False,
         )
 
     def show(self, configurations: Sequence[Array], skip: int = -1) -> None:
@@ -172,6 +173,7 @@ class Ghosts:
             handle.batched_scales = scales
             handle.batched_wxyzs = turns[:, node]
             handle.batched_positions = places[:, node]
+            handle.visible = bool(scales.any())
 
     def remove(self) -> None:
         """Take the ghosts out of the scene."""

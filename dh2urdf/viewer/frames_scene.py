@@ -26,6 +26,9 @@ SHAFT = 0.006
 THICK = 4.5
 """Width of arcs on the screen [px]."""
 
+BESIDE = 0.22
+"""How far beside a measure the name of an axis that runs along it stands, in axis lengths."""
+
 TUBE = 1.7
 """Radius of a measure against that of the arrows' shafts, which it covers."""
 
@@ -46,21 +49,36 @@ def _arrows(server: Any, name: str, length: float, size: float) -> None:
         )
 
 
+def _on(segment: Array, point: Array) -> bool:
+    """True where a point lies on a segment (2, 3), whose line would run through its name."""
+    start, end = segment
+    way = end - start
+    length = float(np.linalg.norm(way))
+    if length < 1e-9:
+        return False
+    along = float((point - start) @ way) / length
+    off = float(np.linalg.norm(point - start - along * way / length))
+    return 0.0 < along < length and off < 0.02 * length
+
+
 class FramesScene:
-    """All DH frames with their names."""
+    """All DH frames with their names; nothing is sent to the pages before they are asked for."""
 
     def __init__(self, server: Any, arm: DrawnArm) -> None:
-        self.arm = arm
-        self.roots, self.labels = [], []
-        length = 0.8 * AXIS_LENGTH * arm.size
-        for i in range(arm.table.n + 1):
-            self.roots.append(server.scene.add_frame(f"/dh/{i}", show_axes=False))
-            _arrows(server, f"/dh/{i}", length, 0.7 * arm.size)
+        self.server, self.arm = server, arm
+        self.roots: list[Any] = []
+        self.labels: list[Any] = []
+
+    def _add(self) -> None:
+        length = 0.8 * AXIS_LENGTH * self.arm.size
+        for i in range(self.arm.table.n + 1):
+            self.roots.append(self.server.scene.add_frame(f"/dh/{i}", show_axes=False))
+            _arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
             for letter, direction in (("x", 0), ("z", 2)):
                 place = np.zeros(3)
                 place[direction] = 1.15 * length
                 self.labels.append(
-                    server.scene.add_label(
+                    self.server.scene.add_label(
                         f"/dh/{i}/name_{letter}",
                         subscript(letter, i),
                         position=place,
@@ -68,10 +86,11 @@ class FramesScene:
                         font_screen_scale=0.9,
                     )
                 )
-        self.set_visible(False, False)
 
     def show(self, q: Array) -> None:
         """Place the frames at q (n,)."""
+        if not self.roots:
+            return
         frames = self.arm.table.frames(q)
         turns = quaternions(frames[:, :3, :3])
         for root, frame, turn in zip(self.roots, frames, turns, strict=True):
@@ -79,6 +98,8 @@ class FramesScene:
 
     def set_visible(self, axes: bool, names: bool) -> None:
         """Show the frames, and their names."""
+        if axes and not self.roots:
+            self._add()
         for root in self.roots:
             root.visible = axes
         for label in self.labels:
@@ -187,6 +208,8 @@ class RowScene:
         for T, k in ((picture.T_prev, i - 1), (picture.T_next, i)):
             for letter, direction in (("x", 0), ("z", 2)):
                 place = T[:3, 3] + 1.12 * self.length * T[:3, direction]
+                if letter == "x" and _on(picture.a.segment, place):
+                    place = place - BESIDE * self.length * T[:3, 2]
                 self._label(f"{letter}{'prev' if k < i else 'next'}", subscript(letter, k), place)
 
     def _segments(

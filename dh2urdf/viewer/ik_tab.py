@@ -26,6 +26,9 @@ MOST_GHOSTS = 16
 GIZMO = 0.22
 """Size of the target's handles, as a share of the arm's size."""
 
+WARM_UP_AFTER = 3.0
+"""When what solves the arm is loaded or compiled [s]: after the first picture."""
+
 
 class IKTab:
     """The target, its solutions, the redundant joint.
@@ -56,6 +59,7 @@ class IKTab:
         self.target: Any = None
         self.answer: Answer | None = None
         self._wanted: Array | None = None
+        self._warming: threading.Timer | None = None
         self._busy = threading.Lock()
         gui = server.gui
         with tab:
@@ -73,6 +77,7 @@ class IKTab:
 
     def build(self, robot: Robot, drawing: Drawing, q: Array) -> None:
         """Prepare for another arm."""
+        self.close()
         self.robot, self.q = robot, np.array(q)
         if self.ghosts:
             self.ghosts.remove()
@@ -97,7 +102,14 @@ class IKTab:
         if self.active.value:
             self.solve(robot.fk(q))
         else:
-            threading.Thread(target=self._warm_up, args=(robot, q), daemon=True).start()
+            self._warming = threading.Timer(WARM_UP_AFTER, self._warm_up, (robot, q))
+            self._warming.daemon = True
+            self._warming.start()
+
+    def close(self) -> None:
+        """Start nothing more."""
+        if self._warming is not None:
+            self._warming.cancel()
 
     def _warm_up(self, robot: Robot, q: Array) -> None:
         """Load or compile what solves this arm before anybody asks."""

@@ -32,7 +32,8 @@ class TableTab:
     on_explain : callable
         Called with the row to explain, 0 for none, and the visitor who asked.
     on_table : callable
-        Called with an edited table; it raises Dh2UrdfError where that is not possible.
+        Called with an edited table and the visitor who edited it; it raises Dh2UrdfError where
+        that is not possible.
     """
 
     def __init__(
@@ -40,7 +41,7 @@ class TableTab:
         gui: Any,
         tab: Any,
         on_explain: Callable[[int, Any], None],
-        on_table: Callable[[DHTable], None],
+        on_table: Callable[[DHTable, Any], None],
     ) -> None:
         self.gui, self.on_explain, self.on_table = gui, on_explain, on_table
         self.table: DHTable | None = None
@@ -68,8 +69,8 @@ class TableTab:
             "a": gui.add_text("a [m]", ""),
             "alpha": gui.add_text("α [deg]", ""),
             "sign": gui.add_dropdown("sign of q", ("+1", "-1")),
-            "lower": gui.add_text("lower limit [deg or m]", ""),
-            "upper": gui.add_text("upper limit [deg or m]", ""),
+            "lower": gui.add_text("lower [deg or m]", ""),
+            "upper": gui.add_text("upper [deg or m]", ""),
         }
         self.apply = gui.add_button("Apply to the row")
         self.rows = gui.add_button_group("Rows", ("Add below", "Remove"))
@@ -77,9 +78,9 @@ class TableTab:
 
     def _connect(self) -> None:
         self.choice.on_update(self._chosen)
-        self.apply.on_click(lambda _: self._try(self._with_row_cells))
+        self.apply.on_click(lambda event: self._try(self._with_row_cells, event.client))
         self.rows.on_click(self._rows_pressed)
-        self.rebuild.on_click(lambda _: self._try(self._with_text))
+        self.rebuild.on_click(lambda event: self._try(self._with_text, event.client))
         self.save_urdf.on_click(self._save_urdf)
         self.save_table.on_click(self._save_table)
 
@@ -156,13 +157,13 @@ class TableTab:
 
     def _rows_pressed(self, event: Any) -> None:
         if event.client is not None:
-            self._try(self._with_rows)
+            self._try(self._with_rows, event.client)
 
-    def _try(self, edit: Callable[[], DHTable]) -> None:
+    def _try(self, edit: Callable[[], DHTable], visitor: Any = None) -> None:
         """Make the edited table the arm's, or say what is wrong and change nothing."""
         try:
             table = edit()
-            self.on_table(table)
+            self.on_table(table, visitor)
         except Dh2UrdfError as error:
             self.say(f"{error}\nNothing was changed.", "bad")
         else:

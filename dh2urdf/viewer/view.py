@@ -19,7 +19,7 @@ from dh2urdf.viewer.door import LOOPBACK, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.ik_tab import IKTab
 from dh2urdf.viewer.joints_tab import JointsTab
-from dh2urdf.viewer.stage import look_at, set_stage
+from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
 from dh2urdf.viewer.table_tab import TableTab
 from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
@@ -27,6 +27,12 @@ __all__ = ["ArmView", "view"]
 
 CLOSE = 1.15
 """From the row that is explained to the eye, against the arm's size."""
+
+SHADOWS_AFTER = 3.0
+"""From a visitor's coming to the sun's shadows [s]; the first picture does not wait for them."""
+
+PANEL = 400
+"""Width of the panel [px]."""
 
 logger = logging.getLogger("dh2urdf")
 
@@ -90,14 +96,18 @@ class ArmView:
         self._scenes: list[Any] = []
         self._row_scene: RowScene | None = None
         self._server.gui.main_panel.dock_right()
+        self._server.gui.main_panel.set_width(PANEL)
         tabs = self._server.gui.add_tab_group()
         self._joints = JointsTab(self._server.gui, tabs.add_tab("Joints"), self._moved)
         table_tab = tabs.add_tab("DH table")
         self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
         self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
         self._show_frames, self._show_names, self._show_meshes = self._options()
+        light(self._server)
         with self._lock:
             self._build(robot, config)
+        self._shadows: threading.Timer | None = None
+        self._server.on_client_connect(self._welcome)
 
     @property
     def q(self) -> Array:
@@ -117,7 +127,17 @@ class ArmView:
         """Stop the server; pages that are open lose their connection."""
         if not self._stopped.is_set():
             self._stopped.set()
+            self._ik.close()
+            if self._shadows is not None:
+                self._shadows.cancel()
             quietly(self._server.stop)
+
+    def _welcome(self, _: Any) -> None:
+        """Let shadows fall once the first visitor has seen a picture."""
+        if self._shadows is None:
+            self._shadows = threading.Timer(SHADOWS_AFTER, cast_shadows, (self._server,))
+            self._shadows.daemon = True
+            self._shadows.start()
 
     def _options(self) -> tuple[Any, Any, Any]:
         """Switches of what the scene shows, under the tabs."""
@@ -151,7 +171,7 @@ class ArmView:
             self._ik.build(robot, drawing, q)
             for note in notes:
                 self._table.say(note)
-            self._stage = set_stage(self._server, robot, arm, q)
+            self._stage = set_stage(self._server, robot, arm, drawing, q)
             self._show_row(self._table.row)
             self._switch_frames()
             self._redraw()
@@ -184,8 +204,11 @@ class ArmView:
                 self._ik.put_away()
             self._show_row(i)
             self._redraw()
-        if visitor is None:
-            return
+        if visitor is not None:
+            self._bring_near(visitor)
+
+    def _bring_near(self, visitor: Any) -> None:
+        """Bring the eye of one visitor to the row that is explained, or to the whole arm."""
         if self._row_scene is None or self._row_scene.picture is None:
             look_at(visitor, *self._stage)
         else:
@@ -221,13 +244,15 @@ class ArmView:
         with self._lock:
             self._build(self.robot, self._q)
 
-    def _edited(self, table: DHTable) -> None:
+    def _edited(self, table: DHTable, visitor: Any = None) -> None:
         """Rebuild the arm from an edited table; joints that it kept stay where they are."""
         robot = Robot.from_dh(table)
         with self._lock:
             old = dict(zip(self.robot.joint_names, self._q.tolist(), strict=True))
             q = np.array([old.get(name, 0.0) for name in robot.joint_names])
             self._build(robot, np.clip(q, robot.lower, robot.upper))
+        if visitor is not None:
+            self._bring_near(visitor)
 
     def _repr_html_(self) -> str:
         return (
