@@ -165,6 +165,31 @@ def test_frames_are_drawn_where_the_table_puts_them(view):
         np.testing.assert_allclose(places, expected, atol=1e-12)
 
 
+def test_names_of_axes_that_coincide_share_a_label():
+    """At a straight wrist x4, x5 and x6 have one label; where they part, each name shows once."""
+    with Robot.from_dh("puma560").view([0.3, 0.4, -0.2, 0.0, 0.0, 0.0], port=0) as shown:
+        shown._show_frames.value = True
+        shown._switch_frames()
+        assert shown._scene.translucent
+        for q5, names in ((0.0, {"z₅, z₆", "x₄, x₅, x₆"}), (1.2, {"z₅, z₆", "x₄", "x₅, x₆"})):
+            shown.q = [0.3, 0.4, -0.2, 0.0, q5, 0.0]
+            texts = {label.text for label in shown._frames.labels if label.visible}
+            assert names <= texts
+            written = ", ".join(texts).split(", ")
+            assert sorted(written) == sorted(f"{a}{i}" for a in "xz" for i in "₀₁₂₃₄₅₆")
+
+
+def test_arm_in_a_singular_family_stands_at_its_line():
+    """Any member of the family marks its line; a target turned away from the arm marks none."""
+    robot = Robot.from_dh("puma560")
+    q = np.array([0.3, 0.4, -0.2, 0.5, 0.0, 0.1])
+    options = {"task": "pose", "within": False, "locked": None}
+    found = answer(robot, robot.fk(q), q, **options)
+    assert found.free[found.current] == (3, 5)
+    turned = answer(robot, robot.fk(q + np.array([0, 0, 0, 0, 0, 0.3])), q, **options)
+    assert turned.current == -1
+
+
 @pytest.mark.parametrize("name", ["planar_rr", "ur5e", "gantry_wrist"])
 def test_floor_lies_under_the_base(name):
     """No body of the base reaches through the floor, and the floor is not above the origin."""

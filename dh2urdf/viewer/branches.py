@@ -56,7 +56,7 @@ class Answer:
 
     def at(self, q: Array) -> Answer:
         """The same answer with the arm at another configuration."""
-        return replace(self, current=_standing(self.q, q))
+        return replace(self, current=_standing(self.q, q, self.free))
 
 
 def answer(
@@ -78,13 +78,14 @@ def answer(
         return _none(robot, _why(robot, T, task=task, within=within, locked=locked))
     rows = np.array(found.q)
     free = found.free_joints
+    reached = float(np.abs(robot.fk(q) - T).max()) < SAME
     return Answer(
         _count_words(len(rows), free, robot),
         rows,
         np.array(found.residual),
         found.branch,
         free,
-        _standing(rows, q),
+        _standing(rows, q, free if reached else ()),
         nearest,
     )
 
@@ -114,13 +115,15 @@ def _count_words(count: int, free: tuple[tuple[int, ...], ...], robot: Robot) ->
     return words
 
 
-def _standing(rows: Array, q: Array) -> int:
-    """The row that is q up to full turns, -1 for none."""
+def _standing(rows: Array, q: Array, free: tuple[tuple[int, ...], ...]) -> int:
+    """The row that is q up to full turns and up to joints that are free there, -1 for none."""
     if not len(rows):
         return -1
-    away = np.abs(np.remainder(rows - q + np.pi, 2 * np.pi) - np.pi).max(axis=1)
-    best = int(np.argmin(away))
-    return best if float(away[best]) < SAME else -1
+    away = np.abs(np.remainder(rows - q + np.pi, 2 * np.pi) - np.pi)
+    for k, joints in enumerate(free):
+        away[k, list(joints)] = 0.0
+    best = int(np.argmin(away.max(axis=1)))
+    return best if float(away[best].max()) < SAME else -1
 
 
 def initials(branch: str) -> str:

@@ -29,6 +29,9 @@ THICK = 4.5
 BESIDE = 0.22
 """How far beside a measure the name of an axis that runs along it stands, in axis lengths."""
 
+CROWDED = 0.2
+"""Distance up to which two axes' ends share one label, against the length of the axes."""
+
 TUBE = 1.7
 """Radius of a measure against that of the arrows' shafts, which it covers."""
 
@@ -68,6 +71,7 @@ class FramesScene:
         self.server, self.arm = server, arm
         self.roots: list[Any] = []
         self.labels: list[Any] = []
+        self.named = False
 
     def _add(self) -> None:
         length = 0.8 * AXIS_LENGTH * self.arm.size
@@ -95,6 +99,21 @@ class FramesScene:
         turns = quaternions(frames[:, :3, :3])
         for root, frame, turn in zip(self.roots, frames, turns, strict=True):
             root.wxyz, root.position = turn, frame[:3, 3]
+        self._name(frames)
+
+    def _name(self, frames: Array) -> None:
+        """Give names that would lie on one another to one label."""
+        length = 1.15 * 0.8 * AXIS_LENGTH * self.arm.size
+        ends = frames[:, :3, 3][:, None] + length * frames[:, :3, [0, 2]].transpose(0, 2, 1)
+        places = ends.reshape(-1, 3)
+        names = [subscript(letter, i) for i in range(len(frames)) for letter in "xz"]
+        away = np.linalg.norm(places[:, None] - places[None], axis=2)
+        first = np.argmax(away < CROWDED * length, axis=1)
+        for k, label in enumerate(self.labels):
+            label.visible = self.named and first[k] == k
+            text = ", ".join(name for name, at in zip(names, first, strict=True) if at == k)
+            if label.visible and label.text != text:
+                label.text = text
 
     def set_visible(self, axes: bool, names: bool) -> None:
         """Show the frames, and their names."""
@@ -102,8 +121,9 @@ class FramesScene:
             self._add()
         for root in self.roots:
             root.visible = axes
+        self.named = axes and names
         for label in self.labels:
-            label.visible = axes and names
+            label.visible = self.named
 
     def remove(self) -> None:
         """Take the frames out of the scene."""

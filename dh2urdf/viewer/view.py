@@ -229,7 +229,7 @@ class ArmView:
             self._row_scene = RowScene(self._server, self._arm, i)
         else:
             self._table.explain(None)
-        self._scene.set_translucent(i > 0)
+        self._scene.set_translucent(i > 0 or self._show_frames.value)
 
     def _switch_frames(self, event: Any = None) -> None:
         if event is not None and event.client is None:
@@ -237,6 +237,7 @@ class ArmView:
         with self._lock:
             self._frames.set_visible(self._show_frames.value, self._show_names.value)
             self._frames.show(self.robot.chain_configuration(self._q))
+            self._scene.set_translucent(self._table.row > 0 or self._show_frames.value)
 
     def _switch_meshes(self, event: Any) -> None:
         if event.client is None:
