@@ -98,10 +98,11 @@ class Results:
     def undisturbed(self) -> Results:
         """The same results with processor time in place of time on the clock.
 
-        Work on two threads is left out: its processor time is that of both.
+        Work on two threads is left out: its processor time is that of both. So is the spread,
+        which is that of the clock.
         """
         rows = [
-            replace(r, seconds=r.processor or r.seconds)
+            replace(r, seconds=r.processor or r.seconds, low=None, high=None)
             for r in self.rows
             if r.threads == 1 or r.work not in ("ik batch", "scaling")
         ]

@@ -173,8 +173,8 @@ def _why_one_pose(results: Results) -> str:
 def _why_held(results: Results) -> str:
     return (
         f"a pose of many takes {_part(results, 'franka_fer', 'solver, a pose of many')} "
-        f"(franka_fer) in the kernel, which makes the constants of the moving joints anew for each "
-        f"pose's own value, against {_part(results, 'puma560', 'solver, a pose of many')} "
+        f"(franka_fer) in the kernel, which works out targets and links for the held values that "
+        f"come with the poses, against {_part(results, 'puma560', 'solver, a pose of many')} "
         "(puma560) with none held; EAIK's robot is built for one value"
     )
 
