@@ -187,3 +187,14 @@ def test_other_tasks_are_not_for_this_solver():
     """For a position alone the general solver says that it is not meant."""
     obstacle = General6R.obstacle(CHAINS["generic0"], Task.POSITION)
     assert obstacle == "it solves for the full pose, not for position"
+
+
+@pytest.mark.parametrize("name", ["kinova_jaco2", "xarm6"])
+def test_branches_that_meet_are_one_solution(name):
+    """At q = 0, where many branches meet, no two solutions are within 1e-3 rad of each other."""
+    chain = shipped(name)
+    found = solve(chain, forward(chain, np.zeros((1, 6)))).of(0)[0]
+    apart = gaps(chain, found[:, None], found[None])
+    apart[np.diag_indices(len(found))] = np.inf
+    assert len(found) >= 1
+    assert apart.min() > 1e-3

@@ -7,6 +7,7 @@ from numba import njit
 
 from dh2urdf.kernels.certify import ANYWHERE, finish_pose
 from dh2urdf.kernels.families import free_joints
+from dh2urdf.kernels.merging import merge_solutions
 
 __all__ = ["finish_batch"]
 
@@ -25,14 +26,15 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
         As in :class:`dh2urdf.ik.solver.Solver`; branches become -1.
     """
     n = q.shape[2]
-    work, trial = np.empty((n, n + 8)), np.empty(n)
+    work, trial = np.empty((n, n + 8)), np.empty((2, n))
     for i in range(Ts.shape[0]):
         found, rows = count[i], (q[i], residual[i], branch[i], free[i])
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, found, work)
+        found = merge_solutions(links, joints, Ts[i], *rows, found, trial, work)
         for k in range(found):
-            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial, work)
+            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial[0], work)
         if within_limits:
             found = finish_pose(links, joints, Ts[i], within_limits, *rows, found, work)
         count[i] = found

@@ -4,7 +4,7 @@ The nominal arm gives candidates, Newton's method on the exact chain the solutio
 eps moves a regular solution by about eps, but near a singularity by up to its square root, where
 branches appear and vanish. So a pose is in doubt, and left to the general solver, where a
 candidate moves far, does not converge, falls together with another, is one of an odd number, or
-has a nearly singular Jacobian.
+has a nearly singular Jacobian, and where there is none.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
     ``trust``: size of the arm [m], largest motion of a joint [rad], smallest singular value.
     """
     unit, most, regular = trust[0], trust[1], trust[2]
-    doubt = doubt or found % 2 == 1
+    doubt = doubt or found % 2 == 1 or found == 0
     for k in range(found):
         for j in range(6):
             start[j] = q[k, j]
