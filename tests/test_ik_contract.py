@@ -14,7 +14,7 @@ import pytest
 from ik_referee import gaps
 
 import dh2urdf
-from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
+from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, NoSolverError, PoseError
 from dh2urdf.transforms import rotation_angle
 
 CLOSED = ("denso_vs6556", "puma560", "ur5", "stanford", "gantry_wrist")
@@ -401,3 +401,63 @@ def test_the_target_is_kept_as_it_was():
     found = robot.ik(T)
     T[:] = 0.0
     assert found.verify().max() < 1e-12
+
+
+def table_robot(*rows):
+    """A robot of standard rows (a, alpha, d), all revolute."""
+    made = tuple(dh2urdf.DHRow(a=a, alpha=alpha, d=d) for a, alpha, d in rows)
+    return dh2urdf.Robot.from_dh(dh2urdf.DHTable(made, "standard"))
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-12, 1e-9, 1e-6, 1e-5])
+def test_3_an_axis_5_parallel_to_the_first_three_leaves_solutions(gap):
+    """Four parallel axes are a linkage that moves: a member is returned, the joints named."""
+    half = math.pi / 2
+    robot = table_robot(
+        (0.4, 0, 0), (0.3, 0, 0), (0.1, half, 0), (0, -half, 0.1), (0, half, 0.1), (0, 0, 0.1)
+    )
+    rng, named = np.random.default_rng(1), 0
+    for _ in range(40):
+        q = rng.uniform(-3.0, 3.0, 6)
+        q[3] = gap
+        found = robot.ik(robot.fk(q), seed=q)
+        assert len(found) > 0
+        assert found.verify().max() < 1e-9
+        named += (0, 1, 2, 4) in found.free_joints
+    assert named > 30 or gap > 0.0
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-12, 1e-9, 1e-8])
+def test_3_a_slide_that_puts_the_wrist_on_axis_2_leaves_solutions(gap):
+    """The Stanford arm with d3 = 0: joint 2 is free, and the seed is a member of its family."""
+    robot = robot_of("stanford")
+    rng = np.random.default_rng(2)
+    for _ in range(40):
+        q = rng.uniform(-3.0, 3.0, 6)
+        q[2] = gap
+        found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+        assert len(found) > 0
+        assert found.verify().max() < 1e-9
+
+
+def test_3_a_tool_on_axis_2_is_reached():
+    """A planar arm whose second link has no length turns its tool on the spot."""
+    robot = table_robot((0.4, 0, 0), (0, 0, 0))
+    q = np.array([0.3, 0.5])
+    assert np.abs(robot.ik(robot.fk(q))[0] - q).max() < 1e-9
+    assert robot.ik(robot.fk(q), task="position+axis").free_joints == ((1,),)
+
+
+def test_4_a_family_is_returned_once_with_a_seed():
+    """Two representatives that slide to the same member are one solution."""
+    robot = robot_of("ur5")
+    q = np.array([0.3, 0.5, 0.0, 0.7, 0.0, 0.2])
+    found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+    apart = np.abs(found.q[:, None] - found.q[None]).max(axis=2) + np.eye(len(found))
+    assert apart.min() > 1e-6
+
+
+def test_7_a_task_that_no_joint_serves_is_refused():
+    """Where no joint moves the point that is asked for, the error says so."""
+    with pytest.raises(NoSolverError, match="no joint moves what task position asks for"):
+        table_robot((0, 1.5, 0)).ik([0, 0, 0], task="position")

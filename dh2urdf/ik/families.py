@@ -6,6 +6,7 @@ moved along it by the kernels for self-motions, on the chain whose other joints 
 
 from __future__ import annotations
 
+import itertools
 from functools import cached_property
 
 import numpy as np
@@ -158,8 +159,12 @@ class Family:
         return *self.moving.tables, self.task.number, np.array(self.T), self.chain.size
 
 
-def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_limits: bool) -> None:
+def slide_to_seed(
+    families: dict[int, Family], q: Array, seed: Array, within_limits: bool
+) -> NDArray[np.bool_]:
     """Move solutions q (k, n) in place, each along its family, to the members nearest to the seed.
+
+    Returns which of them to keep, shape (k,): two that meet were of one family.
 
     A walk may end where the family turns away from the seed. So where the seed itself is a
     member and no walk arrives at it, the walk that ends nearest to it gives way; and one walk a
@@ -178,3 +183,7 @@ def slide_to_seed(families: dict[int, Family], q: Array, seed: Array, within_lim
     gaps = {k: float(np.linalg.norm(q[k] - goal)) for k in around}
     if gaps and min(gaps.values()) > SAME:
         q[min(gaps, key=lambda k: gaps[k])] = goal
+    keep = np.ones(len(q), np.bool_)
+    for k, j in itertools.combinations(families, 2):
+        keep[j] &= not keep[k] or bool(np.abs(q[k] - q[j]).max() > SAME)
+    return keep

@@ -164,6 +164,9 @@ class PlanarArm(SolverBase):
             return f"it does not solve for {task.value} with {chain.n} joints"
         if spare_joints(chain, task):
             return "some joints can move while the tool stays"
+        reach = np.linalg.norm(np.cross(chain.tool[:3, 3] - chain.points[-1], chain.axes[-1]))
+        if chain.n == 2 and reach <= SNAP * chain.size:
+            return "the tool is on axis 2: its place says nothing of joint 2"
         return None
 
     def details(self) -> str:

@@ -178,7 +178,8 @@ class Problem:
         from dh2urdf.kernels.arrange import measure_and_sort, turn_to
 
         goal = as_configuration(seed, self.chain.n, "seed")
-        q, residual, (branch, free) = found.q.copy(), found.residual.copy(), found.codes
+        q, residual = found.q.copy(), found.residual.copy()
+        branch, free = (codes.copy() for codes in found.codes)
         links, joints = self.chain.tables
         turn_to(joints, LIMIT_SLACK, goal[None], q)
         families = {
@@ -186,9 +187,8 @@ class Problem:
             for k, mask in enumerate(free.tolist())
             if mask
         }
-        if families:
-            slide_to_seed(families, q, goal, within_limits)
-        arrays = q, residual, branch.copy(), free.copy()
+        keep = slide_to_seed(families, q, goal, within_limits) if families else ALL
+        arrays = q[keep], residual[keep], branch[keep], free[keep]
         measure_and_sort(links, joints, self.task.number, found.T, goal, *arrays)
         return IKSolutions.of(self, found.T, *arrays)
 

@@ -78,6 +78,8 @@ class RedundantChain(SolverBase):
         spare = spare_joints(chain, task)
         if not spare:
             return "no joint can move while the tool stays"
+        if spare == chain.n:
+            return f"no joint moves what task {task.value} asks for"
         if spare >= len(VALUES):
             return f"{spare} joints to spare; hold some with locked="
         return None

@@ -81,7 +81,7 @@ def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:
         better = (trial**2).sum(axis=1) < (error**2).sum(axis=1)
         q[better] += step[better]
         error[better] = trial[better]
-        damping = np.where(better, damping * 0.2, np.minimum(damping * 10.0, 1e3))
+        damping = np.clip(damping * np.where(better, 0.2, 10.0), 1e-12, 1e3)
     best = error[(error**2).sum(axis=1).argmin()] / weight
     return float(np.linalg.norm(best[:3])), float(np.linalg.norm(best[3:]))
 

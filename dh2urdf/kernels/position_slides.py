@@ -20,6 +20,9 @@ __all__ = ["place_wrist_sliding"]
 OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
 
+BLUR = 1e-14
+"""Square of the distance between two roots [arm's size] that rounding may have made of one."""
+
 
 @inner_kernel
 def place_wrist_sliding(form, px, py, pz, slack, arm):
@@ -89,7 +92,8 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
     x, y, z = _after_link(form, 1, x, y, z, 1.0)
     z += form[1, 3]
     along = -sa2 * y + ca2 * z
-    length2 = x * x + y * y + z * z - (px * px + py * py + pz * pz + a1 * a1)
+    size2 = x * x + y * y + z * z + px * px + py * py + pz * pz + a1 * a1
+    length2 = 2.0 * (x * x + y * y + z * z) - size2
     series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
     oblique = abs(ca2) > OBLIQUE
     d0, dc, ds = 0.0, 0.0, 0.0
@@ -111,13 +115,17 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
         c, s = cosines[k], sines[k]
         ux, uy = c * px + s * py - a1, c * py - s * px
         uy = ca1 * uy + sa1 * pz
+        double = False
         if oblique:
             found, d, other = 1, d0 + dc * c + ds * s, 0.0
         else:
             rest = length2 + 2.0 * a1 * (c * px + s * py)
             found, d, other = real_quadratic(1.0, along, rest, slack)
-        for j in range(found):
+            double = k == count - 1 and abs(along * along - rest) <= BLUR * size2
+            found = 0 if double and k > 0 else found
+        for j in range(found + 1 if double else found):
             d = d if j == 0 else other
+            d = -along if j == found else d
             vx, vy = x, y - sa2 * d
             arm[rows, 0], arm[rows, 1] = math.atan2(s, c), _between(vx, vy, ux, uy)
             arm[rows, 2] = d

@@ -41,6 +41,9 @@ to the square of this."""
 INSIDE = 1e-9
 """How far inside a limit [rad or m] an excess is aimed at."""
 
+HELD = 0.9 * ACCEPT
+"""Residual of a member; that of a solution, less what another way of measuring makes of it."""
+
 SHORTEST = 1e-10
 """Part of a step below which there is no way on: a limit is in the way."""
 
@@ -125,7 +128,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         while length * size > SHORTEST:
             for i in range(n):
                 trial[i] = q[i] + length * step[i]
-            good = restore(links, joints, task, T, unit, trial, work, damped) <= ACCEPT
+            good = restore(links, joints, task, T, unit, trial, work, damped) <= HELD
             good = good and _distance2(trial, seed) < distance2
             if good and not (within_limits and _outside(joints, trial)):
                 moved = True
@@ -270,7 +273,7 @@ def walk_family(links, joints, task, T, unit, length, q, members):
                 guess[i] = tangent[i]
                 members[way, k, i] = at[i] + length * tangent[i]
             at = members[way, k]
-            if not restore(links, joints, task, T, unit, at, work, damped) <= ACCEPT:
+            if not restore(links, joints, task, T, unit, at, work, damped) <= HELD:
                 break
             counts[way] = k + 1
     return counts

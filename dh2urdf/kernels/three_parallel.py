@@ -6,8 +6,8 @@ of the other joints: a subproblem 6, or 4 twice where axes 5 and 6 meet. Then ax
 subproblem 1, and the three are a planar RR arm with a wrist (Elias and Wen; EAIK).
 
 In Denavit-Hartenberg form (:mod:`dh2urdf.kernels.position_arm`) the parallel axes have
-alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and the
-shoulder.
+alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and
+whether t5 is free.
 """
 
 from __future__ import annotations
@@ -16,9 +16,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import TWO_PI, finish_pose
 from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.families import free_joints
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
 from dh2urdf.kernels.trig import add_square, elbow_angle, linear_trig, trig_roots
@@ -33,6 +34,20 @@ __all__ = [
 ]
 
 ALL_FREE = 0b111111
+
+FIFTH_FREE = 0b010111
+"""Joints that move where axis 5 is parallel to axes 1, 2, 3."""
+
+EPSILON = 1e-15
+"""Rounding of the equation for t4, near whose double root t4 is off by this over the distance from
+the root, and so is what t5 follows from."""
+
+LEANING = 3e-6
+"""Sine of the angle between axis 5 and the axes 1, 2, 3 below which t5 is nearly free: rounding of
+t4 may have moved it anywhere."""
+
+TRIALS = 64
+"""Values at which a free t5 is tried."""
 
 VAGUE = 1e-6
 """Sine of the angle between axis 6 and the parallel axes below which t6, which rounding turns by
@@ -116,24 +131,45 @@ def _pairs_before_four(form, D, slack, pair):
         c4, s4 = cosines[k], sines[k]
         fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
         n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
+        loose = slack + EPSILON / max(fx * fx + fy * fy, 1e-300)
         if a5 == 0.0:
-            found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, slack)
+            found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, loose)
             if found == 2 and math.hypot(D[2, 0], D[2, 1]) <= FREE:
                 found, c1, s1 = 1, -sa5 * fy * n2, sa5 * fx * n2
         elif sa5 == 0.0:
-            found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, slack)
+            found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, loose)
         else:
             n1, n2, square = n1 / a5, n2 / sa5, fx * fx + fy * fy
-            near = abs(n1 * n1 + n2 * n2 - square) <= slack * (n1 * n1 + n2 * n2 + square)
+            near = abs(n1 * n1 + n2 * n2 - square) <= loose * (n1 * n1 + n2 * n2 + square)
             found = 1 if near else 0
             c1, s1, c2, s2 = fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
         for j in range(found):
             c5, s5 = (c1, s1) if j == 0 else (c2, s2)
             r = math.hypot(c5, s5)
-            pair[pairs, 0], pair[pairs, 1] = c4, s4
+            pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 0.0
             pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
             pairs += 1
+        if fx * fx + fy * fy <= LEANING * LEANING and pairs < 8:
+            pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
+            pairs += 1
     return pairs
+
+
+@inner_kernel
+def _reach_with_fifth_joint(form, D, cs):
+    """Turn t5, free where axis 5 is parallel to 1, 2, 3, so that the planar arm reaches best."""
+    upper, fore = form[0, 0], form[1, 0]
+    least, best_c, best_s = math.inf, 1.0, 0.0
+    for k in range(TRIALS):
+        angle = form[4, 4] + TWO_PI * k / TRIALS
+        cs[4, 0], cs[4, 1] = math.cos(angle), math.sin(angle)
+        _last_joint(form, 0, D, cs)
+        x, y, _ = _seen_arm(form, 0, D, cs, 0.0, 1.0)
+        length = math.hypot(D[0, 3] - x, D[1, 3] - y)
+        beyond = max(abs(upper - fore) - length, length - upper - fore)
+        if beyond < least:
+            least, best_c, best_s = beyond, cs[4, 0], cs[4, 1]
+    cs[4, 0], cs[4, 1] = best_c, best_s
 
 
 @inner_kernel
@@ -312,13 +348,20 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
     for k in range(abs(pairs)):
         cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
         cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
-        shoulder, wrists = 0, 1
+        shoulder, wrists, free_with = 0, 1, mask
+        if first == 0 and pair[k, 4] != 0.0:
+            _reach_with_fifth_joint(form, D, cs)
+            free_with = FIFTH_FREE
+        if found + 2 > q.shape[0]:
+            break
         if first == 1:
             shoulder = 1 if pair[k, 0] * D[0, 3] + pair[k, 1] * D[1, 3] < 0.0 else 0
             if form[4, 0] == 0.0:
                 wrists = _slope_of_last(form, D, cs, slack)
         for _ in range(wrists):
-            found = _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, found)
+            found = _add_planar(
+                form, first, D, cs, shoulder, free_with, slack, q, branch, free, found
+            )
             cs[4, 1] = -cs[4, 1]
     return found
 
@@ -364,7 +407,7 @@ def solve_three_parallel(
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
     """
     scratch = make_scratch()
-    D, pair = scratch[0], scratch[1]
+    D, pair, trial = scratch[0], scratch[1], np.empty(6)
     first = 1 if form[0, 2] != 0.0 else 0
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
@@ -373,3 +416,8 @@ def solve_three_parallel(
         count[i] = finish_pairs(
             links, joints, form, first, pairs, slack, Ts[i], within_limits, *out, scratch
         )
+        vague = 0.0
+        for k in range(abs(pairs) if first == 0 else 0):
+            vague = max(vague, pair[k, 4])
+        for k in range(count[i] if vague != 0.0 else 0):
+            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial, scratch[3])
