@@ -72,6 +72,12 @@ def test_noise_takes_no_configuration_away(name, size):
     assert len(check_noisy(noisy(name, size), 500, seed=1)) == 0
 
 
+@pytest.mark.parametrize(("name", "size", "seed"), [("ur5", 1e-9, 0), ("ur5", 1e-3, 13)])
+def test_branches_near_a_singularity_survive_noise(name, size, seed):
+    """Among 5,000 poses are some that the nominal arm, taken for the arm, reaches less often."""
+    assert len(check_noisy(noisy(name, size, seed), 5_000, seed)) == 0
+
+
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("size", NOISE)
 @pytest.mark.parametrize("name", ARMS)

@@ -14,7 +14,7 @@ from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.part_chains import hold, without_end
 from dh2urdf.ik.solver import IntArray
 from dh2urdf.ik.spherical_wrist import SphericalWrist
-from dh2urdf.ik.tolerances import SLACK
+from dh2urdf.ik.tolerances import SLACK, SNAP
 from dh2urdf.transforms import Array, inverse, rot_z, trans
 
 __all__ = ["HeldWrist"]
@@ -66,7 +66,7 @@ class HeldWrist(HeldSolver):
         super().__init__(chain, (joint,))
         self.name = "spherical shoulder" if oriented.reversed else "spherical wrist"
         rest = oriented.rest(TRIAL_VALUE)
-        self.form = DHForm(SphericalWrist(rest).lines)
+        self.form = DHForm(SphericalWrist(rest, tolerance=SNAP).lines)
         rows = self.form.rows.copy()
         rows[:3, 4] = 0.0
         links = [_row_transform(row) for row in self.form.rows[:3]]
@@ -100,7 +100,7 @@ class HeldWrist(HeldSolver):
             if seen_joint in (4, 5) or not lines.spherical(first):
                 continue
             seen = _Oriented(chain.reversed() if reversed_ else chain, seen_joint, reversed_)
-            if SphericalWrist.obstacle(seen.rest(TRIAL_VALUE)) is None:
+            if SphericalWrist.obstacle(seen.rest(TRIAL_VALUE), tolerance=SNAP) is None:
                 return cls(chain, joint, seen)
         return None
 

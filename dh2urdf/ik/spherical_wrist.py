@@ -9,7 +9,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
-from dh2urdf.ik.tolerances import REGULAR, SLACK, SLACK_OF_NOISE, SNAP
+from dh2urdf.ik.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
@@ -30,7 +30,7 @@ class SphericalWrist(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
-        tolerance: float = SNAP,
+        tolerance: float = NOMINAL,
     ) -> None:
         super().__init__(chain, task, others)
         self.lines = AxisLines(chain, tolerance)
@@ -40,7 +40,7 @@ class SphericalWrist(SolverBase):
 
     @classmethod
     def obstacle(
-        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = SNAP
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
     ) -> str | None:
         """Say what keeps decoupling from covering the chain; None if nothing does."""
         if task is not Task.POSE:

@@ -7,7 +7,7 @@ from functools import cached_property
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
-from dh2urdf.ik.tolerances import SLACK, SLACK_OF_NOISE, SNAP
+from dh2urdf.ik.tolerances import NOMINAL, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeParallel"]
@@ -24,7 +24,7 @@ class ThreeParallel(SolverBase):
         chain: SerialChain,
         task: Task = Task.POSE,
         others: tuple[tuple[str, str], ...] = (),
-        tolerance: float = SNAP,
+        tolerance: float = NOMINAL,
     ) -> None:
         super().__init__(chain, task, others)
         self.lines = AxisLines(chain, tolerance)
@@ -34,7 +34,7 @@ class ThreeParallel(SolverBase):
 
     @classmethod
     def obstacle(
-        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = SNAP
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
     ) -> str | None:
         """Say what keeps the family from covering the chain; None if nothing does."""
         if task is not Task.POSE:

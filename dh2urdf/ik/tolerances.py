@@ -8,6 +8,7 @@ __all__ += [
     "NEAR",
     "NEARLY_SINGULAR",
     "NOISE_MOTION",
+    "NOMINAL",
     "PATH_JUMP",
     "REGULAR",
     "SHARP",
@@ -49,6 +50,11 @@ SNAP = 1e-9
 """Angle [rad], or length relative to ``chain.size``, below which two axes count as parallel,
 perpendicular or intersecting. A table's own rounding is 1e-16; 1e-9 is what a residual may be."""
 
+NOMINAL = 1e-10
+"""What `SNAP` is for six joints, which have a solver for nearly nominal arms: several times what
+1.57079632679 lacks of a right angle. Snapping may lose two branches that are less than its root,
+1e-5, apart."""
+
 FORM_ERROR = 1e-13
 """Largest difference [m and rad], relative to ``chain.size`` where that is over 1 m, of the snapped
 chain and the exact one at which a residual measured on the snapped chain is one of the exact
@@ -65,7 +71,7 @@ SLACK_OF_NOISE = 30.0
 """Slack of an arm that is nearly of a family, per unit of its distance from it: a branch of the
 exact arm that the nominal one just misses still gets a seed."""
 
-NEAR = (3e-9, 1e-7, 3e-6, 1e-4, 1e-3, 5e-3)
+NEAR = (3e-10, 3e-9, 1e-7, 3e-6, 1e-4, 1e-3, 5e-3)
 """Angles [rad], or lengths relative to ``chain.size``, within which axes are snapped when the
 nominal arm of a rounded or calibrated one is sought, the smallest that will do. Factory
 calibration changes parameters by up to 1e-3, and four of them are between two axes."""
