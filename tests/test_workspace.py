@@ -11,6 +11,7 @@ from dh2urdf.figures import workspace_figure
 from dh2urdf.workspace import (
     branch_counts,
     dexterity,
+    held_values,
     planar_arm,
     reach_ball,
     section,
@@ -135,7 +136,7 @@ def test_pictures_are_drawn_with_their_sentence():
         (Robot.from_dh("cylindrical"), {"points": 11, "at": 0.2}, "Slice y = 0.2 m of cylindrical"),
     ):
         picture = workspace_figure(robot, **options)
-        (sentence,) = (t.get_text() for t in picture.texts)
+        (sentence,) = (t.get_text().replace("\n", " ") for t in picture.texts)
         assert sentence.startswith(start)
         assert sentence.endswith(
             "tool0 in base_link; joint limits kept; self-collision not checked."
@@ -157,3 +158,23 @@ def test_bad_plane_is_named():
     """A plane that is none raises with those there are."""
     with pytest.raises(ConfigurationError, match="xz, yz, xy"):
         workspace_figure(Robot.from_dh("ur5e"), plane="zz")
+
+
+def test_seven_joints_are_mapped_with_the_spare_one_held():
+    """A place counts from a side only where some held value has a solution, and most have one."""
+    robot = Robot.from_dh("franka_fr3")
+    held = held_values(robot)
+    ((joint, values),) = held.items()
+    assert np.all((robot.lower[joint] < values) & (values < robot.upper[joint]))
+    grid = section(robot, count=9)
+    share = dexterity(robot, grid, 12, held=held)
+    turns = uniform_rotations(12)
+    for v, u in ((4, 6), (6, 6), (0, 0)):
+        hits = 0
+        for R in turns:
+            T = np.eye(4)
+            T[:3, :3], T[:3, 3] = R, grid.points[v, u]
+            hits += any(len(robot.ik(T, locked={joint: float(x)})) > 0 for x in values)
+        assert share[v, u] == pytest.approx(hits / 12)
+    assert share.max() > 0.5
+    assert held_values(Robot.from_dh("ur5e")) is None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,12 @@ SEEN = 0.02
 EMPTY = "#f1f2f4"
 """Colour of no solution."""
 
+LINE = 86
+"""Letters of the caption on a line under one map."""
+
+GRADUAL = 0.15
+"""Share of the places reached from some sides only above which lines are drawn between them."""
+
 
 def section_picture(
     robot: Robot,
@@ -35,6 +42,7 @@ def section_picture(
     R: Array,
     *,
     within_limits: bool = True,
+    tried: str = "",
 ) -> Picture:
     """Draw the maps of a section side by side.
 
@@ -46,6 +54,9 @@ def section_picture(
     shares : (Section, array, int), optional
         Share of orientations reached, and how many were tried.
     R : array, shape (3, 3)
+    within_limits : bool
+    tried : str
+        What stands in the caption about a joint to spare.
     """
     panels = [p for p in (counts, shares) if p is not None]
     with mpl.rc_context(RC):
@@ -63,8 +74,10 @@ def section_picture(
             _frame(axes, panel[0], _used(panels))
             if k == 0:
                 _silhouette(axes, robot, panel[0], R, within_limits)
-        text = caption(robot, f"Slice {panels[0][0].name}", within_limits=within_limits)
-        figure.text(0.02, 0.02, text, color=MUTED, size=9)
+        what = f"Slice {panels[0][0].name}"
+        text = caption(robot, what, within_limits=within_limits, tried=tried)
+        lines = textwrap.fill(text, LINE * len(panels), break_on_hyphens=False)
+        figure.text(0.02, 0.015, lines, color=MUTED, size=9, va="bottom")
         return figure
 
 
@@ -127,8 +140,10 @@ def _shares(axes: Any, bar: Any, grid: Section, share: Array, tried: int, task: 
     steps = [SEEN, *np.linspace(0.05, 1.0, 20)]
     filled = axes.contourf(grid.u, grid.v, share, levels=steps, cmap="viridis")
     filled.set_rasterized(True)
-    lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
-    axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
+    reached = share[share > SEEN]
+    if len(reached) and np.mean(reached < LEVELS[-1]) > GRADUAL:
+        lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
+        axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
     drawn = axes.figure.colorbar(filled, cax=bar, ticks=[SEEN, 0.25, 0.5, 0.75, 1.0])
     drawn.ax.set_yticklabels([f"{100 * SEEN:g}", "25", "50", "75", "100"])
     drawn.set_label("orientations reached / %")

@@ -17,6 +17,7 @@ from dh2urdf.workspace import (
     branch_counts,
     default_orientation,
     dexterity,
+    held_values,
     planar_arm,
     section,
     task_of,
@@ -84,8 +85,8 @@ def workspace_figure(
         r, p, y = np.asarray(rpy, float).tolist()
         R = rpy_to_matrix((r, p, y))
     counts = shares = None
-    spare = robot.n > 6
-    if not spare:
+    held = held_values(robot, within_limits=within_limits) if robot.n > 6 else None
+    if robot.n <= 6:
         grid = section(robot, plane, at, points or FINE)
         told = telling("branches")
         found = branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
@@ -93,6 +94,11 @@ def workspace_figure(
     if task.sides != "none":
         grid = section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
         told = telling("orientations")
-        share = dexterity(robot, grid, orientations, within_limits=within_limits, progress=told)
+        share = dexterity(
+            robot, grid, orientations, within_limits=within_limits, held=held, progress=told
+        )
         shares = grid, share, orientations
-    return section_picture(robot, counts, shares, R, within_limits=within_limits)
+    tried = [f"{robot.joint_names[k]} held at {len(v)} values" for k, v in (held or {}).items()]
+    return section_picture(
+        robot, counts, shares, R, within_limits=within_limits, tried=", ".join(tried)
+    )

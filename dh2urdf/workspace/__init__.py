@@ -4,7 +4,7 @@ Reach is decided by inverse kinematics at every point of a grid, never by the de
 configurations, which says where an arm lingers, not what it reaches.
 """
 
-from dh2urdf.workspace.maps import branch_counts, dexterity
+from dh2urdf.workspace.maps import branch_counts, dexterity, held_values
 from dh2urdf.workspace.planar import PlanarArm, planar_arm
 from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
 from dh2urdf.workspace.task import (
@@ -26,6 +26,7 @@ __all__ = [
     "common_axis",
     "default_orientation",
     "dexterity",
+    "held_values",
     "planar_arm",
     "reach_ball",
     "section",

@@ -7,18 +7,22 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from dh2urdf.ik.swept import SweptJoint, sample_values
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.section import Section
 from dh2urdf.workspace.task import orientations, task_of
 
-__all__ = ["branch_counts", "dexterity"]
+__all__ = ["branch_counts", "dexterity", "held_values"]
 
 Progress = Callable[[int, int], None]
 """Called with the number of poses done and their total."""
 
 CHUNK = 60_000
 """Poses solved at a time: some 100 MB of solutions."""
+
+HELD = 24
+"""Values at which the joint to spare of an arm of seven is held."""
 
 
 def branch_counts(
@@ -92,6 +96,17 @@ def dexterity(
         reached.append(hit)
     share: Array = np.concatenate(reached).reshape(len(points), len(turns)).mean(axis=1)
     return share.reshape(len(grid.v), len(grid.u))
+
+
+def held_values(
+    robot: Robot, count: int = HELD, *, within_limits: bool = True
+) -> dict[int, Array] | None:
+    """The joint to spare of an arm of seven, and values over its range; None without one."""
+    solver = robot.solver
+    if not isinstance(solver, SweptJoint):
+        return None
+    values = sample_values(robot.chain, solver.joint, count, within_limits)
+    return {solver.joint: values}
 
 
 def _parts(Ts: Array, progress: Progress | None) -> Iterator[Array]:

@@ -127,10 +127,11 @@ def reach_ball(robot: Robot) -> tuple[Array, float]:
     return centre, max(radius + float(sum(travel)), 1e-3)
 
 
-def caption(robot: Robot, what: str, *, within_limits: bool) -> str:
-    """One sentence: what is shown of the robot, frames, limits, collisions."""
+def caption(robot: Robot, what: str, *, within_limits: bool, tried: str = "") -> str:
+    """One sentence: what is shown of the robot, frames, limits, collisions, what was tried."""
     limits = "joint limits kept" if within_limits else "joint limits ignored"
     return (
         f"{what} of {robot.model.name}; {robot.tip} in {robot.base}; {limits}; "
+        f"{tried}{'; ' if tried else ''}"
         "self-collision not checked."
     )
