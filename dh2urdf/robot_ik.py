@@ -96,15 +96,7 @@ class RobotIK:
         ------
         PoseError, ConfigurationError, NameNotFoundError, NoSolverError
         """
-        return self._ik.solve(
-            T,
-            seed=seed,
-            within_limits=within_limits,
-            locked=locked,
-            task=task,
-            turns=turns,
-            samples=samples,
-        )
+        return self._ik.solve(T, seed, within_limits, locked, task, turns, samples)
 
     def ik_intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
         """Intervals of the swept joint of a seven-joint arm in which a pose is reached.

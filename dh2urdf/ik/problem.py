@@ -40,6 +40,8 @@ CHUNK = 4096
 
 ALL = slice(None)
 
+INTEGER = np.dtype(np.int64)
+
 SMALL = 256
 """Poses below which a thread costs more than it saves."""
 
@@ -89,13 +91,13 @@ class Problem:
     def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
         """All solutions of one checked pose Ts (1, 4, 4)."""
         q, residual = np.empty(self._shape), np.empty(self._rows)
-        branch, free = np.zeros(self._rows, np.int64), np.zeros(self._rows, np.int64)
-        count = np.empty(1, np.int64)
+        branch, free = np.zeros(self._rows, INTEGER), np.zeros(self._rows, INTEGER)
+        count = np.empty(1, INTEGER)
         if self.values is None:
             self._solve(Ts, within_limits, q, residual, count, branch, free)
         else:
             self._solve_held(Ts, within_limits, q, residual, count, branch, free)
-        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, int(count[0]))
+        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, count.item())
         if any(free.tolist()[0]):
             return self._families_inside(found, within_limits)
         return found

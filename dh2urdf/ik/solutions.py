@@ -252,7 +252,7 @@ class IKBatch:
 
 def _read_only(view: Array) -> Array:
     """The view, protected from writing."""
-    view.flags.writeable = False
+    view.setflags(write=False)
     return view
 
 

@@ -69,7 +69,6 @@ class InverseKinematics:
     def solve(
         self,
         T: ArrayLike,
-        *,
         seed: ArrayLike | None = None,
         within_limits: bool = True,
         locked: Locked | None = None,
@@ -263,7 +262,8 @@ def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:
 def _one_pose(T: ArrayLike, problem: Problem) -> Array:
     """A checked copy of one pose, shape (1, 4, 4)."""
     try:
-        m = np.array(getattr(T, "homogeneous", T), order="C", ndmin=3)
+        given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
+        m = np.array(given, order="C", ndmin=3)
         if m.dtype.char != "d":
             m = as_floats(m)
     except (TypeError, ValueError):
