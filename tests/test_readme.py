@@ -34,20 +34,20 @@ def commands():
             yield from (line for line in block["text"].splitlines() if line.strip())
 
 
-@pytest.mark.parametrize("command", list(commands()))
-def test_command_runs(command, folder):
+def test_commands_run_one_after_the_other(folder):
     """Each command ends with status 0 and prints something."""
-    done = subprocess.run(
-        command,
-        shell=True,
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
-    assert done.stdout
+    for command in commands():
+        done = subprocess.run(
+            command,
+            shell=True,
+            cwd=folder,
+            env=environment(),
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, (command, done.stderr)
+        assert done.stdout, command
 
 
 def test_python_blocks_run(folder):
