@@ -164,8 +164,6 @@ def solve_common_wrist(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.spherical_wrist.solve_turning_arm` for the common geometry."""
-    scratch = make_scratch()
-    D, arm = scratch[0], scratch[2]
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
@@ -181,6 +179,8 @@ def solve_common_wrist(
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
+                scratch = make_scratch()
+                D, arm = scratch[0], scratch[2]
                 tool_to_wrist(ends, Ts[i], D)
                 rows = place_wrist_in_plane(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
                 out = q[i], residual[i], branch[i], free[i]

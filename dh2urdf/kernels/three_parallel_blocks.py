@@ -154,7 +154,6 @@ def solve_common_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.three_parallel.solve_three_parallel` for the common geometry."""
-    scratch = make_scratch()
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
@@ -170,6 +169,7 @@ def solve_common_parallel(
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
+                scratch = make_scratch()
                 tool_to_wrist(ends, Ts[i], scratch[0])
                 pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
