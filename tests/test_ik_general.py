@@ -88,6 +88,16 @@ def test_the_generating_configuration_is_found(name):
     assert len(check_sweep(CHAINS[name], 500, seed=2)) == 0
 
 
+def test_four_solutions_with_nearly_one_value_of_a_joint_are_told_apart():
+    """Four of the hidden joint's roots within 3e-4 rad, too near for the polynomial: none lost."""
+    chain = CHAINS["fanuc_crx10ia_l"]
+    q = np.array([2.20656721, 1.33197935e-4, 2.44543299, -1.23653899, -2.68161678, 0.34605454])
+    q = q + np.random.default_rng(0).uniform(-1e-4, 1e-4, (50, 6))
+    found = solve(chain, forward(chain, q))
+    assert (found.count == 8).all()
+    assert gaps(chain, found.q[:, :8], q[:, None]).min(axis=1).max() < 1e-6
+
+
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_generating_configuration_is_found_in_100_000_poses(name):

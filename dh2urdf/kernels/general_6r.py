@@ -51,6 +51,10 @@ WORTH = 0.03
 DEAREST = 6.0
 """Most digits that spans of doubt, which take time, count for."""
 
+COARSE = 1e-2
+"""Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:
+roots so inexact may stand for more than one each."""
+
 ATTEMPTS = 3
 """Rounds of all eliminations, from the second one on for a pose nearby."""
 
@@ -175,7 +179,7 @@ def _solve_pose(T, out_q, out_residual, arm):
         if e == 0 and trial > 0:
             nudge(arm["chain"], trial // trials)
         eliminate(e, arm)
-        before, retried = found, np.int64(0)
+        before, retried, seeded = found, np.int64(0), 0.0
         count = find_roots(arm)
         if count < 0:
             continue
@@ -184,7 +188,8 @@ def _solve_pose(T, out_q, out_residual, arm):
             found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
             if trial == 0:
                 first[0], first[1] = seeded, spans[0, 0]
-        sure = retried == 0 and spans[1, 0] == 0.0 if before == 0 else found == before
+        clear = retried == 0 and spans[1, 0] == 0.0 and seeded < COARSE
+        sure = clear if before == 0 else found == before
         fits = found % 2 == 0 and found >= simple and found + trial > 0
         if sure and fits and isolated(found, arm["kept"]):
             break
