@@ -28,8 +28,9 @@ from dh2urdf.kernels.blocks import (
     measure,
 )
 from dh2urdf.kernels.compiled import block_kernel, kernel
+from dh2urdf.kernels.parallel_pairs import pairs_of_meeting
 from dh2urdf.kernels.position_arm import tool_to_wrist
-from dh2urdf.kernels.three_parallel import finish_pairs, make_scratch, pairs_of_meeting
+from dh2urdf.kernels.three_parallel import finish_pairs, make_scratch
 
 __all__ = ["solve_common_parallel"]
 

@@ -1,0 +1,135 @@
+"""Joints outside three parallel axes: pairs of values, without the three.
+
+The height of the pose over the plane in which the three turn, and the slope of axis 6, are two
+equations in two of the other joints, see :mod:`dh2urdf.kernels.three_parallel`. Each pair is a row
+of ``pair`` (8, 5): cosine and sine of the first unknown, of t5, and whether t5 is free.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.circle_pair import circle_pair
+from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.position_arm import FREE
+from dh2urdf.kernels.trig import add_square, linear_trig, trig_roots
+
+__all__ = ["outer_pairs", "pairs_of_meeting"]
+
+EPSILON = 1e-15
+"""Rounding of the equation for t4, near whose double root t4 is off by this over the distance from
+the root, and so is what t5 follows from."""
+
+LEANING = 3e-6
+"""Sine of the angle between axis 5 and the axes 1, 2, 3 below which t5 is nearly free: rounding of
+t4 may have moved it anywhere."""
+
+
+@inner_kernel
+def pairs_of_meeting(form, D, slack, pair):
+    """Joint 1 where axes 2, 3, 4 are parallel and 5 meets 6: subproblem 4.
+
+    With k the common direction turned by joint 1, ``k . p`` is the offset of the arm's plane.
+    Returns the number of solutions, negative where joint 1 is free.
+    """
+    ca1, sa1 = form[0, 1], form[0, 2]
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3] - form[0, 3]
+    offset = form[1, 3] + form[2, 3] + form[3, 3] + form[3, 1] * form[4, 3] - ca1 * pz
+    count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
+    free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
+    if free:
+        count, c1, s1 = 1, math.cos(form[0, 4]), math.sin(form[0, 4])
+    for k in range(count):
+        pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
+        pair[k, 2], pair[k, 3] = 1.0, 0.0
+    return -count if free else count
+
+
+@inner_kernel
+def _pairs_behind_one(form, D, slack, pair):
+    """Joints 1 and 5 where axes 2, 3, 4 are parallel; the number of pairs.
+
+    With k the common direction turned by joint 1: ``k . p`` is the offset of the arm's plane and
+    ``k . z6`` the slope of axis 6, ``cos alpha4 cos alpha5 - sin alpha4 sin alpha5 cos t5``.
+    """
+    ca1, sa1, ca4, sa4 = form[0, 1], form[0, 2], form[3, 1], form[3, 2]
+    a5, ca5, sa5 = form[4, 0], form[4, 1], form[4, 2]
+    px, py, pz = D[0, 3], D[1, 3], D[2, 3] - form[0, 3]
+    offset = form[1, 3] + form[2, 3] + form[3, 3] + ca4 * form[4, 3] - ca1 * pz
+    M, N, d, found = np.empty((2, 2)), np.zeros((2, 2)), np.empty(2), np.empty((4, 4))
+    M[0, 0], M[0, 1], N[0, 0] = -sa1 * D[1, 2], sa1 * D[0, 2], sa4 * sa5
+    d[0] = ca4 * ca5 - ca1 * D[2, 2]
+    M[1, 0], M[1, 1], N[1, 1] = -sa1 * py, sa1 * px, -sa4 * a5
+    d[1] = offset
+    count = max(circle_pair(M, N, d, slack, np.empty((3, 5)), found), 0)
+    for k in range(count):
+        for j in range(4):
+            pair[k, j] = found[k, j]
+    return count
+
+
+@inner_kernel
+def _pairs_before_four(form, D, slack, pair):
+    """Joints 4 and 5 where axes 1, 2, 3 are parallel; the number of pairs.
+
+    With f the common direction seen after joint 4: ``a5 (f_x c5 + f_y s5) = n1`` is the height
+    of the pose, ``sin alpha5 (f_x s5 - f_y c5) = n2`` the slope of axis 6; n1, n2 and f_z are
+    linear in the cosine and sine of t4, and ``(n1 / a5)^2 + (n2 / sin alpha5)^2 + f_z^2 = 1``.
+    """
+    ca3, sa3, a4, ca4, sa4 = form[2, 1], form[2, 2], form[3, 0], form[3, 1], form[3, 2]
+    a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
+    height = D[2, 3] - form[0, 3] - form[1, 3] - form[2, 3] - ca3 * form[3, 3]
+    z0, z1 = ca3 * ca4, -sa3 * sa4
+    rise, slope = np.empty(3), np.empty(3)
+    rise[0], rise[1], rise[2] = height - d5 * z0, -d5 * z1, -sa3 * a4
+    slope[0], slope[1], slope[2] = D[2, 2] - ca5 * z0, -ca5 * z1, 0.0
+    series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
+    if a5 == 0.0 or sa5 == 0.0:
+        row = rise if a5 == 0.0 else slope
+        count, c1, s1, c2, s2 = linear_trig(row[1], row[2], -row[0], slack)
+        cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
+    else:
+        add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
+        add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
+        add_square(series, 1.0, z0, z1, 0.0)
+        series[0] -= 1.0
+        count = trig_roots(series, 2, cosines, sines)
+    pairs = 0
+    for k in range(count):
+        c4, s4 = cosines[k], sines[k]
+        fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
+        n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
+        loose = slack + EPSILON / max(fx * fx + fy * fy, 1e-300)
+        if a5 == 0.0:
+            found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, loose)
+            if found == 2 and math.hypot(D[2, 0], D[2, 1]) <= FREE:
+                found, c1, s1 = 1, -sa5 * fy * n2, sa5 * fx * n2
+        elif sa5 == 0.0:
+            found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, loose)
+        else:
+            n1, n2, square = n1 / a5, n2 / sa5, fx * fx + fy * fy
+            near = abs(n1 * n1 + n2 * n2 - square) <= loose * (n1 * n1 + n2 * n2 + square)
+            found = 1 if near else 0
+            c1, s1, c2, s2 = fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
+        for j in range(found):
+            c5, s5 = (c1, s1) if j == 0 else (c2, s2)
+            r = math.hypot(c5, s5)
+            pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 0.0
+            pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
+            pairs += 1
+        if fx * fx + fy * fy <= LEANING * LEANING and pairs < 8:
+            pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
+            pairs += 1
+    return pairs
+
+
+@inner_kernel
+def outer_pairs(form, first, D, slack, pair):
+    """Pairs of outer joints of one pose D (3, 4); their number, negative where joint 1 is free."""
+    if first == 0:
+        return _pairs_before_four(form, D, slack, pair)
+    if form[4, 0] == 0.0:
+        return pairs_of_meeting(form, D, slack, pair)
+    return _pairs_behind_one(form, D, slack, pair)
