@@ -17,13 +17,20 @@ from numpy.typing import NDArray
 from dh2urdf.kernels.chain import _joint_times_link, _load
 from dh2urdf.kernels.compiled import helper_kernel, inner_kernel
 
-__all__ = ["ANYWHERE", "finish_pose", "new_work", "polish", "pose_residual", "residual_of"]
+__all__ = ["ACCEPT", "ANYWHERE", "CLUSTER", "NO_JOINT", "ROUNDING", "copy_rows", "finish_pose"]
+__all__ += ["move", "new_work", "polish", "pose_residual", "principal", "residual_of", "same"]
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
+
+ROUNDING = 1e-15
+"""Residual [m and rad] that is the pose's own rounding, for an arm of about a metre."""
+
+NO_JOINT = 0
+"""The mask of no joint."""
 
 CLUSTER = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
@@ -42,6 +49,10 @@ TINY_DAMPING = 1e-18
 
 MAX_TURN = 0.3
 """Longest Newton step of one joint [rad or m]."""
+
+VALLEY = 1e3
+"""The same in square roots of the residual: where two branches meet, a root is off by about one,
+and what is asked for beyond is noise along a direction in which the pose hardly changes."""
 
 ANYWHERE = np.bool_(False)
 """No limits: as the literal False, `finish_pose` would be compiled once more for its type."""
@@ -183,7 +194,7 @@ def polish(links, joints, T, q, work):
         kept[i] = q[i]
     for _ in range(PLAIN_STEPS):
         _normal_equations(links, joints, T, q, work)
-        _move_along(q, work, _damped_step(work, TINY_DAMPING))
+        _move_along(q, work, _damped_step(work, TINY_DAMPING), residual)
         residual = pose_residual(links, joints, T, q)
         if residual < best:
             best = residual
@@ -196,7 +207,7 @@ def polish(links, joints, T, q, work):
         q[i] = kept[i]
     while best > POLISH and failures < DAMPED_FAILURES and damping > TINY_DAMPING:
         _normal_equations(links, joints, T, q, work)
-        _move_along(q, work, _damped_step(work, damping))
+        _move_along(q, work, _damped_step(work, damping), best)
         residual = pose_residual(links, joints, T, q)
         damping = 0.01 * damping if residual < 0.5 * best else 100.0 * damping
         failures += 1 if residual > 0.5 * best else 0
@@ -211,15 +222,16 @@ def polish(links, joints, T, q, work):
 
 
 @inner_kernel
-def _move_along(q, work, longest):
-    """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN``."""
-    scale = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
+def _move_along(q, work, longest, residual):
+    """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN`` and ``VALLEY``."""
+    most = min(MAX_TURN, VALLEY * math.sqrt(residual))
+    scale = min(1.0, most / longest) if longest > 0.0 else 0.0
     for i in range(q.shape[0]):
         q[i] += scale * work[i, 7]
 
 
 @helper_kernel
-def _principal(angle):
+def principal(angle):
     """Bring an angle into [-pi, pi]."""
     if -math.pi <= angle <= math.pi:
         return angle + 0.0
@@ -227,10 +239,15 @@ def _principal(angle):
 
 
 @inner_kernel
-def _same(joints, q, p, reach):
-    """Whether two configurations with principal angles differ by at most ``reach`` a joint."""
+def same(joints, q, p, reach, free):
+    """Whether two configurations with principal angles differ by at most ``reach`` a joint.
+
+    The joints in the mask ``free`` may differ by any amount.
+    """
     for i in range(q.shape[0]):
         gap = abs(q[i] - p[i])
+        if (free >> i) & 1:
+            continue
         if gap > reach and (joints[i, 0] != 0.0 or gap < TWO_PI - reach):
             return False
     return True
@@ -273,11 +290,22 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
 
 
 @inner_kernel
-def _move(q, residual, branch, free, source, target):
+def move(q, residual, branch, free, source, target):
     """Copy one row of the candidates over another."""
     for i in range(q.shape[1]):
         q[target, i] = q[source, i]
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
+
+
+@inner_kernel
+def copy_rows(source, count, target):
+    """Copy the first rows (q, residual, branch, free) that fit; returns how many."""
+    count = min(count, target[0].shape[0])
+    for k in range(count):
+        for i in range(source[0].shape[1]):
+            target[0][k, i] = source[0][k, i]
+        target[1][k], target[2][k], target[3][k] = source[1][k], source[2][k], source[3][k]
+    return count
 
 
 @inner_kernel
@@ -308,7 +336,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     -----
     Two solutions are one if no joint differs by more than ``CLUSTER`` or the square root of
     their residual: on the rim of the workspace two branches meet as a square root. The one with
-    the smaller residual stays.
+    the smaller residual stays, or the first if it reaches the pose to rounding.
     """
     n = q.shape[1]
     kept = np.int64(0)
@@ -318,18 +346,18 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
         if not residual[k] <= ACCEPT:
             continue
         for i in range(n):
-            q[kept, i] = q[k, i] if joints[i, 0] != 0.0 else _principal(q[k, i])
+            q[kept, i] = q[k, i] if joints[i, 0] != 0.0 else principal(q[k, i])
         residual[kept], branch[kept], free[kept] = residual[k], branch[k], free[k]
         twin = -1
         for j in range(kept):
             reach = max(CLUSTER, math.sqrt(max(residual[j], residual[kept])))
-            if _same(joints, q[j], q[kept], reach):
+            if same(joints, q[j], q[kept], reach, NO_JOINT):
                 twin = j
                 break
         if twin < 0:
             kept += 1
-        elif residual[kept] < residual[twin]:
-            _move(q, residual, branch, free, kept, twin)
+        elif residual[kept] < residual[twin] and residual[twin] > ROUNDING:
+            move(q, residual, branch, free, kept, twin)
     solutions = np.int64(0)
     for k in range(kept):
         certified = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
@@ -337,6 +365,6 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             continue
         if certified >= 0.0:
             residual[k] = certified
-        _move(q, residual, branch, free, k, solutions)
+        move(q, residual, branch, free, k, solutions)
         solutions += 1
     return solutions

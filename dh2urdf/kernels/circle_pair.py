@@ -108,7 +108,7 @@ def _two_ellipses(M, N, d, det, slack, scratch, out):
         e, f = cosines[k], sines[k]
         c, s = u0 + v0 * e + w0 * f, u1 + v1 * e + w1 * f
         square = c * c + s * s
-        if abs(square - 1.0) > slack * scale:
+        if abs(square - 1.0) > abs(slack) * scale:
             continue
         radius = math.sqrt(square)
         out[rows, 0], out[rows, 1], out[rows, 2], out[rows, 3] = c / radius, s / radius, e, f

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, _move, _normal_equations, polish
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, move, _normal_equations, polish
 from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = ["free_joints", "one_of_each_family", "work_array"]
@@ -128,7 +128,7 @@ def one_of_each_family(joints, rest, q, residual, branch, free, count):
             if (other and not mine) or (not other and not mine and j < k):
                 keep = False
         if keep:
-            _move(q, residual, branch, free, k, kept)
+            move(q, residual, branch, free, k, kept)
             kept += 1
     return kept
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import POLISH, TWO_PI, _move, polish, pose_residual
+from dh2urdf.kernels.certify import POLISH, TWO_PI, move, polish, pose_residual
 from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = ["merge_solutions"]
@@ -64,8 +64,8 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
                 twin = j
                 break
         if twin < 0:
-            _move(q, residual, branch, free, k, kept)
+            move(q, residual, branch, free, k, kept)
             kept += 1
         elif residual[k] < residual[twin]:
-            _move(q, residual, branch, free, k, twin)
+            move(q, residual, branch, free, k, twin)
     return kept

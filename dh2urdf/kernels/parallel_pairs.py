@@ -101,7 +101,7 @@ def _pairs_before_four(form, D, slack, pair):
         c4, s4 = cosines[k], sines[k]
         fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
         n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
-        loose = slack + EPSILON / max(fx * fx + fy * fy, 1e-300)
+        loose = abs(slack) + EPSILON / max(fx * fx + fy * fy, 1e-300)
         if a5 == 0.0:
             found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, loose)
             if found == 2 and math.hypot(D[2, 0], D[2, 1]) <= FREE:

@@ -16,7 +16,7 @@ import numpy as np
 
 from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.trig import MERGE, elbow_angle, linear_trig
+from dh2urdf.kernels.trig import elbow_angle, linear_trig, root_of_gap
 
 __all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "place_wrist_in_plane"]
 __all__ += ["tool_to_wrist"]
@@ -72,9 +72,9 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
     square = px * px + py * py
     reach2 = square - offset * offset
     scale = (a1 + a2 + forearm) * (a1 + a2 + forearm) + offset * offset
-    if reach2 < -slack * scale:
+    if reach2 < -abs(slack) * scale:
         return 0
-    reach = math.sqrt(reach2) if reach2 > MERGE * square else 0.0
+    reach = max(root_of_gap(reach2, square, slack), 0.0)
     free = square <= FREE * FREE and reach <= FREE
     rows = 0
     for shoulder in range(2):

@@ -13,7 +13,7 @@ import numpy as np
 
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
-from dh2urdf.kernels.trig import MERGE, add_square, linear_trig, real_quadratic, trig_roots
+from dh2urdf.kernels.trig import add_square, linear_trig, real_quadratic, root_of_gap, trig_roots
 
 __all__ = ["place_wrist_sliding"]
 
@@ -167,9 +167,9 @@ def _turn_slide_turn(form, px, py, pz, slack, arm):
             found, depth = 1, (pz - sa1 * y) / ca1
         else:
             depth2 = square - x * x
-            if depth2 < -slack * (square + x * x):
+            depth = root_of_gap(depth2, square + x * x, slack)
+            if depth < 0.0:
                 continue
-            depth = math.sqrt(depth2) if depth2 > MERGE * (square + x * x) else 0.0
             found = 2 if depth > 0.0 else 1
         for _ in range(found):
             ux, uy = x, ca1 * y - sa1 * depth
@@ -212,9 +212,9 @@ def _slide_turn_turn(form, px, py, pz, slack, arm):
             found, y = 1, (py + sa1 * vz) / ca1
         else:
             y2 = square - x * x
-            if y2 < -slack * (square + x * x):
+            y = root_of_gap(y2, square + x * x, slack)
+            if y < 0.0:
                 continue
-            y = math.sqrt(y2) if y2 > MERGE * (square + x * x) else 0.0
             found = 2 if y > 0.0 else 1
         for _ in range(found):
             arm[rows, 0] = pz - sa1 * y - ca1 * vz

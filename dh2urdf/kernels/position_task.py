@@ -18,7 +18,7 @@ from dh2urdf.kernels.certify import (
     POLISH,
     TWO_PI,
     _damped_step,
-    _move,
+    move,
 )
 from dh2urdf.kernels.chain import _joint_times_link, _load
 from dh2urdf.kernels.compiled import inner_kernel
@@ -183,10 +183,10 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
                 twin = j
                 break
         if twin < 0:
-            _move(q, residual, branch, free, k, kept)
+            move(q, residual, branch, free, k, kept)
             kept += 1
         elif residual[k] < residual[twin]:
-            _move(q, residual, branch, free, k, twin)
+            move(q, residual, branch, free, k, twin)
     solutions = np.int64(0)
     for k in range(kept):
         free[k] = _free_joints(links, joints, T, q[k], trial, work)
@@ -194,6 +194,6 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
         if within_limits and not inside and free[k] == 0:
             continue
         residual[k] = position_residual(links, joints, T, q[k])
-        _move(q, residual, branch, free, k, solutions)
+        move(q, residual, branch, free, k, solutions)
         solutions += 1
     return solutions

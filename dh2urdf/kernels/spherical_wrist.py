@@ -12,14 +12,28 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.certify import finish_pose
+from dh2urdf.kernels.certify import (
+    ACCEPT,
+    CLUSTER,
+    ROUNDING,
+    copy_rows,
+    finish_pose,
+    move,
+    pose_residual,
+    principal,
+    same,
+)
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
-from dh2urdf.kernels.trig import MERGE
+from dh2urdf.kernels.trig import root_of_gap
 
 __all__ = ["add_wrist", "append_wrist", "finish_wrists", "make_scratch", "middle_angle"]
 __all__ += ["solve_sliding_arm", "solve_turning_arm"]
+
+MEETING = 1e-5
+"""Distance [rad or m] of two position solutions that may be a double root: `MERGE` parts roots by
+1e-7, and by as much divided by the sine of a position near another singularity."""
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -58,9 +72,9 @@ def middle_angle(form, x, y, z, slack):
         low = _above(z, ca4 * ca5 - scale, square)
         high = -_above(z, ca4 * ca5 + scale, square)
         sine2 = low * high / (scale * scale)
-        if sine2 < -slack:
+        sine = root_of_gap(sine2, 1.0, slack)
+        if sine < 0.0:
             return 0, 1.0, 0.0
-        sine = math.sqrt(sine2) if sine2 > MERGE else 0.0
     length = math.hypot(cosine, sine)
     return (1 if sine == 0.0 else 2), cosine / length, sine / length
 
@@ -136,27 +150,80 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
 
 
 @inner_kernel
-def finish_wrists(
-    links, joints, form, rows, slack, T, within_limits, q, residual, branch, free, scratch
-):
-    """From ``rows`` position solutions of one pose to certified ones in q (8, 6); their count.
-
-    ``scratch``: frame 6 in frame 0 (3, 4), a rotation (3, 3), the position solutions (8, 5),
-    certification.
-    """
-    D, R, arm, work = scratch
-    found = 0
+def roots_meet(joints, arm, rows):
+    """Whether two position solutions nearly coincide: rounding may have parted a double root."""
     for k in range(rows):
-        found = add_wrist(form, D, arm[k], R, slack, q, branch, free, found)
-    for k in range(found):
-        residual[k] = -1.0
-    return finish_pose(links, joints, T, within_limits, q, residual, branch, free, found, work)
+        for j in range(k):
+            free = int(arm[k, 4]) & int(arm[j, 4])
+            if same(joints, arm[k, :3], arm[j, :3], MEETING, free):
+                return True
+    return False
+
+
+@inner_kernel
+def add_merged(links, joints, form, rows, slack, T, scratch):
+    """Candidates of position solutions whose double roots were merged; their count.
+
+    Those of singular families, which only exist where the roots do merge, and those that reach
+    the pose to rounding, which a straight elbow rather than one bent by 1e-8 does.
+    """
+    D, R, arm, _, (q, residual, branch, free) = scratch
+    kept = 0
+    for k in range(rows):
+        found = add_wrist(form, D, arm[k], R, slack, q, branch, free, kept)
+        for j in range(kept, found):
+            residual[j] = pose_residual(links, joints, T, q[j])
+            for i in range(6):
+                q[j, i] = q[j, i] if joints[i, 0] != 0.0 else principal(q[j, i])
+            if residual[j] <= ROUNDING or (free[j] != 0 and residual[j] <= ACCEPT):
+                move(q, residual, branch, free, j, kept)
+                kept += 1
+    return kept
+
+
+@inner_kernel
+def hidden(joints, many, merged, k):
+    """Whether candidate k is, but for rounding, a member of a family among the merged ones.
+
+    Both have the same values of the joints that are not free.
+    """
+    q, _, _, free = many
+    for i in range(q.shape[1]):
+        q[k, i] = q[k, i] if joints[i, 0] != 0.0 else principal(q[k, i])
+    for j in range(merged):
+        if free[j] != 0 and free[k] & ~free[j] == 0:
+            if same(joints, q[j], q[k], CLUSTER, free[j]):
+                return True
+    return False
+
+
+@inner_kernel
+def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out, scratch):
+    """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
+
+    From ``rows`` position solutions and ``found`` candidates of :func:`add_merged`. ``scratch``:
+    frame 6 in frame 0 (3, 4), a rotation (3, 3), the position solutions (8, 5), certification,
+    candidates.
+    """
+    D, R, arm, work, many = scratch
+    q, residual, branch, free = many
+    merged = found
+    for k in range(rows):
+        parted = add_wrist(form, D, arm[k], R, slack, q, branch, free, found)
+        for j in range(found, parted):
+            residual[j] = -1.0
+            if not (merged and hidden(joints, many, merged, j)):
+                move(q, residual, branch, free, j, found)
+                found += 1
+    found = finish_pose(links, joints, T, within_limits, *many, found, work)
+    return copy_rows(many, found, out)
 
 
 @inner_kernel
 def make_scratch():
     """Scratch of :func:`finish_wrists`, one for a batch."""
-    return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))
+    many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
+    return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
 
 
 @kernel
@@ -173,10 +240,15 @@ def solve_turning_arm(
     D, arm = scratch[0], scratch[2]
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
-        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
+        rows = place_wrist(form, x, y, z, -slack, arm)
+        if roots_meet(joints, arm, rows):
+            rows = place_wrist(form, x, y, z, slack, arm)
+            found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
+            rows = place_wrist(form, x, y, z, -slack, arm)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = finish_wrists(
-            links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
+            links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
         )
 
 
@@ -189,8 +261,13 @@ def solve_sliding_arm(
     D, arm = scratch[0], scratch[2]
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
-        rows = place_wrist_sliding(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
+        rows = place_wrist_sliding(form, x, y, z, -slack, arm)
+        if roots_meet(joints, arm, rows):
+            rows = place_wrist_sliding(form, x, y, z, slack, arm)
+            found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
+            rows = place_wrist_sliding(form, x, y, z, -slack, arm)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = finish_wrists(
-            links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
+            links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
         )

@@ -28,7 +28,7 @@ from dh2urdf.kernels.blocks import (
 )
 from dh2urdf.kernels.compiled import block_kernel, kernel
 from dh2urdf.kernels.position_arm import place_wrist_in_plane, tool_to_wrist
-from dh2urdf.kernels.spherical_wrist import finish_wrists, make_scratch
+from dh2urdf.kernels.spherical_wrist import add_merged, finish_wrists, make_scratch, roots_meet
 
 __all__ = ["solve_common_wrist"]
 
@@ -182,8 +182,13 @@ def solve_common_wrist(
                 scratch = make_scratch()
                 D, arm = scratch[0], scratch[2]
                 tool_to_wrist(ends, Ts[i], D)
-                rows = place_wrist_in_plane(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+                x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
+                rows = place_wrist_in_plane(form, x, y, z, -slack, arm)
+                if roots_meet(joints, arm, rows):
+                    rows = place_wrist_in_plane(form, x, y, z, slack, arm)
+                    found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
+                    rows = place_wrist_in_plane(form, x, y, z, -slack, arm)
                 out = q[i], residual[i], branch[i], free[i]
                 count[i] = finish_wrists(
-                    links, joints, form, rows, slack, Ts[i], within_limits, *out, scratch
+                    links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
                 )

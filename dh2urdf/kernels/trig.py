@@ -12,13 +12,14 @@ import math
 
 from numba import njit
 
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.compiled import helper_kernel, inner_kernel, kernel
 
 __all__ = [
     "add_square",
     "arctangent",
     "linear_trig",
     "real_quadratic",
+    "root_of_gap",
     "trig_roots",
 ]
 
@@ -26,8 +27,8 @@ TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""
 
 MERGE = 1e-14
-"""Relative distance from its rim at which an equation has one root instead of two: they would be
-1e-7 apart, less than what counts as one solution, and the middle misses by rounding only."""
+"""Relative distance from its rim at which an equation has one root instead of two, which would be
+1e-7 apart: the middle misses by rounding. Not so with a negative slack."""
 
 ON_CIRCLE = 0.05
 """Distance from the unit circle at which a complex root is still handed on as a real one."""
@@ -54,6 +55,18 @@ A8, A9, A10, A11 = (
 )
 
 
+@helper_kernel
+def root_of_gap(gap, size, slack):
+    """Square root of a gap that vanishes where two roots merge; -1.0 beyond the rim.
+
+    The gap [size] may be negative by ``|slack|``. Where ``slack`` is positive, it is 0 up to
+    ``MERGE``, so that rounding does not part two roots; where it is negative, they stay apart.
+    """
+    if gap <= (MERGE * size if slack > 0.0 else 0.0):
+        return -1.0 if -gap > abs(slack) * size else 0.0
+    return math.sqrt(gap)
+
+
 @kernel
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
@@ -62,7 +75,7 @@ def linear_trig(a, b, d, slack):
     ----------
     a, b, d : float
     slack : float
-        Relative excess of ``|d|`` over the amplitude that is clamped.
+        Relative excess of ``|d|`` over the amplitude that is clamped, see :func:`root_of_gap`.
 
     Returns
     -------
@@ -76,13 +89,13 @@ def linear_trig(a, b, d, slack):
     if square < 1e-300:
         return -1, 1.0, 0.0, 1.0, 0.0
     amplitude = math.sqrt(square)
-    gap = amplitude - abs(d)
-    if gap <= MERGE * amplitude:
-        if -gap > slack * amplitude:
-            return 0, 1.0, 0.0, 1.0, 0.0
+    root = root_of_gap(amplitude - abs(d), amplitude, slack)
+    if root < 0.0:
+        return 0, 1.0, 0.0, 1.0, 0.0
+    if root == 0.0:
         side = math.copysign(1.0, d) / amplitude
         return 1, side * a, side * b, side * a, side * b
-    root = math.sqrt(gap * (amplitude + abs(d)))
+    root *= math.sqrt(amplitude + abs(d))
     return (
         2,
         (a * d - b * root) / square,
@@ -99,12 +112,12 @@ def real_quadratic(a, b, c, slack):
     Returns the count (0, 1 or 2) and the roots.
     """
     discriminant = b * b - a * c
-    scale = b * b + abs(a * c)
-    if discriminant <= MERGE * scale:
-        if -discriminant > slack * scale:
-            return 0, 0.0, 0.0
+    gap = root_of_gap(discriminant, b * b + abs(a * c), slack)
+    if gap < 0.0:
+        return 0, 0.0, 0.0
+    if gap == 0.0:
         return 1, -b / a, -b / a
-    root = -b - math.copysign(math.sqrt(discriminant), b)
+    root = -b - math.copysign(gap, b)
     if root == 0.0:
         return 1, 0.0, 0.0
     return 2, root / a, c / root
@@ -127,13 +140,14 @@ def elbow_angle(upper, fore, square, slack):
     inner = square - (upper - fore) * (upper - fore)
     scale = 2.0 * upper * fore
     size = square + scale
-    if min(outer, inner) < -slack * size:
+    outer_root, inner_root = root_of_gap(outer, size, slack), root_of_gap(inner, size, slack)
+    if min(outer_root, inner_root) < 0.0:
         return 0, 1.0, 0.0
-    if outer <= MERGE * size:
+    if outer_root == 0.0:
         return 1, 1.0, 0.0
-    if inner <= MERGE * size:
+    if inner_root == 0.0:
         return 1, -1.0, 0.0
-    return 2, 0.5 * (inner - outer) / scale, math.sqrt(outer * inner) / scale
+    return 2, 0.5 * (inner - outer) / scale, outer_root * inner_root / scale
 
 
 @inner_kernel
