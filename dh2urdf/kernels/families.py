@@ -6,7 +6,15 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, move, _normal_equations, polish
+from dh2urdf.kernels.certify import (
+    ACCEPT,
+    CLUSTER,
+    TWO_PI,
+    _damped_step,
+    _normal_equations,
+    move,
+    polish,
+)
 from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = ["free_joints", "one_of_each_family", "work_array"]
@@ -16,6 +24,10 @@ SINGULAR = 1e-10
 
 WALK = 0.05
 """Length of the trial walk [rad or m]."""
+
+STEADY, STEADY_STEPS = 1e-6, 6
+"""Damping and number of the first steps back to the family: across it and not along, for beside a
+family the Jacobian has its rank, and a plain step may go anywhere."""
 
 MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
@@ -96,6 +108,11 @@ def free_joints(links, joints, T, q, trial, work):
         return np.int64(0)
     for i in range(n):
         trial[i] = q[i] + WALK * work[i, 6]
+    for _ in range(STEADY_STEPS):
+        _normal_equations(links, joints, T, trial, work)
+        _damped_step(work, STEADY)
+        for i in range(n):
+            trial[i] += work[i, 7]
     if not polish(links, joints, T, trial, work) <= ACCEPT:
         return np.int64(0)
     away = 0.0

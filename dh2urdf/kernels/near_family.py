@@ -16,9 +16,10 @@ from dh2urdf.kernels.certify import ACCEPT, ANYWHERE, finish_pose, polish
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped, solve_damped
 from dh2urdf.kernels.parallel_pairs import outer_pairs
+from dh2urdf.kernels.parallel_plane import last_joint
 from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import add_wrist
-from dh2urdf.kernels.three_parallel import _last_joint, _slope_of_last, add_pairs
+from dh2urdf.kernels.three_parallel import _slope_of_last, add_pairs
 
 __all__ = ["join_solutions", "solve_near_parallel", "solve_near_wrist"]
 
@@ -52,7 +53,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
 @kernel
 def solve_near_wrist(links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
-    D, R, arm, work = spherical_wrist.make_scratch()
+    D, R, arm, work, _ = spherical_wrist.make_scratch()
     start, damped = np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
@@ -73,7 +74,7 @@ def _in_line(form, first, pairs, slack, D, pair, cs, regular):
         cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
         if first == 1 and form[4, 0] == 0.0:
             _slope_of_last(form, D, cs, slack)
-        if _last_joint(form, first, D, cs) < regular:
+        if last_joint(form, first, D, cs) < regular:
             return True
     return False
 

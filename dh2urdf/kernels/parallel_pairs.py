@@ -13,6 +13,7 @@ import numpy as np
 
 from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.leaning import levels
 from dh2urdf.kernels.position_arm import FREE
 from dh2urdf.kernels.trig import add_square, linear_trig, trig_roots
 
@@ -78,13 +79,10 @@ def _pairs_before_four(form, D, slack, pair):
     of the pose, ``sin alpha5 (f_x s5 - f_y c5) = n2`` the slope of axis 6; n1, n2 and f_z are
     linear in the cosine and sine of t4, and ``(n1 / a5)^2 + (n2 / sin alpha5)^2 + f_z^2 = 1``.
     """
-    ca3, sa3, a4, ca4, sa4 = form[2, 1], form[2, 2], form[3, 0], form[3, 1], form[3, 2]
-    a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
-    height = D[2, 3] - form[0, 3] - form[1, 3] - form[2, 3] - ca3 * form[3, 3]
-    z0, z1 = ca3 * ca4, -sa3 * sa4
+    ca3, sa3, ca4, sa4 = form[2, 1], form[2, 2], form[3, 1], form[3, 2]
+    a5, sa5 = form[4, 0], form[4, 2]
     rise, slope = np.empty(3), np.empty(3)
-    rise[0], rise[1], rise[2] = height - d5 * z0, -d5 * z1, -sa3 * a4
-    slope[0], slope[1], slope[2] = D[2, 2] - ca5 * z0, -ca5 * z1, 0.0
+    levels(form, D, rise, slope)
     series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
     if a5 == 0.0 or sa5 == 0.0:
         row = rise if a5 == 0.0 else slope
@@ -93,13 +91,21 @@ def _pairs_before_four(form, D, slack, pair):
     else:
         add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
         add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
-        add_square(series, 1.0, z0, z1, 0.0)
+        add_square(series, 1.0, ca3 * ca4, -sa3 * sa4, 0.0)
         series[0] -= 1.0
         count = trig_roots(series, 2, cosines, sines)
     pairs = 0
     for k in range(count):
         c4, s4 = cosines[k], sines[k]
         fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
+        if fx * fx + fy * fy <= LEANING * LEANING:
+            known = False
+            for j in range(pairs):
+                known = known or (pair[j, 4] != 0.0 and (pair[j, 0] > 0.0) == (c4 > 0.0))
+            if not known:
+                pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
+                pairs += 1
+            continue
         n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
         loose = abs(slack) + EPSILON / max(fx * fx + fy * fy, 1e-300)
         if a5 == 0.0:
@@ -118,9 +124,6 @@ def _pairs_before_four(form, D, slack, pair):
             r = math.hypot(c5, s5)
             pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 0.0
             pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
-            pairs += 1
-        if fx * fx + fy * fy <= LEANING * LEANING and pairs < 8:
-            pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
             pairs += 1
     return pairs
 

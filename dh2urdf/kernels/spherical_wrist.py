@@ -191,9 +191,9 @@ def hidden(joints, many, merged, k):
     for i in range(q.shape[1]):
         q[k, i] = q[k, i] if joints[i, 0] != 0.0 else principal(q[k, i])
     for j in range(merged):
-        if free[j] != 0 and free[k] & ~free[j] == 0:
-            if same(joints, q[j], q[k], CLUSTER, free[j]):
-                return True
+        covered = free[j] != 0 and free[k] & ~free[j] == 0
+        if covered and same(joints, q[j], q[k], CLUSTER, free[j]):
+            return True
     return False
 
 

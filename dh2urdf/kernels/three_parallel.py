@@ -16,10 +16,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import TWO_PI, finish_pose
+from dh2urdf.kernels.certify import copy_rows, finish_pose
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import free_joints
+from dh2urdf.kernels.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_pairs import outer_pairs
+from dh2urdf.kernels.parallel_plane import last_joint, seen_arm, seen_from_plane
 from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import middle_angle
 from dh2urdf.kernels.trig import elbow_angle
@@ -36,97 +38,12 @@ ALL_FREE = 0b111111
 FIFTH_FREE = 0b010111
 """Joints that move where axis 5 is parallel to axes 1, 2, 3."""
 
-TRIALS = 64
-"""Values at which a free t5 is tried."""
-
 VAGUE = 1e-6
 """Sine of the angle between axis 6 and the parallel axes below which t6, which rounding turns by
 1e-16 over that sine, may have left the interval in which the planar arm reaches."""
 
 ROUNDING = 1e-12
 """Turn of the tool [rad] that rounding, also of t1 near its own rim, explains."""
-
-
-@inner_kernel
-def _reach_with_fifth_joint(form, D, cs):
-    """Turn t5, free where axis 5 is parallel to 1, 2, 3, so that the planar arm reaches best."""
-    upper, fore = form[0, 0], form[1, 0]
-    least, best_c, best_s = math.inf, 1.0, 0.0
-    for k in range(TRIALS):
-        angle = form[4, 4] + TWO_PI * k / TRIALS
-        cs[4, 0], cs[4, 1] = math.cos(angle), math.sin(angle)
-        _last_joint(form, 0, D, cs)
-        x, y, _ = _seen_arm(form, 0, D, cs, 0.0, 1.0)
-        length = math.hypot(D[0, 3] - x, D[1, 3] - y)
-        beyond = max(abs(upper - fore) - length, length - upper - fore)
-        if beyond < least:
-            least, best_c, best_s = beyond, cs[4, 0], cs[4, 1]
-    cs[4, 0], cs[4, 1] = best_c, best_s
-
-
-@inner_kernel
-def _seen_from_plane(form, first, c1, s1, x, y, z):
-    """A vector of frame 0 in the frame of the parallel axes, which joint 1 turns or not."""
-    if first == 0:
-        return x, y, z
-    x, y = c1 * x + s1 * y, c1 * y - s1 * x
-    ca, sa = form[0, 1], form[0, 2]
-    return x, ca * y + sa * z, ca * z - sa * y
-
-
-@inner_kernel
-def _to_frame_six(form, last, cs, x, origin):
-    """A vector of the frame after the last parallel axis, seen in frame 6.
-
-    ``origin`` 1.0: the vector from that frame's origin to frame 6's; 0.0: the direction x.
-    """
-    x, y, z = (form[last, 0], 0.0, 0.0) if origin != 0.0 else (x, 0.0, 0.0)
-    for i in range(last + 1, 6):
-        ca, sa = form[i - 1, 1], form[i - 1, 2]
-        y, z = ca * y + sa * z, ca * z - sa * y
-        c, s = cs[i, 0], cs[i, 1]
-        x, y = c * x + s * y, c * y - s * x
-        x += origin * form[i, 0]
-        z += origin * form[i, 3]
-    return x, y, z
-
-
-@inner_kernel
-def _seen_arm(form, first, D, cs, x, origin):
-    """``_to_frame_six`` brought on into the plane of the parallel axes."""
-    x, y, z = _to_frame_six(form, first + 2, cs, x, origin)
-    u = D[0, 0] * x + D[0, 1] * y + D[0, 2] * z
-    v = D[1, 0] * x + D[1, 1] * y + D[1, 2] * z
-    w = D[2, 0] * x + D[2, 1] * y + D[2, 2] * z
-    return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
-
-
-@inner_kernel
-def _last_joint(form, first, D, cs):
-    """Cosine and sine of t6 into cs by subproblem 1; returns whether axis 6 is in line.
-
-    The common direction k has components ``r = k^T R`` in frame 6 and ``g`` before joint 6.
-    """
-    kx, ky, kz = 0.0, 0.0, 1.0
-    if first == 1:
-        kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-    rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
-    ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
-    x, y, z = 0.0, 0.0, 1.0
-    for i in range(first + 3, 6):
-        ca, sa = form[i - 1, 1], form[i - 1, 2]
-        y, z = ca * y + sa * z, ca * z - sa * y
-        if i < 5:
-            c, s = cs[i, 0], cs[i, 1]
-            x, y = c * x + s * y, c * y - s * x
-    in_line = math.hypot(rx, ry)
-    c6, s6 = x * rx + y * ry, y * rx - x * ry
-    r = math.hypot(c6, s6)
-    if in_line <= NICE or r == 0.0:
-        cs[5, 0], cs[5, 1] = math.cos(form[5, 4]), math.sin(form[5, 4])
-    else:
-        cs[5, 0], cs[5, 1] = c6 / r, s6 / r
-    return in_line
 
 
 @inner_kernel
@@ -139,7 +56,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     """
     upper, fore = form[first, 0], form[first + 1, 0]
     near, far = abs(upper - fore), upper + fore
-    bx, by, _ = _seen_arm(form, first, D, cs, 0.0, 1.0)
+    bx, by, _ = seen_arm(form, first, D, cs, 0.0, 1.0)
     cx, cy = x + bx, y + by
     distance, radius, length = math.hypot(cx, cy), math.hypot(bx, by), math.hypot(x, y)
     if near <= length <= far or distance * radius == 0.0:
@@ -158,34 +75,28 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
     if in_line > FREE and in_line * math.hypot(1.0 - c, s) > ROUNDING:
         return x, y
-    _, _, up = _seen_arm_axis(form, first, D, cs)
+    _, _, up = seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
     s = -s if up > 0.0 else s
     cs[5, 0], cs[5, 1] = cs[5, 0] * c - cs[5, 1] * s, cs[5, 1] * c + cs[5, 0] * s
     return cx - vx, cy - vy
 
 
 @inner_kernel
-def _seen_arm_axis(form, first, D, cs):
-    """Axis 6 in the plane's frame."""
-    return _seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
-
-
-@inner_kernel
 def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, count):
     """Append the elbows of one set of outer joints; returns the new count."""
-    in_line = _last_joint(form, first, D, cs)
+    in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     if first == 1:
         pz -= form[0, 3]
-    x, y, _ = _seen_from_plane(form, first, cs[0, 0], cs[0, 1], px, py, pz)
+    x, y, _ = seen_from_plane(form, first, cs[0, 0], cs[0, 1], px, py, pz)
     x -= form[0, 0] if first == 1 else 0.0
-    bx, by, _ = _seen_arm(form, first, D, cs, 0.0, 1.0)
+    bx, by, _ = seen_arm(form, first, D, cs, 0.0, 1.0)
     x, y = x - bx, y - by
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
     if in_line <= VAGUE:
         x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
-    hx, hy, _ = _seen_arm(form, first, D, cs, 1.0, 0.0)
+    hx, hy, _ = seen_arm(form, first, D, cs, 1.0, 0.0)
     heading = math.atan2(hy, hx)
     upper, fore = form[first, 0], form[first + 1, 0]
     square = x * x + y * y
@@ -233,51 +144,57 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
     ``first`` is the index of the first parallel axis; ``scratch``: frame 6 in frame 0 (3, 4), the
     pairs (8, 5), cosines and sines (6, 2), certification.
     """
-    D, pair, cs, _ = scratch
+    D, pair, cs, _, arcs, _ = scratch
     outer = 0 if first == 1 else 3
     mask = ALL_FREE if pairs < 0 else 0
     found = 0
     for k in range(abs(pairs)):
-        cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
-        cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
-        shoulder, wrists, free_with = 0, 1, mask
-        if first == 0 and pair[k, 4] != 0.0:
-            _reach_with_fifth_joint(form, D, cs)
-            free_with = FIFTH_FREE
-        if found + 2 > q.shape[0]:
-            break
-        if first == 1:
-            shoulder = 1 if pair[k, 0] * D[0, 3] + pair[k, 1] * D[1, 3] < 0.0 else 0
-            if form[4, 0] == 0.0:
-                wrists = _slope_of_last(form, D, cs, slack)
-        for _ in range(wrists):
-            found = _add_planar(
-                form, first, D, cs, shoulder, free_with, slack, q, branch, free, found
-            )
-            cs[4, 1] = -cs[4, 1]
+        leaning = first == 0 and pair[k, 4] != 0.0
+        values = pairs_of_leaning(form, D, cs, pair[k, 0], pair[k, 1], arcs) if leaning else 1
+        for value in range(values):
+            row = arcs[value] if leaning else pair[k]
+            cs[outer, 0], cs[outer, 1] = row[0], row[1]
+            cs[4, 0], cs[4, 1] = row[2], row[3]
+            shoulder, wrists = 0, 1
+            if found + 2 > q.shape[0]:
+                break
+            if first == 1:
+                shoulder = 1 if row[0] * D[0, 3] + row[1] * D[1, 3] < 0.0 else 0
+                if form[4, 0] == 0.0:
+                    wrists = _slope_of_last(form, D, cs, slack)
+            free_with = FIFTH_FREE if leaning else mask
+            for _ in range(wrists):
+                found = _add_planar(
+                    form, first, D, cs, shoulder, free_with, slack, q, branch, free, found
+                )
+                cs[4, 1] = -cs[4, 1]
     return found
 
 
 @inner_kernel
-def finish_pairs(
-    links, joints, form, first, pairs, slack, T, within_limits, q, residual, branch, free, scratch
-):
-    """From ``pairs`` of outer joints of one pose to certified solutions in q (8, 6); their count.
+def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out, scratch):
+    """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
 
-    See :func:`add_pairs`.
+    From ``pairs`` of outer joints, see :func:`add_pairs`.
     """
+    work, many = scratch[3], scratch[5]
+    q, residual, branch, free = many
     found = add_pairs(form, first, pairs, slack, q, branch, free, scratch)
     for k in range(found):
         residual[k] = -1.0
-    return finish_pose(
-        links, joints, T, within_limits, q, residual, branch, free, found, scratch[3]
-    )
+    found = finish_pose(links, joints, T, within_limits, *many, found, work)
+    return copy_rows(many, found, out)
 
 
 @inner_kernel
 def make_scratch():
-    """Scratch of :func:`finish_pairs`, one for a batch."""
-    return np.empty((3, 4)), np.empty((8, 5)), np.zeros((6, 2)), np.empty((6, 14))
+    """Scratch of :func:`add_pairs` and :func:`finish_pairs`, one for a batch.
+
+    Frame 6 in frame 0, pairs, cosines and sines, certification, arcs of t5, candidates.
+    """
+    many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
+    D, cs, arcs = np.empty((3, 4)), np.zeros((6, 2)), np.empty((MOST_ARCS, 4))
+    return D, np.empty((8, 5)), cs, np.empty((6, 14)), arcs, many
 
 
 @kernel
@@ -296,7 +213,7 @@ def solve_three_parallel(
         pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = finish_pairs(
-            links, joints, form, first, pairs, slack, Ts[i], within_limits, *out, scratch
+            links, joints, form, first, pairs, slack, Ts[i], within_limits, out, scratch
         )
         vague = 0.0
         for k in range(abs(pairs) if first == 0 else 0):

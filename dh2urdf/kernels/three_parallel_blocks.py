@@ -175,5 +175,5 @@ def solve_common_parallel(
                 pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
                 count[i] = finish_pairs(
-                    links, joints, form, 1, pairs, slack, Ts[i], within_limits, *out, scratch
+                    links, joints, form, 1, pairs, slack, Ts[i], within_limits, out, scratch
                 )

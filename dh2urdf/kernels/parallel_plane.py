@@ -1,0 +1,75 @@
+"""An arm with three parallel axes, seen from the plane in which they turn."""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.position_arm import NICE
+
+__all__ = ["last_joint", "seen_arm", "seen_from_plane"]
+
+
+@inner_kernel
+def seen_from_plane(form, first, c1, s1, x, y, z):
+    """A vector of frame 0 in the frame of the parallel axes, which joint 1 turns or not."""
+    if first == 0:
+        return x, y, z
+    x, y = c1 * x + s1 * y, c1 * y - s1 * x
+    ca, sa = form[0, 1], form[0, 2]
+    return x, ca * y + sa * z, ca * z - sa * y
+
+
+@inner_kernel
+def _to_frame_six(form, last, cs, x, origin):
+    """A vector of the frame after the last parallel axis, seen in frame 6.
+
+    ``origin`` 1.0: the vector from that frame's origin to frame 6's; 0.0: the direction x.
+    """
+    x, y, z = (form[last, 0], 0.0, 0.0) if origin != 0.0 else (x, 0.0, 0.0)
+    for i in range(last + 1, 6):
+        ca, sa = form[i - 1, 1], form[i - 1, 2]
+        y, z = ca * y + sa * z, ca * z - sa * y
+        c, s = cs[i, 0], cs[i, 1]
+        x, y = c * x + s * y, c * y - s * x
+        x += origin * form[i, 0]
+        z += origin * form[i, 3]
+    return x, y, z
+
+
+@inner_kernel
+def seen_arm(form, first, D, cs, x, origin):
+    """``_to_frame_six`` brought on into the plane of the parallel axes."""
+    x, y, z = _to_frame_six(form, first + 2, cs, x, origin)
+    u = D[0, 0] * x + D[0, 1] * y + D[0, 2] * z
+    v = D[1, 0] * x + D[1, 1] * y + D[1, 2] * z
+    w = D[2, 0] * x + D[2, 1] * y + D[2, 2] * z
+    return seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
+
+
+@inner_kernel
+def last_joint(form, first, D, cs):
+    """Cosine and sine of t6 into cs by subproblem 1; returns whether axis 6 is in line.
+
+    The common direction k has components ``r = k^T R`` in frame 6 and ``g`` before joint 6.
+    """
+    kx, ky, kz = 0.0, 0.0, 1.0
+    if first == 1:
+        kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
+    rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
+    ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
+    x, y, z = 0.0, 0.0, 1.0
+    for i in range(first + 3, 6):
+        ca, sa = form[i - 1, 1], form[i - 1, 2]
+        y, z = ca * y + sa * z, ca * z - sa * y
+        if i < 5:
+            c, s = cs[i, 0], cs[i, 1]
+            x, y = c * x + s * y, c * y - s * x
+    in_line = math.hypot(rx, ry)
+    c6, s6 = x * rx + y * ry, y * rx - x * ry
+    r = math.hypot(c6, s6)
+    if in_line <= NICE or r == 0.0:
+        cs[5, 0], cs[5, 1] = math.cos(form[5, 4]), math.sin(form[5, 4])
+    else:
+        cs[5, 0], cs[5, 1] = c6 / r, s6 / r
+    return in_line
