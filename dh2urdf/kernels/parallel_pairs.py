@@ -15,13 +15,23 @@ from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.leaning import levels
 from dh2urdf.kernels.position_arm import FREE
-from dh2urdf.kernels.trig import add_square, linear_trig, trig_roots
+from dh2urdf.kernels.trig import add_square, linear_trig, root_of_gap, trig_roots
 
 __all__ = ["outer_pairs", "pairs_of_meeting"]
 
 EPSILON = 1e-15
 """Rounding of the equation for t4, near whose double root t4 is off by this over the distance from
 the root, and so is what t5 follows from."""
+
+STRAIGHT = 1e-12
+"""Cosine that an angle between axes 4 and 6 may lack to 1 where t5 puts them in line."""
+
+NEARLY_IN_LINE = 1e-6
+"""Angle [rad] between axis 6 and the common normal from which the two equations for joints 1 and 5
+are solved together; rounding parts their roots by 1e-8 at most."""
+
+BLURRED = 1e-6
+"""Relative discriminant at which two roots in line are one."""
 
 LEANING = 3e-6
 """Sine of the angle between axis 5 and the axes 1, 2, 3 below which t5 is nearly free: rounding of
@@ -65,10 +75,61 @@ def _pairs_behind_one(form, D, slack, pair):
     M[1, 0], M[1, 1], N[1, 1] = -sa1 * py, sa1 * px, -sa4 * a5
     d[1] = offset
     count = max(circle_pair(M, N, d, slack, np.empty((3, 5)), found), 0)
+    pairs = 0
+    for side in range(2):
+        pairs = _pairs_in_line(form, D, offset, 1.0 - 2.0 * side, pair, pairs)
+    in_line = pairs > 0
     for k in range(count):
+        kx, ky, kz = sa1 * found[k, 1], -sa1 * found[k, 0], ca1
+        rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
+        ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
+        if in_line and math.hypot(rx, ry) <= 2.0 * NEARLY_IN_LINE:
+            continue
         for j in range(4):
-            pair[k, j] = found[k, j]
-    return count
+            pair[pairs, j] = found[k, j]
+        pairs += 1
+    return pairs
+
+
+@inner_kernel
+def _pairs_in_line(form, D, offset, c5, pair, pairs):
+    """Append pairs where axis 6 is nearly along the common normal, t5 near 0 or pi; the new count.
+
+    There both equations of :func:`_pairs_behind_one` have a double root, which rounding parts by
+    its root. With x and y small turns of joint 1, from where k is nearest to +-z6, and of joint 5,
+    what is left of them is ``|v|^2 + sin(alpha1)^2 x^2 = B y^2`` and ``F + M x = N y``, where v
+    is k less +-z6 at x = 0: all of it small, and known to as many digits as it has.
+    """
+    ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
+    sign = form[3, 1] * form[4, 1] - sa4 * sa5 * c5
+    across = math.hypot(D[0, 2], D[1, 2])
+    if abs(abs(sign) - 1.0) > STRAIGHT or across == 0.0:
+        return pairs
+    sign = 1.0 if sign > 0.0 else -1.0
+    toward = sign if sa1 > 0.0 else -sign
+    c1, s1 = -toward * D[1, 2] / across, toward * D[0, 2] / across
+    vx, vy, vz = sa1 * s1 - sign * D[0, 2], -sa1 * c1 - sign * D[1, 2], ca1 - sign * D[2, 2]
+    square = vx * vx + vy * vy + vz * vz
+    px, py = D[0, 3], D[1, 3]
+    F = sa1 * (px * s1 - py * c1) - offset
+    M, N = sa1 * (px * c1 + py * s1), sa4 * form[4, 0] * c5
+    B, size = -sign * c5 * sa4 * sa5, max(abs(M), abs(N))
+    if max(math.sqrt(square) * size, abs(F)) >= NEARLY_IN_LINE * size:
+        return pairs
+    a = sa1 * sa1 * N * N - B * M * M
+    if abs(M) >= abs(N):
+        b, c = -sa1 * sa1 * N * F, sa1 * sa1 * F * F + M * M * square
+    else:
+        b, c = -B * F * M, N * N * square - B * F * F
+    root = root_of_gap(b * b - a * c, size * size * NEARLY_IN_LINE * NEARLY_IN_LINE, BLURRED)
+    for k in range(0 if root < 0.0 or a == 0.0 else (1 if root == 0.0 else 2)):
+        r = (-b + (root if k == 0 else -root)) / a
+        x, y = ((N * r - F) / M, r) if abs(M) >= abs(N) else (r, (F + M * r) / N)
+        cx, sx = math.cos(x), math.sin(x)
+        pair[pairs, 0], pair[pairs, 1] = c1 * cx - s1 * sx, s1 * cx + c1 * sx
+        pair[pairs, 2], pair[pairs, 3] = c5 * math.cos(y), c5 * math.sin(y)
+        pairs += 1
+    return pairs
 
 
 @inner_kernel
