@@ -211,3 +211,35 @@ def check_family(chain, q, T, mask):
         moved = moved + np.linalg.pinv(jacobians(chain, moved), rcond=1e-6) @ e
     assert residuals(chain, moved, T) < 1e-9
     assert 5e-4 < gaps(chain, moved, q) < 2e-3
+
+
+def same_to_rounding(chain, found, q, T):
+    """Whether a way leads from a solution to q on which the pose is T to rounding.
+
+    Where singularities meet, a pose is that of a whole stretch of configurations as far as double
+    precision goes. Seventeen points of the straight way are brought back to it across the stretch;
+    each has to reach T to 4e-15 and to be near where it was.
+    """
+    step = q - found
+    turning = ~chain.prismatic
+    step[turning] = (step[turning] + math.pi) % (2 * math.pi) - math.pi
+    for part in np.linspace(0.0, 1.0, 17)[1:-1]:
+        start = found + part * step
+        p = start.copy()
+        for _ in range(6):
+            if residuals(chain, p, T) < 4e-15:
+                break
+            e = error_vectors(forward(chain, p), T)
+            p = p + np.linalg.pinv(jacobians(chain, p), rcond=1e-5) @ e
+        if residuals(chain, p, T) > 4e-15 or np.abs(p - start).max() > 0.1 * np.abs(step).max():
+            return False
+    return True
+
+
+def on_flat_way(chain, found, q, T):
+    """Whether the pose stays within 1e-9 of T on the straight way from a solution to q."""
+    step = q - found
+    turning = ~chain.prismatic
+    step[turning] = (step[turning] + math.pi) % (2 * math.pi) - math.pi
+    way = found + np.linspace(0.0, 1.0, 17)[:, None] * step
+    return residuals(chain, way, T).max() < 1e-9

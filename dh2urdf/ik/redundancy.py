@@ -3,18 +3,21 @@
 Where a joint can move in every configuration while the task stays satisfied, there is a
 one-parameter family through every solution. Joints are then held so that the rest determine the
 task, at rest or at the first of a row of values at which the pose is reached; at rest only, where
-the joints that are held are the only ones to move along the family.
+the joints that are held are the only ones to move along the family. Where the pose is reached at
+none of the values, as on the rim of the workspace, a numeric search looks for one member.
 """
 
 from __future__ import annotations
 
 import itertools
+from functools import cached_property
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.families import task_jacobian
 from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.numeric import NumericProblem
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.ik.tolerances import FAMILY_RANK
@@ -24,6 +27,9 @@ __all__ = ["RedundantChain", "spare_joints"]
 
 TRIALS = 4
 """Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
+
+STARTS = 8
+"""Starts of the numeric search; a member of a family is soon found, if there is one."""
 
 VALUES = (1, 24, 7)
 """Values at which each of 0, 1, 2 joints is held: a turn in steps of 15 degrees, of 51 for two."""
@@ -67,8 +73,8 @@ class RedundantChain(SolverBase):
         anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))
         self.idle = int(np.bitwise_or.reduce(anywhere))
         self._solvers: dict[tuple[float, ...], HeldJoints] = {}
-        alone = self.idle == sum(1 << i for i in self.held)
-        rows = [_values(chain, i, len(self.held))[: 1 if alone else None] for i in self.held]
+        self.alone = self.idle == sum(1 << i for i in self.held)
+        rows = [_values(chain, i, len(self.held))[: 1 if self.alone else None] for i in self.held]
         self.values = list(itertools.product(*rows))
         self.kmax = self._solver(self.values[0]).kmax
 
@@ -88,6 +94,13 @@ class RedundantChain(SolverBase):
         """Name the held joints and the solver of the others."""
         names = ", ".join(self.chain.names[i] for i in self.held)
         return f"{names} held at rest or where the pose is reached; {self._solver(self.values[0])}"
+
+    @cached_property
+    def _numeric(self) -> NumericProblem:
+        """The chain for a numeric search."""
+        chain, n = self.chain, self.chain.n
+        bounds = chain.lower, chain.upper
+        return NumericProblem(chain, np.eye(n), np.zeros(n), chain.prismatic, *bounds)
 
     def _solver(self, values: tuple[float, ...]) -> HeldJoints:
         """The solver with the joints held at some values, kept for the next call."""
@@ -117,6 +130,12 @@ class RedundantChain(SolverBase):
             solver = self._solver(values)
             solver.solve_batch(Ts[open_], within_limits, q, residual, count, branch, free)
             q_out[open_], residual_out[open_], count_out[open_] = q, residual, count
+        for i in () if self.alone else np.flatnonzero(count_out == 0):
+            found = self._numeric.solve(
+                Ts[i], within_limits=within_limits, task=self.task, starts=STARTS
+            )
+            count_out[i] = len(found)
+            q_out[i, : len(found)], residual_out[i, : len(found)] = found.q, found.residual
         used = np.arange(self.kmax) < count_out[:, None]
         free_out[:] = 0
         free_out[used] = self.idle | _moving_joints(self.chain, self.task, q_out[used])

@@ -55,18 +55,27 @@ def _level(row, c4, e):
 
 
 @inner_kernel
+def _common_direction(form, c4, e):
+    """What the common direction of axes 1, 2, 3 has across axis 5, seen after joint 4."""
+    k, half = form[2, 2] * c4, math.sin(0.5 * e)
+    return k * math.sin(e), -2.0 * k * form[3, 1] * half * half
+
+
+@inner_kernel
 def _offset(form, rise, slope, c4, nominal, c5, s5):
     """The e that goes with t5, and whether height and slope are those of the pose to rounding."""
-    k = form[2, 2] * c4
-    a, b = form[4, 0] * k * c5, form[4, 2] * k * s5
-    first, second = a - rise[2] * c4, b
-    square = first * first + second * second
-    e = nominal
-    if square > 1e-6 * k * k * (form[4, 0] * form[4, 0] + form[4, 2] * form[4, 2]):
-        e = (first * (rise[0] + rise[1] * c4) + second * (slope[0] + slope[1] * c4)) / square
+    k, e = form[2, 2] * c4, nominal
+    a, b = form[4, 0] * k * c5 - rise[2] * c4, form[4, 2] * k * s5
+    square = a * a + b * b
+    known = square > 1e-6 * k * k * (form[4, 0] * form[4, 0] + form[4, 2] * form[4, 2])
+    for _ in range(3 if known else 1):
+        fx, fy = _common_direction(form, c4, e)
+        high = _level(rise, c4, e) - form[4, 0] * (fx * c5 + fy * s5)
+        steep = _level(slope, c4, e) - form[4, 2] * (fx * s5 - fy * c5)
+        if known:
+            e += (a * high + b * steep) / square
     eta = ETA * max(1.0, abs(rise[0]) + abs(rise[1]))
-    off = abs(a * e - _level(rise, c4, e))
-    return e, off <= eta and abs(b * e - _level(slope, c4, e)) <= eta
+    return e, abs(high) <= eta and abs(steep) <= eta
 
 
 @inner_kernel
@@ -147,20 +156,23 @@ def _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs):
 @inner_kernel
 def _fifth(form, rise, slope, c4, e, side):
     """Cosine and sine of the t5 that goes with e, on either side; (0, 0) if there is none."""
-    k = form[2, 2] * c4 * e
-    a, b = form[4, 0] * k, form[4, 2] * k
-    c5, s5 = _level(rise, c4, e), _level(slope, c4, e)
-    if k == 0.0:
+    fx, fy = _common_direction(form, c4, e)
+    f = math.copysign(math.hypot(fx, fy), fx)
+    if f == 0.0:
         return 0.0, 0.0
-    if form[4, 0] != 0.0 and form[4, 2] != 0.0:
-        c5, s5 = c5 / a, s5 / b
-        r = math.hypot(c5, s5)
-        return (c5 / r, s5 / r) if r > 0.0 and side > 0.0 else (0.0, 0.0)
-    known = s5 / b if form[4, 0] == 0.0 else c5 / a
-    if not abs(known) <= 1.0:
-        return 0.0, 0.0
-    other = side * math.sqrt((1.0 - known) * (1.0 + known))
-    return (other, known) if form[4, 0] == 0.0 else (known, other)
+    a, b = form[4, 0] * f, form[4, 2] * f
+    c, s = _level(rise, c4, e), _level(slope, c4, e)
+    if a != 0.0 and b != 0.0:
+        c, s = c / a, s / b
+        r = math.hypot(c, s) if side > 0.0 else 0.0
+        c, s = (c / r, s / r) if r > 0.0 else (0.0, 0.0)
+    else:
+        known = s / b if a == 0.0 else c / a
+        if not abs(known) <= 1.0:
+            return 0.0, 0.0
+        other = side * math.sqrt((1.0 - known) * (1.0 + known))
+        c, s = (other, known) if a == 0.0 else (known, other)
+    return (c * fx - s * fy) / f, (s * fx + c * fy) / f
 
 
 @inner_kernel

@@ -26,14 +26,19 @@ the root, and so is what t5 follows from."""
 STRAIGHT = 1e-12
 """Cosine that an angle between axes 4 and 6 may lack to 1 where t5 puts them in line."""
 
-NEARLY_IN_LINE = 1e-6
-"""Angle [rad] between axis 6 and the common normal from which the two equations for joints 1 and 5
-are solved together; rounding parts their roots by 1e-8 at most."""
+NEARLY_IN_LINE = 1e-4
+"""Angle [rad] between axis 6 and the common normal below which the two equations for joints 1 and 5
+are solved as what is left of them: rounding moves their roots by 1e-16 over that angle."""
 
-BLURRED = 1e-6
-"""Relative discriminant at which two roots in line are one."""
+NEWTON_STEPS = 5
 
-LEANING = 3e-6
+BLURRED = 1e-9
+"""Angle [rad] by which two roots in line may miss being one and still be tried as such."""
+
+PARTED = 1e-6
+"""Difference of cosines and sines up to which a root is one that is known more exactly."""
+
+LEANING = 1e-4
 """Sine of the angle between axis 5 and the axes 1, 2, 3 below which t5 is nearly free: rounding of
 t4 may have moved it anywhere."""
 
@@ -75,19 +80,20 @@ def _pairs_behind_one(form, D, slack, pair):
     M[1, 0], M[1, 1], N[1, 1] = -sa1 * py, sa1 * px, -sa4 * a5
     d[1] = offset
     count = max(circle_pair(M, N, d, slack, np.empty((3, 5)), found), 0)
-    pairs = 0
-    for side in range(2):
-        pairs = _pairs_in_line(form, D, offset, 1.0 - 2.0 * side, pair, pairs)
-    in_line = pairs > 0
+    pairs = _pairs_in_line(form, D, offset, 1.0, pair, 0)
+    pairs = _pairs_in_line(form, D, offset, -1.0, pair, pairs)
+    in_line = pairs
     for k in range(count):
-        kx, ky, kz = sa1 * found[k, 1], -sa1 * found[k, 0], ca1
-        rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
-        ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
-        if in_line and math.hypot(rx, ry) <= 2.0 * NEARLY_IN_LINE:
-            continue
-        for j in range(4):
-            pair[pairs, j] = found[k, j]
-        pairs += 1
+        apart = math.inf
+        for j in range(in_line):
+            gap = 0.0
+            for e in range(4):
+                gap = max(gap, abs(found[k, e] - pair[j, e]))
+            apart = min(apart, gap)
+        if apart > PARTED and pairs < pair.shape[0]:
+            for e in range(4):
+                pair[pairs, e] = found[k, e]
+            pairs += 1
     return pairs
 
 
@@ -121,15 +127,40 @@ def _pairs_in_line(form, D, offset, c5, pair, pairs):
         b, c = -sa1 * sa1 * N * F, sa1 * sa1 * F * F + M * M * square
     else:
         b, c = -B * F * M, N * N * square - B * F * F
-    root = root_of_gap(b * b - a * c, size * size * NEARLY_IN_LINE * NEARLY_IN_LINE, BLURRED)
+    square = (b * b - a * c) / (size * size)
+    root = size * math.sqrt(max(square, 0.0)) if square > -BLURRED * BLURRED else -1.0
+    start = vx, vy, vz, c1, s1
     for k in range(0 if root < 0.0 or a == 0.0 else (1 if root == 0.0 else 2)):
         r = (-b + (root if k == 0 else -root)) / a
         x, y = ((N * r - F) / M, r) if abs(M) >= abs(N) else (r, (F + M * r) / N)
+        x, y = _settle_in_line(start, sa1, px, py, F, B, N, x, y)
         cx, sx = math.cos(x), math.sin(x)
         pair[pairs, 0], pair[pairs, 1] = c1 * cx - s1 * sx, s1 * cx + c1 * sx
         pair[pairs, 2], pair[pairs, 3] = c5 * math.cos(y), c5 * math.sin(y)
         pairs += 1
     return pairs
+
+
+@inner_kernel
+def _settle_in_line(start, sa1, px, py, F, B, N, x, y):
+    """Newton's method on the equations of :func:`_pairs_in_line`, higher powers included."""
+    vx, vy, vz, c1, s1 = start
+    for _ in range(NEWTON_STEPS):
+        sx, h = math.sin(x), math.sin(0.5 * x)
+        dc, ds = -s1 * sx - 2.0 * c1 * h * h, c1 * sx - 2.0 * s1 * h * h
+        ux, uy, sy, g = vx + sa1 * ds, vy - sa1 * dc, math.sin(y), math.sin(0.5 * y)
+        f1 = 0.5 * (ux * ux + uy * uy + vz * vz) - 2.0 * B * g * g
+        f2 = F + sa1 * (px * ds - py * dc) - N * sy
+        f1x, f1y = sa1 * (ux * (c1 + dc) + uy * (s1 + ds)), -B * sy
+        f2x, f2y = sa1 * (px * (c1 + dc) + py * (s1 + ds)), -N * math.cos(y)
+        det = f1x * f2y - f1y * f2x
+        if det == 0.0:
+            break
+        step_x, step_y = (f1y * f2 - f1 * f2y) / det, (f1 * f2x - f1x * f2) / det
+        if max(abs(step_x), abs(step_y)) > max(abs(x), abs(y)):
+            break
+        x, y = x + step_x, y + step_y
+    return x, y
 
 
 @inner_kernel

@@ -18,8 +18,16 @@ from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.trig import elbow_angle, linear_trig, root_of_gap
 
-__all__ = ["FREE", "NICE", "SHOULDER_FREE", "UPPER_FREE", "place_wrist", "place_wrist_in_plane"]
-__all__ += ["tool_to_wrist"]
+__all__ = [
+    "FREE",
+    "NICE",
+    "ON_AXIS",
+    "SHOULDER_FREE",
+    "UPPER_FREE",
+    "place_wrist",
+    "place_wrist_in_plane",
+]
+__all__ += ["onto_axis_2", "seen_from_axis_2", "tool_to_wrist"]
 
 FREE = 5e-10
 """Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned
@@ -27,6 +35,9 @@ round by any amount, the residual stays within what a solution may have."""
 
 NICE = 1e-13
 """The same, below which there is nothing left of the angle, and the joint is put to zero."""
+
+ON_AXIS = 1e-6
+"""Distance [m] of the wrist centre from axis 2 at which it may be on it, but for rounding."""
 
 WRIST_MASK = 0b111000
 SHOULDER_FREE = 0b000001 | WRIST_MASK
@@ -149,17 +160,49 @@ def _any_elbow(form, px, py, pz, slack, arm):
         count = circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
     for k in range(count):
         c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
-        x, y = c1 * px + s1 * py - a1, -s1 * px + c1 * py
-        y = ca1 * y + sa1 * pz
+        x, y = seen_from_axis_2(form, c1, s1, px, py, pz)
         vx = a2 + c3 * wx - s3 * wy
         vy = ca2 * (s3 * wx + c3 * wy) - sa2 * wz
-        upper_free = vx * vx + vy * vy <= FREE * FREE
+        upper_free = False
+        if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
+            ux, uy = -s3 * wx - c3 * wy, ca2 * (c3 * wx - s3 * wy)
+            turn = -(vx * ux + vy * uy) / (ux * ux + uy * uy)
+            near_c, near_s, off = onto_axis_2(form, c1, s1, px, py, pz)
+            upper_free = max(off, math.hypot(vx + turn * ux, vy + turn * uy)) <= FREE
+            if upper_free:
+                c1, s1 = near_c, near_s
+                c3, s3 = c3 - turn * s3, s3 + turn * c3
         arm[k, 0] = math.atan2(s1, c1)
         arm[k, 1] = form[1, 4] if upper_free else math.atan2(vx * y - vy * x, vx * x + vy * y)
         arm[k, 2] = math.atan2(s3, c3)
         arm[k, 3] = -1.0
         arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
     return max(count, 0)
+
+
+@inner_kernel
+def seen_from_axis_2(form, c1, s1, px, py, pz):
+    """The point p (frame 0 moved up by d1) across axis 2, with joint 1 at (c1, s1)."""
+    x, y = c1 * px + s1 * py, c1 * py - s1 * px
+    return x - form[0, 0], form[0, 1] * y + form[0, 2] * pz
+
+
+@inner_kernel
+def onto_axis_2(form, c1, s1, px, py, pz):
+    """Turn joint 1 so that p is nearest to axis 2, on which it nearly lies; cosine, sine, distance.
+
+    There the root of joint 1 is double, and rounding has parted it by 1e-8.
+    """
+    x, y = seen_from_axis_2(form, c1, s1, px, py, pz)
+    dx, dy = c1 * py - s1 * px, -form[0, 1] * (c1 * px + s1 * py)
+    square = dx * dx + dy * dy
+    if square == 0.0:
+        return c1, s1, math.hypot(x, y)
+    turn = -(x * dx + y * dy) / square
+    c, s = math.cos(turn), math.sin(turn)
+    c1, s1 = c1 * c - s1 * s, s1 * c + c1 * s
+    x, y = seen_from_axis_2(form, c1, s1, px, py, pz)
+    return c1, s1, math.hypot(x, y)
 
 
 @inner_kernel

@@ -12,16 +12,20 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
-from dh2urdf.kernels.trig import add_square, linear_trig, real_quadratic, root_of_gap, trig_roots
+from dh2urdf.kernels.position_arm import (
+    FREE,
+    ON_AXIS,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    onto_axis_2,
+    seen_from_axis_2,
+)
+from dh2urdf.kernels.trig import add_square, linear_trig, root_of_gap, trig_roots
 
 __all__ = ["place_wrist_sliding"]
 
 OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
-
-BLUR = 1e-14
-"""Square of the distance between two roots [arm's size] that rounding may have made of one."""
 
 
 @inner_kernel
@@ -113,24 +117,26 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
     rows = 0
     for k in range(count):
         c, s = cosines[k], sines[k]
-        ux, uy = c * px + s * py - a1, c * py - s * px
-        uy = ca1 * uy + sa1 * pz
-        double = False
-        if oblique:
-            found, d, other = 1, d0 + dc * c + ds * s, 0.0
-        else:
+        found, d, other = 1, d0 + dc * c + ds * s, 0.0
+        if not oblique:
             rest = length2 + 2.0 * a1 * (c * px + s * py)
-            found, d, other = real_quadratic(1.0, along, rest, slack)
-            double = k == count - 1 and abs(along * along - rest) <= BLUR * size2
-            found = 0 if double and k > 0 else found
-        for j in range(found + 1 if double else found):
+            root = root_of_gap(along * along - rest, size2, slack)
+            found = 0 if root < 0.0 else (1 if root == 0.0 else 2)
+            d, other = root - along, -root - along
+        for j in range(found):
             d = d if j == 0 else other
-            d = -along if j == found else d
             vx, vy = x, y - sa2 * d
+            upper_free = False
+            if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
+                near_c, near_s, off = onto_axis_2(form, c, s, px, py, pz)
+                upper_free = max(off, abs(x)) <= FREE and sa2 != 0.0
+                if upper_free:
+                    c, s, d = near_c, near_s, y / sa2
+            ux, uy = seen_from_axis_2(form, c, s, px, py, pz)
             arm[rows, 0], arm[rows, 1] = math.atan2(s, c), _between(vx, vy, ux, uy)
             arm[rows, 2] = d
             arm[rows, 4] = SHOULDER_FREE if free else 0.0
-            if vx * vx + vy * vy <= FREE * FREE:
+            if upper_free:
                 arm[rows, 1], arm[rows, 4] = form[1, 4], UPPER_FREE
             rows += 1
     return rows

@@ -151,10 +151,13 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
 
 @inner_kernel
 def roots_meet(joints, arm, rows):
-    """Whether two position solutions nearly coincide: rounding may have parted a double root."""
+    """Whether two position solutions nearly coincide: rounding may have parted a double root.
+
+    Joints 1 and 3 fix joint 2, unless the wrist centre is next to its axis.
+    """
     for k in range(rows):
         for j in range(k):
-            free = int(arm[k, 4]) & int(arm[j, 4])
+            free = (int(arm[k, 4]) & int(arm[j, 4])) | 0b010
             if same(joints, arm[k, :3], arm[j, :3], MEETING, free):
                 return True
     return False
