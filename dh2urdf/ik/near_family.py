@@ -47,8 +47,8 @@ class NearFamily(SolverBase):
         self.nominal = match.family(self.seen, tolerance=match.tolerance)
         self.general = General6R(chain)
         self.distance = self.nominal.form.error
-        self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance), 0.3)
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
+        self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance, noise), 0.3)
         self.trust = np.array([chain.size, NOISE_MOTION * noise, NEARLY_SINGULAR * noise])
 
     @property
@@ -89,6 +89,7 @@ class NearFamily(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
+        from dh2urdf.kernels.beside import search_beside
         from dh2urdf.kernels.finish import finish_batch
         from dh2urdf.kernels.near_family import (
             join_solutions,
@@ -115,6 +116,7 @@ class NearFamily(SolverBase):
             counts = np.zeros(len(rows), np.int64)
             self.general.solve_unfinished(np.ascontiguousarray(Ts[rows]), found, counts)
             join_solutions(rows, found, counts, q_out, count_out)
+            search_beside(self.links, self.joints, rows, Ts, q_out, count_out)
         finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
 
 

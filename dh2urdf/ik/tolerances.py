@@ -50,10 +50,10 @@ SNAP = 1e-9
 """Angle [rad], or length relative to ``chain.size``, below which two axes count as parallel,
 perpendicular or intersecting. A table's own rounding is 1e-16; 1e-9 is what a residual may be."""
 
-NOMINAL = 1e-10
-"""What `SNAP` is for six joints, which have a solver for nearly nominal arms: several times what
+NOMINAL = 2e-11
+"""What `SNAP` is for six joints, which have a solver for nearly nominal arms: four times what
 1.57079632679 lacks of a right angle. Snapping may lose two branches that are less than its root,
-1e-5, apart."""
+5e-6, apart."""
 
 FORM_ERROR = 1e-13
 """Largest difference [m and rad], relative to ``chain.size`` where that is over 1 m, of the snapped

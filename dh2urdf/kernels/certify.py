@@ -38,8 +38,9 @@ CLUSTER = 1e-6
 HOPELESS = 0.3
 """Residual [m and rad] of a candidate that Newton is not asked to repair."""
 
-PLAIN_STEPS = 5
-"""Plain Newton steps; a sound candidate needs two or three."""
+PLAIN_STEPS = 12
+"""Plain Newton steps; a sound candidate needs two or three, one where singularities meet goes
+uphill first and then halves its way back."""
 
 DAMPED_FAILURES = 4
 """Damped steps that may fail to halve the residual before a candidate is given up."""

@@ -17,7 +17,7 @@ from dh2urdf.kernels.certify import (
 )
 from dh2urdf.kernels.compiled import inner_kernel
 
-__all__ = ["free_joints", "one_of_each_family", "work_array"]
+__all__ = ["free_joints", "null_direction", "one_of_each_family", "work_array"]
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
@@ -40,7 +40,7 @@ def work_array(n):
 
 
 @inner_kernel
-def _null_direction(work):
+def null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
 
     Inverse iteration on a Cholesky factor with a shift of 1e-14; the vector is written to
@@ -104,7 +104,7 @@ def free_joints(links, joints, T, q, trial, work):
     """
     n = q.shape[0]
     _normal_equations(links, joints, T, q, work)
-    if _null_direction(work) > SINGULAR:
+    if null_direction(work) > SINGULAR:
         return np.int64(0)
     for i in range(n):
         trial[i] = q[i] + WALK * work[i, 6]

@@ -22,7 +22,7 @@ from dh2urdf.kernels.certify import (
 )
 from dh2urdf.kernels.chain import _joint_times_link, _load
 from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, _null_direction
+from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, null_direction
 from dh2urdf.kernels.merging import NEAR
 
 __all__ = ["finish_position", "position_residual"]
@@ -96,7 +96,7 @@ def _free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family, see :mod:`dh2urdf.kernels.families`."""
     _normal_equations(links, joints, T, q, work)
     mask = np.int64(0)
-    if _null_direction(work) > SINGULAR:
+    if null_direction(work) > SINGULAR:
         return mask
     for i in range(q.shape[0]):
         trial[i] = q[i] + WALK * work[i, 6]
