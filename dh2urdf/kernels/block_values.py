@@ -72,10 +72,9 @@ def _values(form, joints, table, within_limits, n, S):
         if within_limits and _limited(lower, upper):
             flag = BLOCK * (INSIDE + r) & MASK
             for i in range(n):
-                value = S[target + i]
-                inside = lower <= value <= upper
-                S[flag + i] = 1.0 if inside else 0.0
-                touching = min(abs(value - lower), abs(value - upper)) < CLUSTER
+                room = min(S[target + i] - lower, upper - S[target + i])
+                S[flag + i] = 1.0 if room >= 0.0 else 0.0
+                touching = abs(room) < CLUSTER
                 S[BLOCK * DIRTY + i] += 1.0 if touching else 0.0
 
 

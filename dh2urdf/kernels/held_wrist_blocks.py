@@ -54,10 +54,11 @@ def _places(which):
 
 @block_kernel
 def _write(held, place, values, first, n, S, q, residual, count, branch, free):
-    """Write the solutions of all clean lanes in the chain's order; the others get -1.
+    """Write the solutions of all clean lanes in the chain's order; returns how many are clean.
 
-    A solution that does not exist is written over by the next one.
+    The others get a count of -1. A solution that does not exist is written over by the next one.
     """
+    clean = 0
     p0, p1, p2, p3, p4, p5 = place[0], place[1], place[2], place[3], place[4], place[5]
     for i in range(n):
         found, row = 0, first + i
@@ -72,7 +73,35 @@ def _write(held, place, values, first, n, S, q, residual, count, branch, free):
             residual[row, found] = S[BLOCK * (RESIDUAL + k) + i]
             branch[row, k], free[row, k] = -1, 0
             found += 1 if S[BLOCK * (VALID + k) + i] > 0.0 else 0
-        count[row] = found if S[BLOCK * DIRTY + i] == 0.0 else -1
+        rough = S[BLOCK * DIRTY + i] != 0.0
+        count[row] = -1 if rough else found
+        clean += 0 if rough else 1
+    return clean
+
+
+@inner_kernel
+def _solve_careful(frames, which, form, joints, slack, values, Ts, within_limits, first, n, out):
+    """Solve those poses of a block that are not clean one by one."""
+    q, residual, count, branch, free = out
+    scratch = make_scratch()
+    for i in range(first, first + n):
+        if count[i] >= 0:
+            continue
+        count[i] = solve_held_pose(
+            frames,
+            which,
+            form,
+            joints,
+            slack,
+            values[i],
+            Ts[i],
+            within_limits,
+            q[i],
+            residual[i],
+            branch[i],
+            free[i],
+            scratch,
+        )
 
 
 @kernel
@@ -80,7 +109,7 @@ def solve_held_blocks(
     frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
-    scratch, S, m = make_scratch(), np.empty(ROWS * BLOCK), Ts.shape[0]
+    S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
     if m == 0:
         return
     same, seen_from_tool = all_equal(values), which[REVERSED] != 0
@@ -96,20 +125,7 @@ def solve_held_blocks(
             finish_arm(form, S0, seen_from_tool, arm, n, S)
         settle(form, oriented_joints, (JOINT_OF, ROW_OF, MIRRORS), within_limits, n, S)
         out = q, residual, count, branch, free
-        _write(which[HELD], place, values, first, n, S, *out)
-        for i in range(first, first + n):
-            if count[i] >= 0:
-                continue
-            pose_out = q[i], residual[i], branch[i], free[i]
-            count[i] = solve_held_pose(
-                frames,
-                which,
-                form,
-                joints,
-                slack,
-                values[i],
-                Ts[i],
-                within_limits,
-                *pose_out,
-                scratch,
+        if _write(which[HELD], place, values, first, n, S, *out) < n:
+            _solve_careful(
+                frames, which, form, joints, slack, values, Ts, within_limits, first, n, out
             )
