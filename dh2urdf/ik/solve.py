@@ -185,7 +185,8 @@ class InverseKinematics:
         if id(problem.solver) not in self._run_once:
             with notice_if_slow():
                 trial = problem if problem.values is None else problem.at(problem.values[:1])
-                trial.solve_many(np.array(self.chain.tool[None]), False, 1, None)
+                regular = self.chain.fk(np.linspace(0.4, 1.3, self.chain.n))
+                trial.solve_many(regular[None], False, 1, None)
             self._run_once.add(id(problem.solver))
         if problem.values is None and problem.task is Task.POSE and samples is None:
             self._plain = problem

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, _move, _normal_equations, polish
-from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
 
 __all__ = ["free_joints", "one_of_each_family", "work_array"]
 
@@ -27,7 +27,7 @@ def work_array(n):
     return np.empty((n, n + 8))
 
 
-@inner_kernel
+@inlined_kernel
 def _null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
 
@@ -73,7 +73,7 @@ def _null_direction(work):
     return 1.0 / (size * trace)
 
 
-@inner_kernel
+@inlined_kernel
 def free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 

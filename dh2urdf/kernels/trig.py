@@ -54,7 +54,7 @@ A8, A9, A10, A11 = (
 )
 
 
-@kernel
+@inner_kernel
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
 
