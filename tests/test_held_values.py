@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from dh2urdf import Robot
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 
 
 @pytest.mark.parametrize(
@@ -33,3 +34,55 @@ def test_one_value_for_all_and_one_for_each_agree(name, joint):
     found = alike.q[np.arange(alike.q.shape[1]) < alike.count[:, None]]
     by_pinocchio = np.array([robot.fk(q) for q in found])
     assert np.abs(by_pinocchio - np.repeat(Ts, alike.count, axis=0)).max() < 1e-12
+
+
+WRIST_LAST = (
+    (0.1, 0.0, 90),
+    (0.1, 0.4, 10),
+    (0.05, 0.03, 80),
+    (0.4, 0, -90),
+    (0, 0, 90),
+    (0.1, 0, 0),
+)
+WRIST_FIRST = (
+    (0.3, 0, 90),
+    (0, 0, -90),
+    (0.4, 0.05, 80),
+    (0.02, 0.3, 15),
+    (0.1, 0, 90),
+    (0.2, 0.1, 30),
+)
+"""Six turning joints with a spherical triple and axes that meet at the other end: d, a [m], alpha
+[deg]."""
+
+
+def with_a_seventh(rows, place, kind):
+    """The six joints and one more, before them or behind them."""
+    six = [DHRow(theta=0.1 * i, d=d, a=a, alpha=np.deg2rad(w)) for i, (d, a, w) in enumerate(rows)]
+    six.insert(place, DHRow(theta=0.2, d=0.15, a=0.07, alpha=1.1, joint_type=kind))
+    return Robot.from_dh(DHTable(tuple(six), DHConvention.STANDARD, name="seven"))
+
+
+@pytest.mark.parametrize("kind", [JointType.REVOLUTE, JointType.PRISMATIC])
+@pytest.mark.parametrize("place", [0, 6])
+@pytest.mark.parametrize("rows", [WRIST_LAST, WRIST_FIRST])
+def test_a_joint_held_at_either_end_of_a_spherical_arm(rows, place, kind):
+    """A turn or a slide before or behind an arm with its triple at either end takes any value.
+
+    Among the values are turns far beyond a revolution. All solutions reach their pose at their
+    value, as many as with one value a call, and the generating configuration is one of them.
+    """
+    robot = with_a_seventh(rows, place, kind)
+    rng = np.random.default_rng(place)
+    Q = rng.uniform(-2.5, 2.5, (100, 7))
+    Q[::9, place] *= 1e4 if kind is JointType.REVOLUTE else 1.0
+    Ts = np.array([robot.fk(q) for q in Q])
+    batch = robot.ik_batch(Ts, locked={place: Q[:, place]}, within_limits=False)
+    assert (batch.count >= 2).all()
+    for i in range(100):
+        found = batch[i].q
+        assert (found[:, place] == Q[i, place]).all()
+        assert np.abs(np.array([robot.fk(q) for q in found]) - Ts[i]).max() < 1e-11
+        assert np.abs(np.angle(np.exp(1j * (found - Q[i])))).max(axis=1).min() < 1e-7
+        one = robot.ik(Ts[i], locked={place: Q[i, place]}, within_limits=False)
+        assert np.abs(one.q - found).max() < 1e-9

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, moves_freely
+from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.transforms import Array
 
@@ -38,11 +40,20 @@ class General6R(SolverBase):
     ) -> None:
         super().__init__(chain, task, others)
         from dh2urdf.kernels.finish import finish_batch
-        from dh2urdf.kernels.general_6r import plan_general_6r, solve_general_6r
+        from dh2urdf.kernels.general_6r import solve_general_6r
 
-        self.plan = plan_general_6r(self.links) if plan is None else plan
+        if plan is not None:
+            self.plan = plan
         self._kernel, self._finish = solve_general_6r, finish_batch
         self._idle: list[Arm] = []
+
+    @cached_property
+    def plan(self) -> Arm:
+        """The eliminations that suit the arm; they are chosen when first asked for."""
+        from dh2urdf.kernels.general_6r import plan_general_6r
+
+        with notice_if_slow():
+            return plan_general_6r(self.links)
 
     def like(self, chain: SerialChain) -> General6R:
         """The solver of a chain that differs little, with the same eliminations if they do."""

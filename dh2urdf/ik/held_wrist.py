@@ -24,6 +24,12 @@ TRIAL_VALUE = 0.731
 means nothing to any arm."""
 
 
+HELD_PARTS = np.zeros((4, 4, 4))
+"""A turn or slide of a joint is the sum of these, times its cosine, its sine, its slide, and 1."""
+HELD_PARTS[0, 0, 0] = HELD_PARTS[0, 1, 1] = HELD_PARTS[1, 1, 0] = HELD_PARTS[2, 2, 3] = 1.0
+HELD_PARTS[3, 2, 2] = HELD_PARTS[3, 3, 3] = 1.0
+HELD_PARTS[1, 0, 1] = -1.0
+
 MISS = 0.1
 """Relative amount by which an equation may miss its rim where a curve is only looked for."""
 
@@ -39,6 +45,35 @@ class _Oriented(NamedTuple):
     def varies(self) -> int:
         """Which of the links S0, S1, S2 depends on the held value; -1: the pose does."""
         return -1 if self.joint in (0, self.chain.n - 1) else self.joint - 1
+
+    def sides(self, ends: Array) -> Array:
+        """What the target stands between, (2, 4, 4): the ends, one cut off at the held joint.
+
+        ``ends`` (3, 4, 4) are the inverse of the base, the inverse of the tool, the tool.
+        """
+        left = inverse(self.chain.links[0]) if self.joint == 0 else ends[0]
+        right = inverse(self.chain.links[-1]) if self.joint == self.chain.n - 1 else ends[1]
+        return np.stack([inverse(right), inverse(left)] if self.reversed else [left, right])
+
+    def factors(self, link: Array, before: Array, after: Array, ends: Array) -> Array:
+        """Factors of cosine, sine, slide of the held joint and of 1, (4, 4, 4), four rows each.
+
+        Of the entries of S1 (rotation, then position), of the point in the last frame, or in
+        the first of a reversed arm, where the user's tool origin is, and of a zero.
+        """
+        S1, links = np.array([link]), self.chain.links
+        lever = np.array([ends[0] if self.reversed else ends[2]])
+        if self.varies == 1:
+            S1 = before @ HELD_PARTS @ after
+        if self.reversed and self.joint == 0:
+            lever = lever @ (HELD_PARTS * [[[1]], [[-1]], [[-1]], [[1]]]) @ inverse(links[0])
+        elif not self.reversed and self.joint == self.chain.n - 1:
+            lever = lever @ HELD_PARTS @ links[-1]
+        factors = np.zeros((16, 4))
+        factors[:9, -len(S1) :] = S1[:, :3, :3].reshape(-1, 9).T
+        factors[9:12, -len(S1) :] = S1[:, :3, 3].T
+        factors[12:15, -len(lever) :] = lever[:, :3, 3].T
+        return factors.reshape(4, 4, 4)
 
     def rest(self, value: float) -> SerialChain:
         """The chain of the moving joints; an end that moves with the held joint is cut off."""
@@ -78,7 +113,15 @@ class HeldWrist(HeldSolver):
             after = oriented.chain.links[oriented.joint + 1] @ inverse(to_form[j + 1])
         self.frames = np.ascontiguousarray(
             np.concatenate(
-                [chain.links, oriented.chain.links, links, [before, after], self.form.ends]
+                [
+                    chain.links,
+                    oriented.chain.links,
+                    links,
+                    [before, after],
+                    self.form.ends,
+                    oriented.sides(self.form.ends),
+                    oriented.factors(links[1], before, after, self.form.ends),
+                ]
             )
         )
         self.which = np.array(
@@ -145,7 +188,7 @@ class HeldWrist(HeldSolver):
             self.rows,
             self.joints,
             SLACK,
-            values[:, 0],
+            values.ravel(),
             Ts,
             within_limits,
             q_out,

@@ -6,17 +6,17 @@ joints that was asked for.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
+from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik import path
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import select_held
+from dh2urdf.ik.locked import Locked, held_values
 from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.solutions import IKBatch, IKSolutions
@@ -26,11 +26,6 @@ from dh2urdf.ik.swept_problem import SweptProblem
 from dh2urdf.transforms import Array, as_floats, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
-
-Held = float | Array
-
-Locked = Mapping[int, Held] | Mapping[str, Held] | Mapping[int | str, Held]
-"""Joints held at a value [rad] or [m], by index or name; in a batch also at a value per pose."""
 
 
 class InverseKinematics:
@@ -157,13 +152,7 @@ class InverseKinematics:
             return self._free_problem(wanted, samples)
         if samples is not None:
             raise ConfigurationError("samples: a joint is swept or locked, not both")
-        held = self._held(locked, within_limits)
-        joints = tuple(sorted(held))
-        try:
-            values = np.column_stack(np.broadcast_arrays(*(held[i] for i in joints)))
-        except ValueError:
-            lengths = sorted({len(v) for v in held.values()})
-            raise ConfigurationError(f"locked: different numbers of values, {lengths}") from None
+        joints, values = held_values(self.chain, locked, within_limits)
         key = (wanted, *joints)
         if key not in self._problems:
             solver = self._solver(wanted, joints)
@@ -196,7 +185,8 @@ class InverseKinematics:
         if id(problem.solver) not in self._run_once:
             with notice_if_slow():
                 trial = problem if problem.values is None else problem.at(problem.values[:1])
-                trial.solve_many(np.array(self.chain.tool[None]), False, 1, None)
+                regular = self.chain.fk(np.linspace(0.4, 1.3, self.chain.n))
+                trial.solve_many(regular[None], False, 1, None)
             self._run_once.add(id(problem.solver))
         if problem.values is None and problem.task is Task.POSE and samples is None:
             self._plain = problem
@@ -212,46 +202,6 @@ class InverseKinematics:
                 select_held(self.chain, joints, task) if joints else select_solver(self.chain, task)
             )
         return self._solvers[key]
-
-    def _held(self, locked: Locked, within_limits: bool) -> dict[int, Array]:
-        """Check held joints: index to values, shape (1,) or (m,)."""
-        held: dict[int, Array] = {}
-        if not isinstance(locked, Mapping):
-            raise ConfigurationError(
-                f"locked: expected a mapping of joint to value, got {locked!r:.60}"
-            )
-        for key, value in locked.items():
-            i = self._joint_index(key)
-            if i in held:
-                raise ConfigurationError(f"locked: joint {self.chain.names[i]!r} is held twice")
-            try:
-                values = np.array(as_floats(value), ndmin=1)
-            except (TypeError, ValueError):
-                values = np.array([np.nan])
-            if values.ndim != 1 or not np.isfinite(values).all():
-                raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r:.60}")
-            lower, upper = self.chain.lower[i], self.chain.upper[i]
-            outside = (values < lower) | (values > upper)
-            if within_limits and outside.any():
-                raise ConfigurationError(
-                    f"locked[{key!r}]: {values[outside][0]:g} is outside the limits {lower:g} to "
-                    f"{upper:g} of the joint; within_limits=False allows it"
-                )
-            held[i] = values
-        return held
-
-    def _joint_index(self, key: int | str) -> int:
-        """Index of a joint given by index or name."""
-        names = self.chain.names
-        if isinstance(key, str):
-            if key in names:
-                return names.index(key)
-            raise NameNotFoundError(f"no joint named {key!r}; there are {', '.join(names)}")
-        if isinstance(key, (int, np.integer)) and 0 <= key < self.chain.n:
-            return int(key)
-        raise ConfigurationError(
-            f"locked: no joint {key!r}; indices go from 0 to {self.chain.n - 1}"
-        )
 
 
 def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:

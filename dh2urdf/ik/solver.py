@@ -84,7 +84,7 @@ class Solver(Protocol):
         within_limits : bool
             Leave out what no full turn brings into the limits.
         q_out : array, shape (m, kmax, n)
-            Solutions in the first ``count_out[i]`` rows; the others keep what they held.
+            Solutions in the first ``count_out[i]`` rows; the others may hold anything.
         residual_out : array, shape (m, kmax)
         count_out : int64 array, shape (m,)
         branch_out : int64 array, shape (m, kmax)

@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.lanes import LANES, vector_kernel
+from dh2urdf.kernels.lanes import LANES, inlined, vector_kernel
 
 __all__ = [
     "ARC",
@@ -110,7 +110,7 @@ ARC_TABLE = _arc_table()
 WINDOW_TABLE = _window_table()
 
 
-@vector_kernel
+@inlined
 def circle_arcs(samples, series, turned, arcs):
     """Bernstein coefficients of f on 24 arcs from 24 samples around the circle.
 
@@ -158,7 +158,7 @@ def circle_arcs(samples, series, turned, arcs):
     return noise, largest
 
 
-@vector_kernel
+@inlined
 def window_nodes(centre, half_tan, hidden):
     """Cosines and sines, (2, 24), of the places at which a window is sampled."""
     for k in range(LANES):
@@ -166,7 +166,7 @@ def window_nodes(centre, half_tan, hidden):
         hidden[0, k], hidden[1, k] = math.cos(q), math.sin(q)
 
 
-@vector_kernel
+@inlined
 def window_arc(samples, half_tan, series, arcs):
     """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
 
@@ -301,7 +301,7 @@ def _pair(row, x, f, ddf, rising, length, scratch):
     return a, da, b, db
 
 
-@vector_kernel
+@inlined
 def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
     """Append the real roots on one arc.
 

@@ -11,15 +11,15 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.certify import CLUSTER, POLISH, TWO_PI
+from dh2urdf.kernels.certify import POLISH
 from dh2urdf.kernels.compiled import block_kernel
-from dh2urdf.kernels.trig import arctangent
 
 __all__ = [
     "BLOCK",
     "CLEAR",
     "COS",
     "DIRTY",
+    "INSIDE",
     "MASK",
     "MERGED",
     "POSE",
@@ -28,8 +28,9 @@ __all__ = [
     "SIN",
     "TURN",
     "VALID",
+    "VALUES",
 ]
-__all__ += ["VALUES", "WORK", "block_kernel", "emit", "load_poses", "measure", "settle"]
+__all__ += ["WORK", "copy_residual", "load_poses", "measure"]
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -42,9 +43,6 @@ careful kernel allows."""
 MASK = 0xFFFFF
 """Changes no offset, and tells the compiler that it is not negative (a negative one would count
 from the end, which forbids vector code)."""
-
-ROUND = 1.5 * 2.0**52
-"""Added to a number and taken away again, it rounds it to an integer."""
 
 POSE, DIRTY, COS = 0, 12, 13
 SIN = COS + 40
@@ -199,64 +197,8 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
 
 
 @block_kernel
-def _values(form, joints, joint_of, within_limits, rows, n, S):
-    """Joint values of all angles, in the turn nearest to the middle of the limits."""
-    for r in range(rows):
-        j = joint_of[r]
-        sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
-        middle = 0.5 * (lower + upper) if upper - lower < math.inf else 0.0
-        sine, cosine = BLOCK * (SIN + r) & MASK, BLOCK * (COS + r) & MASK
-        target, flag = BLOCK * (VALUES + r) & MASK, BLOCK * (INSIDE + r) & MASK
-        for i in range(n):
-            S[target + i] = arctangent(S[sine + i], S[cosine + i])
-        for i in range(n):
-            value = sign * (S[target + i] - constant)
-            turns = (value - middle) / TWO_PI
-            S[target + i] = value - TWO_PI * ((turns + ROUND) - ROUND)
-            S[flag + i] = 1.0
-        if within_limits and (lower > middle - math.pi or upper < middle + math.pi):
-            for i in range(n):
-                value = S[target + i]
-                inside = lower <= value <= upper
-                S[flag + i] = 1.0 if inside else 0.0
-                touching = min(abs(value - lower), abs(value - upper)) < CLUSTER
-                S[BLOCK * DIRTY + i] += 1.0 if touching else 0.0
-
-
-@block_kernel
-def settle(form, joints, table, within_limits, n, S):
-    """Joint values of all lanes, and which solutions there are with these.
-
-    Parameters
-    ----------
-    table : pair of int arrays, shapes (rows,) and (8, 6)
-        Joint of each angle; row of each solution's angle of each joint.
-    """
-    joint_of, row_of = table
-    rows = joint_of.shape[0]
-    _values(form, joints, joint_of, within_limits, rows, n, S)
-    for k in range(8):
-        for j in range(6):
-            flag, valid = BLOCK * (INSIDE + row_of[k, j]) & MASK, BLOCK * (VALID + k) & MASK
-            for i in range(n):
-                S[valid + i] *= S[flag + i]
-
-
-@block_kernel
-def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
-    """Write the solutions of all clean lanes; the others get a count of -1."""
-    settle(form, joints, table, within_limits, n, S)
-    row_of = table[1]
+def copy_residual(source, target, n, S):
+    """Another solution has the same residual."""
+    source, target = BLOCK * (RESIDUAL + source) & MASK, BLOCK * (RESIDUAL + target) & MASK
     for i in range(n):
-        if S[BLOCK * DIRTY + i] != 0.0:
-            count[first + i] = -1
-            continue
-        found = 0
-        for k in range(8):
-            if S[BLOCK * (VALID + k) + i] > 0.0:
-                for j in range(6):
-                    q[first + i, found, j] = S[BLOCK * (VALUES + row_of[k, j]) + i]
-                residual[first + i, found] = S[BLOCK * (RESIDUAL + k) + i]
-                branch[first + i, found], free[first + i, found] = k, 0
-                found += 1
-        count[first + i] = found
+        S[target + i] = S[source + i]

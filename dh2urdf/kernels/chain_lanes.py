@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from numba import njit
 
-__all__ = ["BLOCK", "ROWS", "fits", "lanes_fk", "sincos_lanes"]
+__all__ = ["BLOCK", "LARGEST", "ROWS", "cosine_sine", "fits", "lanes_fk", "sincos_lanes"]
 
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14
@@ -35,25 +35,30 @@ def _lane_kernel(function):
     return njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
 
 
-@_lane_kernel
-def sincos_lanes(x, S):
-    """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S, within 2e-16.
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+def cosine_sine(x):
+    """Cosine and sine of an angle up to ``LARGEST`` without branches, within 2e-16.
 
     ``x = k pi/2 + r`` with ``|r| <= pi/4``; the quadrant k picks polynomial and sign.
     """
+    k = (x * TWO_OVER_PI + NEAREST) - NEAREST
+    r = ((x - k * QUARTER[0]) - k * QUARTER[1]) - k * QUARTER[2]
+    z = r * r
+    s = r + r * z * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
+    c = C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6))))
+    c = 1.0 - 0.5 * z + z * z * c
+    half = (0.5 * k - 0.25 + NEAREST) - NEAREST
+    quarter = (0.5 * half - 0.25 + NEAREST) - NEAREST
+    odd = k != 2.0 * half
+    sign = 1.0 - 2.0 * (half - 2.0 * quarter)
+    return sign * (-s if odd else c), sign * (c if odd else s)
+
+
+@_lane_kernel
+def sincos_lanes(x, S):
+    """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S."""
     for i in range(BLOCK):
-        k = (x[i] * TWO_OVER_PI + NEAREST) - NEAREST
-        r = ((x[i] - k * QUARTER[0]) - k * QUARTER[1]) - k * QUARTER[2]
-        z = r * r
-        s = r + r * z * (S1 + z * (S2 + z * (S3 + z * (S4 + z * (S5 + z * S6)))))
-        c = C1 + z * (C2 + z * (C3 + z * (C4 + z * (C5 + z * C6))))
-        c = 1.0 - 0.5 * z + z * z * c
-        half = (0.5 * k - 0.25 + NEAREST) - NEAREST
-        quarter = (0.5 * half - 0.25 + NEAREST) - NEAREST
-        odd = k != 2.0 * half
-        sign = 1.0 - 2.0 * (half - 2.0 * quarter)
-        S[BLOCK * COS + i] = sign * (-s if odd else c)
-        S[BLOCK * SIN + i] = sign * (c if odd else s)
+        S[BLOCK * COS + i], S[BLOCK * SIN + i] = cosine_sine(x[i])
 
 
 @_lane_kernel

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.trig import TINY, linear_trig, trig_roots
 
 __all__ = ["circle_pair"]
 
 
-@kernel
+@inner_kernel
 def circle_pair(M, N, d, slack, scratch, out):
     """Solve ``M (cos x, sin x) + N (cos y, sin y) = d``, two equations: subproblem 6.
 

@@ -8,15 +8,25 @@ from __future__ import annotations
 
 from numba import njit
 
-__all__ = ["block_kernel", "helper_kernel", "inner_kernel", "kernel"]
+__all__ = ["block_kernel", "helper_kernel", "inlined_kernel", "inner_kernel", "kernel"]
 
-kernel = njit(cache=True, nogil=True, error_model="numpy")
-"""For functions that Python calls."""
+kernel = njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
+"""For functions that Python calls; not C, whose entry would be compiled too."""
 
 inner_kernel = njit(
     cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
 )
 """For functions that only kernels call: without the entry from Python, half the compile time."""
+
+inlined_kernel = njit(
+    inline="always",
+    nogil=True,
+    error_model="numpy",
+    no_cpython_wrapper=True,
+    no_cfunc_wrapper=True,
+)
+"""For large functions with one caller: as functions, they and all that they call would go through
+the optimiser once more. Takes no starred arguments."""
 
 block_kernel = njit(
     cache=True,

@@ -10,10 +10,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import _turn_between, residual_of
 from dh2urdf.kernels.chain import _joint_times_link, _load
+from dh2urdf.kernels.compiled import inner_kernel
 
 __all__ = [
     "POSE",
@@ -39,13 +39,13 @@ POSE, POSITION, POSITION_AXIS = 0, 1, 2
 """Tasks: the whole pose, its position, its position and the direction of the tool's z axis."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def make_damped(n):
     """Scratch for n joints: Jacobian (n, 6), triangle (6, 6), error (6,), solution (6,)."""
     return np.empty((n, 6)), np.empty((6, 6)), np.empty(6), np.empty(6)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def pose_and_jacobian(links, joints, T, q, unit, damped):
     """Pose of q (n,) as twelve scalars; its error and the Jacobian's columns go to ``damped``.
 
@@ -78,7 +78,7 @@ def pose_and_jacobian(links, joints, T, q, unit, damped):
     return r
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def reduce_to_task(task, T, r, damped):
     """Reduce error and Jacobian in ``damped`` to a task; the residual [m and rad].
 
@@ -109,13 +109,13 @@ def reduce_to_task(task, T, r, damped):
     return max(position, turn)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def error_and_jacobian(links, joints, task, T, q, unit, damped):
     """:func:`pose_and_jacobian` of a task, and the residual of q against T."""
     return reduce_to_task(task, T, pose_and_jacobian(links, joints, T, q, unit, damped), damped)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def solve_damped(damped, damping):
     """``y = (J J^T + damping)^-1 e`` by Cholesky, e and y in ``damped``."""
     J, A, e, y = damped
@@ -150,7 +150,7 @@ def solve_damped(damped, damping):
         y[a] = total / A[a, a]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def add_transposed(damped, factor, dq):
     """``dq += factor J^T y``; returns the largest entry of the sum."""
     J, _, _, y = damped
@@ -164,7 +164,7 @@ def add_transposed(damped, factor, dq):
     return largest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def restore(links, joints, task, T, unit, q, dq, damped):
     """Newton's method by shortest steps, q (n,) in place; returns the residual.
 

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.lanes import vector_kernel
+from dh2urdf.kernels.lanes import inlined, vector_kernel
 
 __all__ = [
     "close_loop",
@@ -165,7 +165,7 @@ def left_coefficients(loop, samples, lefts, e):
                 left[f, i + 2] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
-@vector_kernel
+@inlined
 def right_coefficients(loop, samples, right):
     """Coefficients of the right side's fourteen functions of joints 1 and 2.
 
@@ -196,7 +196,7 @@ def right_coefficients(loop, samples, right):
         right[8, f] = samples[f, 0]
 
 
-@vector_kernel
+@inlined
 def reduce_right(right, beta, basis):
     """Householder QR of the eight non-constant columns of the right side.
 
@@ -248,7 +248,7 @@ def reduce_right(right, beta, basis):
     return smallest / (largest + 1e-300)
 
 
-@vector_kernel
+@inlined
 def six_equations(right, basis, lefts, e, equations):
     """Project left side e on the null space: ``equations`` (6, 27), columns as in left.
 

@@ -15,7 +15,7 @@ from dh2urdf.kernels.certify import (
     move,
     polish,
 )
-from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
 
 __all__ = ["free_joints", "null_direction", "one_of_each_family", "work_array"]
 
@@ -39,7 +39,7 @@ def work_array(n):
     return np.empty((n, n + 8))
 
 
-@inner_kernel
+@inlined_kernel
 def null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
 
@@ -85,7 +85,7 @@ def null_direction(work):
     return 1.0 / (size * trace)
 
 
-@inner_kernel
+@inlined_kernel
 def free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 

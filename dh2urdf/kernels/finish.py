@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import ANYWHERE, finish_pose
+from dh2urdf.kernels.compiled import kernel
 from dh2urdf.kernels.families import free_joints
 from dh2urdf.kernels.merging import merge_solutions
 
 __all__ = ["finish_batch"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, free):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose i, in place.
 

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 
 __all__ = ["held_links", "held_pose", "held_poses", "insert_held", "insert_held_batch"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def held_links(links, slides, k, value, out):
     """Links (n, 4, 4) of the chain without joint k, from those with it, (n + 1, 4, 4)."""
     n = out.shape[0]
@@ -27,7 +26,7 @@ def held_links(links, slides, k, value, out):
     _store(_joint_times_link(_load(links[k]), slides, value, links[k + 1]), out[k])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def held_pose(links, slides, k, value, T, out):
     """The pose that the chain without its first (k = 0) or last joint has to reach.
 
@@ -57,14 +56,14 @@ def held_pose(links, slides, k, value, T, out):
     out[3, 0], out[3, 1], out[3, 2], out[3, 3] = 0.0, 0.0, 0.0, 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def held_poses(links, slides, k, values, Ts, out):
     """:func:`held_pose` for poses Ts (m, 4, 4), each with its value."""
     for i in range(Ts.shape[0]):
         held_pose(links, slides, k, values[i], Ts[i], out[i])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def insert_held(k, value, q, free, count):
     """Make room for joint k in the first ``count`` rows of q (kmax, n), in place."""
     n = q.shape[1]
@@ -76,7 +75,7 @@ def insert_held(k, value, q, free, count):
         free[r] = (free[r] & low) | ((free[r] & ~low) << 1)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def insert_held_batch(k, values, found, free_found, q, count, free):
     """Solutions of the rest, found (m, kmax, n - 1), with joint k in its place, to q."""
     n = q.shape[2]

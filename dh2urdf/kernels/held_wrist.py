@@ -6,9 +6,10 @@ the first and the wrist makes one of them ``S(v) = X Z(v) Y``; one held at an en
 
 Constants of an arm, packed for a cheap call:
 
-``frames`` (24, 4, 4)
+``frames`` (30, 4, 4)
     0 to 7 links of the exact chain; 8 to 15 those of the oriented chain; 16, 17, 18 S0, S1, S2;
-    19, 20 X and Y; 21 to 23 inverse of the base, inverse of the tool, tool.
+    19, 20 X and Y; 21 to 23 inverse of the base, inverse of the tool, tool; 24, 25 what a target
+    stands between, and 26 to 29 factors, see :mod:`dh2urdf.kernels.held_wrist_load`.
 ``which`` (5,)
     Held joint; whether it slides; whether the oriented chain is the reversed one; held joint of
     the oriented chain; which S depends on it, -1: none.
@@ -43,7 +44,7 @@ from dh2urdf.kernels.spherical_wrist import append_wrist
 __all__ = ["make_scratch", "points_on_curves", "solve_held_pose", "solve_held_wrist"]
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
-ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS = 8, 16, 19, 20, 21
+ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 24, 26
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -61,7 +62,6 @@ def make_scratch():
         np.empty((3, 2, 2)),  # 8 two equations
         np.empty((3, 5)),  # 9 a quartic
         np.empty((4, 4)),  # 10 its pairs
-        np.empty((2, 4, 4)),  # 11 what goes before and after the poses of a block
     )
 
 

@@ -2,118 +2,103 @@
 
 The kernel of :mod:`dh2urdf.kernels.held_wrist_blocks` takes the target of the oriented arm, the
 link S1 and the point whose position error counts from the lanes, since they may all depend on the
-held value.
+held value. With E0, E7 the outer links of the oriented chain and V the held joint, the target is
+
+    base^-1 T' tool^-1,     base^-1 V^-1 E0^-1 T' tool^-1,     base^-1 T' E7^-1 V^-1 tool^-1
+
+where a joint between the ends is held, the first one, the last one; ``T' = T``, or ``T^-1`` where
+the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v`` and of the slide,
+with factors that belong to the arm.
 """
 
 from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, DIRTY, MASK, WORK, load_poses
-from dh2urdf.kernels.chain import _joint_times_link, _load, _store, _times_link
+from dh2urdf.kernels.blocks import BLOCK, MASK, WORK, load_poses
+from dh2urdf.kernels.chain_lanes import LARGEST, cosine_sine
 from dh2urdf.kernels.compiled import block_kernel, inner_kernel
-from dh2urdf.kernels.held_joint import held_pose
-from dh2urdf.kernels.held_wrist import (
-    AFTER,
-    BEFORE,
-    ENDS,
-    LINK,
-    ORIENTED,
-    ORIENTED_LINKS,
-    REVERSED,
-    SLIDES,
-    VARIES,
-    oriented_pose,
-)
-from dh2urdf.kernels.reverse import invert_pose
+from dh2urdf.kernels.held_wrist import ENDS, FACTORS, ORIENTED, REVERSED, SIDES, SLIDES, VARIES
 
-__all__ = ["LEVER", "UPPER", "load_block"]
+__all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "prepare_block"]
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""
 
+HELD_COS, HELD_SIN, HELD_SLIDE = LEVER + 3, LEVER + 4, LEVER + 5
+"""Cosine, sine and slide of the held joint."""
 
-@inner_kernel
-def _lever(frames, which, value, out):
-    """Point in frame 6, or in frame 0 of a reversed arm, where the user's tool origin is."""
-    slides, k, reversed_ = which[SLIDES] != 0, which[ORIENTED], which[REVERSED] != 0
-    x, y, z = 0.0, 0.0, 0.0
-    if reversed_ and k == 0:
-        end = frames[ORIENTED_LINKS]
-        c, s, slide = (1.0, 0.0, value) if slides else (math.cos(value), math.sin(value), 0.0)
-        tx, ty, tz = end[0, 3], end[1, 3], end[2, 3]
-        x = -(end[0, 0] * tx + end[1, 0] * ty + end[2, 0] * tz)
-        y = -(end[0, 1] * tx + end[1, 1] * ty + end[2, 1] * tz)
-        z = -(end[0, 2] * tx + end[1, 2] * ty + end[2, 2] * tz) - slide
-        x, y = c * x + s * y, c * y - s * x
-    elif not reversed_ and k == 6:
-        end = frames[ORIENTED_LINKS + 7]
-        c, s, slide = (1.0, 0.0, value) if slides else (math.cos(value), math.sin(value), 0.0)
-        x, y = c * end[0, 3] - s * end[1, 3], s * end[0, 3] + c * end[1, 3]
-        z = end[2, 3] + slide
-    E = frames[ENDS] if reversed_ else frames[ENDS + 2]
-    for i in range(3):
-        out[i] = E[i, 0] * x + E[i, 1] * y + E[i, 2] * z + E[i, 3]
+LOADED = LEVER + 6
+"""First row that is free for what is worked out from these."""
 
 
 @inner_kernel
-def load_block(frames, which, values, Ts, first, n, scratch, lever, S):
-    """Target, S1 and lever of each pose, one a lane."""
-    same = True
-    for i in range(first + 1, first + n):
-        same = same and values[i] == values[first]
-    if same:
-        _load_equal(frames, which, values[first], Ts, first, n, scratch, lever, S)
-    else:
-        _load_unequal(frames, which, values, Ts, first, n, scratch, lever, S)
+def all_equal(values):
+    """Whether all poses have the same held value."""
+    for i in range(1, values.shape[0]):
+        if values[i] != values[0]:
+            return False
+    return True
 
 
 @inner_kernel
-def _load_equal(frames, which, value, Ts, first, n, scratch, lever, S):
-    """All lanes have one held value: ``D = L T R`` with constants that are found once.
+def prepare_block(frames, which, values, S):
+    """Rows of S that all blocks have in common as long as the held value is that of the first."""
+    slides, value = which[SLIDES] != 0, values[0]
+    for i in range(BLOCK):
+        S[BLOCK * HELD_COS + i] = 1.0 if slides else math.cos(value)
+        S[BLOCK * HELD_SIN + i] = 0.0 if slides else math.sin(value)
+        S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
+    _links_and_levers(frames, BLOCK, S)
 
-    L and R are the inverses of base and tool with an end that moves with the held joint; seen
-    from the tool, ``D = L T^-1 R = (R^-1 T L^-1)^-1``.
-    """
-    identity, end, ends = scratch[0][0], scratch[0][1], scratch[11]
-    slides, k, base, tool = which[SLIDES] != 0, which[ORIENTED], frames[ENDS], frames[ENDS + 1]
-    for r in range(4):
-        for j in range(4):
-            identity[r, j] = 1.0 if r == j else 0.0
-            end[r, j] = identity[r, j]
-    if k == 0 or k == 6:
-        held_pose(frames[ORIENTED_LINKS : ORIENTED_LINKS + 8], slides, k, value, identity, end)
-    _store(_times_link(_load(base), end) if k == 0 else _load(base), ends[0])
-    _store(_times_link(_load(end), tool) if k == 6 else _load(tool), ends[1])
-    if which[REVERSED] != 0:
-        invert_pose(ends[1], end)
-        invert_pose(ends[0], ends[1])
-        _store(_load(end), ends[0])
-    link = frames[LINK + 1]
-    if which[VARIES] == 1:
-        _store(_joint_times_link(_load(frames[BEFORE]), slides, value, frames[AFTER]), end)
-        link = end
-    _lever(frames, which, value, lever)
-    load_poses(ends, 0.0, Ts, first, n, S)
-    if which[REVERSED] != 0:
-        _invert_lanes(n, S)
-    for r in range(3):
-        for j in range(3):
-            _fill_row(UPPER + 3 * r + j, link[r, j], n, S)
-        _fill_row(UPPER + 9 + r, link[r, 3], n, S)
-        _fill_row(LEVER + r, lever[r], n, S)
+
+@inner_kernel
+def load_block(frames, which, values, Ts, same, first, n, S):
+    """Target, S1 and lever of each pose, one a lane; ``same``: all have the first one's value."""
+    if not same:
+        _held_joint(which[SLIDES] != 0, values, first, n, S)
+        _links_and_levers(frames, n, S)
+    seen_from_tool, last = which[REVERSED] != 0, which[ORIENTED] == 6
+    load_poses(frames[SIDES:], 0.0, Ts, first, n, S)
+    if seen_from_tool != last:
+        _invert(n, S)
+    if which[VARIES] < 0:
+        _turn(frames[ENDS + 2] if last else frames[ENDS], -1.0 if last else 1.0, n, S)
+    if last:
+        _invert(n, S)
 
 
 @block_kernel
-def _fill_row(row, value, n, S):
-    """One value for every lane of a row."""
-    start = BLOCK * row & MASK
+def _held_joint(slides, values, first, n, S):
+    """Cosine, sine and slide of the held joint of every lane."""
+    if slides:
+        for i in range(n):
+            S[BLOCK * HELD_SLIDE + i] = values[first + i]
+        return
+    far = 0.0
     for i in range(n):
-        S[start + i] = value
+        value = values[first + i]
+        S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine_sine(value)
+        far += 0.0 if abs(value) <= LARGEST else 1.0
+    if far > 0.0:
+        for i in range(n):
+            S[BLOCK * HELD_COS + i] = math.cos(values[first + i])
+            S[BLOCK * HELD_SIN + i] = math.sin(values[first + i])
 
 
 @block_kernel
-def _invert_lanes(n, S):
+def _links_and_levers(frames, n, S):
+    """S1 and lever of every lane: ``a cos v + b sin v + d slide + t`` in each of their rows."""
+    for k in range(15):
+        factors, row = frames[FACTORS + k // 4, k % 4], BLOCK * (UPPER + k) & MASK
+        a, b, d, t = factors[0], factors[1], factors[2], factors[3]
+        for i in range(n):
+            turned = a * S[BLOCK * HELD_COS + i] + b * S[BLOCK * HELD_SIN + i]
+            S[row + i] = turned + (d * S[BLOCK * HELD_SLIDE + i] + t)
+
+
+@block_kernel
+def _invert(n, S):
     """The pose of every lane turned into its inverse."""
     for i in range(n):
         x0, x1, x2 = S[i], S[BLOCK * 3 + i], S[BLOCK * 6 + i]
@@ -127,18 +112,19 @@ def _invert_lanes(n, S):
         S[BLOCK * 11 + i] = -(z0 * p0 + z1 * p1 + z2 * p2)
 
 
-@inner_kernel
-def _load_unequal(frames, which, values, Ts, first, n, scratch, lever, S):
-    """Each lane has its own held value: pose by pose."""
-    D, link = scratch[1], scratch[2][1]
-    for i in range(n):
-        oriented_pose(frames, which, values[first + i], Ts[first + i], scratch)
-        _lever(frames, which, values[first + i], lever)
-        for r in range(3):
-            for j in range(3):
-                S[BLOCK * (3 * r + j) + i] = D[r, j]
-                S[BLOCK * (UPPER + 3 * r + j) + i] = link[r, j]
-            S[BLOCK * (9 + r) + i] = D[r, 3]
-            S[BLOCK * (UPPER + 9 + r) + i] = link[r, 3]
-            S[BLOCK * (LEVER + r) + i] = lever[r]
-        S[BLOCK * DIRTY + i] = 0.0
+@block_kernel
+def _turn(G, way, n, S):
+    """``G V^-1`` before the pose of every lane; ``G V`` where ``way`` is -1."""
+    g00, g01, g02, g03 = G[0, 0], G[0, 1], G[0, 2], G[0, 3]
+    g10, g11, g12, g13 = G[1, 0], G[1, 1], G[1, 2], G[1, 3]
+    g20, g21, g22, g23 = G[2, 0], G[2, 1], G[2, 2], G[2, 3]
+    for j in range(4):
+        start, step = (BLOCK * 9, BLOCK) if j == 3 else (BLOCK * j & MASK, BLOCK * 3)
+        moves = 1.0 if j == 3 else 0.0
+        for i in range(n):
+            c, s = S[BLOCK * HELD_COS + i], way * S[BLOCK * HELD_SIN + i]
+            x, y, z = S[start + i], S[start + step + i], S[start + 2 * step + i]
+            x, y, z = c * x + s * y, c * y - s * x, z - moves * way * S[BLOCK * HELD_SLIDE + i]
+            S[start + i] = g00 * x + g01 * y + g02 * z + moves * g03
+            S[start + step + i] = g10 * x + g11 * y + g12 * z + moves * g13
+            S[start + 2 * step + i] = g20 * x + g21 * y + g22 * z + moves * g23

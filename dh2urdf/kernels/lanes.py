@@ -8,6 +8,9 @@ little more than three. Householder reflections need no pivots, hence no branche
 
 Offsets are masked with ``MASK``: it changes nothing, and tells the compiler that they are not
 negative (an index that could be negative is wrapped around, which forbids vector code).
+
+Loops around those over the lanes count to the length of an array: to a constant the compiler would
+unroll them, ten times the code to optimise and nothing gained.
 """
 
 from __future__ import annotations
@@ -46,11 +49,11 @@ def vector_kernel(function):
 
 def entry_kernel(function):
     """Compile likewise, for Python to call, and keep the machine code with all that it calls."""
-    return njit(cache=True, **OPTIONS)(function)
+    return njit(cache=True, no_cfunc_wrapper=True, **OPTIONS)(function)
 
 
 def inlined(function):
-    """Compile as a part of its callers: for large functions with few callers, to save time."""
+    """Compile as a part of its callers: for functions with one caller, which saves much time."""
     return njit(inline="always", **INNER)(function)
 
 
@@ -64,7 +67,7 @@ def _make_reflector(V, A, column, row, n, scale, beta):
     start = (column * COLUMN) & MASK
     for k in range(n):
         beta[k] = 0.0
-    for i in range(6):
+    for i in range(len(V) // LANES):
         r = i * LANES
         if i >= row:
             for k in range(n):
@@ -123,7 +126,7 @@ def solve_upper(A, b, n):
 
     b holds six entries a lane. A zero pivot acts as one of 1e-60.
     """
-    for j in range(5, -1, -1):
+    for j in range(len(b) // LANES - 1, -1, -1):
         d = (j * COLUMN + j * LANES) & MASK
         x = (j * LANES) & MASK
         for k in range(n):
@@ -138,7 +141,7 @@ def solve_upper(A, b, n):
 @vector_kernel
 def solve_upper_transposed(A, b, n):
     """Forward substitution ``R^T x = b`` for the upper triangle R of A, lane by lane, in place."""
-    for j in range(6):
+    for j in range(len(b) // LANES):
         d = (j * COLUMN + j * LANES) & MASK
         x = (j * LANES) & MASK
         for i in range(j):
@@ -150,7 +153,7 @@ def solve_upper_transposed(A, b, n):
             b[x + k] /= A[d + k] + PIVOT
 
 
-@vector_kernel
+@inlined
 def null_vectors(A, known, b, first, n):
     """Unit vectors b that R maps to nearly nothing: inverse iteration on ``R^T R``.
 

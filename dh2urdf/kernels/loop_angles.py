@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.lanes import LANES, MASK, vector_kernel
+from dh2urdf.kernels.lanes import LANES, MASK, inlined, vector_kernel
 
 __all__ = ["left_frames", "other_joints"]
 
@@ -52,7 +52,7 @@ def _apply_back(r, x, y, z):
     )
 
 
-@vector_kernel
+@inlined
 def left_frames(loop, cosines, sines, n, frames):
     """``Z_3 C_3 Z_4 C_4 Z_5 C_5`` of n lanes: four columns to frames (12 runs of LANES)."""
     ra, rb = rotation(loop[2]), rotation(loop[3])
@@ -74,7 +74,7 @@ def left_frames(loop, cosines, sines, n, frames):
             frames[f + k], frames[f + LANES + k], frames[f + 2 * LANES + k] = x, y, z
 
 
-@vector_kernel
+@inlined
 def _functions(frames, n, out):
     """The fourteen functions of axis 6's line, to out (14 runs of LANES)."""
     for k in range(n):
@@ -98,18 +98,18 @@ def _project(basis, row, constant, functions, n, out):
     """Row of Q^T times (functions - constant), to a run of out."""
     w0 = basis[row, 0]
     shift = 0.0
-    for f in range(14):
+    for f in range(len(constant)):
         shift += basis[row, f] * constant[f]
     o = ((row - 4) * LANES) & MASK
     for k in range(n):
         out[o + k] = w0 * functions[k] - shift
-    for f in range(1, 14):
+    for f in range(1, len(constant)):
         w = basis[row, f]
         for k in range(n):
             out[o + k] += w * functions[f * LANES + k]
 
 
-@vector_kernel
+@inlined
 def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions, y):
     """Joints 1, 2 and 6 of n lanes.
 
@@ -142,7 +142,7 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
     _last_joint(loop, frames, n, cosines, sines)
 
 
-@vector_kernel
+@inlined
 def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = X^T L``, X the right side's and L the left's rotation."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]

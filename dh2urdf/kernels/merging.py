@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certify import POLISH, TWO_PI, move, polish, pose_residual
-from dh2urdf.kernels.compiled import inner_kernel
+from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
 
 __all__ = ["merge_solutions"]
 
@@ -15,7 +15,7 @@ NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
 
 
-@inner_kernel
+@inlined_kernel
 def _one(links, joints, T, q, p, accuracy, middle, start, work):
     """Whether q and p are near, and the pose is reached as well half way between them.
 

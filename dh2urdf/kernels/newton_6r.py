@@ -38,7 +38,7 @@ def chain_frames(steps, cosines, sines, n, frames):
         f = (e * LANES) & MASK
         for k in range(n):
             frames[f + k] = value
-    for i in range(6):
+    for i in range(len(steps) - 1):
         a00, a01, a02, a03 = steps[i + 1, 0], steps[i + 1, 1], steps[i + 1, 2], steps[i + 1, 3]
         a10, a11, a12, a13 = steps[i + 1, 4], steps[i + 1, 5], steps[i + 1, 6], steps[i + 1, 7]
         a20, a21, a22, a23 = steps[i + 1, 8], steps[i + 1, 9], steps[i + 1, 10], steps[i + 1, 11]
@@ -57,7 +57,7 @@ def chain_frames(steps, cosines, sines, n, frames):
                 frames[g + 3 * LANES + k] = x * a03 + y * a13 + z * a23 + p
 
 
-@vector_kernel
+@inlined
 def pose_error(target, frames, n, error, position, angle):
     """Twist from the last frame to the target (12,), in base axes.
 
@@ -124,32 +124,33 @@ def _damped_system(frames, error, weight, n, J, A):
     a family of solutions. J (6 * 144,) scratch.
     """
     _jacobian(frames, n, J)
+    order = len(error) // LANES
     for r in range(3):
         e = (r * LANES) & MASK
         for k in range(n):
             error[e + k] *= weight
-        for i in range(6):
+        for i in range(order):
             a = (i * COLUMN + r * LANES) & MASK
             for k in range(n):
                 J[a + k] *= weight
-    for i in range(6):
+    for i in range(order):
         p = (i * COLUMN) & MASK
-        for j in range(7):
-            q = ((j * COLUMN) & MASK) if j < 6 else 0
+        for j in range(order + 1):
+            q = ((j * COLUMN) & MASK) if j < order else 0
             a = (j * COLUMN + i * LANES) & MASK
             for k in range(n):
                 A[a + k] = 0.0
-            for r in range(6):
+            for r in range(order):
                 o = (r * LANES) & MASK
-                if j < 6:
+                if j < order:
                     for k in range(n):
                         A[a + k] += J[p + o + k] * J[q + o + k]
                 else:
                     for k in range(n):
                         A[a + k] += J[p + o + k] * error[o + k]
-    for r in range(6):
+    for r in range(order):
         e = (r * LANES) & MASK
-        for i in range(6):
+        for i in range(order):
             a = (i * COLUMN + i * LANES) & MASK
             for k in range(n):
                 A[a + k] += error[e + k] * error[e + k]

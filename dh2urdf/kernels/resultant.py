@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, reduce_columns, vector_kernel
+from dh2urdf.kernels.lanes import COLUMN, LANES, MASK, inlined, reduce_columns, vector_kernel
 
 __all__ = ["resultants", "split_pairs", "two_joints"]
 
@@ -29,7 +29,7 @@ HALF = 3 * LANES
 @vector_kernel
 def _fill(equations, term, hidden, n, A, column):
     """One column of the six equations at the hidden joint's values."""
-    for r in range(6):
+    for r in range(len(equations)):
         e0, e1, e2 = equations[r, term], equations[r, 9 + term], equations[r, 18 + term]
         a = (column * COLUMN + r * LANES) & MASK
         for k in range(n):
@@ -78,7 +78,7 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
         determinant[k] *= W[last + k]
 
 
-@vector_kernel
+@inlined
 def two_joints(b, n, x, y):
     """Cosines and sines, (2, 24), of the two joints from the rank-one vectors ``(v, x v)``."""
     for k in range(n):
@@ -99,7 +99,7 @@ def two_joints(b, n, x, y):
         y[0, k], y[1, k] = c * h, s * h
 
 
-@vector_kernel
+@inlined
 def split_pairs(b, second, n):
     """Two rank-one vectors ``(v, x v)`` from a plane of null vectors, in lanes 2k and 2k + 1.
 

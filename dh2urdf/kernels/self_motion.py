@@ -14,9 +14,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import ACCEPT
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import (
     POSE,
     add_transposed,
@@ -48,7 +48,7 @@ SHORTEST = 1e-10
 """Part of a step below which there is no way on: a limit is in the way."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _project(links, joints, task, T, unit, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
     error_and_jacobian(links, joints, task, T, q, unit, damped)
@@ -69,7 +69,7 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
     return math.sqrt(total)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _distance2(q, seed):
     """Squared distance."""
     total = 0.0
@@ -78,7 +78,7 @@ def _distance2(q, seed):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _part_inside(joints, q, step, length):
     """Part of ``length`` that a straight step can go inside the limits."""
     part = length
@@ -91,7 +91,7 @@ def _part_inside(joints, q, step, length):
     return part
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _outside(joints, q):
     """Whether a joint is beyond its limits."""
     for i in range(q.shape[0]):
@@ -100,7 +100,7 @@ def _outside(joints, q):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     n = q.shape[0]
@@ -142,7 +142,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         distance2 = _distance2(q, seed)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residual):
     """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
 
@@ -169,7 +169,7 @@ def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residu
         residual[k] = error_and_jacobian(links, joints, task, T, q[k], unit, damped)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _excess(joints, q, i):
     """How far joint i has to go to be inside its limits."""
     if q[i] > joints[i, 2]:
@@ -179,7 +179,7 @@ def _excess(joints, q, i):
     return 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _tangent(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
     for i in range(q.shape[0]):
@@ -191,7 +191,7 @@ def _tangent(links, joints, task, T, unit, q, guess, tangent, damped):
     return size > 1e-6
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def enter_limits(links, joints, T, unit, q, entered):
     """Move solutions q (k, n) along their curves into the limits; one joint to spare.
 
@@ -239,7 +239,7 @@ def enter_limits(links, joints, T, unit, q, entered):
                 q[k, i] = trial[i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def walk_family(links, joints, task, T, unit, length, q, members):
     """Members of the family through q (n,), by walking away from it both ways.
 

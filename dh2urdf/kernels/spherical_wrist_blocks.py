@@ -3,6 +3,9 @@
 The same mathematics as :mod:`dh2urdf.kernels.position_arm` and
 :mod:`dh2urdf.kernels.spherical_wrist`, for poses away from singularities and rims; all others go to
 the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow ``k >> 1 & 1``, wrist ``k >> 2``.
+
+The other wrist, ``(q4 + pi, -q5, q6 + pi)``, changes signs that cancel in forward kinematics, so
+that its residual is the same number.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.block_values import MIRRORS, emit
 from dh2urdf.kernels.blocks import (
     BLOCK,
     CLEAR,
@@ -22,7 +26,7 @@ from dh2urdf.kernels.blocks import (
     SIN,
     VALID,
     WORK,
-    emit,
+    copy_residual,
     load_poses,
     measure,
 )
@@ -32,8 +36,13 @@ from dh2urdf.kernels.spherical_wrist import add_merged, finish_wrists, make_scra
 
 __all__ = ["solve_common_wrist"]
 
-JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + [3] * 8 + [4] * 8 + [5] * 8)
-ROW_OF = np.array([[k & 1, 2 + (k & 3), 6 + (k & 3), 10 + k, 18 + k, 26 + k] for k in range(8)])
+JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
+ROW_OF = np.array(
+    [
+        [k & 1, *(2 + (k & 3) + 4 * j + (12 * (k >> 2) if j > 1 else 0) for j in range(5))]
+        for k in range(8)
+    ]
+)
 
 PLANE = WORK
 """Per shoulder: x and y of the wrist centre in the arm's plane, the rotation seen from there."""
@@ -148,11 +157,8 @@ def _wrists(form, n, S):
             c6 = c5 * (c4 * x0 + s4 * y0) + s5 * sa4 * z0
             s6 = -c5 * (c4 * x1 + s4 * y1) - s5 * sa4 * z1
             S[cosine + BLOCK * 10 + i], S[sine + BLOCK * 10 + i] = c4, s4
-            S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c5, s5
-            S[cosine + BLOCK * 26 + i], S[sine + BLOCK * 26 + i] = c6, s6
-            S[cosine + BLOCK * 14 + i], S[sine + BLOCK * 14 + i] = -c4, -s4
-            S[cosine + BLOCK * 22 + i], S[sine + BLOCK * 22 + i] = c5, -s5
-            S[cosine + BLOCK * 30 + i], S[sine + BLOCK * 30 + i] = -c6, -s6
+            S[cosine + BLOCK * 14 + i], S[sine + BLOCK * 14 + i] = c5, s5
+            S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c6, s6
             exists = S[valid + BLOCK * 4 + i]
             S[valid + i] = exists
             dirty = s5 < CLEAR and exists > 0.0
@@ -172,10 +178,10 @@ def solve_common_wrist(
         _shoulders(form, slack, n, S)
         _elbows(form, slack, n, S)
         _wrists(form, n, S)
-        for k in range(8):
-            r = k & 3
-            measure(form, ends[2], n, S, k, k & 1, 2 + r, 6 + r, 10 + k, 18 + k, 26 + k)
-        table = JOINT_OF, ROW_OF
+        for k in range(4):
+            measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
+            copy_residual(k, k + 4, n, S)
+        table = JOINT_OF, ROW_OF, MIRRORS
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:

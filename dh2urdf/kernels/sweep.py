@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from numba import njit
-
 from dh2urdf.kernels.certify import pose_residual
+from dh2urdf.kernels.compiled import kernel
 
 __all__ = ["gather_samples", "measure_all", "spread_samples"]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def spread_samples(Ts, values, first, last, poses, held):
     """Each of the poses ``first`` to ``last - 1`` of Ts once for each of the values (s,).
 
@@ -25,7 +24,7 @@ def spread_samples(Ts, values, first, last, poses, held):
             row += 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def gather_samples(found, first, last, samples, q, residual, count, branch, free):
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
@@ -47,7 +46,7 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
         count[i] = total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def measure_all(links, joints, T, q, residual):
     """Residuals of configurations q (k, n) on the exact chain against T (4, 4)."""
     for k in range(q.shape[0]):

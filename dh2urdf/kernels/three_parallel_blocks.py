@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.block_values import HALF_TURN, NEGATED, OWN, emit
 from dh2urdf.kernels.blocks import (
     BLOCK,
     CLEAR,
@@ -23,7 +24,6 @@ from dh2urdf.kernels.blocks import (
     TURN,
     VALID,
     WORK,
-    emit,
     load_poses,
     measure,
 )
@@ -41,6 +41,11 @@ ROW_OF = np.array(
         for k in range(8)
     ]
 )
+
+MIRROR_OF = np.array([(r, OWN) for r in range(34)])
+MIRROR_OF[4:6] = (2, NEGATED), (3, NEGATED)
+MIRROR_OF[8:10] = (6, HALF_TURN), (7, HALF_TURN)
+"""The other wrist has ``-q5`` and ``q6 + pi``."""
 
 PLANE = WORK
 """Per shoulder and wrist: where the planar arm has to reach, and its heading; four rows each."""
@@ -166,7 +171,7 @@ def solve_common_parallel(
         for k in range(8):
             pair = (k & 1) + 2 * (k >> 2)
             measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
-        table = JOINT_OF, ROW_OF
+        table = JOINT_OF, ROW_OF, MIRROR_OF
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:

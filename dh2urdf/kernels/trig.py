@@ -67,7 +67,7 @@ def root_of_gap(gap, size, slack):
     return math.sqrt(gap)
 
 
-@kernel
+@inner_kernel
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
 

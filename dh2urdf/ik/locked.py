@@ -1,0 +1,88 @@
+"""Joints that a caller holds: which they are, and their checked values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ConfigurationError, NameNotFoundError
+from dh2urdf.transforms import Array, as_floats
+
+__all__ = ["Locked", "held_values"]
+
+Held = float | Array
+
+Locked = Mapping[int, Held] | Mapping[str, Held] | Mapping[int | str, Held]
+"""Joints held at a value [rad] or [m], by index or name; in a batch also at a value per pose."""
+
+
+def held_values(
+    chain: SerialChain, locked: Locked, within_limits: bool
+) -> tuple[tuple[int, ...], Array]:
+    """Indices of the held joints in ascending order, and their values, shape (1, h) or (m, h).
+
+    Raises
+    ------
+    ConfigurationError, NameNotFoundError
+    """
+    held: dict[int, Held] = {}
+    if type(locked) is not dict and not isinstance(locked, Mapping):
+        raise ConfigurationError(
+            f"locked: expected a mapping of joint to value, got {locked!r:.60}"
+        )
+    for key, value in locked.items():
+        i = _joint_index(chain, key)
+        if i in held:
+            raise ConfigurationError(f"locked: joint {chain.names[i]!r} is held twice")
+        plain = isinstance(value, float) and math.isfinite(value)
+        held[i] = value if plain else _numbers(key, value)
+        if within_limits:
+            _check_limits(key, held[i], chain.lower[i], chain.upper[i])
+    joints = tuple(sorted(held))
+    if len(joints) == 1:
+        return joints, np.array(held[joints[0]], ndmin=1).reshape(-1, 1)
+    columns = [np.atleast_1d(held[i]) for i in joints]
+    try:
+        return joints, np.column_stack(np.broadcast_arrays(*columns))
+    except ValueError:
+        lengths = sorted({len(v) for v in columns})
+        raise ConfigurationError(f"locked: different numbers of values, {lengths}") from None
+
+
+def _joint_index(chain: SerialChain, key: int | str) -> int:
+    """Index of a joint given by index or name."""
+    names = chain.names
+    if isinstance(key, str):
+        if key in names:
+            return names.index(key)
+        raise NameNotFoundError(f"no joint named {key!r}; there are {', '.join(names)}")
+    if isinstance(key, (int, np.integer)) and 0 <= key < chain.n:
+        return int(key)
+    raise ConfigurationError(f"locked: no joint {key!r}; indices go from 0 to {chain.n - 1}")
+
+
+def _numbers(key: int | str, value: Held) -> Array:
+    """Values of a held joint, shape (1,) or (m,)."""
+    try:
+        values = np.array(as_floats(value), ndmin=1)
+    except (TypeError, ValueError):
+        values = np.array([np.nan])
+    if values.ndim != 1 or not np.isfinite(values).all():
+        raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r:.60}")
+    return values
+
+
+def _check_limits(key: int | str, values: Held, lower: float, upper: float) -> None:
+    """Refuse values outside the limits of their joint."""
+    if isinstance(values, float) and lower <= values <= upper:
+        return
+    every = np.atleast_1d(values)
+    outside = (every < lower) | (every > upper)
+    if outside.any():
+        raise ConfigurationError(
+            f"locked[{key!r}]: {every[outside][0]:g} is outside the limits {lower:g} to "
+            f"{upper:g} of the joint; within_limits=False allows it"
+        )

@@ -1,0 +1,130 @@
+"""Many poses side by side: from cosines and sines to the solutions that a family hands over.
+
+Layout and lanes are those of :mod:`dh2urdf.kernels.blocks`. Of the angles of an arm some are mirror
+images of others; only the others need an arctangent.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.blocks import (
+    BLOCK,
+    COS,
+    DIRTY,
+    INSIDE,
+    MASK,
+    RESIDUAL,
+    SIN,
+    VALID,
+    VALUES,
+)
+from dh2urdf.kernels.certify import CLUSTER, TWO_PI
+from dh2urdf.kernels.compiled import block_kernel, helper_kernel
+from dh2urdf.kernels.trig import arctangent
+
+__all__ = ["HALF_TURN", "MIRRORS", "NEGATED", "OWN", "emit", "settle"]
+
+ROUND = 1.5 * 2.0**52
+"""Added to a number and taken away again, it rounds it to an integer."""
+
+PER_TURN = 1.0 / TWO_PI
+
+OWN, HALF_TURN, NEGATED = range(3)
+"""How the angle of a row is found: from its cosine and sine; half a turn from that of another row;
+the negative of another."""
+
+MIRRORS = np.array(
+    [(r, OWN) for r in range(22)]
+    + [(r, HALF_TURN if r < 14 or r >= 18 else NEGATED) for r in range(10, 22)]
+)
+"""Of 34 angles of which 10 to 21 are the wrist's, joint by joint, the rest the other wrist's:
+``(q4 + pi, -q5, q6 + pi)``."""
+
+
+@block_kernel
+def _values(form, joints, table, within_limits, n, S):
+    """Joint values of all angles, in the turn nearest to the middle of the limits."""
+    joint_of, _, mirror_of = table
+    for r in range(joint_of.shape[0]):
+        j, source, kind = joint_of[r], mirror_of[r, 0], mirror_of[r, 1]
+        sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
+        middle = _middle(lower, upper)
+        sine, cosine = BLOCK * (SIN + source) & MASK, BLOCK * (COS + source) & MASK
+        target, other = BLOCK * (VALUES + r) & MASK, BLOCK * (VALUES + source) & MASK
+        if kind == HALF_TURN:
+            for i in range(n):
+                value = S[other + i]
+                S[target + i] = value - math.copysign(math.pi, value - middle)
+        else:
+            if kind == NEGATED:
+                twice = 2.0 * sign * constant
+                for i in range(n):
+                    S[target + i] = -twice - S[other + i]
+            else:
+                for i in range(n):
+                    S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
+            for i in range(n):
+                turns = (S[target + i] - middle) * PER_TURN
+                S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
+        if within_limits and _limited(lower, upper):
+            flag = BLOCK * (INSIDE + r) & MASK
+            for i in range(n):
+                room = min(S[target + i] - lower, upper - S[target + i])
+                S[flag + i] = 1.0 if room >= 0.0 else 0.0
+                touching = abs(room) < CLUSTER
+                S[BLOCK * DIRTY + i] += 1.0 if touching else 0.0
+
+
+@helper_kernel
+def _middle(lower, upper):
+    """Where the values of a joint lie around."""
+    return 0.5 * (lower + upper) if upper - lower < math.inf else 0.0
+
+
+@helper_kernel
+def _limited(lower, upper):
+    """Whether the limits leave out a part of the turn around their middle."""
+    middle = _middle(lower, upper)
+    return lower > middle - math.pi or upper < middle + math.pi
+
+
+@block_kernel
+def settle(form, joints, table, within_limits, n, S):
+    """Joint values of all lanes, and which solutions there are with these.
+
+    Parameters
+    ----------
+    table : three int arrays, shapes (rows,), (8, 6), (rows, 2)
+        Joint of each angle; row of each solution's angle of each joint; row whose angle it is or
+        mirrors, and how.
+    """
+    row_of = table[1]
+    _values(form, joints, table, within_limits, n, S)
+    if not within_limits:
+        return
+    for j in range(6):
+        if not _limited(joints[j, 1], joints[j, 2]):
+            continue
+        for k in range(8):
+            flag, valid = BLOCK * (INSIDE + row_of[k, j]) & MASK, BLOCK * (VALID + k) & MASK
+            for i in range(n):
+                S[valid + i] *= S[flag + i]
+
+
+@block_kernel
+def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
+    """Write the solutions of all clean lanes; the others get a count of -1."""
+    settle(form, joints, table, within_limits, n, S)
+    row_of = table[1]
+    for i in range(n):
+        found, row = 0, first + i
+        for k in range(8):
+            for j in range(6):
+                q[row, found, j] = S[(BLOCK * (VALUES + row_of[k, j]) & MASK) + i]
+            residual[row, found] = S[BLOCK * (RESIDUAL + k) + i]
+            branch[row, found], free[row, found] = k, 0
+            found += 1 if S[BLOCK * (VALID + k) + i] > 0.0 else 0
+        count[row] = found if S[BLOCK * DIRTY + i] == 0.0 else -1
