@@ -20,6 +20,10 @@ from dh2urdf.transforms import Array
 __all__ = ["NearFamily"]
 
 
+WIDTH = 48
+"""Most candidates of a pose in doubt: general solver, nominal arm, and what lies beside them."""
+
+
 class _Match(NamedTuple):
     """A family that covers the chain, seen from base or tool, once its axes are snapped."""
 
@@ -89,13 +93,8 @@ class NearFamily(SolverBase):
         free_out: IntArray,
     ) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
-        from dh2urdf.kernels.beside import search_beside
         from dh2urdf.kernels.finish import finish_batch
-        from dh2urdf.kernels.near_family import (
-            join_solutions,
-            solve_near_parallel,
-            solve_near_wrist,
-        )
+        from dh2urdf.kernels.near_family import solve_near_parallel, solve_near_wrist
         from dh2urdf.kernels.reverse import invert_poses
 
         wrist = isinstance(self.nominal, SphericalWrist)
@@ -111,13 +110,32 @@ class NearFamily(SolverBase):
         if self.reversed:
             q_out[:] = q_out[:, :, ::-1].copy()
         rows = np.flatnonzero(count_out < 0)
-        if len(rows):
-            found = np.empty((len(rows), self.kmax, 6))
-            counts = np.zeros(len(rows), np.int64)
-            self.general.solve_unfinished(np.ascontiguousarray(Ts[rows]), found, counts)
-            join_solutions(rows, found, counts, q_out, count_out)
-            search_beside(self.links, self.joints, rows, Ts, q_out, count_out)
+        wide = self._in_doubt(rows, Ts[rows], q_out, count_out, within_limits)
+        count_out[rows] = 0
         finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
+        for out, found in zip(outputs, wide, strict=True):
+            out[rows] = found[:, : self.kmax] if found.ndim > 1 else np.minimum(found, self.kmax)
+
+    def _in_doubt(
+        self, rows: IntArray, Ts: Array, q: Array, count: IntArray, within_limits: bool
+    ) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
+        """Solve poses in doubt, Ts (d, 4, 4), from q and count of these rows: wider outputs."""
+        from dh2urdf.kernels.beside import search_beside
+        from dh2urdf.kernels.finish import finish_batch
+        from dh2urdf.kernels.near_family import add_candidates
+
+        shape = len(rows), WIDTH
+        found, counts = np.empty((len(rows), self.kmax, 6)), np.zeros(len(rows), np.int64)
+        wide = np.empty((*shape, 6)), np.empty(shape), counts, np.zeros(shape, np.int64)
+        outputs = (*wide, np.zeros(shape, np.int64))
+        if len(rows):
+            self.general.solve_unfinished(Ts, found, counts)
+            wide[0][:, : self.kmax] = found
+            add_candidates(rows, q, count, wide[0], counts)
+            finish_batch(self.links, self.joints, Ts, False, *outputs)
+            search_beside(self.links, self.joints, Ts, wide[0], counts)
+            finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
+        return outputs
 
 
 @lru_cache(maxsize=4)

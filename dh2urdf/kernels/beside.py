@@ -6,18 +6,22 @@ the others lie along the direction in which the pose hardly changes.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from dh2urdf.kernels.certify import (
-    ACCEPT,
     CLUSTER,
+    MAX_TURN,
     NO_JOINT,
+    POLISH,
     _normal_equations,
-    polish,
+    pose_residual,
     principal,
     same,
 )
 from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
 from dh2urdf.kernels.families import null_direction, work_array
 
 __all__ = ["search_beside"]
@@ -27,6 +31,57 @@ SINGULAR = 1e-11
 
 WAYS = (1e-3, 1e-2, 0.1, 0.3)
 """How far along that direction Newton's method starts [rad], either way."""
+
+
+STEPS = 15
+"""Newton steps; where they have not converged, there is nothing."""
+
+
+@inner_kernel
+def _solve(A, step):
+    """Solve six equations, the rows of A (6, 7), by elimination with pivots; the longest entry.
+
+    Not by the normal equations, which lose directions in which the pose changes by 1e-9 or less.
+    """
+    for c in range(6):
+        best = c
+        for r in range(c + 1, 6):
+            best = r if abs(A[r, c]) > abs(A[best, c]) else best
+        for k in range(c, 7):
+            A[c, k], A[best, k] = A[best, k], A[c, k]
+        if A[c, c] == 0.0:
+            return math.inf
+        for r in range(c + 1, 6):
+            factor = A[r, c] / A[c, c]
+            for k in range(c + 1, 7):
+                A[r, k] -= factor * A[c, k]
+    longest = 0.0
+    for c in range(5, -1, -1):
+        total = A[c, 6]
+        for k in range(c + 1, 6):
+            total -= A[c, k] * step[k]
+        step[c] = total / A[c, c]
+        longest = max(longest, abs(step[c]))
+    return longest
+
+
+@inner_kernel
+def _converges(links, joints, T, q, A, step, damped):
+    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
+    for _ in range(STEPS):
+        error_and_jacobian(links, joints, POSE, T, q, 1.0, damped)
+        for r in range(6):
+            A[r, 6] = damped[2][r]
+            for j in range(6):
+                A[r, j] = damped[0][j, r]
+        longest = _solve(A, step)
+        if not longest < math.inf:
+            return False
+        for j in range(6):
+            q[j] += step[j] * min(1.0, MAX_TURN / max(longest, MAX_TURN))
+    for j in range(6):
+        q[j] = principal(q[j])
+    return pose_residual(links, joints, T, q) <= POLISH
 
 
 @inner_kernel
@@ -39,13 +94,14 @@ def _is_known(joints, q, count, p):
 
 
 @kernel
-def search_beside(links, joints, rows, Ts, q, count):
-    """Append to q (m, kmax, 6), in the given rows, what lies beside nearly singular solutions.
+def search_beside(links, joints, Ts, q, count):
+    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4).
 
     ``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certify`; six turning joints.
     """
     start, trial, work = np.empty(6), np.empty(6), work_array(6)
-    for i in rows:
+    A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)
+    for i in range(Ts.shape[0]):
         for k in range(count[i]):
             _normal_equations(links, joints, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
@@ -56,10 +112,8 @@ def search_beside(links, joints, rows, Ts, q, count):
                 for side in (-way, way):
                     for j in range(6):
                         trial[j] = q[i, k, j] + side * start[j]
-                    if not polish(links, joints, Ts[i], trial, work) <= ACCEPT:
+                    if not _converges(links, joints, Ts[i], trial, A, step, damped):
                         continue
-                    for j in range(6):
-                        trial[j] = principal(trial[j])
                     if count[i] < q.shape[1] and not _is_known(joints, q[i], count[i], trial):
                         for j in range(6):
                             q[i, count[i], j] = trial[j]

@@ -21,7 +21,7 @@ from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import add_wrist
 from dh2urdf.kernels.three_parallel import _slope_of_last, add_pairs
 
-__all__ = ["join_solutions", "solve_near_parallel", "solve_near_wrist"]
+__all__ = ["add_candidates", "solve_near_parallel", "solve_near_wrist"]
 
 
 @inner_kernel
@@ -98,21 +98,14 @@ def solve_near_parallel(
 
 
 @kernel
-def join_solutions(rows, found, found_count, q, count):
-    """Append the solutions found (d, k, n) of the poses in doubt, rows (d,), to q (m, kmax, n).
+def add_candidates(rows, q, count, wide, wide_count):
+    """Append the candidates of the poses in doubt, rows (d,) of q (m, kmax, n), to wide (d, k, n).
 
-    Those that fit; the negative count of a pose in doubt becomes that of its candidates.
+    The count of a pose in doubt is -1 minus that of its candidates.
     """
     for d in range(rows.shape[0]):
         i = rows[d]
-        total = found_count[d]
         for r in range(-1 - count[i]):
-            if total == found.shape[1]:
-                break
             for j in range(q.shape[2]):
-                found[d, total, j] = q[i, r, j]
-            total += 1
-        for r in range(total):
-            for j in range(q.shape[2]):
-                q[i, r, j] = found[d, r, j]
-        count[i] = total
+                wide[d, wide_count[d], j] = q[i, r, j]
+            wide_count[d] += 1
