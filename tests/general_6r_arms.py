@@ -131,7 +131,7 @@ def newton_search(rows, pose, starts, seed):
     for _ in range(80):
         normal = J.transpose(0, 2, 1) @ J + damping[:, None, None] * np.eye(6)
         step = np.linalg.solve(normal, J.transpose(0, 2, 1) @ error[:, :, None])[:, :, 0]
-        step *= np.minimum(1.0, 0.6 / np.abs(step).max(axis=1))[:, None]
+        step *= np.minimum(1.0, 0.6 / np.maximum(np.abs(step).max(axis=1), 1e-9))[:, None]
         new_error, new_J = twist_and_jacobian(rows, q + step, pose)
         better = (new_error**2).sum(axis=1) < (error**2).sum(axis=1)
         q[better] += step[better]

@@ -217,23 +217,29 @@ def same_to_rounding(chain, found, q, T):
     """Whether a way leads from a solution to q on which the pose is T to rounding.
 
     Where singularities meet, a pose is that of a whole stretch of configurations as far as double
-    precision goes. Seventeen points of the straight way are brought back to it across the stretch;
-    each has to reach T to 4e-15 and to be near where it was.
+    precision goes. The way goes towards q in directions in which the pose hardly changes, and is
+    brought back to the stretch across them; every point has to reach T to 4e-15.
     """
-    step = q - found
-    turning = ~chain.prismatic
-    step[turning] = (step[turning] + math.pi) % (2 * math.pi) - math.pi
-    for part in np.linspace(0.0, 1.0, 17)[1:-1]:
-        start = found + part * step
-        p = start.copy()
+    p, turning = found.copy(), ~chain.prismatic
+    for _ in range(150):
+        d = q - p
+        d[turning] = (d[turning] + math.pi) % (2 * math.pi) - math.pi
+        if np.abs(d).max() < 1e-5:
+            return True
+        _, sigma, Vt = np.linalg.svd(jacobians(chain, p))
+        flat = Vt[sigma < 1e-5 * sigma[0]]
+        step = flat.T @ (flat @ d)
+        if np.abs(step).max() < 0.1 * np.abs(d).max():
+            return False
+        p = p + step * min(1.0, 0.05 / np.abs(step).max())
         for _ in range(6):
             if residuals(chain, p, T) < 4e-15:
                 break
             e = error_vectors(forward(chain, p), T)
             p = p + np.linalg.pinv(jacobians(chain, p), rcond=1e-5) @ e
-        if residuals(chain, p, T) > 4e-15 or np.abs(p - start).max() > 0.1 * np.abs(step).max():
+        if residuals(chain, p, T) > 4e-15:
             return False
-    return True
+    return False
 
 
 def on_flat_way(chain, found, q, T):

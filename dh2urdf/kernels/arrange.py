@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import TWO_PI, pose_residual
+from dh2urdf.kernels.certify import TWO_PI
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
+from dh2urdf.kernels.polish import pose_residual
 
 __all__ = ["measure_and_sort", "turn_to"]
 

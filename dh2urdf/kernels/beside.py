@@ -10,19 +10,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import (
-    CLUSTER,
-    MAX_TURN,
-    NO_JOINT,
-    POLISH,
-    _normal_equations,
-    pose_residual,
-    principal,
-    same,
-)
+from dh2urdf.kernels.certify import CLUSTER, NO_JOINT, principal, same
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
 from dh2urdf.kernels.families import null_direction, work_array
+from dh2urdf.kernels.polish import MAX_TURN, POLISH, normal_equations, pose_residual
 
 __all__ = ["search_beside"]
 
@@ -103,7 +95,7 @@ def search_beside(links, joints, Ts, q, count):
     A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         for k in range(count[i]):
-            _normal_equations(links, joints, Ts[i], q[i, k], work)
+            normal_equations(links, joints, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
             for j in range(6):

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.certify import POLISH
 from dh2urdf.kernels.compiled import block_kernel
+from dh2urdf.kernels.polish import POLISH
 
 __all__ = [
     "BLOCK",

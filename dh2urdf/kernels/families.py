@@ -6,16 +6,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import (
-    ACCEPT,
-    CLUSTER,
-    TWO_PI,
-    _damped_step,
-    _normal_equations,
-    move,
-    polish,
-)
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, move
 from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
+from dh2urdf.kernels.polish import damped_step, normal_equations, polish
 
 __all__ = ["free_joints", "null_direction", "one_of_each_family", "work_array"]
 
@@ -35,7 +28,7 @@ MOVES = 1e-5
 
 @inner_kernel
 def work_array(n):
-    """Scratch as :func:`dh2urdf.kernels.certify.new_work` makes it, for jitted callers."""
+    """Scratch as :func:`dh2urdf.kernels.polish.new_work` makes it, for jitted callers."""
     return np.empty((n, n + 8))
 
 
@@ -100,17 +93,17 @@ def free_joints(links, joints, T, q, trial, work):
         A solution.
     trial : array, shape (n,), scratch
     work : array
-        From :func:`dh2urdf.kernels.certify.new_work`.
+        From :func:`dh2urdf.kernels.polish.new_work`.
     """
     n = q.shape[0]
-    _normal_equations(links, joints, T, q, work)
+    normal_equations(links, joints, T, q, work)
     if null_direction(work) > SINGULAR:
         return np.int64(0)
     for i in range(n):
         trial[i] = q[i] + WALK * work[i, 6]
     for _ in range(STEADY_STEPS):
-        _normal_equations(links, joints, T, trial, work)
-        _damped_step(work, STEADY)
+        normal_equations(links, joints, T, trial, work)
+        damped_step(work, STEADY)
         for i in range(n):
             trial[i] += work[i, 7]
     if not polish(links, joints, T, trial, work) <= ACCEPT:

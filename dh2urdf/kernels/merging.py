@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import POLISH, TWO_PI, move, polish, pose_residual
+from dh2urdf.kernels.certify import TWO_PI, move
 from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
+from dh2urdf.kernels.polish import POLISH, polish, pose_residual
 
 __all__ = ["merge_solutions"]
 
@@ -53,7 +54,7 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
         See :func:`dh2urdf.kernels.certify.finish_pose`.
     scratch : array, shape (2, n)
     work : array
-        From :func:`dh2urdf.kernels.certify.new_work`.
+        From :func:`dh2urdf.kernels.polish.new_work`.
     """
     kept = np.int64(0)
     for k in range(count):

@@ -12,11 +12,12 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.kernels import spherical_wrist, three_parallel
-from dh2urdf.kernels.certify import ACCEPT, ANYWHERE, finish_pose, polish
+from dh2urdf.kernels.certify import ACCEPT, ANYWHERE, finish_pose
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped, solve_damped
 from dh2urdf.kernels.parallel_pairs import outer_pairs
 from dh2urdf.kernels.parallel_plane import last_joint
+from dh2urdf.kernels.polish import polish
 from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import add_wrist
 from dh2urdf.kernels.three_parallel import _slope_of_last, add_pairs

@@ -14,6 +14,7 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.certify import ACCEPT
 from dh2urdf.kernels.circle_pair import circle_pair
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.trig import elbow_angle, linear_trig, root_of_gap
@@ -163,17 +164,19 @@ def _any_elbow(form, px, py, pz, slack, arm):
         x, y = seen_from_axis_2(form, c1, s1, px, py, pz)
         vx = a2 + c3 * wx - s3 * wy
         vy = ca2 * (s3 * wx + c3 * wy) - sa2 * wz
-        upper_free = False
+        on_axis, upper_free = False, False
         if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
             ux, uy = -s3 * wx - c3 * wy, ca2 * (c3 * wx - s3 * wy)
             turn = -(vx * ux + vy * uy) / (ux * ux + uy * uy)
             near_c, near_s, off = onto_axis_2(form, c1, s1, px, py, pz)
-            upper_free = max(off, math.hypot(vx + turn * ux, vy + turn * uy)) <= FREE
-            if upper_free:
+            off = max(off, math.hypot(vx + turn * ux, vy + turn * uy))
+            upper_free = off <= ACCEPT
+            on_axis = upper_free or (slack > 0.0 and off <= ON_AXIS)
+            if on_axis:
                 c1, s1 = near_c, near_s
                 c3, s3 = c3 - turn * s3, s3 + turn * c3
         arm[k, 0] = math.atan2(s1, c1)
-        arm[k, 1] = form[1, 4] if upper_free else math.atan2(vx * y - vy * x, vx * x + vy * y)
+        arm[k, 1] = form[1, 4] if on_axis else math.atan2(vx * y - vy * x, vx * x + vy * y)
         arm[k, 2] = math.atan2(s3, c3)
         arm[k, 3] = -1.0
         arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)

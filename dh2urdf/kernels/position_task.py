@@ -10,20 +10,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import (
-    ACCEPT,
-    CLUSTER,
-    HOPELESS,
-    MAX_TURN,
-    POLISH,
-    TWO_PI,
-    _damped_step,
-    move,
-)
+from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, move
 from dh2urdf.kernels.chain import _joint_times_link, _load
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, null_direction
 from dh2urdf.kernels.merging import NEAR
+from dh2urdf.kernels.polish import HOPELESS, MAX_TURN, POLISH, damped_step
 
 __all__ = ["finish_position", "position_residual"]
 
@@ -42,7 +34,7 @@ def position_residual(links, joints, T, q):
 
 
 @inner_kernel
-def _normal_equations(links, joints, T, q, work):
+def normal_equations(links, joints, T, q, work):
     """``J^T J`` to ``work[:, 8:]`` (lower triangle), ``J^T e`` to ``work[:, 6]``, three rows."""
     n = q.shape[0]
     r = _load(links[0])
@@ -72,8 +64,8 @@ def _polish(links, joints, T, q, work):
     for _ in range(MAX_STEPS):
         if residual <= POLISH or failures > 3:
             break
-        _normal_equations(links, joints, T, q, work)
-        longest = _damped_step(work, damping)
+        normal_equations(links, joints, T, q, work)
+        longest = damped_step(work, damping)
         step = min(1.0, MAX_TURN / longest) if longest > 0.0 else 0.0
         for i in range(q.shape[0]):
             q[i] += step * work[i, 7]
@@ -94,7 +86,7 @@ def _polish(links, joints, T, q, work):
 @inner_kernel
 def _free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family, see :mod:`dh2urdf.kernels.families`."""
-    _normal_equations(links, joints, T, q, work)
+    normal_equations(links, joints, T, q, work)
     mask = np.int64(0)
     if null_direction(work) > SINGULAR:
         return mask

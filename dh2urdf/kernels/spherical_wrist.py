@@ -19,11 +19,11 @@ from dh2urdf.kernels.certify import (
     copy_rows,
     finish_pose,
     move,
-    pose_residual,
     principal,
     same,
 )
 from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.polish import polish
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
 from dh2urdf.kernels.trig import root_of_gap
@@ -170,12 +170,12 @@ def add_merged(links, joints, form, rows, slack, T, scratch):
     Those of singular families, which only exist where the roots do merge, and those that reach
     the pose to rounding, which a straight elbow rather than one bent by 1e-8 does.
     """
-    D, R, arm, _, (q, residual, branch, free) = scratch
+    D, R, arm, work, (q, residual, branch, free) = scratch
     kept = 0
     for k in range(rows):
         found = add_wrist(form, D, arm[k], R, slack, q, branch, free, kept)
         for j in range(kept, found):
-            residual[j] = pose_residual(links, joints, T, q[j])
+            residual[j] = polish(links, joints, T, q[j], work)
             for i in range(6):
                 q[j, i] = q[j, i] if joints[i, 0] != 0.0 else principal(q[j, i])
             if residual[j] <= ROUNDING or (free[j] != 0 and residual[j] <= ACCEPT):

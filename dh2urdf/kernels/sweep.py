@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dh2urdf.kernels.certify import pose_residual
 from dh2urdf.kernels.compiled import kernel
+from dh2urdf.kernels.polish import pose_residual
 
 __all__ = ["gather_samples", "measure_all", "spread_samples"]
 

@@ -1,0 +1,35 @@
+"""Points and directions carried along the first three joints of an arm, some of which slide."""
+
+from __future__ import annotations
+
+import math
+
+from dh2urdf.kernels.compiled import inner_kernel
+
+__all__ = ["after_joint", "after_link", "wrist_in_three"]
+
+
+@inner_kernel
+def after_link(form, i, x, y, z, point):
+    """``Trans_x(a_i) Rot_x(alpha_i)`` of a point (1.0) or a direction (0.0)."""
+    ca, sa = form[i, 1], form[i, 2]
+    return x + point * form[i, 0], ca * y - sa * z, sa * y + ca * z
+
+
+@inner_kernel
+def after_joint(form, i, x, y, z, point):
+    """A fixed angle theta_i and, for a point of a turning joint, its offset d_i."""
+    c, s = math.cos(form[i, 4]), math.sin(form[i, 4])
+    lift = 0.0 if form[i, 5] != 0.0 else point * form[i, 3]
+    return c * x - s * y, s * x + c * y, z + lift
+
+
+@inner_kernel
+def wrist_in_three(form):
+    """The wrist centre before joint 3 turns or slides; turned by theta_3 if it slides."""
+    x, y, z = after_link(form, 2, 0.0, 0.0, form[3, 3], 1.0)
+    if form[2, 5] != 0.0:
+        x, y, z = after_joint(form, 2, x, y, z, 1.0)
+    else:
+        z += form[2, 3]
+    return x, y, z

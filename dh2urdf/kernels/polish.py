@@ -1,0 +1,218 @@
+"""Newton's method on the exact chain, and the residual that it works on.
+
+A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joint: 1.0 where it
+slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.kernels.chain import _joint_times_link, _load
+from dh2urdf.kernels.compiled import helper_kernel, inner_kernel
+
+__all__ = [
+    "HOPELESS",
+    "MAX_TURN",
+    "POLISH",
+    "damped_step",
+    "new_work",
+    "normal_equations",
+    "polish",
+]
+__all__ += ["pose_residual", "residual_of", "turn_between"]
+
+POLISH = 1e-13
+"""Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
+
+HOPELESS = 0.3
+"""Residual [m and rad] of a candidate that Newton is not asked to repair."""
+
+PLAIN_STEPS = 5
+"""Plain Newton steps; a sound candidate needs two or three."""
+
+DAMPED_FAILURES = 4
+"""Damped steps that may fail to halve the residual before a candidate is given up."""
+
+TINY_DAMPING = 1e-18
+"""Damping that only keeps rounding from dividing by zero."""
+
+MAX_TURN = 0.3
+"""Longest Newton step of one joint [rad or m]."""
+
+VALLEY = 1e3
+"""The same in square roots of the residual: where two branches meet, a root is off by about one,
+and what is asked for beyond is noise along a direction in which the pose hardly changes."""
+
+
+def new_work(n: int) -> NDArray[np.float64]:
+    """Scratch of :func:`finish_pose` for n joints: one array for a whole batch."""
+    return np.empty((n, n + 8))
+
+
+@helper_kernel
+def residual_of(r, T):
+    """Residual of a pose r (twelve scalars) against a target T (4, 4).
+
+    The larger of the position error [m] and the angle between the orientations [rad],
+    ``|sum_i r_i x t_i| / 2 = sin(angle)`` over the columns of the rotations; pi where the angle is
+    over 90 degrees. Stretching T (six-digit input) does not enter to first order.
+    """
+    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    ex, ey, ez, cosine = turn_between(r, T)
+    if cosine <= 1.0:
+        return math.pi
+    return math.sqrt(max(x * x + y * y + z * z, ex * ex + ey * ey + ez * ez))
+
+
+@helper_kernel
+def turn_between(r, T):
+    """Rotation vector (sine long) from r to T in base axes, and ``trace(r^T T)``."""
+    ex = r[4] * T[2, 0] - r[8] * T[1, 0] + r[5] * T[2, 1] - r[9] * T[1, 1]
+    ey = r[8] * T[0, 0] - r[0] * T[2, 0] + r[9] * T[0, 1] - r[1] * T[2, 1]
+    ez = r[0] * T[1, 0] - r[4] * T[0, 0] + r[1] * T[1, 1] - r[5] * T[0, 1]
+    ex += r[6] * T[2, 2] - r[10] * T[1, 2]
+    ey += r[10] * T[0, 2] - r[2] * T[2, 2]
+    ez += r[2] * T[1, 2] - r[6] * T[0, 2]
+    trace = r[0] * T[0, 0] + r[4] * T[1, 0] + r[8] * T[2, 0]
+    trace += r[1] * T[0, 1] + r[5] * T[1, 1] + r[9] * T[2, 1]
+    trace += r[2] * T[0, 2] + r[6] * T[1, 2] + r[10] * T[2, 2]
+    return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
+
+
+@inner_kernel
+def pose_residual(links, joints, T, q):
+    """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
+    r = _load(links[0])
+    for i in range(q.shape[0]):
+        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    return residual_of(r, T)
+
+
+@inner_kernel
+def normal_equations(links, joints, T, q, work):
+    """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
+
+    J is the geometric Jacobian at the tip in base axes (Spong, eqs. 4.57 to 4.60). Written to
+    ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
+    """
+    n = q.shape[0]
+    r = _load(links[0])
+    for i in range(n):
+        work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
+        work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
+        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    ex, ey, ez, _ = turn_between(r, T)
+    px, py, pz = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    for i in range(n):
+        zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
+        if joints[i, 0] != 0.0:
+            work[i, 0], work[i, 1], work[i, 2] = zx, zy, zz
+            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
+        else:
+            x, y, z = r[3] - work[i, 0], r[7] - work[i, 1], r[11] - work[i, 2]
+            work[i, 0] = zy * z - zz * y
+            work[i, 1] = zz * x - zx * z
+            work[i, 2] = zx * y - zy * x
+        work[i, 6] = (
+            work[i, 0] * px
+            + work[i, 1] * py
+            + work[i, 2] * pz
+            + work[i, 3] * ex
+            + work[i, 4] * ey
+            + work[i, 5] * ez
+        )
+        for j in range(i + 1):
+            total = 0.0
+            for k in range(6):
+                total += work[i, k] * work[j, k]
+            work[i, 8 + j] = total
+
+
+@inner_kernel
+def damped_step(work, damping):
+    """Solve ``(J^T J + damping) dq = J^T e`` by Cholesky, dq in ``work[:, 7]``; longest entry.
+
+    Factors in place over the Jacobian and the triangle, so the equations are built anew for
+    every step. Pivots that rounding made non-positive are raised to the damping.
+    """
+    n = work.shape[0]
+    for i in range(n):
+        total = work[i, 6]
+        for j in range(i):
+            part = work[i, 8 + j]
+            for k in range(j):
+                part -= work[i, 8 + k] * work[j, 8 + k]
+            part /= work[j, 8 + j]
+            work[i, 8 + j] = part
+            total -= part * work[j, 7]
+        pivot = work[i, 8 + i] + damping
+        for k in range(i):
+            pivot -= work[i, 8 + k] * work[i, 8 + k]
+        pivot = math.sqrt(max(pivot, damping))
+        work[i, 8 + i] = pivot
+        work[i, 7] = total / pivot
+    longest = 0.0
+    for i in range(n - 1, -1, -1):
+        total = work[i, 7]
+        for k in range(i + 1, n):
+            total -= work[k, 8 + i] * work[k, 7]
+        total /= work[i, 8 + i]
+        work[i, 7] = total
+        longest = max(longest, abs(total))
+    return longest
+
+
+@inner_kernel
+def polish(links, joints, T, q, work):
+    """Newton's method on the exact chain, q (n,) in place; returns the residual.
+
+    First plain steps, which near a singularity may go uphill once before they converge; where
+    they do not, Levenberg's damped steps from the best point, each of which must go downhill.
+    """
+    n = q.shape[0]
+    residual = pose_residual(links, joints, T, q)
+    if residual <= POLISH or not residual <= HOPELESS:
+        return residual
+    best, kept = residual, np.empty(n)
+    for i in range(n):
+        kept[i] = q[i]
+    for _ in range(PLAIN_STEPS):
+        normal_equations(links, joints, T, q, work)
+        _move_along(q, work, damped_step(work, TINY_DAMPING), residual)
+        residual = pose_residual(links, joints, T, q)
+        if residual < best:
+            best = residual
+            for i in range(n):
+                kept[i] = q[i]
+        if residual <= POLISH or not residual <= HOPELESS:
+            break
+    damping, failures = 1e-3 * best, 0
+    for i in range(n):
+        q[i] = kept[i]
+    while best > POLISH and failures < DAMPED_FAILURES and damping > TINY_DAMPING:
+        normal_equations(links, joints, T, q, work)
+        _move_along(q, work, damped_step(work, damping), best)
+        residual = pose_residual(links, joints, T, q)
+        damping = 0.01 * damping if residual < 0.5 * best else 100.0 * damping
+        failures += 1 if residual > 0.5 * best else 0
+        if residual < best:
+            best = residual
+            for i in range(n):
+                kept[i] = q[i]
+        else:
+            for i in range(n):
+                q[i] = kept[i]
+    return best
+
+
+@inner_kernel
+def _move_along(q, work, longest, residual):
+    """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN`` and ``VALLEY``."""
+    most = min(MAX_TURN, VALLEY * math.sqrt(residual))
+    scale = min(1.0, most / longest) if longest > 0.0 else 0.0
+    for i in range(q.shape[0]):
+        q[i] += scale * work[i, 7]
