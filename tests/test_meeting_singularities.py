@@ -25,7 +25,7 @@ CLOSED = [
 STANFORD = pytest.mark.xfail(
     strict=True,
     reason="165 of 6,000: with the slide within 1e-6 of 0 joint 2 turns the tool by the square of "
-    "that, and what is found reaches the pose to rounding or 1e-9 elsewhere on the curve of joint 2",
+    "that, and what is found reaches the pose, at 1e-9 or better, elsewhere along joint 2",
 )
 
 
