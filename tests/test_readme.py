@@ -34,18 +34,23 @@ def commands():
             yield from (line for line in block["text"].splitlines() if line.strip())
 
 
+def run(command, folder, shell=False):
+    """A command's end, status and both outputs kept."""
+    return subprocess.run(
+        command,
+        shell=shell,
+        cwd=folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
 def test_commands_run_one_after_the_other(folder):
     """Each command ends with status 0 and prints something."""
     for command in commands():
-        done = subprocess.run(
-            command,
-            shell=True,
-            cwd=folder,
-            env=environment(),
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        done = run(command, folder, shell=True)
         assert done.returncode == 0, (command, done.stderr)
         assert done.stdout, command
 
@@ -54,14 +59,7 @@ def test_python_blocks_run(folder):
     """Each Python block runs as it stands."""
     for block in BLOCK.finditer(README.read_text()):
         if block["kind"] == "python":
-            done = subprocess.run(
-                [sys.executable, "-W", "error", "-c", block["text"]],
-                cwd=folder,
-                env=environment(),
-                capture_output=True,
-                text=True,
-                check=False,
-            )
+            done = run([sys.executable, "-W", "error", "-c", block["text"]], folder)
             assert done.returncode == 0, done.stderr
             assert done.stdout
 
@@ -72,15 +70,7 @@ def test_main_job_runs_as_the_set_up_command_shows(folder):
     jobs = [part.strip() for part in setup.split("&&") if ".venv/bin/dh2urdf" in part]
     assert len(jobs) == 2
     for job in jobs:
-        done = subprocess.run(
-            job.replace(".venv/bin/", ""),
-            shell=True,
-            cwd=folder,
-            env=environment(),
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        done = run(job.replace(".venv/bin/", ""), folder, shell=True)
         assert done.returncode == 0, done.stderr
 
 

@@ -189,6 +189,16 @@ def _cone_meets_cone(form, D, fx, fy, fz):
 
 
 @inner_kernel
+def _add_leaning(c4, s4, pair, pairs):
+    """Append a t4 at which t5 is nearly free, once for both roots beside it; the new count."""
+    for j in range(pairs):
+        if pair[j, 4] != 0.0 and (pair[j, 0] > 0.0) == (c4 > 0.0):
+            return pairs
+    pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
+    return pairs + 1
+
+
+@inner_kernel
 def _pairs_before_four(form, D, slack, pair):
     """Joints 4 and 5 where axes 1, 2, 3 are parallel; the number of pairs.
 
@@ -216,12 +226,7 @@ def _pairs_before_four(form, D, slack, pair):
         c4, s4 = cosines[k], sines[k]
         fx, fy = sa3 * s4, sa3 * ca4 * c4 + ca3 * sa4
         if fx * fx + fy * fy <= LEANING * LEANING:
-            known = False
-            for j in range(pairs):
-                known = known or (pair[j, 4] != 0.0 and (pair[j, 0] > 0.0) == (c4 > 0.0))
-            if not known:
-                pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 1.0
-                pairs += 1
+            pairs = _add_leaning(c4, s4, pair, pairs)
             continue
         n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
         loose = abs(slack) + EPSILON / max(fx * fx + fy * fy, 1e-300)

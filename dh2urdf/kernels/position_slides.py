@@ -71,6 +71,24 @@ def _between(vx, vy, x, y):
 
 
 @inner_kernel
+def _slide_to_axis_2(form, x, y, px, py, pz, slack, c, s, d):
+    """Put the wrist centre on axis 2 by joints 1 and 3 if only rounding keeps it off.
+
+    Returns whether it was put there, whether joint 2 is free, cosine and sine of joint 1, d3. The
+    centre is (x, y - sin(alpha2) d3) across the axis, seen after joint 2.
+    """
+    sa2 = form[1, 2]
+    across = y - sa2 * d
+    if x * x + across * across > ON_AXIS * ON_AXIS or abs(x) > FREE or sa2 == 0.0:
+        return False, False, c, s, d
+    near_c, near_s, off = onto_axis_2(form, c, s, px, py, pz)
+    free = off <= ACCEPT
+    if free or (slack > 0.0 and off <= ON_AXIS):
+        return True, free, near_c, near_s, y / sa2
+    return False, False, c, s, d
+
+
+@inner_kernel
 def _turn_turn_slide(form, px, py, pz, slack, arm):
     """RRP (Stanford arm): height and length of p seen from axis 2, in q1 and d3."""
     a1, ca1, sa1, ca2, sa2 = form[0, 0], form[0, 1], form[0, 2], form[1, 1], form[1, 2]
@@ -108,13 +126,7 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
         for j in range(found):
             d = d if j == 0 else other
             vx, vy = x, y - sa2 * d
-            on_axis, upper_free = False, False
-            if vx * vx + vy * vy <= ON_AXIS * ON_AXIS and abs(x) <= FREE and sa2 != 0.0:
-                near_c, near_s, off = onto_axis_2(form, c, s, px, py, pz)
-                upper_free = off <= ACCEPT
-                on_axis = upper_free or (slack > 0.0 and off <= ON_AXIS)
-                if on_axis:
-                    c, s, d = near_c, near_s, y / sa2
+            on_axis, upper_free, c, s, d = _slide_to_axis_2(form, x, y, px, py, pz, slack, c, s, d)
             ux, uy = seen_from_axis_2(form, c, s, px, py, pz)
             arm[rows, 0], arm[rows, 1] = math.atan2(s, c), _between(vx, vy, ux, uy)
             arm[rows, 2] = d
