@@ -10,6 +10,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── VerificationError                a written result that differs from its source
     ├── PoseError (ValueError)           a target that is not in SE(3)
     ├── ConfigurationError (ValueError)  a q, seed or locked value of the wrong shape or kind
+    ├── ArgumentError (ValueError)       an option of the wrong kind or beyond its bounds
     ├── NameNotFoundError (LookupError)  no such table, frame or joint
     ├── NoSolverError                    no analytic solver for this chain or task
     ├── OutputError (OSError)            a file that cannot be written
@@ -23,6 +24,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 __all__ = [
+    "ArgumentError",
     "ConfigurationError",
     "Dh2UrdfError",
     "MissingExtraError",
@@ -73,6 +75,10 @@ class PoseError(Dh2UrdfError, ValueError):
 
 class ConfigurationError(Dh2UrdfError, ValueError):
     """A configuration, seed or locked joint of the wrong length or kind."""
+
+
+class ArgumentError(Dh2UrdfError, ValueError):
+    """An option of a call of the wrong kind or beyond its bounds."""
 
 
 class NameNotFoundError(Dh2UrdfError, LookupError):

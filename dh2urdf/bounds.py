@@ -1,0 +1,100 @@
+"""Every bound on what is taken in: numbers, sizes, depths and counts, each with its reason.
+
+A bound is met where something enters: a file, a cell, an argument, an option. What lies beyond is
+refused with a message that names it; nothing inside has to ask again.
+"""
+
+from __future__ import annotations
+
+__all__ = [
+    "ANGLE",
+    "CELL_CHARACTERS",
+    "DEPTH",
+    "DPI",
+    "JOINTS",
+    "LENGTH",
+    "LINKS",
+    "NODES",
+    "NUMBER",
+    "ORIENTATIONS",
+    "PATH_BYTES",
+    "POSES_BYTES",
+    "ROBOT_BYTES",
+    "ROWS",
+    "SAMPLES",
+    "STARTS",
+    "TABLE_BYTES",
+    "TEXT_CHARACTERS",
+    "THREADS",
+    "TURNS",
+]
+
+# Numbers
+
+LENGTH = 1e9
+"""Largest length [m]: beyond it sixteen digits no longer hold a micrometre."""
+
+ANGLE = 1e5
+"""Largest angle [rad], some 16,000 turns: the rounding of it, 7e-12, is still far below the
+residual of 1e-9 that a solution may have."""
+
+NUMBER = 1e30
+"""Largest number of any other kind: squares and products of it are still floats."""
+
+# Arms
+
+JOINTS = 60
+"""Joints of a chain: those free along a singular family are the bits of one 64-bit word."""
+
+ROWS = 500
+"""Rows of a table, fixed ones included: eight to a joint."""
+
+LINKS = 2_000
+"""Links of a robot description, ten times a humanoid with both hands: Pinocchio's reader descends
+a level per link, and ends the process some thousand further on."""
+
+# Files
+
+TABLE_BYTES = 1_000_000
+"""A table file; one of 60 joints with everything given has 20 kB."""
+
+ROBOT_BYTES = 50_000_000
+"""A robot description without its meshes; makers' largest have 1 MB."""
+
+POSES_BYTES = 2_000_000_000
+"""A file of poses: ten million rows."""
+
+PATH_BYTES = 255
+"""A file's name, as the common file systems have it."""
+
+DEPTH = 16
+"""Brackets within brackets of a table file, which needs four."""
+
+NODES = 20_000
+"""Cells of a table file; a hundred rows with everything given have some 3000."""
+
+CELL_CHARACTERS = 200
+"""Text of one number or expression."""
+
+TEXT_CHARACTERS = 2_000
+"""A name, a source: what is printed in one line, or one paragraph."""
+
+# Work asked for in one call
+
+TURNS = 100_000
+"""Solutions that ``turns="all"`` may list for one pose."""
+
+SAMPLES = 100_000
+"""Values of a swept joint; its range in steps of a thousandth of a degree has 360,000."""
+
+STARTS = 1_000_000
+"""Starts of a numeric search: about ten minutes."""
+
+THREADS = 1_024
+"""Threads of a batch."""
+
+ORIENTATIONS = 10_000
+"""Orientations of a workspace map: 5 degrees apart."""
+
+DPI = (10.0, 1_200.0)
+"""Dots per inch of a picture: more than a printer's take 1 GB."""

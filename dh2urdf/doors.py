@@ -1,0 +1,150 @@
+"""The doors by which arguments come in: one for each kind, with one message for each fault.
+
+A message names the argument, what was found and what is allowed.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
+
+__all__ = ["choice", "flag", "found", "integer", "number", "real_array"]
+
+Array = NDArray[np.float64]
+
+
+def found(value: object) -> str:
+    """A value as messages show it: short, in one line, whatever it is."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception:  # a foreign object's own repr may fail in any way
+        text = f"a {type(value).__name__}"
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def real_array(
+    values: object, what: str, expected: str, error: type[Dh2UrdfError] = ArgumentError
+) -> Array:
+    """Real numbers of any type, order and stride as native floats; a float array itself.
+
+    Parameters
+    ----------
+    values : array_like
+        Numbers; arrays of pandas, xarray and others by their array interface.
+    what, expected : str
+        Name of the argument and what it takes, for the message.
+    error : exception type
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``: no numbers, text, None, ragged, complex, masked entries.
+    """
+    try:
+        array = np.asanyarray(values)
+        kind = array.dtype.kind
+        if type(array) is np.ndarray and array.dtype.char == "d" and array.dtype.isnative:
+            return cast("Array", array)
+        if np.ma.is_masked(array):
+            raise TypeError
+        array = np.asarray(array)
+        if kind == "O":
+            _only_numbers(array)
+        elif kind not in "iuf":
+            raise TypeError
+        with np.errstate(over="ignore"):
+            return array.astype(np.float64)
+    except (TypeError, ValueError, OverflowError, RecursionError, AttributeError):
+        raise error(f"{what}: expected {expected}, got {found(values)}") from None
+
+
+def _only_numbers(array: NDArray[Any]) -> None:
+    """Refuse objects that are no real numbers, which NumPy would read: texts, None, truths.
+
+    Raises
+    ------
+    TypeError
+    """
+    for entry in array.flat:
+        if isinstance(entry, (str, bytes, bool, complex)) or not hasattr(entry, "__float__"):
+            raise TypeError
+
+
+def number(
+    value: object,
+    what: str,
+    low: float,
+    high: float,
+    error: type[Dh2UrdfError] = ArgumentError,
+) -> float:
+    """A finite real number between two bounds, included.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    array = real_array(value, what, f"a number from {low:g} to {high:g}", error)
+    if array.shape or not low <= float(array) <= high:
+        raise error(f"{what}: expected a number from {low:g} to {high:g}, got {found(value)}")
+    return float(array)
+
+
+def integer(
+    value: object,
+    what: str,
+    low: int,
+    high: int,
+    error: type[Dh2UrdfError] = ArgumentError,
+) -> int:
+    """A whole number between two bounds, included; no truth value.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    try:
+        whole = operator.index(cast("Any", value))
+        if not isinstance(value, (bool, np.bool_)) and low <= whole <= high:
+            return whole
+    except TypeError:
+        pass
+    raise error(f"{what}: expected a whole number from {low} to {high}, got {found(value)}")
+
+
+def flag(value: object, what: str) -> bool:
+    """True or False, of Python or NumPy; nothing that is merely true or false.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise ArgumentError(f"{what}: expected True or False, got {found(value)}")
+
+
+def choice(
+    value: object,
+    what: str,
+    allowed: Iterable[str],
+    error: type[Dh2UrdfError] = ArgumentError,
+) -> str:
+    """One of some words.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    words = list(allowed)
+    if isinstance(value, str) and value in words:
+        return value
+    raise error(f"{what}: expected {' or '.join(map(repr, words))}, got {found(value)}")
