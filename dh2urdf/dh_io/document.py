@@ -11,20 +11,17 @@ import re
 from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
+from dh2urdf.bounds import DEPTH, NODES, TABLE_BYTES
 from dh2urdf.exceptions import TableFileError
 
 __all__ = ["Items", "Keys", "LineStarts", "Mark", "Node", "Report", "Scalar"]
-
-MAX_DEPTH = 16
-"""Brackets within brackets; a table needs four."""
-
-MAX_NODES = 20_000
-"""Cells of a file; a table of a hundred rows with everything given has some 3000."""
 
 MAX_SHOWN = 25
 """Faults listed one by one; a file with more has one cause that shows among the first."""
 
 SNIPPET_WIDTH = 96
+
+_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff]")
 
 
 class Mark(NamedTuple):
@@ -51,11 +48,16 @@ class LineStarts:
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """One cell. ``text`` is empty where there is none (``null``); ``unit`` is its column's."""
+    """One cell.
+
+    ``text`` is empty where there is none (``null``); ``unit`` is its column's; ``quoted`` where
+    the format says that it is a text.
+    """
 
     text: str
     mark: Mark = NOWHERE
     unit: str = ""
+    quoted: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +87,30 @@ class Report:
         self.lines = text.split("\n")
         self._faults: list[tuple[Mark, str]] = []
         self._warnings: list[tuple[Mark, str]] = []
+        self._cells = 0
+
+    @classmethod
+    def of_text(cls, filename: str, text: str) -> Report:
+        """Report of a text that has been looked at: of bounded size, printable, not empty."""
+        report = cls(filename, text)
+        if "\0" in text:
+            report.stop(NOWHERE, "not a text file: it holds binary data")
+        if len(text) > TABLE_BYTES:
+            report.stop(NOWHERE, f"larger than {TABLE_BYTES // 1000} kB; a DH table is smaller")
+        if control := _CONTROL.search(text):
+            mark = LineStarts(text).mark(control.start())
+            report.stop(mark, f"control character U+{ord(control[0]):04X}")
+        if not text.strip():
+            report.stop(NOWHERE, "the file is empty")
+        return report
+
+    def count(self, mark: Mark, depth: int = 0, cells: int = 1) -> None:
+        """Count cells as they are read, and stop at the bounds of a file."""
+        self._cells += cells
+        if self._cells > NODES:
+            self.stop(mark, f"more than {NODES} cells; a DH table is smaller")
+        if depth > DEPTH:
+            self.stop(mark, f"nested deeper than {DEPTH} levels")
 
     def fault(self, mark: Mark, path: str, message: str, hint: str = "") -> None:
         """Note a fault of the cell ``path`` at ``mark``."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import difflib
 import os
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.checker import check_document
-from dh2urdf.dh_io.document import Mark, Node, Report
+from dh2urdf.dh_io.document import Node, Report
 from dh2urdf.dh_io.read_csv import read_csv
 from dh2urdf.dh_io.read_json import read_json
 from dh2urdf.dh_io.read_markdown import read_markdown
@@ -31,10 +31,6 @@ FORMATS = {
     ".markdown": "markdown",
 }
 """Format of a file by its suffix."""
-
-MAX_BYTES = 1_000_000
-
-_CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
 _READERS: dict[str, Callable[[str, Report], Node]] = {
     "toml": read_toml,
@@ -99,17 +95,7 @@ def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
     filename : str
         How messages name the text; its stem is the table's name where the text gives none.
     """
-    report = Report(filename, text)
-    if "\0" in text:
-        report.stop(Mark(), "not a text file: it holds binary data")
-    if len(text) > MAX_BYTES:
-        report.stop(Mark(), f"larger than {MAX_BYTES // 1000} kB; a DH table is smaller")
-    if control := _CONTROL.search(text):
-        line, column = text.count("\n", 0, control.start()), text.rfind("\n", 0, control.start())
-        mark = Mark(line + 1, control.start() - column)
-        report.stop(mark, f"control character U+{ord(control[0]):04X}")
-    if not text.strip():
-        report.stop(Mark(), "the file is empty")
+    report = Report.of_text(filename, text)
     table = check_document(_document(text, format, report), report, Path(filename).stem or "robot")
     return TableFile(table, report.warnings)
 
@@ -128,7 +114,7 @@ def _document(text: str, format: str, report: Report) -> Node:
 def _bytes(path: Path) -> bytes:
     try:
         with path.open("rb") as stream:
-            return stream.read(4 * MAX_BYTES + 1)
+            return stream.read(4 * TABLE_BYTES + 1)
     except FileNotFoundError:
         message = f"{path}: there is no such file"
     except IsADirectoryError:

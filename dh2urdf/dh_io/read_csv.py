@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 
-from dh2urdf.dh_io.document import MAX_NODES, Keys, Mark, Report, Scalar
+from dh2urdf.dh_io.document import Keys, Mark, Report, Scalar
 from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata
 
 __all__ = ["read_csv"]
@@ -13,7 +13,7 @@ __all__ = ["read_csv"]
 def read_csv(text: str, report: Report) -> Keys:
     """Read a CSV file: ``# key: value`` lines, a header row, one line a row."""
     grid = Grid([], [], [])
-    delimiter, count = "", 0
+    delimiter = ""
     for number, line in enumerate(text.split("\n"), 1):
         if not line.strip():
             continue
@@ -23,9 +23,7 @@ def read_csv(text: str, report: Report) -> Keys:
             continue
         delimiter = delimiter or max(",;\t", key=line.count)
         cells = _cells(line, number, delimiter, report)
-        count += len(cells)
-        if count > MAX_NODES:
-            report.stop(Mark(number, 1), f"more than {MAX_NODES} cells; a DH table is smaller")
+        report.count(Mark(number, 1), cells=len(cells))
         if grid.header:
             grid.rows.append(cells)
         elif is_header(cells):

@@ -5,17 +5,7 @@ from __future__ import annotations
 import re
 from json import JSONDecodeError, JSONDecoder
 
-from dh2urdf.dh_io.document import (
-    MAX_DEPTH,
-    MAX_NODES,
-    Items,
-    Keys,
-    LineStarts,
-    Mark,
-    Node,
-    Report,
-    Scalar,
-)
+from dh2urdf.dh_io.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
 __all__ = ["read_json"]
 
@@ -36,7 +26,7 @@ class _Reader:
 
     def __init__(self, text: str, report: Report) -> None:
         self.text, self.report, self.lines = text, report, LineStarts(text)
-        self.at = self.count = 0
+        self.at = 0
 
     def document(self) -> Node:
         node = self.node(0)
@@ -57,18 +47,14 @@ class _Reader:
         self.report.stop(self.mark(), f"not JSON: {message}")
 
     def node(self, depth: int) -> Node:
-        self.count += 1
         character, mark = self.peek(), self.mark()
-        if depth > MAX_DEPTH:
-            self.stop(f"nested deeper than {MAX_DEPTH} levels")
-        if self.count > MAX_NODES:
-            self.stop(f"more than {MAX_NODES} cells; a DH table is smaller")
+        self.report.count(mark, depth)
         if character == "{":
             return Keys(tuple(self.pairs(depth)), mark)
         if character == "[":
             return Items(tuple(self.items(depth)), mark)
         if character == '"':
-            return Scalar(self.string(), mark)
+            return Scalar(self.string(), mark, quoted=True)
         return Scalar(self.literal(character), mark)
 
     def literal(self, character: str) -> str:

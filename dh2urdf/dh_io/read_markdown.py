@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
-from dh2urdf.dh_io.document import MAX_NODES, Keys, Mark, Report, Scalar
+from dh2urdf.dh_io.document import Keys, Mark, Report, Scalar
 from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata
 
 __all__ = ["read_markdown"]
@@ -18,7 +18,7 @@ def read_markdown(text: str, report: Report) -> Keys:
     """Read a Markdown page with one pipe table whose header names theta, d, a and alpha."""
     grid = Grid([], [], [])
     lines = text.split("\n")
-    at = count = 0
+    at = 0
     while at < len(lines):
         rule = at + 1 < len(lines) and "|" in lines[at + 1] and _RULE.fullmatch(lines[at + 1])
         if "|" not in lines[at] or not rule:
@@ -36,9 +36,7 @@ def read_markdown(text: str, report: Report) -> Keys:
         while at < len(lines) and "|" in lines[at]:
             if wanted:
                 grid.rows.append(_cells(lines[at], at + 1))
-                count += len(grid.rows[-1])
-            if count > MAX_NODES:
-                report.stop(Mark(at + 1, 1), f"more than {MAX_NODES} cells; a DH table is smaller")
+                report.count(Mark(at + 1, 1), cells=len(grid.rows[-1]))
             at += 1
     if not grid.header:
         hint = "| theta | d | a | alpha |, a line |---|---|---|---|, and one line a row"

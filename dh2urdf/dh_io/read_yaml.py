@@ -2,16 +2,51 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
-from dh2urdf.dh_io.document import MAX_DEPTH, MAX_NODES, Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.exceptions import TableFileError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["read_yaml"]
+__all__ = ["read_yaml", "yaml_values"]
 
 _NULLS = ("~", "null", "Null", "NULL")
+_NUMBER = re.compile(r"[-+]?(\.inf|\.nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGNORECASE | re.ASCII)
+
+
+def yaml_values(text: str, filename: str) -> Any:
+    """Dictionaries, lists, numbers and texts of a YAML or JSON text; None where it is ``null``.
+
+    Raises
+    ------
+    TableFileError
+        Not YAML, an alias or tag, too deep, too many values, a key given twice.
+    """
+    report = Report.of_text(filename, text)
+    values = _values(read_yaml(text, report), report)
+    report.raise_faults()
+    return values
+
+
+def _values(node: Node, report: Report) -> Any:
+    if isinstance(node, Items):
+        return [_values(value, report) for value in node.values]
+    if isinstance(node, Keys):
+        out: dict[str, Any] = {}
+        for key, value in node.pairs:
+            if key.text in out:
+                report.fault(key.mark, key.text[:40], "given twice")
+            out[key.text] = _values(value, report)
+        return out
+    if node.quoted or not node.text:
+        return node.text if node.quoted else None
+    if not _NUMBER.fullmatch(node.text):
+        return {"true": True, "false": False}.get(node.text.lower(), node.text)
+    whole = node.text.lstrip("+-").isdigit() and len(node.text) < 16
+    return int(node.text) if whole else float(re.sub(r"\.(?=[in])", "", node.text.lower()))
 
 
 def read_yaml(text: str, report: Report) -> Node:
@@ -25,7 +60,9 @@ def read_yaml(text: str, report: Report) -> Node:
         where = error.problem_mark or error.context_mark
         mark = Mark(where.line + 1, where.column + 1) if where else Mark()
         report.stop(mark, f"not YAML: {error.problem or error.context}", _hint(text, mark))
-    except YAMLError as error:
+    except (YAMLError, ValueError, OverflowError) as error:  # the last two of escapes
+        if isinstance(error, TableFileError):
+            raise
         report.stop(Mark(), f"not YAML: {str(error).splitlines()[0]:.200}")
 
 
@@ -41,7 +78,7 @@ class _Builder:
     """Builds nodes from ruamel's stream of events, which is lazy: a bomb stops at the bound."""
 
     def __init__(self, events: Iterator[Any], report: Report) -> None:
-        self.events, self.report, self.count = events, report, 0
+        self.events, self.report = events, report
 
     def document(self) -> Node:
         from ruamel.yaml import events as ev
@@ -64,20 +101,17 @@ class _Builder:
         """Node that begins with this event."""
         from ruamel.yaml import events as ev
 
-        self.count += 1
         mark = _mark(event)
-        if self.count > MAX_NODES:
-            self.report.stop(mark, f"more than {MAX_NODES} cells; a DH table is smaller")
-        if depth > MAX_DEPTH:
-            self.report.stop(mark, f"nested deeper than {MAX_DEPTH} levels")
+        self.report.count(mark, depth)
         if isinstance(event, ev.AliasEvent):
             self.report.stop(mark, f"alias *{event.anchor:.40}: not read; write the value out")
         if event.tag is not None:
             tag = str(event.tag).replace("tag:yaml.org,2002:", "!!")
             self.report.stop(mark, f"tag {tag:.60}: not read; write plain text and numbers")
         if isinstance(event, ev.ScalarEvent):
-            plain = event.implicit[0]
-            return Scalar("" if plain and event.value in _NULLS else event.value, mark)
+            quoted = not event.implicit[0]
+            empty = not quoted and event.value in _NULLS
+            return Scalar("" if empty else event.value, mark, quoted=quoted)
         if isinstance(event, ev.SequenceStartEvent):
             return self.sequence(mark, depth)
         return self.mapping(mark, depth)
