@@ -18,6 +18,7 @@ __all__ = [
     "NUMBER",
     "ORIENTATIONS",
     "PATH_BYTES",
+    "POINTS",
     "POSES_BYTES",
     "ROBOT_BYTES",
     "ROWS",
@@ -95,6 +96,9 @@ THREADS = 1_024
 
 ORIENTATIONS = 10_000
 """Orientations of a workspace map: 5 degrees apart."""
+
+POINTS = (2, 2_000)
+"""Points along a side of a workspace map."""
 
 DPI = (10.0, 1_200.0)
 """Dots per inch of a picture: more than a printer's take 1 GB."""

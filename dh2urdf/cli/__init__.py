@@ -6,8 +6,9 @@ Exit status: 0 done, 1 checked and found wrong or no solution, 2 bad usage or ba
 
 from __future__ import annotations
 
+import codecs
+import io
 import os
-import re
 import sys
 from collections.abc import Sequence
 
@@ -29,36 +30,38 @@ VERBS = {
 }
 """Each is the function ``<verb>_`` of ``dh2urdf.cli.<verb>_verb``, loaded when it is called."""
 
-_NEGATIVE = re.compile(r"-(?=.*[\dπi])(?:[\d.,()*/+e-]|pi|π|deg|rad|mm|cm|m)+")
-"""A value such as ``-pi/2`` or ``-90deg``, which is not an option."""
+PLAIN = {"\u2212": "-", "\u2500": "-", "\u2026": "...", "\u00b0": "deg", "\u03c0": "pi"}
+"""Signs of ours as a terminal without them shows them."""
 
 
 def main(argv: Sequence[str] | None = None) -> None:
     """Run one verb and exit with its status."""
     tokens = list(sys.argv[1:] if argv is None else argv)
     debug = "--debug" in tokens
-    tokens = ["0" + t if _NEGATIVE.fullmatch(t) else t for t in tokens if t != "--debug"]
     try:
-        status = _run(tokens)
+        _open_streams()
+        status = _run([t for t in tokens if t != "--debug"])
         sys.stdout.flush()
     except Dh2UrdfError as error:
         if debug:
             raise
         sys.stderr.write(f"dh2urdf: {error}\n")
         status = 2
-    except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        status = 0
     except KeyboardInterrupt:
         sys.stderr.write("interrupted\n")
         status = 130
+    except OSError as error:
+        if debug:
+            raise
+        status = _lost_output(error)
     sys.exit(status)
 
 
 def _run(tokens: list[str]) -> int:
-    from cyclopts import App, Parameter
+    from cyclopts import App, CycloptsError, Parameter
 
     from dh2urdf import __version__
+    from dh2urdf.cli.options import MARK, marked, plain
 
     app = App(
         name="dh2urdf",
@@ -66,12 +69,45 @@ def _run(tokens: list[str]) -> int:
         "solution.",
         version=__version__,
         suppress_keyboard_interrupt=False,
-        result_action="return_value",
         default_parameter=Parameter(negative=()),
         help_epilogue="--debug shows the traceback of an error.",
     )
     for verb, summary in VERBS.items():
         app.command(f"dh2urdf.cli.{verb}_verb:{verb}_", name=verb, help=summary)
     app.register_install_completion_command()
-    result = app(tokens)
+    try:
+        command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)
+    except CycloptsError as error:
+        raise Dh2UrdfError(str(error).replace(MARK, "")) from None
+    given = {name: plain(value) for name, value in bound.arguments.items()}
+    bound.arguments.update(given)
+    result = command(*bound.args, **bound.kwargs)
     return result if isinstance(result, int) else 0
+
+
+def _open_streams() -> None:
+    """Replace streams that are closed; let no sign that a terminal lacks stop an answer."""
+    for name, flags in (("stdin", os.O_RDONLY), ("stdout", os.O_RDONLY), ("stderr", os.O_WRONLY)):
+        if getattr(sys, name) is None:  # writing to stdout then fails as on a full disk
+            mode = "r" if name == "stdin" else "w"
+            setattr(sys, name, open(os.open(os.devnull, flags), mode))  # noqa: SIM115
+    codecs.register_error("spelt", _spelt)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="spelt")
+
+
+def _spelt(error: UnicodeError) -> tuple[str, int]:
+    """What stands for a sign that cannot be encoded."""
+    assert isinstance(error, UnicodeEncodeError)
+    sign = error.object[error.start]
+    return PLAIN.get(sign, sign.encode("ascii", "backslashreplace").decode()), error.start + 1
+
+
+def _lost_output(error: OSError) -> int:
+    """Say that stdout cannot be written, unless who reads it has seen enough; the status."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    if isinstance(error, BrokenPipeError):
+        return 0
+    sys.stderr.write(f"dh2urdf: {error.filename or 'standard output'}: {error.strerror}\n")
+    return 2

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from dh2urdf.cli.options import whole
 from dh2urdf.cli.output import emit, emit_json, no_options, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
 from dh2urdf.exceptions import Dh2UrdfError
@@ -27,7 +28,7 @@ def convert_(
     force: bool = False,
     collision: bool = False,
     dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
-    digits: int | None = None,
+    digits: Annotated[int | None, whole(0, 17)] = None,
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
     json: bool = False,
 ) -> int:

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from dh2urdf.cli.options import real
 from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.exceptions import Dh2UrdfError, OutputExistsError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
@@ -36,7 +37,7 @@ def extract_(
     base: str | None = None,
     tip: str | None = None,
     convention: Literal["standard", "modified"] = "standard",
-    snap: float | None = None,
+    snap: Annotated[float | None, real(0.0, 1.0)] = None,
     explain: bool = False,
     output: Annotated[
         Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)

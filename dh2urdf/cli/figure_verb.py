@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
+from dh2urdf.bounds import DPI
+from dh2urdf.cli.options import Values, read_numbers, real
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.dh_io import Kind, Units
 
 __all__ = ["figure_"]
 
@@ -19,16 +22,16 @@ def figure_(
     /,
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"])],
-    q: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    q: Values = None,
     deg: bool = False,
     style: Literal["bodies", "schematic"] = "bodies",
     branches: bool = False,
     frames: Annotated[bool, Parameter(negative="--no-frames")] = True,
     table: Annotated[bool, Parameter(negative="--no-table")] = True,
-    view: tuple[float, float] | None = None,
+    view: Values = None,
     base: str | None = None,
     tip: str | None = None,
-    dpi: float = 180.0,
+    dpi: Annotated[float, real(*DPI)] = 180.0,
     force: bool = False,
     json: bool = False,
 ) -> int:
@@ -67,9 +70,8 @@ def figure_(
     from dh2urdf.figures.save import check_target
 
     check_target(output, force=force)
-    if not 10 <= dpi <= 2400:
-        raise ConfigurationError(f"--dpi: {dpi:g} is not between 10 and 2400")
     arm = robot_of(robot, base, tip)
+    eye = read_numbers(view, "--view", (2,), Kind.ANGLE, Units("m", "deg")) if view else None
     config = parse_configuration(q, arm, deg=deg) if q else None
     ghosts, names = np.empty((0, arm.n)), list[str]()
     if branches:
@@ -91,7 +93,7 @@ def figure_(
         ghost_names=names,
         frames=frames,
         table=table,
-        view=view,
+        view=tuple(map(math.degrees, eye)) if eye else None,
     )
     path = save_picture(picture, output, dpi=dpi, force=force)
     if json:

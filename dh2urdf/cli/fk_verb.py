@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
 
-from cyclopts import Parameter
-
+from dh2urdf.cli.options import Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, note, parse_configuration, robot_of
 from dh2urdf.grids import number
 from dh2urdf.transforms import matrix_to_rpy
@@ -16,10 +14,10 @@ __all__ = ["fk_"]
 
 def fk_(
     robot: str,
-    values: Annotated[list[str], Parameter(allow_leading_hyphen=True)] | None = None,
+    values: list[str] | None = None,
     /,
     *,
-    q: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
+    q: Values = None,
     deg: bool = False,
     base: str | None = None,
     tip: str | None = None,

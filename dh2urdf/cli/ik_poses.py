@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dh2urdf.dh_io import Kind, Units, parse_cell
-from dh2urdf.exceptions import PoseError, TableError
+from dh2urdf.cli.options import read_numbers
+from dh2urdf.dh_io import Kind, Units
+from dh2urdf.exceptions import PoseError
 from dh2urdf.transforms import Array, check_pose, origin_matrix
 
 __all__ = ["Poses", "pose_of", "poses_of_csv"]
@@ -45,8 +46,6 @@ def pose_of(
     """
     units = Units("m", "deg" if deg else "rad")
     if matrix:
-        if xyz or rpy:
-            raise PoseError("give --matrix, or --xyz with --rpy, not both")
         return _from_entries(_numbers(matrix, "--matrix", (12, 16), Kind.NUMBER, units), "--matrix")
     if not xyz:
         raise PoseError("a pose is needed: --xyz X Y Z --rpy R P Y, --matrix, or --csv FILE")
@@ -118,15 +117,7 @@ def _row(cells: list[str], order: list[int] | None, where: str, units: Units) ->
 def _numbers(
     cells: Sequence[str], where: str, sizes: tuple[int, ...], kind: Kind, units: Units
 ) -> list[float]:
-    """Cells as numbers in [m] and [rad]; commas part them as spaces do."""
-    parts = [part for cell in cells for part in cell.split(",") if part.strip()]
-    if len(parts) not in sizes:
-        wanted = " or ".join(map(str, sizes))
-        raise PoseError(f"{where}: {wanted} numbers are needed, got {len(parts)}")
-    try:
-        return [float(parse_cell(part, kind, units)) for part in parts]
-    except TableError as error:
-        raise PoseError(f"{where}: {error}") from None
+    return read_numbers(cells, where, sizes, kind, units, error=PoseError)
 
 
 def _from_entries(entries: list[float], where: str) -> Array:

@@ -6,12 +6,12 @@ import logging
 import math
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-from cyclopts import Parameter
 
 from dh2urdf.cli.ik_poses import Poses, pose_of, poses_of_csv
+from dh2urdf.cli.options import Values
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 __all__ = ["ik_"]
 
-Values = Annotated[list[str] | None, Parameter(consume_multiple=True)]
-
 
 def ik_(
     robot: str,
@@ -33,11 +31,11 @@ def ik_(
     xyz: Values = None,
     rpy: Values = None,
     matrix: Values = None,
-    csv: Annotated[str | None, Parameter(allow_leading_hyphen=True)] = None,
+    csv: str | None = None,
     seed: Values = None,
-    locked: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
-    task: str = "pose",
-    turns: str = "nearest",
+    locked: Values = None,
+    task: Literal["pose", "position", "position+axis"] = "pose",
+    turns: Literal["nearest", "all"] = "nearest",
     within_limits: bool = False,
     deg: bool = False,
     base: str | None = None,
@@ -85,8 +83,6 @@ def ik_(
     }
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     if csv is not None:
-        if xyz or rpy or matrix:
-            raise ConfigurationError("--csv stands alone: no --xyz, --rpy or --matrix beside it")
         return _many(arm, poses_of_csv(csv, deg=deg), goal, options, deg=deg, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position")
     found = arm.ik(T, seed=goal, turns=turns, **options)

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dh2urdf.cli.options import read_numbers
 from dh2urdf.dh import DHTable
-from dh2urdf.dh_io import Kind, TableFile, Units, parse_cell
-from dh2urdf.exceptions import ConfigurationError, Dh2UrdfError, TableError
+from dh2urdf.dh_io import Kind, TableFile, Units
+from dh2urdf.exceptions import ConfigurationError, Dh2UrdfError
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
@@ -46,7 +47,11 @@ def emit(text: str) -> None:
 def emit_json(verb: str, **values: Any) -> None:
     """One JSON object on stdout: full precision, metres and radians."""
     data = {"schema": SCHEMA, "verb": verb, **values}
-    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=False, indent=2) + "\n")
+    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=not _utf8(), indent=2) + "\n")
+
+
+def _utf8() -> bool:
+    return "utf" in (sys.stdout.encoding or "").lower()
 
 
 def note(text: str) -> None:
@@ -115,21 +120,10 @@ def parse_configuration(
     ------
     ConfigurationError
     """
-    cells = [cell for value in values for cell in value.split(",") if cell.strip()]
-    unknown = [cell for cell in cells if cell.startswith("--")]
-    if unknown:
-        raise ConfigurationError(f"no such option: {unknown[0]}; --help lists them")
-    if len(cells) != robot.n:
-        names = ", ".join(robot.joint_names)
-        raise ConfigurationError(f"{what}: {robot.n} values are needed ({names}), got {len(cells)}")
+    kinds = [Kind.LENGTH if slides else Kind.ANGLE for slides in robot.slides]
     units = Units("m", "deg" if deg else "rad")
-    q = np.empty(robot.n)
-    for i, (cell, slides) in enumerate(zip(cells, robot.slides, strict=True)):
-        try:
-            q[i] = parse_cell(cell, Kind.LENGTH if slides else Kind.ANGLE, units)
-        except TableError as error:
-            raise ConfigurationError(f"{robot.joint_names[i]}: {cell!r}: {error}") from None
-    return q
+    names, error = robot.joint_names, ConfigurationError
+    return np.array(read_numbers(values, what, (robot.n,), kinds, units, names=names, error=error))
 
 
 def matrix_text(T: Array, indent: str = "  ") -> str:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
 import numpy as np
-from cyclopts import Parameter
 
+from dh2urdf.cli.options import Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import NoSolverError
@@ -19,10 +17,10 @@ __all__ = ["show_"]
 
 def show_(
     table: str,
-    values: Annotated[list[str], Parameter(allow_leading_hyphen=True)] | None = None,
+    values: list[str] | None = None,
     /,
     *,
-    q: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
+    q: Values = None,
     deg: bool = False,
     symbolic: bool = False,
     format: str = "text",

@@ -6,6 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from dh2urdf.cli.options import Values, whole
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 
 __all__ = ["view_"]
@@ -15,12 +16,12 @@ def view_(
     robot: str | None = None,
     /,
     *,
-    q: Annotated[list[str] | None, Parameter(consume_multiple=True)] = None,
+    q: Values = None,
     deg: bool = False,
     base: str | None = None,
     tip: str | None = None,
     host: str = "127.0.0.1",
-    port: int | None = None,
+    port: Annotated[int | None, whole(0, 65_535)] = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
     json: bool = False,
 ) -> int:

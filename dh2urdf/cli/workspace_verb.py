@@ -9,8 +9,10 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from dh2urdf.bounds import DPI, LENGTH, ORIENTATIONS, POINTS
+from dh2urdf.cli.options import Values, read_numbers, real, whole
 from dh2urdf.cli.output import emit, emit_json, robot_of
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.dh_io import Kind, Units
 
 __all__ = ["workspace_"]
 
@@ -24,15 +26,15 @@ def workspace_(
     *,
     output: Annotated[Path, Parameter(name=["--output", "-o"])],
     plane: Literal["xz", "yz", "xy"] | None = None,
-    at: float | None = None,
-    rpy: tuple[float, float, float] | None = None,
+    at: Annotated[float | None, real(-LENGTH, LENGTH, Kind.LENGTH)] = None,
+    rpy: Values = None,
     deg: bool = False,
-    points: int | None = None,
-    orientations: int = 150,
+    points: Annotated[int | None, whole(*POINTS)] = None,
+    orientations: Annotated[int, whole(1, ORIENTATIONS)] = 150,
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
     base: str | None = None,
     tip: str | None = None,
-    dpi: float = 180.0,
+    dpi: Annotated[float, real(*DPI)] = 180.0,
     force: bool = False,
     json: bool = False,
 ) -> int:
@@ -70,16 +72,13 @@ def workspace_(
     json
         One JSON object instead of text.
     """
-    import numpy as np
-
     from dh2urdf.figures import save_picture, workspace_figure
     from dh2urdf.figures.save import check_target
 
     check_target(output, force=force)
-    if points is not None and not 2 <= points <= 2000:
-        raise ConfigurationError(f"--points: {points} is not between 2 and 2000")
     arm = robot_of(robot, base, tip)
-    turned = None if rpy is None else (np.radians(rpy) if deg else np.array(rpy))
+    units = Units("m", "deg" if deg else "rad")
+    turned = read_numbers(rpy, "--rpy", (3,), Kind.ANGLE, units) if rpy else None
     bar = _Bar()
     picture = workspace_figure(
         arm,

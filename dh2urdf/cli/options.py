@@ -1,0 +1,140 @@
+"""Options of every verb: how numbers are read, and which options go together.
+
+A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, ``-90deg``,
+``400mm``. It is no option, whatever it begins with.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from dh2urdf.bounds import ANGLE, LENGTH, NUMBER
+from dh2urdf.dh_io import Kind, Units, parse_cell
+from dh2urdf.dh_io.units import SI
+from dh2urdf.dh_io.values import FUNCTIONS
+from dh2urdf.doors import found
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
+
+__all__ = ["Values", "marked", "plain", "read_numbers", "real", "whole"]
+
+MARK = "\0"
+"""Set before a value that begins with a hyphen, which the parser would take for an option."""
+
+_VALUE = re.compile(
+    rf"-$|-+\s*(?:[\d.,(π]|(?:pi|inf|nan)|(?:{'|'.join(FUNCTIONS)})\s*\()", re.IGNORECASE
+)
+
+Values = Annotated[list[str] | None, Parameter(consume_multiple=(1, None))]
+"""Numbers after one option, parted by spaces or commas, read by :func:`read_numbers`."""
+
+LARGEST = {Kind.LENGTH: LENGTH, Kind.ANGLE: ANGLE, Kind.NUMBER: NUMBER}
+
+
+def marked(tokens: Sequence[str]) -> list[str]:
+    """Tokens whose values cannot be taken for options; what follows ``--`` needs no mark."""
+    end = tokens.index("--") if "--" in tokens else len(tokens)
+    first = [MARK + t if _VALUE.match(t) else t.replace(MARK, "\ufffd") for t in tokens[:end]]
+    return [*first, *tokens[end:]]
+
+
+def plain(value: Any) -> Any:
+    """A value, or a list of values, without marks."""
+    if isinstance(value, (list, tuple)):
+        return type(value)(plain(v) for v in value)
+    if isinstance(value, (str, Path)):
+        return type(value)(str(value).removeprefix(MARK))
+    return value
+
+
+def read_numbers(
+    values: Iterable[str],
+    what: str,
+    sizes: Sequence[int],
+    kinds: Kind | Sequence[Kind] = Kind.NUMBER,
+    units: Units = SI,
+    *,
+    names: Sequence[str] = (),
+    error: type[Dh2UrdfError] = ArgumentError,
+) -> list[float]:
+    """Numbers of an option or a line in [m], [rad] or plain; commas part them as spaces do.
+
+    Parameters
+    ----------
+    values : iterable of str
+    what : str
+        The option, for messages.
+    sizes : sequence of int
+        How many there may be.
+    kinds : Kind or sequence of Kind
+        What they measure, all of them or each.
+    units : Units
+        Units of bare numbers.
+    names : sequence of str
+        What each is called, for messages.
+    error : exception type
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    cells = [cell.strip() for value in values for cell in value.split(",") if cell.strip()]
+    if len(cells) not in sizes:
+        wanted = " or ".join(map(str, sizes))
+        needed = f"values are needed ({', '.join(names)})" if names else "numbers are needed"
+        raise error(f"{what}: {wanted} {needed}, got {len(cells)}")
+    each = [kinds] * len(cells) if isinstance(kinds, Kind) else kinds
+    out = []
+    for k, (cell, kind) in enumerate(zip(cells, each, strict=True)):
+        where = f"{what}: {names[k]}" if names else what
+        bounds = -LARGEST[kind], LARGEST[kind]
+        out.append(_number(cell, where, kind, units, bounds, error))
+    return out
+
+
+def _number(
+    cell: str,
+    what: str,
+    kind: Kind,
+    units: Units,
+    bounds: tuple[float, float],
+    error: type[Dh2UrdfError] = ArgumentError,
+) -> float:
+    """One number; where it has no name the parser puts it before the message."""
+    start = f"{what}: " if what else ""
+    try:
+        value = parse_cell(cell, kind, units)
+    except TableError as fault:
+        raise error(f"{start}{found(cell)}: {fault}") from None
+    low, high = bounds
+    if not low <= value <= high:
+        unit = f" {SI.of(kind)}".rstrip()
+        raise error(f"{start}expected a number from {low:g} to {high:g}{unit}, got {found(cell)}")
+    return value
+
+
+def real(low: float, high: float, kind: Kind = Kind.NUMBER) -> Parameter:
+    """An option that takes one number between bounds, in [m], [rad] or plain."""
+
+    def read(_: object, tokens: Sequence[Any]) -> float:
+        return _number(plain(tokens[0].value), "", kind, SI, (low, high))
+
+    return Parameter(converter=read)
+
+
+def whole(low: int, high: int) -> Parameter:
+    """An option that takes a whole number between bounds."""
+
+    def read(_: object, tokens: Sequence[Any]) -> int:
+        cell = plain(tokens[0].value)
+        value = _number(cell, "", Kind.NUMBER, SI, (-NUMBER, NUMBER))
+        if value.is_integer() and low <= value <= high:
+            return int(value)
+        raise ArgumentError(f"expected a whole number from {low} to {high}, got {found(cell)}")
+
+    return Parameter(converter=read)
