@@ -61,7 +61,7 @@ def _run(tokens: list[str]) -> int:
     from cyclopts import App, CycloptsError, Parameter
 
     from dh2urdf import __version__
-    from dh2urdf.cli.options import MARK, marked, plain
+    from dh2urdf.cli.options import MARK, check_together, marked, plain
 
     app = App(
         name="dh2urdf",
@@ -80,6 +80,7 @@ def _run(tokens: list[str]) -> int:
     except CycloptsError as error:
         raise Dh2UrdfError(str(error).replace(MARK, "")) from None
     given = {name: plain(value) for name, value in bound.arguments.items()}
+    check_together(command.__name__, given)
     bound.arguments.update(given)
     result = command(*bound.args, **bound.kwargs)
     return result if isinstance(result, int) else 0

@@ -7,9 +7,9 @@ A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from cyclopts import Parameter
 
@@ -20,7 +20,7 @@ from dh2urdf.dh_io.values import FUNCTIONS
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
 
-__all__ = ["Values", "marked", "plain", "read_numbers", "real", "whole"]
+__all__ = ["Values", "check_together", "marked", "plain", "read_numbers", "real", "whole"]
 
 MARK = "\0"
 """Set before a value that begins with a hyphen, which the parser would take for an option."""
@@ -138,3 +138,95 @@ def whole(low: int, high: int) -> Parameter:
         raise ArgumentError(f"expected a whole number from {low} to {high}, got {found(cell)}")
 
     return Parameter(converter=read)
+
+
+class Rule(NamedTuple):
+    """An option and those that it needs, one of them at least, or does not go with.
+
+    An option stands for itself, for one value (``task=position``) or for the suffix of a path
+    (``output=.svg``); with ``+`` for several at once.
+    """
+
+    option: str
+    needs: str = ""
+    bars: str = ""
+    why: str = "it would change nothing"
+
+
+_PICTURE = (Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),)
+
+RULES: dict[str, tuple[Rule, ...]] = {
+    "show_": (
+        Rule("format", bars="json symbolic values q", why="it prints the table alone"),
+        Rule("json", bars="symbolic", why="symbols are text"),
+        Rule("deg", needs="values q"),
+    ),
+    "ik_": (
+        Rule("csv", bars="xyz rpy matrix", why="a file of poses stands alone"),
+        Rule("matrix", bars="xyz rpy", why="the matrix is the whole pose"),
+        Rule("rpy", bars="task=position", why="a position has no orientation"),
+    ),
+    "figure_": (*_PICTURE, Rule("deg", needs="q")),
+    "workspace_": (*_PICTURE, Rule("deg", needs="rpy")),
+    "view_": (
+        Rule("base", needs="robot"),
+        Rule("tip", needs="robot"),
+        Rule("deg", needs="q"),
+    ),
+    "extract_": (
+        Rule("json", bars="output=-", why="both would go to stdout"),
+        Rule("json+format", needs="output"),
+        Rule("force", needs="output"),
+        Rule("force", bars="output=-"),
+    ),
+    "convert_": (
+        Rule("output", bars="out_dir", why="each says where to write"),
+        Rule("force", bars="output=-"),
+    ),
+}
+"""For each verb, the options that say nothing, or two things, beside others."""
+
+
+def check_together(verb: str, given: Mapping[str, Any]) -> None:
+    """Refuse options that do nothing, or contradict one another, together.
+
+    Parameters
+    ----------
+    verb : str
+        Name of its function.
+    given : mapping
+        The arguments that were given, by name.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    for option, needs, bars, why in RULES.get(verb, ()):
+        if not _is_given(option, given):
+            continue
+        if needs and not any(_is_given(other, given) for other in needs.split()):
+            others = " or ".join(map(_shown, needs.split()))
+            raise ArgumentError(f"{_shown(option)} does nothing without {others}")
+        for other in bars.split():
+            if _is_given(other, given):
+                raise ArgumentError(f"{_shown(option)} does not go with {_shown(other)}: {why}")
+
+
+def _is_given(option: str, given: Mapping[str, Any]) -> bool:
+    if "+" in option:
+        return all(_is_given(part, given) for part in option.split("+"))
+    name, _, wanted = option.partition("=")
+    value = given.get(name)
+    if value is None or value is False:
+        return False
+    suffix = value.suffix.lower() if isinstance(value, Path) else ""
+    return not wanted or wanted in (str(value), suffix)
+
+
+def _shown(option: str) -> str:
+    """``--task position``, or ``VALUES`` where it has no name on the command line."""
+    if "+" in option:
+        return " with ".join(map(_shown, option.split("+")))
+    name, _, value = option.partition("=")
+    shown = name.upper() if name in ("values", "robot") else "--" + name.replace("_", "-")
+    return f"{shown} {value}".rstrip()
