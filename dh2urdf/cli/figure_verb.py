@@ -93,7 +93,7 @@ def figure_(
         ghost_names=names,
         frames=frames,
         table=table,
-        view=tuple(map(math.degrees, eye)) if eye else None,
+        view=(math.degrees(eye[0]), math.degrees(eye[1])) if eye else None,
     )
     path = save_picture(picture, output, dpi=dpi, force=force)
     if json:
