@@ -10,13 +10,18 @@ from collections.abc import Iterable
 from typing import Any, cast
 
 import numpy as np
+from numpy import ndarray
 from numpy.typing import NDArray
 
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
-__all__ = ["choice", "flag", "found", "integer", "number", "real_array"]
+__all__ = ["choice", "finite_array", "flag", "found", "integer", "number", "real_array"]
 
 Array = NDArray[np.float64]
+
+FLOAT = np.dtype(np.float64)
+
+NO_NUMBERS = str, bytes, bool, complex, np.datetime64, np.timedelta64
 
 
 def found(value: object) -> str:
@@ -46,22 +51,39 @@ def real_array(
     ArgumentError
         Or ``error``: no numbers, text, None, ragged, complex, masked entries.
     """
+    if type(values) is ndarray and values.dtype is FLOAT:
+        return values
     try:
         array = np.asanyarray(values)
-        kind = array.dtype.kind
-        if type(array) is np.ndarray and array.dtype.char == "d" and array.dtype.isnative:
-            return cast("Array", array)
         if np.ma.is_masked(array):
             raise TypeError
         array = np.asarray(array)
-        if kind == "O":
+        if array.dtype.kind == "O":
             _only_numbers(array)
-        elif kind not in "iuf":
+        elif array.dtype.kind not in "iuf":
             raise TypeError
         with np.errstate(over="ignore"):
-            return array.astype(np.float64)
-    except (TypeError, ValueError, OverflowError, RecursionError, AttributeError):
+            return array.astype(np.float64, copy=False)
+    except Exception:  # an object's own conversions may fail in any way
         raise error(f"{what}: expected {expected}, got {found(values)}") from None
+
+
+def finite_array(
+    values: object, what: str, expected: str, error: type[Dh2UrdfError] = ArgumentError
+) -> Array:
+    """:func:`real_array` without NaN and infinity.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``, with the index of the first entry that is not finite.
+    """
+    array = real_array(values, what, expected, error)
+    finite = np.isfinite(array)
+    if not finite.all():
+        index = ", ".join(map(str, np.argwhere(~finite)[0]))
+        raise error(f"{what}{index and f'[{index}]'}: expected {expected}, got NaN or infinity")
+    return array
 
 
 def _only_numbers(array: NDArray[Any]) -> None:
@@ -72,7 +94,7 @@ def _only_numbers(array: NDArray[Any]) -> None:
     TypeError
     """
     for entry in array.flat:
-        if isinstance(entry, (str, bytes, bool, complex)) or not hasattr(entry, "__float__"):
+        if isinstance(entry, NO_NUMBERS) or not hasattr(entry, "__float__"):
             raise TypeError
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import os
+import threading
 from functools import cached_property
+from math import isfinite
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pinocchio as pin
@@ -23,11 +24,12 @@ from dh2urdf.conversions.model_to_chain import (
 )
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
+from dh2urdf.doors import finite_array, real_array
 from dh2urdf.exceptions import ConfigurationError, VerificationError
 from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robot_pictures import RobotPictures
 from dh2urdf.robots import load_table
-from dh2urdf.transforms import Array, as_floats, pose_error
+from dh2urdf.transforms import Array, pose_error
 
 __all__ = ["Robot"]
 
@@ -41,12 +43,21 @@ AGREEMENT = 1e-12
 arm's size: both are products of the same few rigid transforms."""
 
 
+class _Working(threading.local):
+    """Pinocchio's working memory for a model: ``data``, another one in every thread."""
+
+    def __init__(self, model: pin.Model) -> None:
+        self.model, self.data = model, model.createData()
+
+    def __reduce__(self) -> tuple[type[_Working], tuple[pin.Model]]:
+        """Pickle by the model."""
+        return _Working, (self.model,)
+
+
 class Robot(RobotIK, RobotPictures):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
-    Made by :meth:`from_dh` or :meth:`from_urdf`. The object owns one ``pin.Data``; use a copy
-    (it pickles) per thread for single configurations. Arrays of configurations go through
-    jitted kernels that share nothing.
+    Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.
 
     Attributes
     ----------
@@ -142,17 +153,18 @@ class Robot(RobotIK, RobotPictures):
         Raises
         ------
         ConfigurationError
-            Last axis is not n long.
+            Last axis is not n long, or not all are finite numbers.
         """
-        config = _numbers(q)
+        config = real_array(q, "q", "finite numbers", ConfigurationError)
         if config.shape == self._direct:
-            model, data = self.model, self._data
+            model, data = self.model, self._working.data
             _forward_kinematics(model, data, config)
             oMt = _update_frame_placement(model, data, self._tip)
             if self._M_base_world is not None:
                 oMt = self._M_base_world * oMt
             T_base_tip: Array = oMt.homogeneous
-            return T_base_tip
+            if isfinite(T_base_tip.item(3)):  # NaN if any joint value is
+                return T_base_tip
         from dh2urdf.kernels.chain import chain_fk_batch
 
         flat, shape = self._flat(config)
@@ -175,7 +187,7 @@ class Robot(RobotIK, RobotPictures):
         """
         from dh2urdf.kernels.chain import chain_frames_batch
 
-        flat, shape = self._flat(_numbers(q))
+        flat, shape = self._flat(q)
         T = np.empty((len(flat), self.chain.n + 1, 4, 4))
         chain_frames_batch(self.chain.links, self.chain.prismatic, self._carried, flat, T)
         return T.reshape(*shape, self.chain.n + 1, 4, 4)
@@ -193,10 +205,12 @@ class Robot(RobotIK, RobotPictures):
         -------
         array, shape (6, n) or (..., 6, n)
         """
-        config = _numbers(q)
-        if config.shape == self._direct and self._M_base_world is None:
-            J: Array = _frame_jacobian(self.model, self._data, config, self._tip, _ALIGNED)
-            return J if J.ndim == 2 else J.reshape(6, 1)
+        config = real_array(q, "q", "finite numbers", ConfigurationError)
+        if config.shape == self._direct_jacobian:
+            data = self._working.data
+            J: Array = _frame_jacobian(self.model, data, config, self._tip, _ALIGNED)
+            if isfinite(J.item(self._turning)):  # as above: the tip's place is in it
+                return J if J.ndim == 2 else J.reshape(6, 1)
         from dh2urdf.kernels.chain import chain_jacobian_batch
 
         flat, shape = self._flat(config)
@@ -211,7 +225,7 @@ class Robot(RobotIK, RobotPictures):
 
         Continuous joints become cosine and sine, mimicking joints are filled in.
         """
-        flat, shape = self._flat(_numbers(q))
+        flat, shape = self._flat(q)
         out = np.zeros((len(flat), self.model.nq))
         for k, i in enumerate(self._path.ids):
             at = self.model.joints[i].idx_q
@@ -223,7 +237,7 @@ class Robot(RobotIK, RobotPictures):
 
     def chain_configuration(self, q: ArrayLike) -> Array:
         """The same configuration with every joint of the chain, followers too, (..., chain.n)."""
-        flat, shape = self._flat(_numbers(q))
+        flat, shape = self._flat(q)
         return flat.reshape(*shape, self.chain.n)
 
     def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
@@ -239,8 +253,9 @@ class Robot(RobotIK, RobotPictures):
         index = range(self.n) if self._coupling is None else self._coupling.first
         return self.chain.prismatic[list(index)]
 
-    def _flat(self, config: Array) -> tuple[Array, tuple[int, ...]]:
-        """Chain configurations (m, chain.n), contiguous, and the leading shape."""
+    def _flat(self, q: ArrayLike) -> tuple[Array, tuple[int, ...]]:
+        """Chain configurations (m, chain.n) as kernels take them, and the leading shape."""
+        config = finite_array(q, "q", "finite numbers", ConfigurationError)
         if config.ndim == 0 or config.shape[-1] != self.n:
             raise ConfigurationError(
                 f"q: expected {self.n} values ({', '.join(self.joint_names)}) on the last axis, "
@@ -249,7 +264,7 @@ class Robot(RobotIK, RobotPictures):
         flat = config.reshape(-1, self.n)
         if self._coupling is not None:
             flat = flat @ self._coupling.matrix.T + self._coupling.offset
-        return np.ascontiguousarray(flat), config.shape[:-1]
+        return np.require(flat, requirements=["C", "A", "W"]), config.shape[:-1]
 
     def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
@@ -267,7 +282,7 @@ class Robot(RobotIK, RobotPictures):
     def _prepare(self) -> None:
         """What a call needs: Pinocchio's data, the constant base, the frames carried along."""
         model, path = self.model, self._path
-        self._data = model.createData()
+        self._working = _Working(model)
         joints = [model.joints[i] for i in path.ids]
         one_to_one = (
             path.up == 0
@@ -280,6 +295,9 @@ class Robot(RobotIK, RobotPictures):
         placement = model.frames[path.base].placement
         identity = model.frames[path.base].parentJoint == 0 and placement.isIdentity(0.0)
         self._M_base_world = None if identity else placement.inverse()
+        self._turning = int(np.argmin(self.chain.prismatic))
+        slides = bool(self.chain.prismatic[self._turning])
+        self._direct_jacobian = self._direct if identity and not slides else None
         self._carried = (
             carried_dh_frames(self.table)
             if self.table
@@ -288,11 +306,11 @@ class Robot(RobotIK, RobotPictures):
 
     def _placements(self, q: Array) -> Array:
         """``T_base_tip`` of configurations (k, n) by Pinocchio, shape (k, 4, 4)."""
-        T = np.empty((len(q), 4, 4))
+        T, data = np.empty((len(q), 4, 4)), self._working.data
         for k, config in enumerate(self.model_configuration(q)):
-            pin.framesForwardKinematics(self.model, self._data, config)
-            M_world_base = self._data.oMf[self._path.base]
-            T[k] = (M_world_base.inverse() * self._data.oMf[self._path.tip]).homogeneous
+            pin.framesForwardKinematics(self.model, data, config)
+            M_world_base = data.oMf[self._path.base]
+            T[k] = (M_world_base.inverse() * data.oMf[self._path.tip]).homogeneous
         return T
 
     def _check_agreement(self) -> None:
@@ -310,22 +328,5 @@ class Robot(RobotIK, RobotPictures):
                 f"(allowed {allowed:.2g})"
             )
 
-    def __getstate__(self) -> dict[str, Any]:
-        state = self.__dict__.copy()
-        del state["_data"]
-        return state
-
-    def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
-        self._data = self.model.createData()
-
     def __repr__(self) -> str:
         return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"
-
-
-def _numbers(q: ArrayLike) -> Array:
-    """q as an array of floats."""
-    try:
-        return as_floats(q)
-    except (TypeError, ValueError):
-        raise ConfigurationError(f"q: expected numbers, got {q!r:.60}") from None

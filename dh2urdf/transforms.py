@@ -13,10 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dh2urdf.doors import real_array
 from dh2urdf.exceptions import PoseError
 
 __all__ = [
-    "as_floats",
     "check_pose",
     "inverse",
     "matrix_to_rpy",
@@ -37,27 +37,13 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
+POSE = "numbers of shape (4, 4) or (..., 4, 4)"
+
 ORTHONORMAL_TOLERANCE = 1e-6
 """Largest entry of ``R^T R - 1`` that still counts as a rotation: hand-typed six digits."""
 
 ZYZ_SINGULAR = 1e-9
 """``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""
-
-
-def as_floats(values: ArrayLike) -> Array:
-    """Real numbers as a float array of their shape; a float array itself.
-
-    Raises
-    ------
-    TypeError, ValueError
-        No numbers, ragged, or complex ones, which NumPy would cut down to their real parts.
-    """
-    array = np.asarray(values)
-    if array.dtype.char == "d":
-        return array
-    if array.dtype.kind == "c":
-        raise TypeError("complex numbers")
-    return array.astype(float)
 
 
 def rotation(axis: ArrayLike, angle: float) -> Array:
@@ -221,10 +207,7 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
         Wrong shape, NaN or infinity, a reflection, a scaled or skewed rotation, or a last
         row other than (0, 0, 0, 1). The message names the index of the first bad pose.
     """
-    try:
-        m = as_floats(getattr(T, "homogeneous", T))
-    except (TypeError, ValueError):
-        raise PoseError(f"{what}: expected numbers of shape (..., 4, 4), got {T!r:.60}") from None
+    m = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
     if m.ndim < 2 or m.shape[-2:] != (4, 4):
         raise PoseError(f"{what}: expected shape (4, 4) or (..., 4, 4), got {m.shape}")
     if not np.isfinite(m).all():

@@ -78,8 +78,8 @@ class HeldOneByOne(HeldSolver):
         """The solver for some held values, made or kept."""
         solver = self._kept.pop(values, None) or self.make(values)
         self._kept[values] = solver
-        if len(self._kept) > KEPT_VALUES:
-            del self._kept[next(iter(self._kept))]
+        for oldest in list(self._kept)[:-KEPT_VALUES]:  # other threads come and go here
+            self._kept.pop(oldest, None)
         return solver
 
     def solve_held(

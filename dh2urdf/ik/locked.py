@@ -8,8 +8,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.doors import finite_array
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError
-from dh2urdf.transforms import Array, as_floats
+from dh2urdf.transforms import Array
 
 __all__ = ["Locked", "held_values"]
 
@@ -66,12 +67,10 @@ def _joint_index(chain: SerialChain, key: int | str) -> int:
 
 def _numbers(key: int | str, value: Held) -> Array:
     """Values of a held joint, shape (1,) or (m,)."""
-    try:
-        values = np.array(as_floats(value), ndmin=1)
-    except (TypeError, ValueError):
-        values = np.array([np.nan])
-    if values.ndim != 1 or not np.isfinite(values).all():
-        raise ConfigurationError(f"locked[{key!r}]: expected a number, got {value!r:.60}")
+    what = f"locked[{key!r}]"
+    values = np.array(finite_array(value, what, "a finite number", ConfigurationError), ndmin=1)
+    if values.ndim != 1:
+        raise ConfigurationError(f"{what}: expected a finite number, got shape {values.shape}")
     return values
 
 

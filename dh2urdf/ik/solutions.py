@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dh2urdf.doors import finite_array
 from dh2urdf.exceptions import ConfigurationError
-from dh2urdf.transforms import as_floats
 
 if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem
@@ -258,12 +258,7 @@ def _read_only(view: Array) -> Array:
 
 def as_configuration(q: ArrayLike, n: int, what: str) -> Array:
     """A checked copy of a configuration: n finite numbers, shape (n,)."""
-    try:
-        out = np.array(as_floats(q), order="C")
-    except (TypeError, ValueError):
-        raise ConfigurationError(f"{what}: expected {n} numbers, got {q!r:.60}") from None
+    out = np.array(finite_array(q, what, f"{n} finite numbers", ConfigurationError), order="C")
     if out.shape != (n,):
         raise ConfigurationError(f"{what}: expected shape ({n},), got {out.shape}")
-    if not np.isfinite(out).all():
-        raise ConfigurationError(f"{what}[{int(np.argmin(np.isfinite(out)))}]: NaN or infinity")
     return out

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.doors import real_array
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik import path
 from dh2urdf.ik.held_solver import HeldSolver
@@ -23,7 +24,7 @@ from dh2urdf.ik.solutions import IKBatch, IKSolutions
 from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.ik.swept import SweptJoint
 from dh2urdf.ik.swept_problem import SweptProblem
-from dh2urdf.transforms import Array, as_floats, check_pose
+from dh2urdf.transforms import POSE, Array, check_pose
 
 __all__ = ["InverseKinematics", "Locked"]
 
@@ -211,13 +212,8 @@ def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:
 
 def _one_pose(T: ArrayLike, problem: Problem) -> Array:
     """A checked copy of one pose, shape (1, 4, 4)."""
-    try:
-        given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
-        m = np.array(given, order="C", ndmin=3)
-        if m.dtype.char != "d":
-            m = as_floats(m)
-    except (TypeError, ValueError):
-        m = check_pose(T)
+    given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
+    m = np.array(real_array(given, "pose", POSE, PoseError), order="C", ndmin=3)
     if m.shape == (1, 4, 4):
         if problem.first_bad_pose(m) >= 0:
             check_pose(m[0])
@@ -234,10 +230,8 @@ def _one_pose(T: ArrayLike, problem: Problem) -> Array:
 
 def _poses(Ts: ArrayLike, problem: Problem) -> Array:
     """Checked poses, shape (m, 4, 4), C-contiguous."""
-    try:
-        m = np.require(as_floats(getattr(Ts, "homogeneous", Ts)), requirements=["C", "W"])
-    except (TypeError, ValueError):
-        m = check_pose(Ts, what="poses")
+    given = real_array(getattr(Ts, "homogeneous", Ts), "poses", POSE, PoseError)
+    m = np.require(given, requirements=["C", "A", "W"])
     if m.shape == (4, 4):
         m = m[None]
     if m.ndim != 3 or m.shape[1:] != (4, 4):
