@@ -419,7 +419,7 @@ def test_paths_that_cannot_be_read(tmp_path: Path, suffix: str) -> None:
 
     folder = tmp_path / f"folder{suffix}"
     folder.mkdir()
-    assert message(folder) == f"{folder}: this is a folder, not a table file"
+    assert message(folder) == f"{folder}: this is a folder, not a file"
     binary = tmp_path / f"binary{suffix}"
     binary.write_bytes(bytes(range(256)))
     assert message(binary) == f"{binary}: not a text file: it holds binary data"
@@ -453,14 +453,14 @@ def test_a_refusal_of_the_system_is_told(tmp_path: Path, monkeypatch: pytest.Mon
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(os, "open", refuse)
     with pytest.raises(TableFileError, match="no permission to read it"):
         read_table(tmp_path / "arm.yaml")
 
 
-def test_a_device_without_end_is_not_read_to_its_end() -> None:
-    """Only the first megabytes of a stream are read."""
-    with pytest.raises(TableFileError, match="holds binary data"):
+def test_a_device_is_not_read() -> None:
+    """A device is told as one, and not read."""
+    with pytest.raises(TableFileError, match="this is a pipe or a device"):
         read_table("/dev/zero", format="yaml")
 
 

@@ -136,9 +136,9 @@ def test_a_broken_urdf_is_named_by_element_and_line(fault, tmp_path):
 
 def test_missing_files_are_named(tmp_path):
     """A path that is not there, or a folder, is one message."""
-    with pytest.raises(UrdfError, match=r"gone\.urdf: No such file"):
+    with pytest.raises(UrdfError, match=r"gone\.urdf: there is no such file"):
         extract_dh(tmp_path / "gone.urdf")
-    with pytest.raises(UrdfError, match="directory"):
+    with pytest.raises(UrdfError, match="folder"):
         extract_dh(tmp_path)
 
 
@@ -424,7 +424,7 @@ def test_screws_points_and_frames_agree(convention):
     [
         ([[0, 0, 1, 0, 0]], {}, r"shape \(1, 5\): allowed are"),
         ([], {}, "allowed are"),
-        ("abc", {}, "abc: No such file"),
+        ("abc", {}, "abc: there is no such file"),
         ([["a"] * 6], {}, "expected numbers"),
         ([[0, 0, 1, 0, 0, math.nan]], {}, "joint 1: NaN"),
         ([[0, 0, 1, 0, 0, 0], [0, 0, 1e200, 0, 0, 0]], {}, "joint 2: NaN"),

@@ -188,7 +188,7 @@ def test_bad_requests_are_explained():
         Robot.from_urdf(path, "panda_link7", "panda_link8")
     with pytest.raises(UrdfError, match="choose the tip, one of"):
         Robot.from_urdf(example("talos_reduced.urdf"))
-    with pytest.raises(UrdfError, match="No such file"):
+    with pytest.raises(UrdfError, match="there is no such file"):
         Robot.from_urdf("missing.urdf")
 
 

@@ -11,7 +11,9 @@ from pathlib import Path
 
 from lxml import etree
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.read_urdf import parse_xml
+from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import UrdfError
 
 __all__ = ["MOVING", "NUMBERS", "TENSOR", "Document"]
@@ -69,10 +71,7 @@ class Document:
             No such file, not XML, entities, or no ``<robot>``.
         """
         file = Path(path)
-        try:
-            data = file.read_bytes()
-        except OSError as error:
-            raise UrdfError(f"{file}: {error.strerror or error}") from None
+        data = read_bytes(file, ROBOT_BYTES, UrdfError)
         root = parse_xml(data, str(file))
         if root.tag != "robot":
             tag = etree.QName(root).localname

@@ -9,6 +9,9 @@ from urllib.parse import unquote, urlparse
 
 import numpy as np
 
+from dh2urdf.dh_io.files import read_bytes
+from dh2urdf.exceptions import UrdfError
+
 __all__ = ["is_remote", "locate", "stl_extent"]
 
 LARGEST = 50_000_000
@@ -55,7 +58,7 @@ def stl_extent(path: Path) -> float | None:
     """Longest side [file's unit] of the box around an STL mesh; None for any other file."""
     if path.suffix.lower() != ".stl" or not 84 <= path.stat().st_size <= LARGEST:
         return None
-    data = path.read_bytes()
+    data = read_bytes(path, LARGEST, UrdfError)
     count = int.from_bytes(data[80:84], "little")
     if len(data) == 84 + 50 * count and count:
         points = np.frombuffer(data, RECORD, count, 84)["corners"].reshape(-1, 3)

@@ -13,6 +13,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.checks import (
     Effect,
     Finding,
@@ -24,6 +25,7 @@ from dh2urdf.checks import (
 )
 from dh2urdf.cli.output import emit, emit_json, no_options, note
 from dh2urdf.cli.progress import track
+from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import Dh2UrdfError
 
 __all__ = ["check_"]
@@ -83,7 +85,7 @@ def _on_disk(file: str) -> Iterator[Path]:
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "stdin.urdf"
-        path.write_bytes(sys.stdin.buffer.read())
+        path.write_bytes(read_bytes(sys.stdin.buffer, ROBOT_BYTES))
         yield path
 
 

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import pinocchio as pin
 from lxml import etree
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.kinematic_tree import choose_ends
 from dh2urdf.conversions.model_source import model_source
@@ -28,6 +29,7 @@ from dh2urdf.conversions.tree_to_chain import Actuation, ChainSource, tree_to_ch
 from dh2urdf.conversions.typed_axes import typed_to_chain
 from dh2urdf.conversions.urdf_to_model import expand_xacro
 from dh2urdf.dh import DHTable, JointType
+from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import UrdfError
 
 __all__ = ["Source", "read_source"]
@@ -97,11 +99,7 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
         return _from_urdf(parse_xml(source.encode(), "URDF text"), "URDF text", base, tip)
     path = Path(source)
     where = os.fspath(source)
-    try:
-        data = path.read_bytes()
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise UrdfError(f"{where}: {reason}") from None
+    data = read_bytes(path, ROBOT_BYTES, UrdfError)
     if path.suffix == ".xacro":
         data = expand_xacro(path).encode()
     if path.suffix.lower() in AXES_SUFFIXES:

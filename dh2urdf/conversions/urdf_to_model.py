@@ -9,8 +9,10 @@ from pathlib import Path
 import pinocchio as pin
 from lxml import etree
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.kinematic_tree import choose_ends
 from dh2urdf.conversions.read_urdf import parse_xml, read_urdf
+from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import MissingExtraError, UrdfError
 
 __all__ = ["LoadedModel", "Mimic", "load_model"]
@@ -51,10 +53,7 @@ def load_model(path: str | os.PathLike[str], base: str | None, tip: str | None) 
         A xacro file without the ``xacro`` extra, an MJCF without ``mjcf``.
     """
     source = Path(path)
-    try:
-        data = source.read_bytes()
-    except (OSError, ValueError) as error:
-        raise UrdfError(f"{source}: {getattr(error, 'strerror', None) or error}") from None
+    data = read_bytes(source, ROBOT_BYTES, UrdfError)
     if source.suffix == ".xacro":
         data = expand_xacro(source).encode()
     root = parse_xml(data, str(source))

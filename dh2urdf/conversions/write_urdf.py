@@ -6,11 +6,12 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from lxml import etree
-
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import atomic_write, parse_table
+from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.exceptions import OutputExistsError, TableFileError, UrdfError
 
 __all__ = ["ConversionReport", "embedded_table", "urdf_text", "verified_urdf", "write_urdf"]
@@ -120,11 +121,7 @@ def embedded_table(path: str | os.PathLike[str]) -> DHTable:
     UrdfError
         Not XML, or no embedded table.
     """
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
-    try:
-        root = etree.parse(os.fspath(path), parser).getroot()
-    except (etree.XMLSyntaxError, OSError) as error:
-        raise UrdfError(f"{path}: {error}") from None
+    root = parse_xml(read_bytes(path, ROBOT_BYTES, UrdfError), shown(path))
     text = root.findtext("dh2urdf")
     if not text:
         raise UrdfError(

@@ -12,6 +12,7 @@ from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.document import Node, Report
+from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.read_csv import read_csv
 from dh2urdf.dh_io.read_json import read_json
 from dh2urdf.dh_io.read_markdown import read_markdown
@@ -58,7 +59,7 @@ def format_of(path: str | os.PathLike[str]) -> str:
     suffix = Path(path).suffix.casefold()
     if suffix in FORMATS:
         return FORMATS[suffix]
-    message = f"{path}: not a table file by its name; known suffixes: {', '.join(FORMATS)}"
+    message = f"{shown(path)}: not a table file by its name; known suffixes: {', '.join(FORMATS)}"
     if suffix in (".urdf", ".xacro", ".xml", ".mjcf"):
         message += "\n  hint: to get a table from a robot description, extract it"
     raise TableFileError(message)
@@ -80,10 +81,16 @@ def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> Ta
     """
     where = Path(path)
     kind = format
-    if kind is None and not where.is_dir():
+    if kind is None and not os.path.isdir(where):
         kind = format_of(where)
-    data = _bytes(where)
-    return parse_table(_text(data, str(path)), kind or "yaml", str(path))
+    try:
+        text = read_text(where, TABLE_BYTES, TableFileError)
+    except TableFileError as error:
+        near = _near(where)
+        raise TableFileError(
+            f"{error}\n  hint: did you mean {near}?" if near else str(error)
+        ) from None
+    return parse_table(text, kind or "yaml", shown(where))
 
 
 def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
@@ -111,36 +118,12 @@ def _document(text: str, format: str, report: Report) -> Node:
     raise TableFileError(f"format: {format!r} is not known; allowed: {formats}")
 
 
-def _bytes(path: Path) -> bytes:
-    try:
-        with path.open("rb") as stream:
-            return stream.read(4 * TABLE_BYTES + 1)
-    except FileNotFoundError:
-        message = f"{path}: there is no such file"
-    except IsADirectoryError:
-        message = f"{path}: this is a folder, not a table file"
-    except PermissionError:
-        message = f"{path}: no permission to read it"
-    except (OSError, ValueError) as error:
-        message = f"{path}: cannot read: {getattr(error, 'strerror', None) or error}"
-    if path.parent.is_dir() and (near := _near(path)):
-        message += f"\n  hint: did you mean {near}?"
-    raise TableFileError(message)
-
-
 def _near(path: Path) -> str:
-    if path.exists():
+    if os.path.exists(path):
         return ""
-    names = [p.name for p in path.parent.iterdir() if p.suffix.casefold() in FORMATS]
+    try:
+        names = [p.name for p in path.parent.iterdir() if p.suffix.casefold() in FORMATS]
+    except (OSError, ValueError):
+        return ""
     near = difflib.get_close_matches(path.name, names, n=1)
     return str(path.with_name(near[0])) if near else ""
-
-
-def _text(data: bytes, filename: str) -> str:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        raise TableFileError(f"{filename}: the file is UTF-16 text; save it as UTF-8")
-    try:
-        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
-    except UnicodeDecodeError:
-        reason = "it holds binary data" if b"\0" in data else "it is not UTF-8"
-        raise TableFileError(f"{filename}: not a text file: {reason}") from None

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import FORMATS, TableFile, read_table
+from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import NameNotFoundError
 
 __all__ = ["list_tables", "load_table", "load_table_file"]
@@ -52,9 +53,9 @@ def load_table_file(path: str | os.PathLike[str]) -> TableFile:
         return TableFile(embedded_table(where), ())
     if isinstance(path, str) and path in list_tables():
         return read_table(FOLDER / f"{path}.yaml")
-    if where.suffix.lower() in FORMATS or where.exists():
+    if where.suffix.lower() in FORMATS or os.path.exists(where):
         return read_table(where)
     names = list_tables()
     close = difflib.get_close_matches(where.name, names, 3, 0.5)
     hint = f"did you mean {' or '.join(close)}?" if close else "`dh2urdf list` names them"
-    raise NameNotFoundError(f"{path}: neither a file nor a table that ships; {hint}")
+    raise NameNotFoundError(f"{shown(path)}: neither a file nor a table that ships; {hint}")

@@ -11,9 +11,11 @@ import numpy as np
 import pinocchio as pin
 from lxml import etree
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.bodies import Body
 from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh import Origin
+from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
@@ -57,7 +59,7 @@ def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
     source = robot.source
     if source is None or source.suffix.lower() != ".urdf":
         return None, []
-    root = parse_xml(source.read_bytes(), str(source))
+    root = parse_xml(read_bytes(source, ROBOT_BYTES), str(source))
     missing: list[str] = []
     nodes = []
     known = {f.name for f in robot.model.frames if f.type == pin.FrameType.BODY}

@@ -1,0 +1,103 @@
+"""Files read whole, within a stated size, whatever stands at the path."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from typing import BinaryIO
+
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
+
+__all__ = ["decode", "read_bytes", "read_text", "shown"]
+
+_REASONS = {
+    errno.ENOENT: "there is no such file",
+    errno.EACCES: "no permission to read it",
+    errno.ENAMETOOLONG: "cannot read: the name is too long",
+    errno.ELOOP: "cannot read: a link that leads to itself",
+}
+
+_CHUNK = 1 << 20
+
+Error = type[Dh2UrdfError]
+
+
+def read_bytes(
+    source: str | os.PathLike[str] | BinaryIO, limit: int, error: Error = ArgumentError
+) -> bytes:
+    """All bytes of a regular file, or of an open stream such as ``sys.stdin.buffer``.
+
+    Parameters
+    ----------
+    source : path or binary stream
+    limit : int
+        Bytes that it may have.
+    error : exception type
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``: nothing there, no permission, a folder, a pipe or device, or too large.
+    """
+    if not isinstance(source, str | os.PathLike):
+        return _bounded(source, limit, "<stdin>", error)
+    name = shown(source)
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+    try:
+        with os.fdopen(os.open(source, flags), "rb") as stream:
+            mode = os.fstat(stream.fileno()).st_mode
+            if not stat.S_ISREG(mode):
+                raise error(f"{name}: this is a pipe or a device, not a file")
+            return _bounded(stream, limit, name, error)
+    except (OSError, ValueError) as fault:
+        if isinstance(fault, Dh2UrdfError):
+            raise
+        if os.path.isdir(source):
+            raise error(f"{name}: this is a folder, not a file") from None
+        code, text = getattr(fault, "errno", None), getattr(fault, "strerror", None)
+        raise error(
+            f"{name}: {_REASONS.get(code or 0) or f'cannot read: {text or fault}'}"
+        ) from None
+
+
+def _bounded(stream: BinaryIO, limit: int, name: str, error: Error) -> bytes:
+    """What a stream has to give, as long as it is no more than is allowed."""
+    data = bytearray()
+    while chunk := stream.read(_CHUNK):
+        data += chunk
+        if len(data) > limit:
+            raise error(f"{name}: larger than {limit // 1000} kB, the most that is read")
+    return bytes(data)
+
+
+def decode(data: bytes, name: str, error: Error = ArgumentError) -> str:
+    """UTF-8 text with plain line ends, with or without a byte order mark.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        raise error(f"{name}: the file is UTF-16 text; save it as UTF-8")
+    try:
+        return data.decode("utf-8-sig").replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeDecodeError:
+        reason = "it holds binary data" if b"\0" in data else "it is not UTF-8"
+        raise error(f"{name}: not a text file: {reason}") from None
+
+
+def read_text(
+    source: str | os.PathLike[str] | BinaryIO, limit: int, error: Error = ArgumentError
+) -> str:
+    """Like :func:`read_bytes`, decoded by :func:`decode`."""
+    name = shown(source) if isinstance(source, str | os.PathLike) else "<stdin>"
+    return decode(read_bytes(source, limit, error), name, error)
+
+
+def shown(path: str | os.PathLike[str]) -> str:
+    """A path as messages show it: in one line of characters that print, not over 300 of them."""
+    text = os.fspath(path)
+    text = text if len(text) <= 300 else f"{text[:100]}...{text[-150:]}"
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
