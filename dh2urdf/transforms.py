@@ -25,6 +25,7 @@ __all__ = [
     "planar_rotation",
     "planar_translation",
     "pose_error",
+    "quaternion_to_matrix",
     "rot_x",
     "rot_y",
     "rot_z",
@@ -138,6 +139,17 @@ def matrix_to_rpy(R: ArrayLike) -> tuple[float, float, float]:
     pitch = math.atan2(-m[2, 0], cy * m[0, 0] + sy * m[1, 0])
     roll = math.atan2(sy * m[0, 2] - cy * m[1, 2], cy * m[1, 1] - sy * m[0, 1])
     return roll, pitch, yaw
+
+
+def quaternion_to_matrix(q: Array) -> Array:
+    """Rotations of unit quaternions (x, y, z, w), shape (..., 4) to (..., 3, 3)."""
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
 
 
 def origin_matrix(xyz: Sequence[float], rpy: Sequence[float]) -> Array:

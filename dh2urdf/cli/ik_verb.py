@@ -83,7 +83,8 @@ def ik_(
     }
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     if csv is not None:
-        return _many(arm, poses_of_csv(csv, deg=deg), goal, options, deg=deg, json=json)
+        poses = poses_of_csv(csv, deg=deg)
+        return _many(arm, poses, goal, turns, options, deg=deg, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position")
     found = arm.ik(T, seed=goal, turns=turns, **options)
     if goal is None:
@@ -118,9 +119,12 @@ def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float]
             raise ConfigurationError(
                 f"--locked: no joint named {name!r}; there are {', '.join(arm.joint_names)}"
             )
+        if name in held:
+            raise ConfigurationError(f"--locked: {name} is held twice")
         row = ["0"] * arm.n
         row[arm.joint_names.index(name)] = value
-        held[name] = float(parse_configuration(row, arm, deg=deg)[arm.joint_names.index(name)])
+        q = parse_configuration(row, arm, deg=deg, what="--locked")
+        held[name] = float(q[arm.joint_names.index(name)])
     return held
 
 
@@ -192,16 +196,26 @@ def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
 
 
 def _many(
-    arm: Robot, poses: Poses, goal: Array | None, options: dict[str, Any], *, deg: bool, json: bool
+    arm: Robot,
+    poses: Poses,
+    goal: Array | None,
+    turns: str,
+    options: dict[str, Any],
+    *,
+    deg: bool,
+    json: bool,
 ) -> int:
     """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
-    from dh2urdf.cli.progress import bar
+    from dh2urdf.cli.progress import bar, track
 
-    with bar("solving", len(poses.T)) as report:
-        batch = arm.ik_batch(poses.T, progress=report, **options)
-    every = [batch[i] for i in range(len(batch))]
-    if goal is not None:
-        every = [found.sorted_by(goal) for found in every]
+    if goal is None and turns == "nearest":
+        with bar("solving", len(poses.T)) as report:
+            batch = arm.ik_batch(poses.T, progress=report, **options)
+        every = [batch[i] for i in range(len(batch))]
+    else:
+        every = [
+            arm.ik(T, seed=goal, turns=turns, **options) for T in track(list(poses.T), "solving")
+        ]
     missed = [
         i for i, found in enumerate(every) if not (_outside(arm, found.q) == 0).all(axis=1).any()
     ]
@@ -210,8 +224,8 @@ def _many(
     else:
         emit(_csv(arm, every, deg=deg))
     for i in missed[:5]:
-        reason = arm.why_unreachable(poses.T[i], **{**options, "within_limits": True})
-        note(f"{poses.names[i]}: no solution within limits: {reason}")
+        reason = _reason(arm, poses.T[i], every[i], options)
+        note(f"{poses.name(i)}: no solution within limits: {reason}")
     if len(missed) > 5:
         note(f"... and {len(missed) - 5} more of {len(every)} poses without a solution")
     return 1 if missed else 0

@@ -20,7 +20,17 @@ from dh2urdf.dh_io.values import FUNCTIONS
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
 
-__all__ = ["Values", "check_together", "marked", "plain", "read_numbers", "real", "whole"]
+__all__ = [
+    "LARGEST",
+    "Values",
+    "check_together",
+    "marked",
+    "plain",
+    "read_number",
+    "read_numbers",
+    "real",
+    "whole",
+]
 
 MARK = "\0"
 """Set before a value that begins with a hyphen, which the parser would take for an option."""
@@ -90,11 +100,15 @@ def read_numbers(
         raise error(f"{what}: {wanted} {needed}, got {len(cells)}")
     each = [kinds] * len(cells) if isinstance(kinds, Kind) else kinds
     out = []
-    for k, (cell, kind) in enumerate(zip(cells, each, strict=True)):
+    for k, (cell, kind) in enumerate(zip(cells, each, strict=False)):
         where = f"{what}: {names[k]}" if names else what
-        bounds = -LARGEST[kind], LARGEST[kind]
-        out.append(_number(cell, where, kind, units, bounds, error))
+        out.append(read_number(cell, where, kind, units, error))
     return out
+
+
+def read_number(cell: str, what: str, kind: Kind, units: Units, error: type[Dh2UrdfError]) -> float:
+    """One of the numbers of :func:`read_numbers`."""
+    return _number(cell, what, kind, units, (-LARGEST[kind], LARGEST[kind]), error)
 
 
 def _number(
@@ -110,7 +124,8 @@ def _number(
     try:
         value = parse_cell(cell, kind, units)
     except TableError as fault:
-        raise error(f"{start}{found(cell)}: {fault}") from None
+        hint = getattr(fault, "hint", "")
+        raise error(f"{start}{found(cell)}: {fault}{hint and '; ' + hint}") from None
     low, high = bounds
     if not low <= value <= high:
         unit = f" {SI.of(kind)}".rstrip()

@@ -30,15 +30,26 @@ from dh2urdf.dh_io.schema import (
 )
 from dh2urdf.dh_io.units import UNIT_SIZES, Kind, unit_kind, unit_name
 
-__all__ = ["Grid", "grid_document", "is_header", "metadata"]
+__all__ = [
+    "INDEX",
+    "Grid",
+    "grid_document",
+    "heading",
+    "is_header",
+    "metadata",
+    "separator",
+    "unit_words",
+]
 
 _META = re.compile(r"[\s#>*+`-]*([\w.]+)[*`]*\s*[:=]\s*[*`]*\s*(\S.*?)\s*$")
 _GROUPS = ("units", "base", "tool", "constants")
 _PARAMETERS = ("theta", "d", "a", "alpha")
-_INDEX = ("", "i", "#", "no", "no.", "nr", "n", "row", "index")
+INDEX = ("", "i", "#", "no", "no.", "nr", "n", "row", "index")
 _LABELS = ("joint", "link", "frame")
 _EMPTY = ("-", "–", "—", "−", "n/a")
-_UNIT = re.compile(r"(.+?)\s*(?:\[(.*)\]|\((.*)\)|/\s*([a-zA-Z°]+))$|(.+)_(mm|cm|m|deg|rad)$")
+_UNIT = re.compile(
+    r"(.+?)\s*(?:\[(.*)\]|\((.*)\)|(?:/\s*|(?=[°º]))([a-zA-Z°º]+))$|(.+)_(mm|cm|m|deg|rad)$"
+)
 _INDEX_I = re.compile(r"i\s*(?:[-−]\s*1)?")
 _SI_UNITS = {
     "mass": ("kg",),
@@ -79,6 +90,11 @@ def metadata(line: str, number: int, report: Report) -> tuple[Scalar, Scalar] | 
     return Scalar(f"{name}.{rest}" if rest else name, mark), Scalar(
         str(value), Mark(number, match.start(2) + 1)
     )
+
+
+def separator(line: str) -> str:
+    """What parts the cells of a CSV file, by its first line: comma, semicolon or tab."""
+    return max(",;\t", key=line.count)
 
 
 def is_header(cells: list[Scalar]) -> bool:
@@ -122,16 +138,22 @@ def _unquote(text: str) -> str:
         return text
 
 
-def _column(cell: Scalar) -> tuple[str, str]:
-    """Canonical key and unit of a header cell."""
-    text = cell.text.strip(" *`")
+def heading(text: str) -> tuple[str, str]:
+    """Name and unit of a column: ``d [mm]``, ``alpha (deg)``, ``theta_deg``, ``yaw °``."""
+    text = text.strip(" *`")
     match = _UNIT.fullmatch(text)
     if match is None:
-        return canonical(text), ""
+        return text, ""
     stem, unit = (match[1], match[2] or match[3] or match[4]) if match[1] else (match[5], match[6])
     if not unit or _INDEX_I.fullmatch(unit.strip()):
-        return canonical(text), ""
-    return canonical(stem), unit_name(unit.replace("/s", ""))
+        return text, ""
+    return stem, unit_name(unit.replace("/s", ""))
+
+
+def _column(cell: Scalar) -> tuple[str, str]:
+    """Canonical key and unit of a header cell."""
+    name, unit = heading(cell.text)
+    return canonical(name), unit
 
 
 def _columns(grid: Grid, report: Report) -> list[tuple[str, str]]:
@@ -140,7 +162,7 @@ def _columns(grid: Grid, report: Report) -> list[tuple[str, str]]:
     for number, cell in enumerate(grid.header):
         key, unit = _column(cell)
         taken = [k for k, _ in out]
-        if key in _INDEX:
+        if key in INDEX:
             out.append(("", ""))
         elif key in _LABELS:
             texts = [row[number].text for row in grid.rows if number < len(row)]
@@ -193,7 +215,7 @@ def _table_keys(
         group, _, rest = key.text.partition(".")
         if rest and group in _GROUPS:
             groups.setdefault(group, []).append((Scalar(rest, key.mark), value))
-        elif group == "units" and (parts := _unit_words(value)):
+        elif group == "units" and (parts := unit_words(value)):
             groups.setdefault(group, []).extend(parts)
         else:
             out.append((key, value))
@@ -209,7 +231,7 @@ def _table_keys(
     return out
 
 
-def _unit_words(value: Scalar) -> list[tuple[Scalar, Node]]:
+def unit_words(value: Scalar) -> list[tuple[Scalar, Node]]:
     """``mm, deg`` or ``{length: mm, angle: deg}`` as pairs; none where a word is not a unit."""
     words = [unit_name(w) for w in re.findall(r"[^\s,;:{}&]+", value.text)]
     pairs: list[tuple[Scalar, Node]] = []

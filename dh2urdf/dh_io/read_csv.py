@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 
 from dh2urdf.dh_io.document import Keys, Mark, Report, Scalar
-from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata
+from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata, separator
 
 __all__ = ["read_csv"]
 
@@ -21,7 +21,7 @@ def read_csv(text: str, report: Report) -> Keys:
             if entry := metadata(line, number, report):
                 grid.meta.append(entry)
             continue
-        delimiter = delimiter or max(",;\t", key=line.count)
+        delimiter = delimiter or separator(line)
         cells = _cells(line, number, delimiter, report)
         report.count(Mark(number, 1), cells=len(cells))
         if grid.header:

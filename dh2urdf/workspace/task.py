@@ -9,7 +9,7 @@ import numpy as np
 
 from dh2urdf.conversions.bodies import frame_along
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array, rot_z
+from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z
 
 __all__ = [
     "PARALLEL",
@@ -87,12 +87,7 @@ def uniform_rotations(count: int) -> Array:
     r, big = np.sqrt(t), np.sqrt(1 - t)
     alpha, beta = d / math.sqrt(2.0), d / 1.533751168755204288118041
     x, y, z, w = r * np.sin(alpha), r * np.cos(alpha), big * np.sin(beta), big * np.cos(beta)
-    rows = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    return np.moveaxis(np.array(rows), -1, 0)
+    return quaternion_to_matrix(np.stack([x, y, z, w], axis=-1))
 
 
 def orientations(robot: Robot, task: Task, count: int) -> Array:

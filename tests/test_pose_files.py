@@ -1,0 +1,153 @@
+"""Files of poses: headings with units, quaternions, separators, and hostile text."""
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from hostile import hostile, outcome
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dh2urdf.cli.ik_poses import LAYOUTS, poses_of_csv
+from dh2urdf.exceptions import PoseError
+
+LENGTHS = {"": 1.0, "m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}
+ANGLES = {"": 1.0, "rad": 1.0, "deg": 180 / np.pi, "°": 180 / np.pi}
+STYLES = ("{} [{}]", "{}[{}]", "{} ({})", "{}/{}", "{} / {}")
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    """A path to write poses to."""
+    return tmp_path_factory.mktemp("poses") / "poses.csv"
+
+
+def read(path, text, *, deg=False):
+    path.write_text(text, encoding="utf-8")
+    return poses_of_csv(str(path), deg=deg).T
+
+
+def matrix(xyz, rpy):
+    """The pose by Pinocchio."""
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = pin.rpy.rpyToMatrix(*rpy), xyz
+    return T
+
+
+@st.composite
+def sheets(draw):
+    """A file of one pose in any layout, order, unit, separator and style, and its pose."""
+    xyz = draw(st.lists(st.floats(-5, 5), min_size=3, max_size=3))
+    rpy = draw(st.lists(st.floats(-3.2, 3.2), min_size=3, max_size=3))
+    T = matrix(xyz, rpy)
+    layout = draw(st.sampled_from(["rpy", "quaternion", "matrix"]))
+    columns = {}
+    if layout == "matrix":
+        size = draw(st.sampled_from([3, 4]))
+        columns = {f"t{i}{j}": (float(T[i, j]), {"": 1.0}) for i in range(size) for j in range(4)}
+        columns |= {f"t{i}3": (xyz[i], LENGTHS) for i in range(3)}
+    else:
+        columns = {name: (v, LENGTHS) for name, v in zip("xyz", xyz, strict=True)}
+    if layout == "rpy":
+        for name, v in zip(("roll", "pitch", "yaw"), rpy, strict=True):
+            columns[name] = (v, ANGLES)
+    if layout == "quaternion":
+        sign = draw(st.sampled_from([1, -1]))
+        q = sign * pin.Quaternion(T[:3, :3]).coeffs()
+        columns |= {f"q{n}": (float(v), {"": 1.0}) for n, v in zip("xyzw", q, strict=True)}
+    head, row = [], []
+    for name in draw(st.permutations(list(columns))):
+        value, units = columns[name]
+        unit = draw(st.sampled_from(sorted(units)))
+        style = draw(st.sampled_from(STYLES)) if unit else "{}"
+        head.append(draw(st.sampled_from([str.lower, str.upper]))(style.format(name, unit)))
+        row.append(repr(value * units[unit]))
+    separator = draw(st.sampled_from([",", ";", "\t", ", ", " ; "]))
+    return f"# made\n\n{separator.join(head)}\n{separator.join(row)}\n", T
+
+
+@given(sheet=sheets())
+def test_a_header_gives_order_and_units(file, sheet):
+    """Columns in any order and unit, parted by commas, semicolons or tabs, give the same pose."""
+    text, T = sheet
+    assert np.abs(read(file, text) - T).max() < 1e-12
+
+
+def test_degrees_of_the_header_and_of_the_option_agree(file):
+    """Headings in degrees, --deg, a line of units and cells with units name one pose."""
+    T = matrix([0.4, 0, 0.3], [0, np.pi, 0.5])
+    row = f"400,0,300,0,180,{float(np.degrees(0.5))!r}"
+    head = "x [mm],y [mm],z [mm],roll [deg],pitch [deg],yaw [deg]\n"
+    bare = "x_mm,y_mm,z_mm,roll,pitch,yaw\n"
+    for text, deg in (
+        (head + row, False),
+        (head + row, True),
+        (bare + row, True),
+        ("# units: mm, deg\n" + row, False),
+        ("#,x,y,z,roll,pitch,yaw\n1,400mm,0,0.3,0,pi,0.5rad", True),
+    ):
+        assert np.abs(read(file, text, deg=deg) - T).max() < 1e-15
+
+
+def test_a_quaternion_is_normalised_or_refused(file):
+    """Three decimals are brought to norm 1; zero, two and half are refused with their norm."""
+    head = "x,y,z,qx,qy,qz,qw\n"
+    T = read(file, head + "0,0,0,0.707,0,0,0.707")
+    assert np.abs(T - matrix([0, 0, 0], [np.pi / 2, 0, 0])).max() < 1e-12
+    for q in ("0,0,0,0", "0,0,2,0", "0.5,0,0,0", "nan,0,0,1", "inf,0,0,1"):
+        with pytest.raises(PoseError, match=r"poses.csv:2: (the norm|qx)"):
+            read(file, f"{head}0,0,0,{q}")
+
+
+FAULTS = {
+    "unknown": ("x,y,z,rol,pitch,yaw\n1,2,3,0,0,0", "1: unknown column 'rol'; known are x, y, z"),
+    "extra": ("x,y,z,roll,pitch,yaw,v\n1,2,3,0,0,0,1", "1: unknown column 'v'"),
+    "twice": ("x,x,y,z,roll,pitch,yaw\n1,1,2,3,0,0,0", "1: two columns for x"),
+    "both": ("x,y,z,roll,pitch,yaw,qx,qy,qz,qw\n" + "0," * 9 + "1", "1: columns .* are needed"),
+    "kind": ("x [deg],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'deg' for x; allowed: m"),
+    "unit": ("x [ell],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'ell' for x"),
+    "nameless": ("0,0,0,0,0,0,1", "1: 6 or 12 or 16 .* a quaternion needs a header"),
+    "comma": ("x;y;z;roll;pitch;yaw\n0,4;1;2;0;0;0", "2: x: '0,4': .* a decimal point: 0.4"),
+    "late": ("1,2,3,0,0,0\n# units: mm, deg\n1,2,3,0,0,0", "2: found units"),
+    "parsec": ("# units: parsec\n1,2,3,0,0,0", "1: found units: 'parsec'"),
+    "far": ("1,2,1e300,0,0,0", "1: z: not a number from -1e"),
+    "endless": ("1,2,3,inf,0,0", "1: roll: not a number"),
+    "skewed": ("1,0,0,0,0,1,0,0,0,0,1,0\n1,0,0,0,0,2,0,0,0,0,1,0", "2: rotation part is not"),
+    "quote": ('x,y,z,roll,pitch,yaw\n"1,2,3,0,0,0', "not CSV"),
+    "wide": ("x" * 200_000, "not CSV: field larger"),
+}
+
+
+@pytest.mark.parametrize("case", FAULTS)
+def test_what_a_file_of_poses_cannot_mean_is_named(file, case):
+    """The message names file and line, what was found and what is allowed."""
+    text, message = FAULTS[case]
+    with pytest.raises(PoseError, match=f"poses.csv:.*{message}"):
+        read(file, text)
+
+
+WORDS = """
+x y z roll qw t00 yaw[deg] [ ° _mm units:mm 1 -0.5 0 pi/2 nan -inf 1e400
+1e308 0x1 9**9**9 (((( 1_0 ٣ 90deg 400mm 0,5 sqrt(-1) 1/0 "1 ""1"" - +
+"""
+CELLS = WORDS.split()
+ROW = st.lists(st.sampled_from(CELLS), min_size=4, max_size=13).map(",".join)
+MARKS = st.sampled_from(["\n", "#", ";", "\t", "\0", "\ufeff", "\u2028", "# units: mm, deg\n"])
+HEADS = st.sampled_from([f"{','.join(layout)}\n" for layout in LAYOUTS])
+NOISE = st.lists(st.one_of(ROW, MARKS, HEADS, st.text(max_size=5)), max_size=9).map("".join)
+ROWS = st.lists(st.lists(st.sampled_from(CELLS), min_size=6, max_size=7).map(",".join), max_size=3)
+SHEETS = st.one_of(NOISE, st.builds(lambda head, rows: head + "\n".join(rows), HEADS, ROWS))
+
+
+@hostile(text=SHEETS, deg=st.booleans())
+def test_hostile_files_of_poses_are_poses_or_one_message(text, deg):
+    """Any text is a stack of rigid poses or a PoseError."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "poses.csv"
+        path.write_bytes(text.encode("utf-8", "surrogatepass"))
+        answer = outcome(poses_of_csv, str(path), deg=deg)
+    if not isinstance(answer, Exception):
+        R = answer.T[:, :3, :3]
+        assert np.abs(R @ np.swapaxes(R, 1, 2) - np.eye(3)).max() < 1e-5
