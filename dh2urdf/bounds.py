@@ -62,8 +62,8 @@ TABLE_BYTES = 1_000_000
 ROBOT_BYTES = 50_000_000
 """A robot description without its meshes; makers' largest have 1 MB."""
 
-POSES_BYTES = 2_000_000_000
-"""A file of poses: ten million rows."""
+POSES_BYTES = 100_000_000
+"""A file of poses: a million rows."""
 
 PATH_BYTES = 255
 """A file's name, as the common file systems have it."""

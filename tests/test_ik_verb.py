@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import math
+import os
 
 import numpy as np
 import pytest
@@ -196,3 +197,47 @@ def test_a_bad_csv_is_named_by_line(run, tmp_path, case):
     status, _, err = run("ik", "denso_vs6556", "--csv", "poses.csv")
     assert status == 2
     assert message in err
+
+
+def test_all_turns_of_poses_in_a_file(run, tmp_path):
+    """--turns all lists for every line what it lists for one pose; a bad word is refused."""
+    (tmp_path / "poses.csv").write_text("0.4,0.2,0.3,0,3,0\n0.3,0.2,0.3,0,3,0\n")
+    status, out, _ = run("ik", "ur5", "--csv", "poses.csv", "--turns", "all")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    one = run("ik", "ur5", "--xyz=0.4,0.2,0.3", "--rpy=0,3,0", "--turns", "all", "--json")[1]
+    assert status == 0
+    assert [row["pose"] for row in rows].count("1") == len(json.loads(one)["solutions"]) == 512
+    status, out, err = run("ik", "ur5", "--csv", "poses.csv", "--turns", "bogus")
+    assert (status, out) == (2, "")
+    assert "nearest" in err
+
+
+def test_a_seed_sorts_the_solutions_of_every_line(run, tmp_path):
+    """With --seed each line's solutions are those of one pose with that seed."""
+    (tmp_path / "poses.csv").write_text("0.4,0.2,0.3,0,3,0\n0.3,0.2,0.3,0,3,0\n")
+    seed = ["--seed", "-1", "-1", "1", "0", "-9deg", "1"]
+    rows = list(csv.DictReader(io.StringIO(run("ik", "ur5", "--csv", "poses.csv", *seed)[1])))
+    names = dh2urdf.load_table("ur5").joint_names
+    for pose, x in (("1", "0.4"), ("2", "0.3")):
+        one = run("ik", "ur5", f"--xyz={x},0.2,0.3", "--rpy=0,3,0", *seed, "--json")[1]
+        q = [[float(row[n]) for n in names] for row in rows if row["pose"] == pose]
+        assert np.abs(np.array(q) - [s["q"] for s in json.loads(one)["solutions"]]).max() < 1e-9
+
+
+def test_a_file_of_poses_that_never_ends_is_refused(run, tmp_path):
+    """A pipe without a writer and a device without an end are one message each."""
+    os.mkfifo(tmp_path / "pipe")
+    for path in ("pipe", "/dev/zero", ".", "\0", "x" * 300):
+        status, out, err = run("ik", "ur5", "--csv", path)
+        assert (status, out) == (2, "")
+        assert err.startswith("dh2urdf: ")
+        assert err.count("\n") == 1
+
+
+def test_a_joint_is_held_once(run):
+    """Two values for one joint, by name or number, are refused."""
+    for second in ("shoulder_pan_joint=.2", "0=.2", "0=.1"):
+        argv = ["--xyz=.4,.2,.3", "--rpy=0,0,0", "--locked", "0=.1", "--locked", second]
+        status, out, err = run("ik", "ur5", *argv)
+        assert (status, out) == (2, "")
+        assert "shoulder_pan_joint is held twice" in err

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import csv
-import sys
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
+from dh2urdf.bounds import POSES_BYTES
 from dh2urdf.cli.options import LARGEST, read_number, read_numbers
+from dh2urdf.cli.output import stdin
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.dh_io.document import Report
+from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.grid import INDEX, heading, metadata, separator, unit_words
 from dh2urdf.dh_io.units import UNIT_SIZES, unit_kind
 from dh2urdf.doors import found
@@ -102,12 +103,11 @@ def poses_of_csv(source: str, *, deg: bool) -> Poses:
     PoseError
         The message names file and line.
     """
-    sheet = _Sheet("<stdin>" if source == "-" else source, Units("m", "deg" if deg else "rad"))
+    text = read_text(stdin() if source == "-" else source, POSES_BYTES, PoseError)
+    name = "<stdin>" if source == "-" else shown(source)
+    sheet = _Sheet(name, Units("m", "deg" if deg else "rad"))
     try:
-        text = sys.stdin.read() if source == "-" else Path(source).read_text("utf-8-sig")
-        sheet.read(text.splitlines())
-    except (OSError, UnicodeDecodeError) as error:
-        raise PoseError(f"{sheet.file}: cannot be read: {error}") from None
+        sheet.read(text.split("\n"))
     except csv.Error as error:
         raise PoseError(f"{sheet.file}: not CSV: {error}") from None
     return Poses(sheet.poses(), sheet.file, sheet.lines)

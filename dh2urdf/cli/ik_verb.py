@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import math
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -22,6 +22,12 @@ if TYPE_CHECKING:
     from dh2urdf.robot import Robot
 
 __all__ = ["ik_"]
+
+CHUNK = 1_000
+"""Poses that are solved, and lines that are written, at once."""
+
+SHOWN = 5
+"""Poses without a solution whose reason is told."""
 
 
 def ik_(
@@ -55,8 +61,9 @@ def ik_(
     matrix
         The pose as 16 or 12 numbers, row by row.
     csv
-        A file (- for stdin) of many poses: columns x y z roll pitch yaw, or 12 or 16 matrix
-        entries; a header line may name and order them. The answer is CSV, too.
+        A file (- for stdin) of many poses: columns x y z roll pitch yaw, x y z qx qy qz qw, or
+        matrix entries t00 ... t23 or t33; a header line may order them and give units, as in
+        "x [mm]" or "yaw (deg)". The answer is CSV, too.
     seed
         Joint values to be near to: sorts the solutions, picks turns and members of families.
     locked
@@ -206,42 +213,60 @@ def _many(
     json: bool,
 ) -> int:
     """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
-    from dh2urdf.cli.progress import bar, track
-
-    if goal is None and turns == "nearest":
-        with bar("solving", len(poses.T)) as report:
-            batch = arm.ik_batch(poses.T, progress=report, **options)
-        every = [batch[i] for i in range(len(batch))]
-    else:
-        every = [
-            arm.ik(T, seed=goal, turns=turns, **options) for T in track(list(poses.T), "solving")
-        ]
-    missed = [
-        i for i, found in enumerate(every) if not (_outside(arm, found.q) == 0).all(axis=1).any()
-    ]
+    missed: dict[int, IKSolutions | None] = {}
+    data: list[dict[str, Any]] = []
+    lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
+    for i, found in enumerate(_solved(arm, poses.T, goal, turns, options)):
+        over = _outside(arm, found.q)
+        if not (over == 0.0).all(axis=1).any():
+            missed[i] = found if len(missed) < SHOWN else None
+        if json:
+            data.append(_as_data(arm, found))
+            continue
+        lines += _lines(arm, i, found, over, deg=deg)
+        if len(lines) > CHUNK:
+            emit(grid_csv(lines[0], lines[1:]))
+            lines.clear()
     if json:
-        emit_json("ik", poses=[_as_data(arm, found) for found in every], unreached=missed)
-    else:
-        emit(_csv(arm, every, deg=deg))
-    for i in missed[:5]:
-        reason = _reason(arm, poses.T[i], every[i], options)
-        note(f"{poses.name(i)}: no solution within limits: {reason}")
-    if len(missed) > 5:
-        note(f"... and {len(missed) - 5} more of {len(every)} poses without a solution")
+        emit_json("ik", poses=data, unreached=list(missed))
+    elif lines:
+        emit(grid_csv(lines[0], lines[1:]))
+    for i, first in missed.items():
+        if first is not None:
+            reason = _reason(arm, poses.T[i], first, options)
+            note(f"{poses.name(i)}: no solution within limits: {reason}")
+    if len(missed) > SHOWN:
+        note(f"... and {len(missed) - SHOWN} more of {len(poses.T)} poses without a solution")
     return 1 if missed else 0
 
 
-def _csv(arm: Robot, every: Sequence[IKSolutions], *, deg: bool) -> str:
+def _solved(
+    arm: Robot, Ts: Array, goal: Array | None, turns: str, options: dict[str, Any]
+) -> Iterator[IKSolutions]:
+    """The solutions of one pose after the other, telling how far it has come."""
+    from dh2urdf.cli.progress import bar
+
+    with bar("solving", len(Ts)) as report:
+        for start in range(0, len(Ts), CHUNK):
+            part = Ts[start : start + CHUNK]
+            if goal is None and turns == "nearest":
+                batch = arm.ik_batch(part, **options)
+                yield from (batch[i] for i in range(len(batch)))
+            else:
+                yield from (arm.ik(T, seed=goal, turns=turns, **options) for T in part)
+            report(start + len(part), len(Ts))
+
+
+def _lines(arm: Robot, pose: int, found: IKSolutions, over: Array, *, deg: bool) -> list[list[str]]:
     """One line a solution: pose, solution, joint values, residual, branch, outside limits."""
-    header = ["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]
-    scale = np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
-    rows = []
-    for i, found in enumerate(every):
-        over = _outside(arm, found.q)
-        for k, (q, residual, branch) in enumerate(
-            zip(found.q * scale, found.verify(), found.branch, strict=True)
-        ):
-            names = " ".join(arm.joint_names[j] for j in np.flatnonzero(over[k]))
-            cells = [repr(float(v)) for v in q]
-            rows.append([str(i + 1), str(k + 1), *cells, f"{residual:.1e}", branch, names])
-    return grid_csv(header, rows)
+    q = found.q * np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
+    measured = zip(q.tolist(), found.verify(), found.branch, over, strict=True)
+    return [
+        [str(pose + 1), str(k + 1), *map(repr, row), f"{residual:.1e}", branch, _names(arm, far)]
+        for k, (row, residual, branch, far) in enumerate(measured)
+    ]
+
+
+def _names(arm: Robot, over: Array) -> str:
+    """The joints outside their limits."""
+    return " ".join(arm.joint_names[j] for j in np.flatnonzero(over))

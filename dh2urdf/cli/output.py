@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import io
 import json
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
+from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.cli.options import read_numbers
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Units
-from dh2urdf.exceptions import ConfigurationError, Dh2UrdfError
+from dh2urdf.exceptions import ConfigurationError, Dh2UrdfError, TableError
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
@@ -30,6 +32,7 @@ __all__ = [
     "parse_configuration",
     "read_source",
     "robot_of",
+    "stdin",
     "table_of",
 ]
 
@@ -81,13 +84,19 @@ def no_options(verb: str, sources: Iterable[str]) -> None:
             raise Dh2UrdfError(f"unknown option {source}; see dh2urdf {verb} --help")
 
 
+def stdin() -> BinaryIO:
+    """Bytes on stdin."""
+    return getattr(sys.stdin, "buffer", None) or io.BytesIO(sys.stdin.read().encode())
+
+
 def read_source(source: str) -> TableFile:
     """A table by path, by name, or from stdin (``-``, YAML)."""
     from dh2urdf.dh_io import parse_table
+    from dh2urdf.dh_io.files import read_text
     from dh2urdf.robots import load_table_file
 
     if source == "-":
-        return parse_table(sys.stdin.read(), "yaml", "<stdin>")
+        return parse_table(read_text(stdin(), TABLE_BYTES, TableError), "yaml", "<stdin>")
     return load_table_file(source)
 
 
