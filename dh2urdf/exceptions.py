@@ -12,6 +12,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── ConfigurationError (ValueError)  a q, seed or locked value of the wrong shape or kind
     ├── ArgumentError (ValueError)       an option of the wrong kind or beyond its bounds
     ├── NameNotFoundError (LookupError)  no such table, frame or joint
+    ├── NoSolutionError (LookupError)    a choice from an empty list of solutions
     ├── NoSolverError                    no analytic solver for this chain or task
     ├── OutputError (OSError)            a file that cannot be written
     │   └── OutputExistsError            a file of somebody else's in the way
@@ -29,6 +30,7 @@ __all__ = [
     "Dh2UrdfError",
     "MissingExtraError",
     "NameNotFoundError",
+    "NoSolutionError",
     "NoSolverError",
     "OutputError",
     "OutputExistsError",
@@ -83,6 +85,10 @@ class ArgumentError(Dh2UrdfError, ValueError):
 
 class NameNotFoundError(Dh2UrdfError, LookupError):
     """No table, frame or joint of that name; the message lists the ones there are."""
+
+
+class NoSolutionError(Dh2UrdfError, LookupError):
+    """A solution was to be chosen where there is none."""
 
 
 class NoSolverError(Dh2UrdfError):

@@ -231,7 +231,7 @@ def test_no_step_along_the_self_motion_comes_nearer(name):
     for _ in range(20):
         T = robot.fk(rng.uniform(robot.lower, robot.upper))
         seed = rng.uniform(robot.lower, robot.upper)
-        q = nearest_members(robot.solver, T, seed, within_limits=True)[0][0]
+        q = nearest_members(robot.solver, T, seed, within_limits=True)[0]
         if np.min(np.minimum(q - robot.lower, robot.upper - q)) < 1e-3:
             continue
         checked += 1

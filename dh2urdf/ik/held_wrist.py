@@ -11,6 +11,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.limits import plain_ranges
 from dh2urdf.ik.part_chains import hold, without_end
 from dh2urdf.ik.solver import IntArray
 from dh2urdf.ik.spherical_wrist import SphericalWrist
@@ -162,6 +163,7 @@ class HeldWrist(HeldSolver):
         rows, varies = self.form.rows, self.which[4]
         orthogonal = rows[3, 1] == rows[4, 1] == 0.0
         blocks = self.one_by_one and orthogonal and varies in (-1, 1) and rows[0, 3] == 0.0
+        blocks = blocks and plain_ranges(self.chain)
         fastest: Callable[..., None] = solve_held_blocks if blocks else solve_held_wrist
         return fastest
 

@@ -12,7 +12,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.tolerances import LIMIT_SLACK
 from dh2urdf.transforms import Array
 
-__all__ = ["all_turns", "inside", "middle", "turned_to"]
+__all__ = ["all_turns", "inside", "middle", "plain_ranges", "turn_counts", "turned_to"]
 
 TWO_PI = 2.0 * math.pi
 
@@ -31,6 +31,12 @@ def middle(chain: SerialChain) -> Array:
     nearest = np.clip(0.0, chain.lower, chain.upper)
     lower, upper = np.where(both, chain.lower, 0.0), np.where(both, chain.upper, 0.0)
     return np.where(both, 0.5 * (lower + upper), nearest)
+
+
+def plain_ranges(chain: SerialChain) -> bool:
+    """Whether every joint has both of its limits or neither, and no value is turns away."""
+    whole = np.isfinite(chain.lower) == np.isfinite(chain.upper)
+    return bool((whole & (np.abs(middle(chain)) < TWO_PI)).all())
 
 
 def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
@@ -54,19 +60,27 @@ def _trimmed(chain: SerialChain, q: Array) -> Array:
     return np.where(np.abs(on - q) <= LIMIT_SLACK, on, q)
 
 
-def all_turns(chain: SerialChain, q: Array) -> Array:
-    """Every turn of one configuration q (n,) inside the limits, shape (k, n).
+def _turns(chain: SerialChain, q: Array) -> tuple[Array, Array]:
+    """First and last full turn of configurations q (..., n) inside the limits, shape (..., n).
 
     A joint without both bounds has infinitely many turns; it keeps the one it has.
     """
-    choices: list[list[float]] = []
-    for value, slides, lower, upper in zip(
-        q, chain.prismatic, chain.lower, chain.upper, strict=True
-    ):
-        if slides or not math.isfinite(lower) or not math.isfinite(upper):
-            choices.append([float(value)])
-            continue
-        least = math.ceil((lower - LIMIT_SLACK - value) / TWO_PI)
-        most = math.floor((upper + LIMIT_SLACK - value) / TWO_PI)
-        choices.append([float(value) + TWO_PI * k for k in range(least, most + 1)])
+    fixed = chain.prismatic | ~np.isfinite(chain.lower) | ~np.isfinite(chain.upper)
+    lower, upper = np.where(fixed, q, chain.lower), np.where(fixed, q, chain.upper)
+    first = np.ceil((lower - LIMIT_SLACK - q) / TWO_PI)
+    last = np.floor((upper + LIMIT_SLACK - q) / TWO_PI)
+    return first, last
+
+
+def turn_counts(chain: SerialChain, q: Array) -> Array:
+    """How many turns of configurations q (..., n) are inside the limits, shape (...)."""
+    first, last = _turns(chain, q)
+    counts: Array = np.prod(np.maximum(last - first + 1.0, 0.0), axis=-1)
+    return counts
+
+
+def all_turns(chain: SerialChain, q: Array) -> Array:
+    """Every turn of one configuration q (n,) inside the limits, shape (k, n)."""
+    turns = [np.arange(a, b + 1.0) for a, b in zip(*_turns(chain, q), strict=True)]
+    choices = [value + TWO_PI * k for value, k in zip(q, turns, strict=True)]
     return _trimmed(chain, np.array(list(itertools.product(*choices)), float).reshape(-1, chain.n))

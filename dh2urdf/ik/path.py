@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family
 from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.solutions import IKBatch, IKSolutions, as_configuration
+from dh2urdf.ik.solutions import IKBatch, IKSolutions
 from dh2urdf.ik.tolerances import PATH_JUMP
 from dh2urdf.transforms import Array
 
@@ -97,7 +96,7 @@ class _Stage:
 def find_path(
     problem: Problem,
     batch: IKBatch,
-    start: ArrayLike | None,
+    start: Array | None,
     within_limits: bool,
     max_jump: float | None,
 ) -> IKPath:
@@ -108,8 +107,8 @@ def find_path(
     problem : Problem
     batch : IKBatch
         All solutions of the poses, in the order of the path.
-    start : array_like, shape (n,), optional
-        Configuration before the first pose; the way from there counts as motion.
+    start : array, shape (n,), optional
+        Checked configuration before the first pose; the way from there counts as motion.
     within_limits : bool
     max_jump : float, optional
         Motion of a joint between neighbours that counts as a break [rad or m].
@@ -117,7 +116,6 @@ def find_path(
     jump = PATH_JUMP if max_jump is None else float(max_jump)
     if not jump > 0.0:
         raise ConfigurationError(f"max_jump: a positive number, not {max_jump!r}")
-    origin = None if start is None else as_configuration(start, problem.chain.n, "start")
     stages: list[_Stage] = []
     unreachable = []
     for i in range(len(batch)):
@@ -125,7 +123,7 @@ def find_path(
         if not found:
             unreachable.append(i)
         elif not stages:
-            stages.append(_first_stage(problem, i, found, origin, within_limits))
+            stages.append(_first_stage(problem, i, found, start, within_limits))
         else:
             ahead = batch.solutions(i + 1) if i + 1 < len(batch) else None
             stages.append(_next_stage(problem, stages[-1], i, found, ahead, within_limits, jump))

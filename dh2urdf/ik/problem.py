@@ -8,9 +8,10 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
+from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik import limits
 from dh2urdf.ik.families import Family, slide_to_seed, task_error
 from dh2urdf.ik.held_solver import HeldSolver
@@ -19,12 +20,11 @@ from dh2urdf.ik.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.solutions import (
     IKBatch,
     IKSolutions,
-    as_configuration,
     branch_words_of,
     joints_of_mask,
 )
 from dh2urdf.ik.solver import Solver, Task
-from dh2urdf.ik.tolerances import LIMIT_SLACK
+from dh2urdf.ik.tolerances import ACCEPT, LIMIT_SLACK
 from dh2urdf.transforms import Array
 
 __all__ = ["ForwardKinematics", "Problem", "Progress"]
@@ -171,51 +171,68 @@ class Problem:
             member = family.nearest(middle, within_limits=True)
             keep[k] = member is not None
             q[k] = q[k] if member is None else member
-        return self._measured(found, q).select(keep)
+        return self._at(found, q).select(keep)
 
-    def arranged(
-        self, found: IKSolutions, seed: ArrayLike, within_limits: bool = True
-    ) -> IKSolutions:
+    def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         from dh2urdf.kernels.arrange import measure_and_sort, turn_to
 
-        goal = as_configuration(seed, self.chain.n, "seed")
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
         links, joints = self.chain.tables
-        turn_to(joints, LIMIT_SLACK, goal[None], q)
+        turn_to(joints, LIMIT_SLACK, seed[None], q)
         families = {
             k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k].copy())
             for k, mask in enumerate(free.tolist())
             if mask
         }
-        keep = slide_to_seed(families, q, goal, within_limits) if families else ALL
+        keep = slide_to_seed(families, q, seed, within_limits) if families else ALL
         arrays = q[keep], residual[keep], branch[keep], free[keep]
-        measure_and_sort(links, joints, self.task.number, found.T, goal, *arrays)
-        return IKSolutions.of(self, found.T, *arrays)
+        measure_and_sort(links, joints, self.task.number, found.T, seed, *arrays)
+        return self._accepted(IKSolutions.of(self, found.T, *arrays))
 
-    def with_all_turns(self, found: IKSolutions, seed: ArrayLike | None = None) -> IKSolutions:
-        """Each solution in every turn that the limits allow, sorted by distance from a seed."""
+    def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
+        """Each solution in every turn that the limits allow, sorted by distance from a seed.
+
+        Raises
+        ------
+        ArgumentError
+            There are more than ``bounds.TURNS``.
+        """
+        counts = limits.turn_counts(self.chain, found.q)
+        total = int(counts.sum())
+        if total > TURNS:
+            raise ArgumentError(
+                f"turns: {counts.sum():.3g} solutions with all their turns, at most {TURNS} are "
+                "listed; turns='nearest' gives one turn of each"
+            )
+        if not total:
+            return found
         turns = [limits.all_turns(self.chain, q) for q in found.q]
         rows = np.repeat(np.arange(len(found)), [len(t) for t in turns])
-        if not len(rows):
-            return found
-        q = np.concatenate(turns)
-        all_of_them = self._measured(found.select(rows), q)
+        all_of_them = self._accepted(self._at(found.select(rows), np.concatenate(turns)))
         if seed is None:
             return all_of_them
-        goal = as_configuration(seed, self.chain.n, "seed")
-        order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
-        return all_of_them.select(order)
+        distance = np.linalg.norm(all_of_them.q - seed, axis=1)
+        return all_of_them.select(np.argsort(distance, kind="stable"))
 
-    def _measured(self, found: IKSolutions, q: Array) -> IKSolutions:
+    def _at(self, found: IKSolutions, q: Array) -> IKSolutions:
         """The solutions at other members or turns q, with the residuals there."""
-        from dh2urdf.kernels.chain import chain_fk_batch
-
-        poses = np.empty((len(q), 4, 4))
-        chain_fk_batch(self.chain.links, self.chain.prismatic, q, poses)
-        residual = residual_of_poses(poses, found.T, self.task)
+        residual = np.empty(len(q))
+        self.measured(found.T[None], q[None], np.array([len(q)]), residual[None])
         return IKSolutions.of(self, found.T, q, residual, *found.codes)
+
+    @staticmethod
+    def _accepted(found: IKSolutions) -> IKSolutions:
+        """Those of which the residual is a solution's; turns by thousands round."""
+        fine = found.residual <= ACCEPT
+        return found if fine.all() else found.select(fine)
+
+    def measured(self, Ts: Array, q: Array, count: Any, residual: Array) -> None:
+        """Measure q (m, k, n), the first ``count[i]`` of pose Ts[i], into residual (m, k)."""
+        from dh2urdf.kernels.arrange import measure_all
+
+        measure_all(*self.chain.tables, self.task.number, Ts, q, count, residual)
 
     def why_none(self, T: Array, within_limits: bool) -> str:
         """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""
@@ -225,10 +242,11 @@ class Problem:
                 _, joint, excess = beyond_limits(self.chain, anywhere.q)
                 if excess <= LIMIT_SLACK:
                     return ""
-                unit = "m" if self.chain.prismatic[joint] else "rad"
+                slides = self.chain.prismatic[joint]
+                by = f"{excess * self.chain.unit:.4g} m" if slides else f"{excess:.4g} rad"
                 return (
                     f"all {len(anywhere)} solutions are outside the joint limits, the nearest by "
-                    f"{excess:.4g} {unit} at {self.chain.names[joint]}"
+                    f"{by} at {self.chain.names[joint]}"
                 )
         elif self.solve_one(T[None], within_limits=False):
             return ""

@@ -69,10 +69,11 @@ def few_members(
 
 def _measured(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
-    from dh2urdf.kernels.sweep import measure_all
+    from dh2urdf.kernels.arrange import measure_all
+    from dh2urdf.kernels.damped import POSE
 
-    q, residual = np.ascontiguousarray(q), np.empty(len(q))
-    measure_all(solver.links, solver.joints, T, q, residual)
+    q, residual, count = np.ascontiguousarray(q), np.empty(len(q)), np.array([len(q)])
+    measure_all(solver.links, solver.joints, POSE, T[None], q[None], count, residual[None])
     return q, residual
 
 
@@ -127,9 +128,7 @@ def _on_curves(solver: SweptJoint, T: Array, values: int) -> Array:
     )
 
 
-def nearest_members(
-    solver: SweptJoint, T: Array, seed: Array, within_limits: bool
-) -> tuple[Array, Array]:
+def nearest_members(solver: SweptJoint, T: Array, seed: Array, within_limits: bool) -> Array:
     """Solutions of a pose that are nearer to a seed than their neighbours on the self-motion.
 
     Parameters
@@ -141,9 +140,8 @@ def nearest_members(
 
     Returns
     -------
-    q : array, shape (k, n)
+    array, shape (k, n)
         Nearest first; the first is the nearest of all, on every curve that was found.
-    residual : array, shape (k,)
     """
     from dh2urdf.kernels import self_motion
     from dh2urdf.kernels.damped import POSE
@@ -155,16 +153,16 @@ def nearest_members(
         q = limits.turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
     q = np.ascontiguousarray(q[:STARTS])
-    residual = np.empty(len(q))
     self_motion.nearest_members(
-        solver.links, solver.joints, POSE, T, chain.size, within_limits, q, seed, residual
+        solver.links, solver.joints, POSE, T, chain.size, within_limits, q, seed, np.empty(len(q))
     )
     order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
     kept: list[int] = []
     for k in order:
         if all(np.abs(q[k] - q[j]).max() > SAME for j in kept):
             kept.append(int(k))
-    return q[kept], residual[kept]
+    nearest: Array = q[kept]
+    return nearest
 
 
 def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.doors import finite_array
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.exceptions import ConfigurationError, NoSolutionError
 
 if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem
@@ -122,16 +123,18 @@ class IKSolutions:
 
         Raises
         ------
-        LookupError
-            There is no solution.
+        NoSolutionError
+            The list is empty.
+        ConfigurationError
         """
-        if not len(self):
-            raise LookupError("there is no solution to choose from")
-        return self.sorted_by(q)[0]
+        found = self.sorted_by(q)
+        if not len(found):
+            raise NoSolutionError("nearest: there is no solution to choose from")
+        return found[0]
 
     def sorted_by(self, q: ArrayLike) -> IKSolutions:
         """All solutions, nearest to q first, turned and moved as :meth:`nearest` does."""
-        return self._problem.arranged(self, q)
+        return self._problem.arranged(self, as_configuration(q, self._problem.chain.prismatic, "q"))
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""
@@ -256,9 +259,22 @@ def _read_only(view: Array) -> Array:
     return view
 
 
-def as_configuration(q: ArrayLike, n: int, what: str) -> Array:
-    """A checked copy of a configuration: n finite numbers, shape (n,)."""
+def as_configuration(q: ArrayLike, slides: NDArray[np.bool_], what: str) -> Array:
+    """A checked copy of a configuration, shape (n,): finite lengths and angles within bounds.
+
+    ``slides`` (n,) is true where a value is a length.
+
+    Raises
+    ------
+    ConfigurationError
+    """
+    n = len(slides)
     out = np.array(finite_array(q, what, f"{n} finite numbers", ConfigurationError), order="C")
     if out.shape != (n,):
         raise ConfigurationError(f"{what}: expected shape ({n},), got {out.shape}")
+    far = np.flatnonzero(~(np.abs(out) <= np.where(slides, LENGTH, ANGLE)))
+    if len(far):
+        i = int(far[0])
+        allowed = f"a length up to {LENGTH:g} m" if slides[i] else f"an angle up to {ANGLE:g} rad"
+        raise ConfigurationError(f"{what}[{i}]: expected {allowed} either way, got {out[i]:g}")
     return out

@@ -8,7 +8,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
+from dh2urdf.ik.limits import plain_ranges
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.ik.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
@@ -91,7 +92,7 @@ class SphericalWrist(SolverBase):
             return solve_sliding_arm  # type: ignore[no-any-return]
         rows = self.form.rows
         common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0
-        fast = common and self.form.exact and whole_ranges(self.chain)
+        fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_wrist if fast else solve_turning_arm  # type: ignore[no-any-return]
 
     def solve_batch(

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from dh2urdf.ik import limits
 from dh2urdf.ik.problem import Problem
 from dh2urdf.ik.self_motion import nearest_members, reach_intervals
-from dh2urdf.ik.solutions import IKSolutions, as_configuration
+from dh2urdf.ik.solutions import IKSolutions
 from dh2urdf.ik.swept import SweptJoint
 from dh2urdf.transforms import Array
 
@@ -20,23 +19,21 @@ class SweptProblem(Problem):
 
     solver: SweptJoint
 
-    def arranged(
-        self, found: IKSolutions, seed: ArrayLike, within_limits: bool = True
-    ) -> IKSolutions:
+    def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The nearest members to the seed (n,) on all self-motions, then the samples."""
-        goal = as_configuration(seed, self.chain.n, "seed")
-        near, residual = nearest_members(self.solver, found.T, goal, within_limits)
-        q = np.concatenate([near, limits.turned_to(self.chain, found.q, goal)])
-        order = np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")
+        near = nearest_members(self.solver, found.T, seed, within_limits)
+        q = np.concatenate([near, limits.turned_to(self.chain, found.q, seed)])
+        order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
         branch, free = found.codes
-        return IKSolutions.of(
+        arranged = IKSolutions.of(
             self,
             found.T,
             q[order],
-            np.concatenate([residual, found.residual])[order],
+            np.empty(len(q)),
             np.concatenate([np.full(len(near), -1), branch])[order],
             np.concatenate([np.zeros(len(near), np.int64), free])[order],
         )
+        return self._accepted(self._at(arranged, q[order]))
 
     def intervals(self, T: Array, within_limits: bool) -> Array:
         """Intervals of the swept joint in which a pose (4, 4) is reached, shape (k, 2)."""

@@ -6,7 +6,8 @@ from functools import cached_property
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task, whole_ranges
+from dh2urdf.ik.limits import plain_ranges
+from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.ik.tolerances import NOMINAL, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
@@ -68,7 +69,7 @@ class ThreeParallel(SolverBase):
 
         rows = self.form.rows
         common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0
-        fast = common and self.form.exact and whole_ranges(self.chain)
+        fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_parallel if fast else solve_three_parallel  # type: ignore[no-any-return]
 
     def solve_batch(

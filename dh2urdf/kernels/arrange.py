@@ -11,7 +11,7 @@ from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
 from dh2urdf.kernels.polish import pose_residual
 
-__all__ = ["measure_and_sort", "turn_to"]
+__all__ = ["measure_all", "measure_and_sort", "turn_to"]
 
 
 @kernel
@@ -58,6 +58,23 @@ def _swap(q, residual, branch, free, distance, a, b):
     distance[a], distance[b] = distance[b], distance[a]
 
 
+@inner_kernel
+def _measure(links, joints, task, T, q, damped):
+    """Residual of a configuration q (n,) on the exact chain, of what a task asks for."""
+    if task == POSE:
+        return pose_residual(links, joints, T, q)
+    return error_and_jacobian(links, joints, task, T, q, 1.0, damped)
+
+
+@kernel
+def measure_all(links, joints, task, Ts, q, count, residual):
+    """Residuals (m, k) of configurations q (m, k, n), the first ``count[i]`` of each pose Ts[i]."""
+    damped = make_damped(q.shape[2])
+    for i in range(q.shape[0]):
+        for k in range(count[i]):
+            residual[i, k] = _measure(links, joints, task, Ts[i], q[i, k], damped)
+
+
 @kernel
 def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
     """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
@@ -77,10 +94,7 @@ def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
     """
     damped, distance = make_damped(q.shape[1]), np.empty(q.shape[0])
     for k in range(q.shape[0]):
-        if task == POSE:
-            residual[k] = pose_residual(links, joints, T, q[k])
-        else:
-            residual[k] = error_and_jacobian(links, joints, task, T, q[k], 1.0, damped)
+        residual[k] = _measure(links, joints, task, T, q[k], damped)
         total = 0.0
         for i in range(q.shape[1]):
             total += (q[k, i] - seed[i]) * (q[k, i] - seed[i])

@@ -36,6 +36,9 @@ ANYWHERE = np.bool_(False)
 
 TWO_PI = 2.0 * math.pi
 
+FAR = 4.0 * math.pi
+"""Angle [rad] beyond which full turns round a value by more than the chain rounds a pose."""
+
 
 @helper_kernel
 def principal(angle):
@@ -62,14 +65,14 @@ def same(joints, q, p, reach, free):
 
 @inner_kernel
 def _into_limits(links, joints, T, within_limits, q, residual, free):
-    """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual, or -1.0 if outside.
+    """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual there, or infinity.
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
     still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
     Nothing is put on a bound where the limits do not count. A free joint may be outside: another
     member of its family may not.
     """
-    inside, moved = True, False
+    inside, moved, far = True, False, False
     for i in range(q.shape[0]):
         lower, upper = joints[i, 1], joints[i, 2]
         bounded = lower > -math.inf and upper < math.inf
@@ -80,20 +83,19 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
                 q[i] += TWO_PI * math.ceil((lower - CLUSTER - q[i]) / TWO_PI)
             elif upper < math.inf:
                 q[i] -= TWO_PI * math.ceil((q[i] - upper - CLUSTER) / TWO_PI)
-        if (q[i] < lower or q[i] > upper) and not (free >> i) & 1:
+            far = far or abs(q[i]) > FAR
+        if within_limits and (q[i] < lower or q[i] > upper) and not (free >> i) & 1:
             if q[i] < lower - CLUSTER or q[i] > upper + CLUSTER:
                 inside = False
-            else:
-                moved = True
+            moved = True
     if not inside:
-        return -1.0
-    if not moved or not within_limits:
+        return math.inf
+    if not moved and not far:
         return residual
     for i in range(q.shape[0]):
-        if not (free >> i) & 1:
+        if moved and not (free >> i) & 1:
             q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
-    residual = pose_residual(links, joints, T, q)
-    return residual if residual <= ACCEPT else -1.0
+    return pose_residual(links, joints, T, q)
 
 
 @inner_kernel
@@ -167,11 +169,8 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             move(q, residual, branch, free, kept, twin)
     solutions = np.int64(0)
     for k in range(kept):
-        certified = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
-        if certified < 0.0 and within_limits:
-            continue
-        if certified >= 0.0:
-            residual[k] = certified
-        move(q, residual, branch, free, k, solutions)
-        solutions += 1
+        residual[k] = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
+        if residual[k] <= ACCEPT:
+            move(q, residual, branch, free, k, solutions)
+            solutions += 1
     return solutions

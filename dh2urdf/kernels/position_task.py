@@ -186,6 +186,7 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
         if within_limits and not inside and free[k] == 0:
             continue
         residual[k] = position_residual(links, joints, T, q[k])
-        move(q, residual, branch, free, k, solutions)
-        solutions += 1
+        if residual[k] <= ACCEPT:
+            move(q, residual, branch, free, k, solutions)
+            solutions += 1
     return solutions

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dh2urdf.kernels.compiled import kernel
-from dh2urdf.kernels.polish import pose_residual
 
-__all__ = ["gather_samples", "measure_all", "spread_samples"]
+__all__ = ["gather_samples", "spread_samples"]
 
 
 @kernel
@@ -44,10 +43,3 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
                 free[i, total] = some_free[row, r]
                 total += 1
         count[i] = total
-
-
-@kernel
-def measure_all(links, joints, T, q, residual):
-    """Residuals of configurations q (k, n) on the exact chain against T (4, 4)."""
-    for k in range(q.shape[0]):
-        residual[k] = pose_residual(links, joints, T, q[k])
