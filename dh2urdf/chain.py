@@ -13,7 +13,7 @@ points of the screws at q = 0 follow from it.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -38,6 +38,8 @@ class SerialChain:
     names : tuple of str
     lower, upper : array, shape (n,)
         Bounds of q [rad] or [m]; infinite where there are none.
+    unit : float
+        Length [m] in which all lengths of the chain are; see :meth:`in_unit`.
     """
 
     links: Array
@@ -45,6 +47,7 @@ class SerialChain:
     names: tuple[str, ...]
     lower: Array
     upper: Array
+    unit: float = 1.0
 
     def __post_init__(self) -> None:
         n = len(self.joint_types)
@@ -103,20 +106,35 @@ class SerialChain:
     def size(self) -> float:
         """Size of the arm [m], the length that tolerances and drawings are relative to.
 
-        Distances from axis to axis and to the tool, measured between the axes as lines, so that
-        frames far out along parallel axes (calibrated arms) do not count; plus the travel of
-        prismatic joints where they have limits. 1 m for an arm without any length.
+        Its length, plus the travel of prismatic joints where they have limits. 1 m for an arm
+        without any length.
+        """
+        total = self.length
+        for slides, low, high in zip(self.prismatic, self.lower, self.upper, strict=True):
+            if slides and math.isfinite(low) and math.isfinite(high):
+                total += max(abs(low), abs(high), high - low)
+        return total if total > 1e-9 else 1.0
+
+    @cached_property
+    def length(self) -> float:
+        """Distances [m] from axis to axis and to the tool, added up.
+
+        They are measured between the axes as lines, so that frames far out along parallel axes
+        (calibrated arms) do not count.
         """
         total, last = 0.0, self.points[0]
         for point, axis in zip(self.points[1:], self.axes[1:], strict=True):
             foot = point + axis * float(axis @ (last - point))
             total += math.dist(foot, last)
             last = foot
-        total += math.dist(self.tool[:3, 3], last)
-        for slides, low, high in zip(self.prismatic, self.lower, self.upper, strict=True):
-            if slides and math.isfinite(low) and math.isfinite(high):
-                total += max(abs(low), abs(high), high - low)
-        return total if total > 1e-9 else 1.0
+        return total + math.dist(self.tool[:3, 3], last)
+
+    def in_unit(self, unit: float) -> SerialChain:
+        """The same chain with lengths in a unit of its own, a power of two [m]: nothing rounds."""
+        links, scale = self.links.copy(), np.where(self.prismatic, unit / self.unit, 1.0)
+        links[:, :3, 3] /= unit / self.unit
+        bounds = self.lower / scale, self.upper / scale
+        return replace(self, links=links, lower=bounds[0], upper=bounds[1], unit=unit)
 
     def fk(self, q: Array) -> Array:
         """``T_base_tool`` at q (n,) by the defining product, shape (4, 4)."""
@@ -135,6 +153,11 @@ class SerialChain:
         inv = inverse(self.links)[::-1]
         links = np.stack([L if k == 0 else S @ L for k, L in enumerate(inv)])
         links[:-1] = links[:-1] @ S
-        return SerialChain(
-            links, self.joint_types[::-1], self.names[::-1], self.lower[::-1], self.upper[::-1]
+        return replace(
+            self,
+            links=links,
+            joint_types=self.joint_types[::-1],
+            names=self.names[::-1],
+            lower=self.lower[::-1],
+            upper=self.upper[::-1],
         )

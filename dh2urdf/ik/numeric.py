@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.exceptions import ConfigurationError, NoSolutionError, PoseError
+from dh2urdf.ik.chain_unit import in_own_unit, lengths_in
 from dh2urdf.ik.solutions import as_configuration
 from dh2urdf.ik.solver import Task
 from dh2urdf.transforms import Array, check_pose
@@ -38,24 +39,28 @@ class NumericSolutions:
         The target.
     tried : int
         Starts that were used.
+    slides : bool array, shape (n,)
+        True where a value is a length.
     """
 
     q: Array
     residual: Array
     T: Array
     tried: int
+    slides: NDArray[np.bool_]
 
     def nearest(self, q: ArrayLike) -> Array:
         """The solution with the least joint motion from q, shape (n,).
 
         Raises
         ------
-        LookupError
-            There is no solution.
+        NoSolutionError
+            The list is empty.
+        ConfigurationError
         """
+        goal = as_configuration(q, self.slides, "q")
         if not len(self):
-            raise LookupError("there is no solution to choose from")
-        goal = as_configuration(q, self.q.shape[1], "q")
+            raise NoSolutionError("nearest: there is no solution to choose from")
         near: Array = self.q[np.linalg.norm(self.q - goal, axis=1).argmin()]
         return near
 
@@ -115,6 +120,7 @@ class NumericProblem:
         rng: np.random.Generator | int | None = 0,
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
+        from dh2urdf.kernels.arrange import measure_all
         from dh2urdf.kernels.numeric import find_solutions
 
         wanted = _task(task)
@@ -122,36 +128,50 @@ class NumericProblem:
         for what, number in (("solutions", solutions), ("starts", starts)):
             if isinstance(number, bool) or not isinstance(number, int) or number < 1:
                 raise ConfigurationError(f"{what}: a whole number from 1, not {number!r}")
-        chain, n = self.chain, len(self.lower)
-        bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)
+        chain, n = in_own_unit(self.chain), len(self.lower)
+        unit = chain.unit / self.chain.unit
+        scale, joint_scale = (np.where(s, unit, 1.0) for s in (self.slides, chain.prismatic))
+        ends = self.lower / scale, self.upper / scale
+        bounds = np.column_stack([self.slides, *ends]).astype(float)
         if not within_limits:
             bounds[:, 1], bounds[:, 2] = -np.inf, np.inf
-        first = None if seed is None else as_configuration(seed, n, "seed")
+        first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale
         q, residual = np.empty((solutions, n)), np.empty(solutions)
         count, tried = find_solutions(
             *chain.tables,
-            np.ascontiguousarray(self.coupling, dtype=float),
-            np.ascontiguousarray(self.offset, dtype=float),
+            np.ascontiguousarray(self.coupling * scale / joint_scale[:, None], dtype=float),
+            np.ascontiguousarray(self.offset / joint_scale, dtype=float),
             bounds,
             wanted.number,
-            target,
+            lengths_in(target, unit),
             chain.size,
-            self._starts(starts, first, bounds, np.random.default_rng(rng)),
+            self._starts(starts, first, bounds, ends, chain.size, np.random.default_rng(rng)),
             q,
             residual,
         )
         order = np.arange(count)
         if first is not None:
             order = np.argsort(np.linalg.norm(q[:count] - first, axis=1), kind="stable")
-        return NumericSolutions(q[order], residual[order], target, tried)
+        q, residual, one = q[order] * scale, residual[order], np.array([count])
+        joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
+        measure_all(
+            *self.chain.tables, wanted.number, target[None], joints[None], one, residual[None]
+        )
+        return NumericSolutions(q, residual, target, tried, self.slides)
 
     def _starts(
-        self, starts: int, seed: Array | None, bounds: Array, rng: np.random.Generator
+        self,
+        starts: int,
+        seed: Array | None,
+        bounds: Array,
+        ends: tuple[Array, Array],
+        size: float,
+        rng: np.random.Generator,
     ) -> Array:
         """The seed or the middle of the limits, then anywhere inside them, shape (starts, n)."""
-        far = np.where(self.slides, self.chain.size, np.pi)
-        low = np.where(np.isfinite(self.lower), self.lower, np.minimum(-far, self.upper - far))
-        high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
+        far, (lower, upper) = np.where(self.slides, size, np.pi), ends
+        low = np.where(np.isfinite(lower), lower, np.minimum(-far, upper - far))
+        high = np.where(np.isfinite(upper), upper, np.maximum(far, low + far))
         out = rng.uniform(low, high, (starts, len(low)))
         out[0] = 0.5 * (low + high) if seed is None else seed
         inside: Array = np.clip(out, bounds[:, 1], bounds[:, 2])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,10 +33,11 @@ def without_end(chain: SerialChain, joint: int) -> SerialChain:
 
 def _part(chain: SerialChain, links: Array, joints: list[int]) -> SerialChain:
     """Some of the joints of a chain between other links."""
-    return SerialChain(
-        links,
-        tuple(chain.joint_types[i] for i in joints),
-        tuple(chain.names[i] for i in joints),
-        chain.lower[joints],
-        chain.upper[joints],
+    return replace(
+        chain,
+        links=links,
+        joint_types=tuple(chain.joint_types[i] for i in joints),
+        names=tuple(chain.names[i] for i in joints),
+        lower=chain.lower[joints],
+        upper=chain.upper[joints],
     )

@@ -171,7 +171,7 @@ class PlanarArm(SolverBase):
 
     def details(self) -> str:
         """Name the lengths and the reach."""
-        l1, l2 = self.form[:2]
+        l1, l2 = self.form[:2] * self.chain.unit
         inner, outer = planar_reach(l1, l2)
         what = "the tool" if self.chain.n == 2 else "axis 3"
         return (

@@ -7,6 +7,7 @@ empty result and is no part of finding solutions.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -33,16 +34,17 @@ def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     """Say what part of a pose T (4, 4) a chain cannot reach, limits aside, and by how much."""
     away = math.dist(T[:3, 3], chain.links[0, :3, 3])
     if away > FAR * chain.size:
-        return f"the point lies {_metres(away)} outside the reach of the tool"
+        return f"the point lies {_metres(away * chain.unit)} outside the reach of the tool"
     if chain.n == 6 and task is Task.POSE and AxisLines(chain).spherical(3):
         centre = AxisLines(chain).points[4]
         point = T[:3, :3] @ (inverse(chain.tool)[:3] @ np.append(centre, 1.0)) + T[:3, 3]
         gap, _ = closest(_arm_to(chain, 3, centre), _at(point), Task.POSITION)
         if gap > ACCEPT:
-            return f"the wrist centre lies {_metres(gap)} outside the reach of joints 1 to 3"
+            apart = _metres(gap * chain.unit)
+            return f"the wrist centre lies {apart} outside the reach of joints 1 to 3"
     gap, _ = closest(chain, T, Task.POSITION)
     if gap > ACCEPT:
-        return f"the point lies {_metres(gap)} outside the reach of the tool"
+        return f"the point lies {_metres(gap * chain.unit)} outside the reach of the tool"
     _, turn = closest(chain, T, task)
     what = "axis" if task is Task.POSITION_AXIS else "orientation"
     return (
@@ -98,12 +100,13 @@ def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array)
 def _arm_to(chain: SerialChain, joints: int, point: Array) -> SerialChain:
     """The first joints of a chain, with a point of the next link at q = 0 as the tool's origin."""
     last = inverse(chain.joint_frames[joints - 1]) @ _at(point)
-    return SerialChain(
-        np.concatenate([chain.links[:joints], last[None]]),
-        chain.joint_types[:joints],
-        chain.names[:joints],
-        chain.lower[:joints],
-        chain.upper[:joints],
+    return replace(
+        chain,
+        links=np.concatenate([chain.links[:joints], last[None]]),
+        joint_types=chain.joint_types[:joints],
+        names=chain.names[:joints],
+        lower=chain.lower[:joints],
+        upper=chain.upper[:joints],
     )
 
 
@@ -118,4 +121,4 @@ def _metres(gap: float) -> str:
     """A distance with as many digits as mean something."""
     if gap >= 1e4:
         return f"{gap:.5g} m"
-    return f"{gap:.3f} m" if gap >= 5e-4 else f"{gap:.2g} m"
+    return f"{gap:.3f} m" if gap >= 0.01 else f"{gap:.2g} m"

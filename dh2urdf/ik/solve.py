@@ -15,12 +15,14 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.doors import real_array
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik import path
+from dh2urdf.ik.chain_unit import in_own_unit
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.locked import Locked, held_values
 from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
-from dh2urdf.ik.solutions import IKBatch, IKSolutions
+from dh2urdf.ik.scaled_problem import ScaledProblem
+from dh2urdf.ik.solutions import IKBatch, IKSolutions, as_configuration
 from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.ik.swept import SweptJoint
 from dh2urdf.ik.swept_problem import SweptProblem
@@ -40,7 +42,7 @@ class InverseKinematics:
     """
 
     def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
-        self.chain, self.referee = chain, referee
+        self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
         self._solvers: dict[tuple[Any, ...], Solver | HeldSolver] = {}
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
@@ -76,13 +78,14 @@ class InverseKinematics:
         problem = self._plain
         if problem is None or locked is not None or task != "pose" or samples is not None:
             problem = self._compiled(task, locked, within_limits, samples)
+        goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         found = problem.solve_one(_one_pose(T, problem), within_limits)
-        if seed is not None:
-            found = problem.arranged(found, seed, within_limits)
+        if goal is not None:
+            found = problem.arranged(found, goal, within_limits)
         if turns != "nearest":
             if turns != "all":
                 raise ConfigurationError(f"turns: 'nearest' or 'all', not {turns!r}")
-            found = problem.with_all_turns(found, seed)
+            found = problem.with_all_turns(found, goal)
         return found
 
     def solve_batch(
@@ -114,8 +117,12 @@ class InverseKinematics:
     ) -> path.IKPath:
         """A continuous joint path through a sequence of poses, see :func:`path.find_path`."""
         problem = self._compiled(task, locked, within_limits)
-        batch = problem.solve_many(_poses(Ts, problem), within_limits, None, None)
-        return path.find_path(problem, batch, start, within_limits, max_jump)
+        poses = _poses(Ts, problem)
+        origin = None if start is None else as_configuration(start, self.chain.prismatic, "start")
+        if isinstance(problem, ScaledProblem):
+            return problem.path(poses, origin, within_limits, max_jump)
+        batch = problem.solve_many(poses, within_limits, None, None)
+        return path.find_path(problem, batch, origin, within_limits, max_jump)
 
     def why_none(
         self,
@@ -132,8 +139,9 @@ class InverseKinematics:
     def intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
         problem = self._compiled(Task.POSE, None, within_limits)
-        if not isinstance(problem, SweptProblem):
+        if not isinstance(problem.solver, SweptJoint):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
+        assert isinstance(problem, (SweptProblem, ScaledProblem))
         return problem.intervals(_one_pose(T, problem)[0], within_limits)
 
     def problem(
@@ -157,7 +165,7 @@ class InverseKinematics:
         key = (wanted, *joints)
         if key not in self._problems:
             solver = self._solver(wanted, joints)
-            self._problems[key] = Problem(self.chain, solver, wanted, self.referee)
+            self._problems[key] = self._outside(Problem(self.own, solver, wanted, self.referee))
         return self._problems[key].at(values)
 
     def _free_problem(self, task: Task, samples: int | None) -> Problem:
@@ -169,10 +177,14 @@ class InverseKinematics:
                     raise ConfigurationError(f"samples: a whole number from 1, not {samples!r}")
                 solver = self._solvers.setdefault((task, f"{samples}"), solver.like(samples))
                 assert isinstance(solver, SweptJoint)
-            return SweptProblem(self.chain, solver, task, self.referee)
+            return self._outside(SweptProblem(self.own, solver, task, self.referee))
         if samples is not None:
             raise ConfigurationError(_no_sweep("samples", solver))
-        return Problem(self.chain, solver, task, self.referee)
+        return self._outside(Problem(self.own, solver, task, self.referee))
+
+    def _outside(self, problem: Problem) -> Problem:
+        """A problem of the chain in its own unit, for callers whose unit is the metre."""
+        return problem if self.own is self.chain else ScaledProblem(self.chain, problem)
 
     def _compiled(
         self,
@@ -200,7 +212,7 @@ class InverseKinematics:
             if len(joints) == self.chain.n:
                 raise ConfigurationError("locked: all joints are held, none is left to move")
             self._solvers[key] = (
-                select_held(self.chain, joints, task) if joints else select_solver(self.chain, task)
+                select_held(self.own, joints, task) if joints else select_solver(self.own, task)
             )
         return self._solvers[key]
 

@@ -28,7 +28,6 @@ __all__ = [
     "SolverRow",
     "Task",
     "select_solver",
-    "whole_ranges",
 ]
 
 IntArray = NDArray[np.int64]
@@ -163,11 +162,6 @@ class SolverBase:
 
     def __str__(self) -> str:
         return self.name
-
-
-def whole_ranges(chain: SerialChain) -> bool:
-    """Whether every joint has both of its limits or neither."""
-    return bool((np.isfinite(chain.lower) == np.isfinite(chain.upper)).all())
 
 
 SOLVERS: tuple[SolverRow, ...] = (

@@ -5,6 +5,8 @@ A virtual joint about the tool's z makes it a full pose of a chain with one join
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from dh2urdf.chain import SerialChain
@@ -20,12 +22,13 @@ __all__ = ["ToolAxis", "with_tool_joint"]
 
 def with_tool_joint(chain: SerialChain) -> SerialChain:
     """The chain with a joint about the tool's z at its end."""
-    return SerialChain(
-        np.concatenate([chain.links, np.eye(4)[None]]),
-        (*chain.joint_types, JointType.REVOLUTE),
-        (*chain.names, "about the tool"),
-        np.append(chain.lower, -np.inf),
-        np.append(chain.upper, np.inf),
+    return replace(
+        chain,
+        links=np.concatenate([chain.links, np.eye(4)[None]]),
+        joint_types=(*chain.joint_types, JointType.REVOLUTE),
+        names=(*chain.names, "about the tool"),
+        lower=np.append(chain.lower, -np.inf),
+        upper=np.append(chain.upper, np.inf),
     )
 
 

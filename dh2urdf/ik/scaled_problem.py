@@ -1,0 +1,106 @@
+"""The border of an arm that is solved in a unit of its own: metres outside.
+
+Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.chain_unit`; what comes out is in [m],
+and its residuals are measured there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.chain_unit import lengths_in
+from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.path import IKPath, find_path
+from dh2urdf.ik.problem import Problem, Progress
+from dh2urdf.ik.solutions import IKBatch, IKSolutions
+from dh2urdf.ik.swept_problem import SweptProblem
+from dh2urdf.transforms import Array
+
+__all__ = ["ScaledProblem"]
+
+
+class ScaledProblem(Problem):
+    """A problem in metres, solved by one in the unit of its chain.
+
+    Parameters
+    ----------
+    chain : SerialChain
+        The chain in metres.
+    inner : Problem
+        The problem of the same chain in its own unit.
+    """
+
+    def __init__(self, chain: SerialChain, inner: Problem) -> None:
+        super().__init__(chain, inner.solver, inner.task, inner.referee)
+        self.inner, self.unit = inner, inner.chain.unit
+        self.scale = np.where(chain.prismatic, self.unit, 1.0)
+
+    def at(self, values: Array) -> ScaledProblem:
+        """The same problem with its joints held at other values."""
+        assert isinstance(self.solver, HeldSolver)
+        scaled = values / self.scale[list(self.solver.held)]
+        other = ScaledProblem(self.chain, self.inner.at(scaled))
+        other.values = values
+        return other
+
+    def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
+        """All solutions of one checked pose Ts (1, 4, 4)."""
+        return self._outside(self.inner.solve_one(lengths_in(Ts, self.unit), within_limits), Ts[0])
+
+    def solve_many(
+        self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None
+    ) -> IKBatch:
+        """All solutions of checked poses Ts (m, 4, 4)."""
+        found = self.inner.solve_many(lengths_in(Ts, self.unit), within_limits, threads, progress)
+        found.q[:] *= self.scale
+        self.measured(Ts, found.q, found.count, found.residual)
+        return replace(found, problem=self, targets=Ts)
+
+    def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
+        """As :meth:`Problem.arranged`; a slide counts in the chain's unit."""
+        near = self.inner.arranged(self._inside(found), seed / self.scale, within_limits)
+        return self._outside(near, found.T)
+
+    def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
+        """As :meth:`Problem.with_all_turns`."""
+        goal = None if seed is None else seed / self.scale
+        return self._outside(self.inner.with_all_turns(self._inside(found), goal), found.T)
+
+    def why_none(self, T: Array, within_limits: bool) -> str:
+        """As :meth:`Problem.why_none`."""
+        return self.inner.why_none(lengths_in(T, self.unit), within_limits)
+
+    def path(
+        self, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
+    ) -> IKPath:
+        """The path of least joint motion through poses Ts (m, 4, 4), see :func:`find_path`."""
+        origin = None if start is None else start / self.scale
+        batch = self.inner.solve_many(lengths_in(Ts, self.unit), within_limits, None, None)
+        found = find_path(self.inner, batch, origin, within_limits, max_jump)
+        return replace(found, q=found.q * self.scale)
+
+    def intervals(self, T: Array, within_limits: bool) -> Array:
+        """As :meth:`SweptProblem.intervals`."""
+        assert isinstance(self.inner, SweptProblem)
+        ends = self.inner.intervals(lengths_in(T, self.unit), within_limits)
+        scaled: Array = ends * self.scale[self.inner.solver.joint]
+        return scaled
+
+    def _inside(self, found: IKSolutions) -> IKSolutions:
+        """Solutions as the inner problem has them."""
+        return IKSolutions.of(
+            self.inner,
+            lengths_in(found.T, self.unit),
+            found.q / self.scale,
+            found.residual,
+            *found.codes,
+        )
+
+    def _outside(self, found: IKSolutions, T: Array) -> IKSolutions:
+        """Solutions of the inner problem in metres, measured there."""
+        q, residual = found.q * self.scale, np.empty(len(found))
+        self.measured(T[None], q[None], np.array([len(q)]), residual[None])
+        return IKSolutions.of(self, T, q, residual, *found.codes)
