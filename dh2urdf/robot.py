@@ -21,6 +21,7 @@ from dh2urdf.conversions.model_to_chain import (
     frame_id,
     is_continuous,
     model_to_chain,
+    with_locked,
 )
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
@@ -94,7 +95,7 @@ class Robot(RobotIK, RobotPictures):
         path = chain_path(model, base_id, tip_id)
         others = [i for i in range(1, model.njoints) if i not in path.ids]
         if others:
-            model = pin.buildReducedModel(model, others, pin.neutral(model))
+            model = with_locked(model, others)
             path = chain_path(model, frame_id(model, base), frame_id(model, tip))
         self.model, self.base, self.tip = model, base, tip
         self._path = path

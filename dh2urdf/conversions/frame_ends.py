@@ -19,7 +19,7 @@ from dh2urdf.transforms import Array
 
 __all__ = ["BaseChoice", "End", "EndPlacer", "Start", "ToolChoice", "first_frame", "slide_turn"]
 
-REACHED = 1e-13
+REACHED = 1e-14
 """Turn [rad] or slide [m per m of arm] that is left over when a frame counts as reached."""
 
 

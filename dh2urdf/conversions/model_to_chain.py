@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -14,7 +15,19 @@ from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array
 
-__all__ = ["ChainPath", "chain_path", "frame_id", "frame_names", "model_to_chain", "tip_names"]
+__all__ = [
+    "ChainPath",
+    "as_pinocchio_takes",
+    "chain_path",
+    "frame_id",
+    "frame_names",
+    "model_to_chain",
+    "tip_names",
+    "with_locked",
+]
+
+SNAP = 1e-12
+"""Distance from x, y or z up to which Pinocchio takes an axis to be that one."""
 
 CONTINUOUS = ("JointModelRUB", "JointModelRevoluteUnboundedUnaligned")
 
@@ -142,10 +155,51 @@ def _relative(T_world_a: Array, T_world_b: Array) -> Array:
 def frame_with_z(axis: Array) -> Array:
     """A rotation whose z is the unit axis, exact where the axis is a coordinate axis."""
     z = np.asarray(axis, float)
-    k = int(np.argmax(np.abs(z)))
-    if abs(z[k]) == 1.0:
-        x = np.eye(3)[(k + 1) % 3]
+    if np.count_nonzero(z) == 1:
+        x = np.eye(3)[(int(np.argmax(np.abs(z))) + 1) % 3]
     else:
         x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
         x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)
+
+
+def as_pinocchio_takes(axis: Array) -> Array:
+    """The axis, or the coordinate axis that it misses by no more than 1e-12.
+
+    Pinocchio has joints of their own for x, y and z (not for their opposites), and takes those up
+    to this distance (Eigen's ``isApprox``): a picometre on an arm of a metre. The same axis is
+    read here, so that a chain and Pinocchio's placement of it are one thing.
+    """
+    length = _square(axis)
+    for unit in np.eye(3):
+        if _square(axis - unit) <= SNAP * SNAP * min(length, 1.0):
+            return unit
+    return axis
+
+
+def _square(v: Array) -> float:
+    """Squared length, summed in Eigen's order."""
+    x, y, z = v.tolist()
+    return float(x * x + (y * y + z * z))
+
+
+def with_locked(model: pin.Model, ids: Sequence[int]) -> pin.Model:
+    """The model with some joints held at neutral.
+
+    Pinocchio looks joints up among all names, where a link may have the same: they take names of
+    their own meanwhile.
+    """
+    model = model.copy()
+    names = dict(enumerate(list(model.names)))
+    for frame in model.frames:
+        if frame.type == pin.FrameType.JOINT:
+            frame.name = f"\n{frame.parentJoint}"
+    for i in range(1, model.njoints):
+        model.names[i] = f"\n{i}"
+    reduced = pin.buildReducedModel(model, list(ids), pin.neutral(model))
+    for i in range(1, reduced.njoints):
+        reduced.names[i] = names[int(reduced.names[i])]
+    for frame in reduced.frames:
+        if frame.name.startswith("\n"):
+            frame.name = names[int(frame.name)]
+    return reduced

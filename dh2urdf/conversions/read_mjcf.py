@@ -10,6 +10,7 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
 from dh2urdf.exceptions import MissingExtraError, UrdfError
 from dh2urdf.transforms import Array
 
@@ -88,7 +89,7 @@ class _Bodies:
         m = self.m
         kind = KINDS[int(m.jnt_type[j])]
         anchor = tf.trans(*(float(v) for v in m.jnt_pos[j]))
-        axis = np.array(m.jnt_axis[j], float)
+        axis = as_pinocchio_takes(np.array(m.jnt_axis[j], float))
         rest = np.eye(4)
         if kind in ("revolute", "prismatic"):
             reference = -float(m.qpos0[m.jnt_qposadr[j]])

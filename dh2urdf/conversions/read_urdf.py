@@ -12,6 +12,7 @@ from lxml import etree
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial, tensor
 from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
@@ -223,7 +224,7 @@ class _Reader:
             return np.array([1.0, 0.0, 0.0])
         if axis.get("xyz") is None:
             self.fail(axis, "has no xyz")
-        vector = np.array(self.numbers(axis, "xyz", 3, ()))
+        vector = as_pinocchio_takes(np.array(self.numbers(axis, "xyz", 3, ())))
         length = math.hypot(*vector.tolist())
         if length < 1e-9 or length > FARTHEST:
             what = "a zero axis" if length < 1e-9 else "no direction"

@@ -13,6 +13,7 @@ from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.bodies import Body
+from dh2urdf.conversions.model_to_chain import frame_id
 from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh import Origin
 from dh2urdf.dh_io.files import read_bytes
@@ -44,7 +45,7 @@ class UrdfDrawing:
         model = robot.model
         self._data = model.createData()
         self._ids = [model.getFrameId(node.name, pin.FrameType.BODY) for node in nodes]
-        self._base = model.getFrameId(robot.base)
+        self._base = frame_id(model, robot.base)
 
     def poses(self, q: Array) -> Array:
         """``T_base_link`` at q (n,), shape (links, 4, 4)."""
