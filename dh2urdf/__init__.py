@@ -28,9 +28,10 @@ if TYPE_CHECKING:
     from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
     from dh2urdf.dh_io import write_table as save_table
     from dh2urdf.extract import Extraction, extract_dh
+    from dh2urdf.ik.batch import IKBatch
     from dh2urdf.ik.path import IKPath
     from dh2urdf.ik.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
-    from dh2urdf.ik.solutions import IKBatch, IKSolutions
+    from dh2urdf.ik.solutions import IKSolutions
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
@@ -39,7 +40,7 @@ __version__ = "0.1.0"
 _LATE = {
     "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
     "Extraction": ("dh2urdf.extract", "Extraction"),
-    "IKBatch": ("dh2urdf.ik.solutions", "IKBatch"),
+    "IKBatch": ("dh2urdf.ik.batch", "IKBatch"),
     "IKPath": ("dh2urdf.ik.path", "IKPath"),
     "IKSolutions": ("dh2urdf.ik.solutions", "IKSolutions"),
     "Robot": ("dh2urdf.robot", "Robot"),

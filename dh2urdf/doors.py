@@ -6,7 +6,7 @@ A message names the argument, what was found and what is allowed.
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable
+from collections.abc import Collection
 from typing import Any, cast
 
 import numpy as np
@@ -15,7 +15,18 @@ from numpy.typing import NDArray
 
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
-__all__ = ["choice", "finite_array", "flag", "found", "integer", "number", "real_array"]
+__all__ = [
+    "choice",
+    "finite_array",
+    "flag",
+    "found",
+    "generator",
+    "instance",
+    "integer",
+    "number",
+    "real_array",
+]
+
 
 Array = NDArray[np.float64]
 
@@ -112,6 +123,8 @@ def number(
     ArgumentError
         Or ``error``.
     """
+    if type(value) is float and low <= value <= high:
+        return value
     array = real_array(value, what, f"a number from {low:g} to {high:g}", error)
     if array.shape or not low <= float(array) <= high:
         raise error(f"{what}: expected a number from {low:g} to {high:g}, got {found(value)}")
@@ -148,15 +161,45 @@ def flag(value: object, what: str) -> bool:
     ------
     ArgumentError
     """
-    if isinstance(value, (bool, np.bool_)):
+    if value is True or value is False:
+        return value
+    if isinstance(value, np.bool_):
         return bool(value)
     raise ArgumentError(f"{what}: expected True or False, got {found(value)}")
+
+
+def instance(value: object, what: str, kind: Any, error: type[Dh2UrdfError] = ArgumentError) -> Any:
+    """An object of some class.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    if isinstance(value, kind):
+        return value
+    raise error(f"{what}: expected a {kind.__name__}, got {found(value)}")
+
+
+def generator(rng: Any, what: str = "rng") -> np.random.Generator:
+    """A generator of random numbers, or the one of a seed.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    try:
+        return np.random.default_rng(rng)
+    except (TypeError, ValueError, OverflowError):
+        raise ArgumentError(
+            f"{what}: expected a numpy.random.Generator or a whole number from 0, got {found(rng)}"
+        ) from None
 
 
 def choice(
     value: object,
     what: str,
-    allowed: Iterable[str],
+    allowed: Collection[str],
     error: type[Dh2UrdfError] = ArgumentError,
 ) -> str:
     """One of some words.
@@ -166,7 +209,7 @@ def choice(
     ArgumentError
         Or ``error``.
     """
-    words = list(allowed)
-    if isinstance(value, str) and value in words:
+    if isinstance(value, str) and value in allowed:
         return value
-    raise error(f"{what}: expected {' or '.join(map(repr, words))}, got {found(value)}")
+    words = " or ".join(repr(str(word)) for word in allowed)
+    raise error(f"{what}: expected {words}, got {found(value)}")

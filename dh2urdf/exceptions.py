@@ -10,7 +10,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── VerificationError                a written result that differs from its source
     ├── PoseError (ValueError)           a target that is not in SE(3)
     ├── ConfigurationError (ValueError)  a q, seed or locked value of the wrong shape or kind
-    ├── ArgumentError (ValueError)       an option of the wrong kind or beyond its bounds
+    │   └── ArgumentError                an option of the wrong kind or beyond its bounds
     ├── NameNotFoundError (LookupError)  no such table, frame or joint
     ├── NoSolutionError (LookupError)    a choice from an empty list of solutions
     ├── NoSolverError                    no analytic solver for this chain or task
@@ -79,7 +79,7 @@ class ConfigurationError(Dh2UrdfError, ValueError):
     """A configuration, seed or locked joint of the wrong length or kind."""
 
 
-class ArgumentError(Dh2UrdfError, ValueError):
+class ArgumentError(ConfigurationError):
     """An option of a call of the wrong kind or beyond its bounds."""
 
 

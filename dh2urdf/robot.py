@@ -4,29 +4,28 @@ from __future__ import annotations
 
 import os
 import threading
-from functools import cached_property
 from math import isfinite
 from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
-from dh2urdf.conversions.coupling import Coupling, couple
+from dh2urdf.conversions.coupling import couple
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
 from dh2urdf.conversions.model_to_chain import (
     chain_path,
     frame_id,
-    is_continuous,
     model_to_chain,
     with_locked,
 )
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
-from dh2urdf.doors import finite_array, real_array
+from dh2urdf.doors import real_array
 from dh2urdf.exceptions import ConfigurationError, VerificationError
+from dh2urdf.robot_configurations import RobotConfigurations
 from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robot_pictures import RobotPictures
 from dh2urdf.robots import load_table
@@ -55,7 +54,7 @@ class _Working(threading.local):
         return _Working, (self.model,)
 
 
-class Robot(RobotIK, RobotPictures):
+class Robot(RobotConfigurations, RobotIK, RobotPictures):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.
@@ -100,7 +99,7 @@ class Robot(RobotIK, RobotPictures):
         self.model, self.base, self.tip = model, base, tip
         self._path = path
         self.chain = dh_to_chain(table) if table else model_to_chain(model, path)
-        self._coupling: Coupling | None = couple(self.chain, mimics or {})
+        self._coupling = couple(self.chain, mimics or {})
         self._bounds()
         self._prepare()
         self._check_agreement()
@@ -220,65 +219,6 @@ class Robot(RobotIK, RobotPictures):
         if self._coupling is not None:
             out = out @ self._coupling.matrix
         return out.reshape(*shape, 6, self.n)
-
-    def model_configuration(self, q: ArrayLike) -> Array:
-        """The same configuration as Pinocchio's model wants it, shape (..., model.nq).
-
-        Continuous joints become cosine and sine, mimicking joints are filled in.
-        """
-        flat, shape = self._flat(q)
-        out = np.zeros((len(flat), self.model.nq))
-        for k, i in enumerate(self._path.ids):
-            at = self.model.joints[i].idx_q
-            if is_continuous(self.model, i):
-                out[:, at], out[:, at + 1] = np.cos(flat[:, k]), np.sin(flat[:, k])
-            else:
-                out[:, at] = flat[:, k]
-        return out.reshape(*shape, self.model.nq)
-
-    def chain_configuration(self, q: ArrayLike) -> Array:
-        """The same configuration with every joint of the chain, followers too, (..., chain.n)."""
-        flat, shape = self._flat(q)
-        return flat.reshape(*shape, self.chain.n)
-
-    def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
-        """A configuration within the limits, one turn where there are none, shape (n,)."""
-        far = np.where(self.slides, 1.0, np.pi)
-        low = np.where(np.isfinite(self.lower), self.lower, -far)
-        high = np.where(np.isfinite(self.upper), self.upper, far)
-        return np.random.default_rng(rng).uniform(low, high)
-
-    @cached_property
-    def slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """True where a value of q is a length, shape (n,)."""
-        index = range(self.n) if self._coupling is None else self._coupling.first
-        return self.chain.prismatic[list(index)]
-
-    def _flat(self, q: ArrayLike) -> tuple[Array, tuple[int, ...]]:
-        """Chain configurations (m, chain.n) as kernels take them, and the leading shape."""
-        config = finite_array(q, "q", "finite numbers", ConfigurationError)
-        if config.ndim == 0 or config.shape[-1] != self.n:
-            raise ConfigurationError(
-                f"q: expected {self.n} values ({', '.join(self.joint_names)}) on the last axis, "
-                f"got shape {config.shape}"
-            )
-        flat = config.reshape(-1, self.n)
-        if self._coupling is not None:
-            flat = flat @ self._coupling.matrix.T + self._coupling.offset
-        return np.require(flat, requirements=["C", "A", "W"]), config.shape[:-1]
-
-    def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
-        if self._coupling is None:
-            return np.eye(self.n), np.zeros(self.n), self.slides
-        return self._coupling.matrix, self._coupling.offset, self.slides
-
-    def _bounds(self) -> None:
-        coupling, chain = self._coupling, self.chain
-        self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names
-        self.n = len(self.joint_names)
-        self.lower: Array = coupling.lower if coupling else chain.lower
-        self.upper: Array = coupling.upper if coupling else chain.upper
 
     def _prepare(self) -> None:
         """What a call needs: Pinocchio's data, the constant base, the frames carried along."""

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
+from dh2urdf.robot_poses import RobotPoses
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -20,16 +21,14 @@ if TYPE_CHECKING:
 
     from dh2urdf.ik.held_solver import HeldSolver
     from dh2urdf.ik.numeric import NumericProblem, NumericSolutions
-    from dh2urdf.ik.path import IKPath
-    from dh2urdf.ik.problem import Progress
-    from dh2urdf.ik.solutions import IKBatch, IKSolutions
+    from dh2urdf.ik.solutions import IKSolutions
     from dh2urdf.ik.solve import InverseKinematics, Locked
     from dh2urdf.ik.solver import Solver, Task
 
 __all__ = ["RobotIK"]
 
 
-class RobotIK:
+class RobotIK(RobotPoses):
     """What :class:`dh2urdf.Robot` knows of inverse kinematics."""
 
     chain: SerialChain
@@ -63,6 +62,7 @@ class RobotIK:
         task: Task | str = "pose",
         turns: str = "nearest",
         samples: int | None = None,
+        nearest: bool = False,
     ) -> IKSolutions:
         """All configurations that put the tip at a pose.
 
@@ -94,11 +94,13 @@ class RobotIK:
 
         Raises
         ------
-        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
+        PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
         """
-        return self._ik.solve(T, seed, within_limits, locked, task, turns, samples)
+        return self._ik.solve(T, seed, within_limits, locked, task, turns, samples, nearest)
 
-    def ik_intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
+    def ik_intervals(
+        self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False
+    ) -> Array:
         """Intervals of the swept joint of a seven-joint arm in which a pose is reached.
 
         Parameters
@@ -108,6 +110,8 @@ class RobotIK:
         within_limits : bool
             The whole range of the joint, with all joints inside their limits; without it one
             turn.
+        nearest : bool
+            As for :meth:`ik`.
 
         Returns
         -------
@@ -120,52 +124,7 @@ class RobotIK:
         PoseError, ConfigurationError
             Also for an arm without a joint to spare.
         """
-        return self._ik.intervals(T, within_limits=within_limits)
-
-    def ik_batch(
-        self,
-        Ts: ArrayLike,
-        *,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = "pose",
-        samples: int | None = None,
-        threads: int | None = None,
-        progress: Progress | None = None,
-    ) -> IKBatch:
-        """All configurations for many poses, in a few arrays.
-
-        Parameters
-        ----------
-        Ts : array_like, shape (m, 4, 4)
-            ``T_base_tip``, lengths in [m].
-        within_limits, locked, task
-            As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
-        samples : int, optional
-            As for :meth:`ik`.
-        threads : int, optional
-            Threads to use; by default one per processor.
-        progress : callable, optional
-            Called with the number of poses done and their total.
-
-        Returns
-        -------
-        IKBatch
-            NaN-padded; ``batch[i]`` are the solutions of pose i.
-
-        Raises
-        ------
-        PoseError, ConfigurationError, NameNotFoundError, NoSolverError
-        """
-        return self._ik.solve_batch(
-            Ts,
-            within_limits=within_limits,
-            locked=locked,
-            task=task,
-            samples=samples,
-            threads=threads,
-            progress=progress,
-        )
+        return self._ik.intervals(T, within_limits=within_limits, nearest=nearest)
 
     def ik_numeric(
         self,
@@ -177,6 +136,7 @@ class RobotIK:
         solutions: int = 1,
         starts: int = 50,
         rng: np.random.Generator | int | None = 0,
+        nearest: bool = False,
     ) -> NumericSolutions:
         """Search for solutions by damped Newton steps, for arms that :meth:`ik` does not cover.
 
@@ -199,6 +159,8 @@ class RobotIK:
             Number of starts after which it ends anyway.
         rng : numpy.random.Generator, int or None
             Of the random starts; the same ones each time unless given.
+        nearest : bool
+            As for :meth:`ik`.
 
         Returns
         -------
@@ -217,38 +179,7 @@ class RobotIK:
             solutions=solutions,
             starts=starts,
             rng=rng,
-        )
-
-    def ik_path(
-        self,
-        Ts: ArrayLike,
-        *,
-        start: ArrayLike | None = None,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = "pose",
-        max_jump: float | None = None,
-    ) -> IKPath:
-        """A joint path through a sequence of poses: fewest breaks, then least joint motion.
-
-        Parameters
-        ----------
-        Ts : array_like, shape (m, 4, 4)
-        start : array_like, shape (n,), optional
-            Configuration before the first pose.
-        within_limits, locked, task
-            As for :meth:`ik`.
-        max_jump : float, optional
-            Motion of a joint between neighbouring poses that counts as a break [rad or m];
-            0.5 without it.
-        """
-        return self._ik.solve_path(
-            Ts,
-            start=start,
-            within_limits=within_limits,
-            locked=locked,
-            task=task,
-            max_jump=max_jump,
+            nearest=nearest,
         )
 
     def why_unreachable(
@@ -258,6 +189,7 @@ class RobotIK:
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = "pose",
+        nearest: bool = False,
     ) -> str:
         """Say why a pose has no solution, and by how much; empty if it has one.
 
@@ -265,10 +197,12 @@ class RobotIK:
 
         Parameters
         ----------
-        T, within_limits, locked, task
+        T, within_limits, locked, task, nearest
             As for :meth:`ik`.
         """
-        return self._ik.why_none(T, within_limits=within_limits, locked=locked, task=task)
+        return self._ik.why_none(
+            T, within_limits=within_limits, locked=locked, task=task, nearest=nearest
+        )
 
     @cached_property
     def _numeric(self) -> NumericProblem:

@@ -21,6 +21,7 @@ __all__ = [
     "inverse",
     "matrix_to_rpy",
     "matrix_to_zyz",
+    "nearest_rotation",
     "origin_matrix",
     "planar_rotation",
     "planar_translation",
@@ -31,6 +32,7 @@ __all__ = [
     "rot_z",
     "rotation",
     "rotation_angle",
+    "rounded_off",
     "rpy_to_matrix",
     "trans",
     "zyz_to_matrix",
@@ -42,6 +44,12 @@ POSE = "numbers of shape (4, 4) or (..., 4, 4)"
 
 ORTHONORMAL_TOLERANCE = 1e-6
 """Largest entry of ``R^T R - 1`` that still counts as a rotation: hand-typed six digits."""
+
+NEAR = 0.05
+"""Largest singular value of ``R' - R`` up to which ``R'`` may stand for R: two decimals are within
+0.015; what is farther off was never a rotation."""
+
+NEAREST = "nearest=True, ik --nearest or transforms.nearest_rotation takes the nearest rotation"
 
 ZYZ_SINGULAR = 1e-9
 """``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""
@@ -216,29 +224,84 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
     Raises
     ------
     PoseError
-        Wrong shape, NaN or infinity, a reflection, a scaled or skewed rotation, or a last
-        row other than (0, 0, 0, 1). The message names the index of the first bad pose.
+        Wrong shape, NaN or infinity, a reflection, a scaled or skewed rotation, or a last row
+        other than (0, 0, 0, 1). The message names the index of the first bad pose.
     """
     m = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
     if m.ndim < 2 or m.shape[-2:] != (4, 4):
         raise PoseError(f"{what}: expected shape (4, 4) or (..., 4, 4), got {m.shape}")
-    if not np.isfinite(m).all():
-        raise PoseError(f"{what}{_where(~np.isfinite(m).all(axis=(-2, -1)))}: NaN or infinity")
-    R = m[..., :3, :3]
-    gram = np.swapaxes(R, -1, -2) @ R
-    off = np.abs(gram - np.eye(3)).max(axis=(-2, -1))
+    with np.errstate(all="ignore"):
+        R, far = m[..., :3, :3], ~np.isfinite(m).all(axis=(-2, -1))
+        off = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-2, -1))
+        determinant = _determinant(R)
+    if far.any():
+        raise PoseError(f"{what}{_where(far)}: NaN or infinity")
     if (off > ORTHONORMAL_TOLERANCE).any():
+        worst = float(off[off > ORTHONORMAL_TOLERANCE].max())
         raise PoseError(
             f"{what}{_where(off > ORTHONORMAL_TOLERANCE)}: rotation part is not orthonormal, "
-            f"R^T R differs from 1 by {off.max():.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e})"
+            f"R^T R differs from 1 by {worst:.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e}); {NEAREST}"
         )
-    det = np.linalg.det(R)
-    if (det < 0).any():
-        raise PoseError(f"{what}{_where(det < 0)}: rotation part is a reflection (determinant -1)")
+    if (determinant < 0).any():
+        raise PoseError(
+            f"{what}{_where(determinant < 0)}: rotation part is a reflection (determinant -1)"
+        )
     last = np.abs(m[..., 3, :] - np.array([0.0, 0, 0, 1])).max(axis=-1)
     if (last > 1e-12).any():
         raise PoseError(f"{what}{_where(last > 1e-12)}: last row must be 0 0 0 1")
     return m
+
+
+def nearest_rotation(T: ArrayLike, *, what: str = "pose") -> tuple[Array, Array]:
+    """Poses, or rotations, with the nearest rotation in place of one that is rounded.
+
+    ``R' = U V^T`` of the singular values ``R = U S V^T`` (the orthogonal Procrustes problem); of
+    all rotations it has the least ``|R' - R|``.
+
+    Parameters
+    ----------
+    T : array_like, shape (..., 4, 4) or (..., 3, 3), or pinocchio.SE3
+    what : str
+        Name of the argument in messages.
+
+    Returns
+    -------
+    poses : array of the same shape
+    change : array, shape (...)
+        ``|R' - R|``, the largest change of a unit vector: as an angle, in [rad].
+
+    Raises
+    ------
+    PoseError
+        Also where no rotation is within 0.05, and for a reflection.
+    """
+    given = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
+    m = given
+    if given.ndim > 1 and given.shape[-2:] == (3, 3):
+        m = np.zeros((*given.shape[:-2], 4, 4))
+        m[..., :3, :3], m[..., 3, 3] = given, 1.0
+    if m.ndim < 2 or m.shape[-2:] != (4, 4):
+        raise PoseError(f"{what}: expected shape (..., 4, 4) or (..., 3, 3), got {m.shape}")
+    m, change = rounded_off(m)
+    check_pose(m, what=what)
+    return (m if m.shape == given.shape else m[..., :3, :3]), change
+
+
+def rounded_off(m: Array) -> tuple[Array, Array]:
+    """:func:`nearest_rotation` of poses (..., 4, 4); those that have none stay as they are."""
+    m = m.copy()
+    poses, change = m.reshape(-1, 4, 4), np.zeros(m[..., 0, 0].size)
+    rows = np.flatnonzero((np.abs(poses[:, :3, :3]) < 2.0).all(axis=(1, 2)))
+    U, S, Vt = np.linalg.svd(poses[rows, :3, :3])
+    moved = np.abs(S - 1.0).max(axis=1)
+    near = (moved <= NEAR) & (_determinant(U) * _determinant(Vt) > 0.0)
+    poses[rows[near], :3, :3], change[rows[near]] = (U @ Vt)[near], moved[near]
+    return m, change.reshape(m.shape[:-2])
+
+
+def _determinant(R: Array) -> Array:
+    """Determinant of matrices (..., 3, 3); no decomposition, which has warnings to give."""
+    return np.sum(R[..., 0] * np.cross(R[..., 1], R[..., 2]), axis=-1)  # type: ignore[no-any-return]
 
 
 def _where(bad: np.bool_ | NDArray[np.bool_]) -> str:

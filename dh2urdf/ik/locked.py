@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.doors import finite_array
+from dh2urdf.doors import finite_array, instance, integer
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError
 from dh2urdf.transforms import Array
 
@@ -21,7 +21,7 @@ Locked = Mapping[int, Held] | Mapping[str, Held] | Mapping[int | str, Held]
 
 
 def held_values(
-    chain: SerialChain, locked: Locked, within_limits: bool
+    chain: SerialChain, locked: Locked | None, within_limits: bool
 ) -> tuple[tuple[int, ...], Array]:
     """Indices of the held joints in ascending order, and their values, shape (1, h) or (m, h).
 
@@ -30,11 +30,8 @@ def held_values(
     ConfigurationError, NameNotFoundError
     """
     held: dict[int, Held] = {}
-    if type(locked) is not dict and not isinstance(locked, Mapping):
-        raise ConfigurationError(
-            f"locked: expected a mapping of joint to value, got {locked!r:.60}"
-        )
-    for key, value in locked.items():
+    given = {} if locked is None else instance(locked, "locked", Mapping, ConfigurationError)
+    for key, value in given.items():
         i = _joint_index(chain, key)
         if i in held:
             raise ConfigurationError(f"locked: joint {chain.names[i]!r} is held twice")
@@ -43,6 +40,8 @@ def held_values(
         if within_limits:
             _check_limits(key, held[i], chain.lower[i], chain.upper[i])
     joints = tuple(sorted(held))
+    if not joints:
+        return (), np.empty((1, 0))
     if len(joints) == 1:
         return joints, np.array(held[joints[0]], ndmin=1).reshape(-1, 1)
     columns = [np.atleast_1d(held[i]) for i in joints]
@@ -60,9 +59,7 @@ def _joint_index(chain: SerialChain, key: int | str) -> int:
         if key in names:
             return names.index(key)
         raise NameNotFoundError(f"no joint named {key!r}; there are {', '.join(names)}")
-    if isinstance(key, (int, np.integer)) and 0 <= key < chain.n:
-        return int(key)
-    raise ConfigurationError(f"locked: no joint {key!r}; indices go from 0 to {chain.n - 1}")
+    return integer(key, "locked: index of a joint", 0, chain.n - 1, ConfigurationError)
 
 
 def _numbers(key: int | str, value: Held) -> Array:

@@ -12,16 +12,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dh2urdf.bounds import STARTS
 from dh2urdf.chain import SerialChain
-from dh2urdf.exceptions import ConfigurationError, NoSolutionError, PoseError
+from dh2urdf.doors import choice, flag, generator, integer
+from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.chain_unit import in_own_unit, lengths_in
+from dh2urdf.ik.given_poses import one_pose
 from dh2urdf.ik.solutions import as_configuration
 from dh2urdf.ik.solver import Task
-from dh2urdf.transforms import Array, check_pose
+from dh2urdf.transforms import Array
 
 __all__ = ["NumericProblem", "NumericSolutions"]
 
-STARTS = 50
+USUAL_STARTS = 50
 """Starts after which the search is given up, when the caller gives no other number."""
 
 
@@ -41,6 +44,8 @@ class NumericSolutions:
         Starts that were used.
     slides : bool array, shape (n,)
         True where a value is a length.
+    pose_change : float
+        How far the given pose was from T [rad]; 0 unless ``nearest=True`` was asked for.
     """
 
     q: Array
@@ -48,6 +53,7 @@ class NumericSolutions:
     T: Array
     tried: int
     slides: NDArray[np.bool_]
+    pose_change: float = 0.0
 
     def nearest(self, q: ArrayLike) -> Array:
         """The solution with the least joint motion from q, shape (n,).
@@ -116,24 +122,25 @@ class NumericProblem:
         within_limits: bool = True,
         task: Task | str = Task.POSE,
         solutions: int = 1,
-        starts: int = STARTS,
+        starts: int = USUAL_STARTS,
         rng: np.random.Generator | int | None = 0,
+        nearest: bool = False,
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
         from dh2urdf.kernels.arrange import measure_all
         from dh2urdf.kernels.numeric import find_solutions
 
-        wanted = _task(task)
-        target = _target(T, wanted)
-        for what, number in (("solutions", solutions), ("starts", starts)):
-            if isinstance(number, bool) or not isinstance(number, int) or number < 1:
-                raise ConfigurationError(f"{what}: a whole number from 1, not {number!r}")
+        wanted = Task(choice(task, "task", tuple(Task)))
+        given, change = one_pose(T, wanted, nearest)
+        starts = integer(starts, "starts", 1, STARTS)
+        solutions = min(starts, integer(solutions, "solutions", 1, STARTS))
+        target, inside = given[0], flag(within_limits, "within_limits")
         chain, n = in_own_unit(self.chain), len(self.lower)
         unit = chain.unit / self.chain.unit
         scale, joint_scale = (np.where(s, unit, 1.0) for s in (self.slides, chain.prismatic))
         ends = self.lower / scale, self.upper / scale
         bounds = np.column_stack([self.slides, *ends]).astype(float)
-        if not within_limits:
+        if not inside:
             bounds[:, 1], bounds[:, 2] = -np.inf, np.inf
         first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale
         q, residual = np.empty((solutions, n)), np.empty(solutions)
@@ -145,7 +152,7 @@ class NumericProblem:
             wanted.number,
             lengths_in(target, unit),
             chain.size,
-            self._starts(starts, first, bounds, ends, chain.size, np.random.default_rng(rng)),
+            self._starts(starts, first, bounds, ends, chain.size, generator(rng)),
             q,
             residual,
         )
@@ -157,7 +164,7 @@ class NumericProblem:
         measure_all(
             *self.chain.tables, wanted.number, target[None], joints[None], one, residual[None]
         )
-        return NumericSolutions(q, residual, target, tried, self.slides)
+        return NumericSolutions(q, residual, target, tried, self.slides, change)
 
     def _starts(
         self,
@@ -176,25 +183,3 @@ class NumericProblem:
         out[0] = 0.5 * (low + high) if seed is None else seed
         inside: Array = np.clip(out, bounds[:, 1], bounds[:, 2])
         return inside
-
-
-def _task(task: Task | str) -> Task:
-    """Check a task."""
-    try:
-        return Task(task)
-    except ValueError:
-        allowed = ", ".join(repr(t.value) for t in Task)
-        raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
-
-
-def _target(T: ArrayLike, task: Task) -> Array:
-    """A checked pose (4, 4); a point (3,) will do for a position."""
-    given = getattr(T, "homogeneous", T)
-    if task is Task.POSITION and np.shape(given) == (3,):
-        pose = np.eye(4)
-        pose[:3, 3] = given
-        given = pose
-    checked = check_pose(given)
-    if checked.ndim != 2:
-        raise PoseError(f"pose: expected shape (4, 4), got {checked.shape}")
-    return np.ascontiguousarray(checked)

@@ -6,15 +6,16 @@ the branches, the one with the fewest breaks and, among those, the least joint m
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.doors import number
 from dh2urdf.ik import limits
+from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.families import Family
 from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.solutions import IKBatch, IKSolutions
+from dh2urdf.ik.solutions import IKSolutions
 from dh2urdf.ik.tolerances import PATH_JUMP
 from dh2urdf.transforms import Array
 
@@ -45,6 +46,8 @@ class IKPath:
     joint_names : tuple of str
     max_jump : float
         Motion of a joint between two poses that counts as a jump [rad or m].
+    pose_change : array, shape (m,)
+        How far each given pose was from a rigid one [rad]; 0 unless ``nearest=True`` was asked for.
     """
 
     q: Array
@@ -52,6 +55,7 @@ class IKPath:
     unreachable: tuple[int, ...]
     joint_names: tuple[str, ...]
     max_jump: float
+    pose_change: Array = field(default_factory=lambda: np.zeros(0))
 
     @property
     def continuous(self) -> bool:
@@ -113,9 +117,7 @@ def find_path(
     max_jump : float, optional
         Motion of a joint between neighbours that counts as a break [rad or m].
     """
-    jump = PATH_JUMP if max_jump is None else float(max_jump)
-    if not jump > 0.0:
-        raise ConfigurationError(f"max_jump: a positive number, not {max_jump!r}")
+    jump = PATH_JUMP if max_jump is None else number(max_jump, "max_jump", 1e-9, np.inf)
     stages: list[_Stage] = []
     unreachable = []
     for i in range(len(batch)):

@@ -13,12 +13,12 @@ from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik import limits
+from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.families import Family, slide_to_seed, task_error
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.solutions import (
-    IKBatch,
     IKSolutions,
     branch_words_of,
     joints_of_mask,
@@ -115,6 +115,7 @@ class Problem:
             np.zeros(m, np.int64),
             np.zeros((m, kmax), np.int64),
             np.zeros((m, kmax), np.int64),
+            np.zeros(m),
         )
         workers = max(1, threads if threads is not None else os.cpu_count() or 1)
         step = max(SMALL, min(CHUNK, -(-m // workers)))

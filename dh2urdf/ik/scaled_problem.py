@@ -11,11 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.chain_unit import lengths_in
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.path import IKPath, find_path
 from dh2urdf.ik.problem import Problem, Progress
-from dh2urdf.ik.solutions import IKBatch, IKSolutions
+from dh2urdf.ik.solutions import IKSolutions
 from dh2urdf.ik.swept_problem import SweptProblem
 from dh2urdf.transforms import Array
 

@@ -1,13 +1,8 @@
-"""Results of inverse kinematics: the solutions of one pose, and those of a batch.
-
-Both hold the arrays that a kernel filled and make names, tuples and views when asked.
-"""
+"""The solutions of one pose: arrays that a kernel filled, names and views when asked."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
@@ -23,7 +18,7 @@ if TYPE_CHECKING:
 
     Arrays = tuple[Array, Array, "IntArray", "IntArray"]
 
-__all__ = ["IKBatch", "IKSolutions", "branch_name", "branch_words_of", "joints_of_mask"]
+__all__ = ["IKSolutions", "IntArray", "branch_name", "branch_words_of", "joints_of_mask"]
 
 BRANCH_WORDS = (
     ("shoulder left", "shoulder right"),
@@ -72,15 +67,17 @@ class IKSolutions:
         Joints that can move along the singular family through each solution; mostly empty.
     T : array, shape (4, 4)
         The target.
+    pose_change : float
+        How far the given pose was from T [rad]; 0 unless ``nearest=True`` was asked for.
     """
 
-    __slots__ = ("_arrays", "_index", "_problem", "_targets", "count")
+    __slots__ = ("_arrays", "_index", "_problem", "_targets", "count", "pose_change")
 
     def __init__(
         self, problem: Problem, targets: Array, arrays: Arrays, index: int, count: int
     ) -> None:
         self._problem, self._targets, self._arrays = problem, targets, arrays
-        self._index, self.count = index, count
+        self._index, self.count, self.pose_change = index, count, 0.0
 
     @property
     def q(self) -> Array:
@@ -134,7 +131,10 @@ class IKSolutions:
 
     def sorted_by(self, q: ArrayLike) -> IKSolutions:
         """All solutions, nearest to q first, turned and moved as :meth:`nearest` does."""
-        return self._problem.arranged(self, as_configuration(q, self._problem.chain.prismatic, "q"))
+        goal = as_configuration(q, self._problem.chain.prismatic, "q")
+        found = self._problem.arranged(self, goal)
+        found.pose_change = self.pose_change
+        return found
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""
@@ -163,7 +163,9 @@ class IKSolutions:
         """The solutions of some rows, in that order."""
         branch, free = self.codes
         q, residual = self.q[rows], self.residual[rows]
-        return IKSolutions.of(self._problem, self.T, q, residual, branch[rows], free[rows])
+        some = IKSolutions.of(self._problem, self.T, q, residual, branch[rows], free[rows])
+        some.pose_change = self.pose_change
+        return some
 
     @classmethod
     def of(
@@ -195,62 +197,6 @@ class IKSolutions:
             notes = [note for note in (branch, free and f"free joints {free}") if note]
             lines.append(f"{i}: {values}  residual {residual:.1e}  {'; '.join(notes)}".rstrip())
         return "\n".join(lines)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class IKBatch:
-    """All solutions of many poses in a few arrays; ``batch[i]`` is an :class:`IKSolutions`.
-
-    Attributes
-    ----------
-    q : array, shape (m, kmax, n)
-        Configurations [rad] or [m], NaN after the last solution of a pose.
-    residual : array, shape (m, kmax)
-        Residuals [m and rad], NaN after the last.
-    count : int array, shape (m,)
-        Number of solutions of each pose.
-    branch_code, free_mask : int array, shape (m, kmax)
-        Bits of the branch, and bits of the joints free along a singular family; -1 and 0 where
-        there is none.
-    targets : array, shape (m, 4, 4)
-    """
-
-    problem: Problem
-    targets: Array
-    q: Array
-    residual: Array
-    count: IntArray
-    branch_code: IntArray
-    free_mask: IntArray
-
-    def solutions(self, i: int) -> IKSolutions:
-        """The solutions of pose i."""
-        arrays = self.q, self.residual, self.branch_code, self.free_mask
-        return IKSolutions(self.problem, self.targets, arrays, i, int(self.count[i]))
-
-    @cached_property
-    def solved(self) -> NDArray[np.bool_]:
-        """True where a pose has a solution, shape (m,)."""
-        return self.count > 0
-
-    def __len__(self) -> int:
-        return len(self.count)
-
-    @overload
-    def __getitem__(self, index: int) -> IKSolutions: ...
-    @overload
-    def __getitem__(self, index: slice) -> IKBatch: ...
-    def __getitem__(self, index: int | slice) -> IKSolutions | IKBatch:
-        if isinstance(index, int):
-            if not -len(self) <= index < len(self):
-                raise IndexError(f"pose {index} of a batch of {len(self)}")
-            return self.solutions(index % len(self))
-        keys = ("targets", "q", "residual", "count", "branch_code", "free_mask")
-        return replace(self, **{key: getattr(self, key)[index] for key in keys})
-
-    def __repr__(self) -> str:
-        total = int(self.count.sum())
-        return f"<IKBatch: {len(self)} poses, {int(self.solved.sum())} reached, {total} solutions>"
 
 
 def _read_only(view: Array) -> Array:

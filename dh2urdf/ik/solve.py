@@ -6,29 +6,39 @@ joints that was asked for.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
-from dh2urdf.doors import real_array
+from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik import path
+from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.chain_unit import in_own_unit
+from dh2urdf.ik.given_poses import many_poses, one_pose
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.locked import Locked, held_values
 from dh2urdf.ik.notice import notice_if_slow
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.scaled_problem import ScaledProblem
-from dh2urdf.ik.solutions import IKBatch, IKSolutions, as_configuration
+from dh2urdf.ik.solutions import IKSolutions, as_configuration
 from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.ik.swept import SweptJoint
 from dh2urdf.ik.swept_problem import SweptProblem
-from dh2urdf.transforms import POSE, Array, check_pose
+from dh2urdf.transforms import Array
 
 __all__ = ["InverseKinematics", "Locked"]
+
+ON_BAD = ("raise", "skip")
+"""What may be done about a pose of a batch that is none."""
+
+TASKS = tuple(Task)
 
 
 class InverseKinematics:
@@ -73,19 +83,23 @@ class InverseKinematics:
         task: Task | str = Task.POSE,
         turns: str = "nearest",
         samples: int | None = None,
+        nearest: bool = False,
     ) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
-        problem = self._plain
-        if problem is None or locked is not None or task != "pose" or samples is not None:
-            problem = self._compiled(task, locked, within_limits, samples)
+        problem, inside = self._plain, flag(within_limits, "within_limits")
+        usual = locked is None and samples is None and type(task) is str and task == "pose"
+        if problem is None or not usual:
+            problem = self._compiled(task, locked, inside, samples)
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
-        found = problem.solve_one(_one_pose(T, problem), within_limits)
+        every = choice(turns, "turns", ("nearest", "all")) == "all"
+        pose, change = one_pose(T, problem.task, nearest, problem.first_bad_pose)
+        _check_held(problem, 1)
+        found = problem.solve_one(pose, inside)
         if goal is not None:
-            found = problem.arranged(found, goal, within_limits)
-        if turns != "nearest":
-            if turns != "all":
-                raise ConfigurationError(f"turns: 'nearest' or 'all', not {turns!r}")
+            found = problem.arranged(found, goal, inside)
+        if every:
             found = problem.with_all_turns(found, goal)
+        found.pose_change = change
         return found
 
     def solve_batch(
@@ -98,12 +112,28 @@ class InverseKinematics:
         samples: int | None = None,
         threads: int | None = None,
         progress: Progress | None = None,
+        nearest: bool = False,
+        on_bad: str = "raise",
     ) -> IKBatch:
         """All configurations of many poses, see :meth:`dh2urdf.Robot.ik_batch`."""
-        if threads is not None and threads < 1:
-            raise ConfigurationError(f"threads: at least 1, not {threads}")
-        problem = self._compiled(task, locked, within_limits, samples)
-        return problem.solve_many(_poses(Ts, problem), within_limits, threads, progress)
+        inside, skip = flag(within_limits, "within_limits"), choice(on_bad, "on_bad", ON_BAD)
+        workers = None if threads is None else integer(threads, "threads", 1, THREADS)
+        if progress is not None:
+            instance(progress, "progress", Callable)
+        problem = self._compiled(task, locked, inside, samples)
+        poses, change = many_poses(Ts, nearest, skip == "skip", problem.first_bad_pose)
+        flat, shape = poses.reshape(-1, 4, 4), poses.shape[:-2]
+        _check_held(problem, len(flat))
+        good = ~np.isnan(flat[:, 3, 3])
+        if good.all():
+            batch = problem.solve_many(flat, inside, workers, progress)
+        else:
+            some = problem
+            if problem.values is not None and len(problem.values) > 1:
+                some = problem.at(problem.values[good])
+            batch = some.solve_many(flat[good], inside, workers, progress).among(good)
+        batch.pose_change[:] = change.ravel()
+        return batch if len(shape) == 1 else batch.shaped(shape)
 
     def solve_path(
         self,
@@ -114,15 +144,22 @@ class InverseKinematics:
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
         max_jump: float | None = None,
+        nearest: bool = False,
     ) -> path.IKPath:
         """A continuous joint path through a sequence of poses, see :func:`path.find_path`."""
-        problem = self._compiled(task, locked, within_limits)
-        poses = _poses(Ts, problem)
+        inside = flag(within_limits, "within_limits")
+        problem = self._compiled(task, locked, inside)
+        poses, change = many_poses(Ts, nearest, False, problem.first_bad_pose)
+        if poses.ndim != 3:
+            raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
+        _check_held(problem, len(poses))
         origin = None if start is None else as_configuration(start, self.chain.prismatic, "start")
         if isinstance(problem, ScaledProblem):
-            return problem.path(poses, origin, within_limits, max_jump)
-        batch = problem.solve_many(poses, within_limits, None, None)
-        return path.find_path(problem, batch, origin, within_limits, max_jump)
+            found = problem.path(poses, origin, inside, max_jump)
+        else:
+            batch = problem.solve_many(poses, inside, None, None)
+            found = path.find_path(problem, batch, origin, inside, max_jump)
+        return replace(found, pose_change=change)
 
     def why_none(
         self,
@@ -131,18 +168,26 @@ class InverseKinematics:
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
+        nearest: bool = False,
     ) -> str:
         """Say why a pose has no solution, and by how much; empty if it has one."""
-        problem = self.problem(task, locked, within_limits)
-        return problem.why_none(_one_pose(T, problem)[0], within_limits)
+        inside = flag(within_limits, "within_limits")
+        problem = self.problem(task, locked, inside)
+        pose, _ = one_pose(T, problem.task, nearest, problem.first_bad_pose)
+        _check_held(problem, 1)
+        return problem.why_none(pose[0], inside)
 
-    def intervals(self, T: ArrayLike, *, within_limits: bool = True) -> Array:
+    def intervals(
+        self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False
+    ) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
-        problem = self._compiled(Task.POSE, None, within_limits)
+        inside = flag(within_limits, "within_limits")
+        problem = self._compiled(Task.POSE, None, inside)
         if not isinstance(problem.solver, SweptJoint):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
         assert isinstance(problem, (SweptProblem, ScaledProblem))
-        return problem.intervals(_one_pose(T, problem)[0], within_limits)
+        pose, _ = one_pose(T, problem.task, nearest, problem.first_bad_pose)
+        return problem.intervals(pose[0], inside)
 
     def problem(
         self,
@@ -152,16 +197,12 @@ class InverseKinematics:
         samples: int | None = None,
     ) -> Problem:
         """The problem of a task and held joints; its solver is built when first asked for."""
-        try:
-            wanted = Task(task)
-        except ValueError:
-            allowed = ", ".join(repr(t.value) for t in Task)
-            raise ConfigurationError(f"task: one of {allowed}, not {task!r}") from None
-        if not locked:
+        wanted = Task(choice(task, "task", TASKS))
+        joints, values = held_values(self.chain, locked, within_limits)
+        if not joints:
             return self._free_problem(wanted, samples)
         if samples is not None:
             raise ConfigurationError("samples: a joint is swept or locked, not both")
-        joints, values = held_values(self.chain, locked, within_limits)
         key = (wanted, *joints)
         if key not in self._problems:
             solver = self._solver(wanted, joints)
@@ -173,8 +214,7 @@ class InverseKinematics:
         solver = self._solver(task, ())
         if isinstance(solver, SweptJoint):
             if samples is not None:
-                if isinstance(samples, bool) or not isinstance(samples, int) or samples < 1:
-                    raise ConfigurationError(f"samples: a whole number from 1, not {samples!r}")
+                samples = integer(samples, "samples", 1, SAMPLES)
                 solver = self._solvers.setdefault((task, f"{samples}"), solver.like(samples))
                 assert isinstance(solver, SweptJoint)
             return self._outside(SweptProblem(self.own, solver, task, self.referee))
@@ -197,7 +237,9 @@ class InverseKinematics:
         problem = self.problem(task, locked, within_limits, samples)
         if id(problem.solver) not in self._run_once:
             with notice_if_slow():
-                trial = problem if problem.values is None else problem.at(problem.values[:1])
+                trial, held = problem, problem.values
+                if held is not None:
+                    trial = problem.at(np.resize(held, (1, held.shape[1])))
                 regular = self.chain.fk(np.linspace(0.4, 1.3, self.chain.n))
                 trial.solve_many(regular[None], False, 1, None)
             self._run_once.add(id(problem.solver))
@@ -222,34 +264,8 @@ def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:
     return f"{what}: no joint is swept, the solver is {solver}; it takes an arm of seven joints"
 
 
-def _one_pose(T: ArrayLike, problem: Problem) -> Array:
-    """A checked copy of one pose, shape (1, 4, 4)."""
-    given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
-    m = np.array(real_array(given, "pose", POSE, PoseError), order="C", ndmin=3)
-    if m.shape == (1, 4, 4):
-        if problem.first_bad_pose(m) >= 0:
-            check_pose(m[0])
-        if problem.values is not None and len(problem.values) != 1:
-            raise ConfigurationError(f"locked: {len(problem.values)} values for one pose")
-        return m
-    if problem.task is Task.POSITION and m.shape == (1, 1, 3):
-        pose = np.eye(4)
-        pose[:3, 3] = m[0, 0]
-        return _one_pose(pose, problem)
-    checked = check_pose(T)
-    raise PoseError(f"pose: expected shape (4, 4), got {checked.shape}; ik_batch takes many")
-
-
-def _poses(Ts: ArrayLike, problem: Problem) -> Array:
-    """Checked poses, shape (m, 4, 4), C-contiguous."""
-    given = real_array(getattr(Ts, "homogeneous", Ts), "poses", POSE, PoseError)
-    m = np.require(given, requirements=["C", "A", "W"])
-    if m.shape == (4, 4):
-        m = m[None]
-    if m.ndim != 3 or m.shape[1:] != (4, 4):
-        raise PoseError(f"poses: expected shape (m, 4, 4), got {m.shape}")
-    if problem.first_bad_pose(m) >= 0:
-        check_pose(m, what="poses")
-    if problem.values is not None and len(problem.values) not in (1, len(m)):
-        raise ConfigurationError(f"locked: {len(problem.values)} values for {len(m)} poses")
-    return m
+def _check_held(problem: Problem, poses: int) -> None:
+    """Refuse held values that are neither one for all poses nor one for each."""
+    if problem.values is not None and len(problem.values) not in (1, poses):
+        number = "one pose" if poses == 1 else f"{poses} poses"
+        raise ConfigurationError(f"locked: {len(problem.values)} values for {number}")

@@ -1,0 +1,113 @@
+"""The solutions of many poses, in the arrays that a kernel filled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.ik.solutions import IKSolutions, IntArray
+
+if TYPE_CHECKING:
+    from dh2urdf.ik.problem import Problem
+    from dh2urdf.transforms import Array
+
+__all__ = ["IKBatch"]
+
+ARRAYS = ("targets", "q", "residual", "count", "branch_code", "free_mask", "pose_change")
+"""The fields of a batch that have a row for each pose."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class IKBatch:
+    """All solutions of many poses in a few arrays; ``batch[i]`` is an :class:`IKSolutions`.
+
+    Attributes
+    ----------
+    q : array, shape (m, kmax, n)
+        Configurations [rad] or [m], NaN after the last solution of a pose.
+    residual : array, shape (m, kmax)
+        Residuals [m and rad], NaN after the last.
+    count : int array, shape (m,)
+        Number of solutions of each pose.
+    branch_code, free_mask : int array, shape (m, kmax)
+        Bits of the branch, and bits of the joints free along a singular family; -1 and 0 where
+        there is none.
+    targets : array, shape (m, 4, 4)
+        NaN for a pose that was skipped.
+    pose_change : array, shape (m,)
+        As of :class:`IKSolutions`.
+
+    A stack of poses with more axes, (..., 4, 4), has them in place of the one of length m.
+    """
+
+    problem: Problem
+    targets: Array
+    q: Array
+    residual: Array
+    count: IntArray
+    branch_code: IntArray
+    free_mask: IntArray
+    pose_change: Array
+
+    def solutions(self, i: int) -> IKSolutions:
+        """The solutions of pose i of a plain row of poses."""
+        arrays = self.q, self.residual, self.branch_code, self.free_mask
+        found = IKSolutions(self.problem, self.targets, arrays, i, int(self.count[i]))
+        found.pose_change = float(self.pose_change[i])
+        return found
+
+    @cached_property
+    def solved(self) -> NDArray[np.bool_]:
+        """True where a pose has a solution, shape (m,)."""
+        return self.count > 0
+
+    @property
+    def bad(self) -> IntArray:
+        """Indices of the poses that were skipped because they are none, in flattened order."""
+        return np.flatnonzero(np.isnan(self.targets[..., 3, 3]))
+
+    def each(self, change: Callable[[Any], Any]) -> IKBatch:
+        """The batch with all of its arrays changed in one way."""
+        changed: dict[str, Any] = {key: change(getattr(self, key)) for key in ARRAYS}
+        return replace(self, **changed)
+
+    def shaped(self, shape: tuple[int, ...]) -> IKBatch:
+        """The batch with the axes of its poses folded to others."""
+        axes = self.count.ndim
+        return self.each(lambda a: np.reshape(a, (*shape, *np.shape(a)[axes:])))
+
+    def among(self, good: NDArray[np.bool_]) -> IKBatch:
+        """The batch as part of a larger one (m,), with nothing found at the other poses."""
+        batch = self.each(lambda a: np.zeros((len(good), *a.shape[1:]), a.dtype))
+        for key in ARRAYS:
+            getattr(batch, key)[good] = getattr(self, key)
+        for nothing in (batch.targets, batch.q, batch.residual):
+            nothing[~good] = np.nan
+        batch.branch_code[~good] = -1
+        return batch
+
+    def __len__(self) -> int:
+        return len(self.count)
+
+    @overload
+    def __getitem__(self, index: int) -> IKSolutions: ...
+    @overload
+    def __getitem__(self, index: slice) -> IKBatch: ...
+    @overload
+    def __getitem__(self, index: tuple[int, ...]) -> IKSolutions | IKBatch: ...
+    def __getitem__(self, index: Any) -> IKSolutions | IKBatch:
+        if isinstance(index, int) and self.count.ndim == 1:
+            if not -len(self) <= index < len(self):
+                raise IndexError(f"pose {index} of a batch of {len(self)}")
+            return self.solutions(index % len(self))
+        part = self.each(lambda a: a[index])
+        return part if part.count.ndim else part.shaped((1,)).solutions(0)
+
+    def __repr__(self) -> str:
+        reached, total = int(self.solved.sum()), int(self.count.sum())
+        return f"<IKBatch: {self.count.size} poses, {reached} reached, {total} solutions>"

@@ -1,0 +1,71 @@
+"""Target poses as callers give them: checked, or with the nearest rotation where that is asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.doors import flag, real_array
+from dh2urdf.exceptions import PoseError
+from dh2urdf.ik.solver import Task
+from dh2urdf.transforms import POSE, Array, check_pose, rounded_off
+
+__all__ = ["many_poses", "one_pose"]
+
+FirstBad = Callable[[Array], int]
+"""Index of the first of some poses (m, 4, 4) that is none, or -1."""
+
+
+def one_pose(
+    T: ArrayLike, task: Task, nearest: bool, first_bad: FirstBad | None = None
+) -> tuple[Array, float]:
+    """A checked copy of one pose, (1, 4, 4), and how far the given one was from it [rad].
+
+    A point (3,) will do for a position. ``first_bad`` is a quick check, if there is one.
+    """
+    given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
+    m = np.array(real_array(given, "pose", POSE, PoseError), order="C", ndmin=3)
+    if m.shape == (1, 1, 3) and task is Task.POSITION:
+        point, m = m[0, 0], np.eye(4)[None]
+        m[0, :3, 3] = point
+    if m.shape != (1, 4, 4):
+        shape = check_pose(given).shape
+        raise PoseError(f"pose: expected shape (4, 4), got {shape}; ik_batch takes many")
+    change = 0.0
+    if nearest is not False and flag(nearest, "nearest"):
+        m, moved = rounded_off(m)
+        change = float(moved[0])
+    if first_bad is None or first_bad(m) >= 0:
+        check_pose(m[0])
+    return m, change
+
+
+def many_poses(
+    Ts: ArrayLike, nearest: bool, skip: bool, first_bad: FirstBad
+) -> tuple[Array, Array]:
+    """Checked poses (..., 4, 4), C-contiguous, and how far the given ones were from them [rad].
+
+    With ``skip``, those that are none are NaN.
+    """
+    given = real_array(getattr(Ts, "homogeneous", Ts), "poses", POSE, PoseError)
+    m = np.require(given, requirements=["C", "A", "W"])
+    if m.shape in ((0,), (4, 4)):
+        m = m.reshape(-1, 4, 4)
+    if m.ndim < 3 or m.shape[-2:] != (4, 4):
+        raise PoseError(f"poses: expected shape (..., 4, 4), got {m.shape}")
+    change = np.zeros(m.shape[:-2])
+    if flag(nearest, "nearest"):
+        m, change = rounded_off(m)
+    last = first_bad(m.reshape(-1, 4, 4))
+    if last >= 0 and not skip:
+        check_pose(m, what="poses")
+    if last >= 0:
+        m = m.copy()
+        flat = m.reshape(-1, 4, 4)
+        while last < len(flat):
+            flat[last] = np.nan
+            after = first_bad(flat[last + 1 :])
+            last = len(flat) if after < 0 else last + 1 + after
+    return m, change

@@ -1,0 +1,92 @@
+"""The joint values of a robot: what q means, and how it is read."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import pinocchio as pin
+from numpy.typing import ArrayLike, NDArray
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.coupling import Coupling
+from dh2urdf.conversions.model_to_chain import ChainPath, is_continuous
+from dh2urdf.doors import finite_array, generator
+from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.transforms import Array
+
+__all__ = ["RobotConfigurations"]
+
+
+class RobotConfigurations:
+    """What :class:`dh2urdf.Robot` knows of its joint values."""
+
+    model: pin.Model
+    chain: SerialChain
+    _path: ChainPath
+    _coupling: Coupling | None
+
+    def model_configuration(self, q: ArrayLike) -> Array:
+        """The same configuration as Pinocchio's model wants it, shape (..., model.nq).
+
+        Continuous joints become cosine and sine, mimicking joints are filled in.
+        """
+        flat, shape = self._flat(q)
+        out = np.zeros((len(flat), self.model.nq))
+        for k, i in enumerate(self._path.ids):
+            at = self.model.joints[i].idx_q
+            if is_continuous(self.model, i):
+                out[:, at], out[:, at + 1] = np.cos(flat[:, k]), np.sin(flat[:, k])
+            else:
+                out[:, at] = flat[:, k]
+        return out.reshape(*shape, self.model.nq)
+
+    def chain_configuration(self, q: ArrayLike) -> Array:
+        """The same configuration with every joint of the chain, followers too, (..., chain.n)."""
+        flat, shape = self._flat(q)
+        return flat.reshape(*shape, self.chain.n)
+
+    def random_configuration(self, rng: np.random.Generator | int | None = None) -> Array:
+        """A configuration within the limits, one turn where there are none, shape (n,).
+
+        Parameters
+        ----------
+        rng : numpy.random.Generator or int, optional
+        """
+        far = np.where(self.slides, 1.0, np.pi)
+        low = np.where(np.isfinite(self.lower), self.lower, -far)
+        high = np.where(np.isfinite(self.upper), self.upper, far)
+        return generator(rng).uniform(low, high)
+
+    @cached_property
+    def slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """True where a value of q is a length, shape (n,)."""
+        index = range(self.n) if self._coupling is None else self._coupling.first
+        return self.chain.prismatic[list(index)]
+
+    def _flat(self, q: ArrayLike) -> tuple[Array, tuple[int, ...]]:
+        """Chain configurations (m, chain.n) as kernels take them, and the leading shape."""
+        config = finite_array(q, "q", "finite numbers", ConfigurationError)
+        if config.ndim == 0 or config.shape[-1] != self.n:
+            raise ConfigurationError(
+                f"q: expected {self.n} values ({', '.join(self.joint_names)}) on the last axis, "
+                f"got shape {config.shape}"
+            )
+        flat = config.reshape(-1, self.n)
+        if self._coupling is not None:
+            flat = flat @ self._coupling.matrix.T + self._coupling.offset
+        return np.require(flat, requirements=["C", "A", "W"]), config.shape[:-1]
+
+    def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
+        """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
+        if self._coupling is None:
+            return np.eye(self.n), np.zeros(self.n), self.slides
+        return self._coupling.matrix, self._coupling.offset, self.slides
+
+    def _bounds(self) -> None:
+        """Names and limits of the values."""
+        coupling, chain = self._coupling, self.chain
+        self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names
+        self.n = len(self.joint_names)
+        self.lower: Array = coupling.lower if coupling else chain.lower
+        self.upper: Array = coupling.upper if coupling else chain.upper
