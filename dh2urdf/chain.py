@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,13 @@ from dh2urdf.dh import JointType
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["SerialChain"]
+__all__ = ["SerialChain", "settled_state"]
+
+
+def settled_state(thing: object) -> dict[str, Any]:
+    """What of an object is pickled, copied so that other threads may go on filling its caches."""
+    state = thing.__dict__.copy().items()
+    return {key: v.copy() if type(v) in (dict, list) else v for key, v in state}
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +65,8 @@ class SerialChain:
             array = np.array(getattr(self, key), float, order="C")
             array.flags.writeable = False
             object.__setattr__(self, key, array)
+
+    __getstate__ = settled_state
 
     @property
     def n(self) -> int:

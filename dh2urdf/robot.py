@@ -11,6 +11,7 @@ import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from dh2urdf.chain import settled_state
 from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
 from dh2urdf.conversions.coupling import couple
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
@@ -79,6 +80,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
     """
 
     source: Path | None = None
+    __getstate__ = settled_state
 
     def __init__(
         self,

@@ -78,6 +78,7 @@ def calls(robot, locked, seed):
         f"{name} ik turns": lambda r: r.ik(T, within_limits=False, turns="all", **held),
         f"{name} ik_batch": lambda r: r.ik_batch(Ts, threads=2, **held),
         f"{name} verify": lambda r: r.ik(T, within_limits=False, **held).verify(),
+        f"{name} pickle": lambda r: pickle.loads(pickle.dumps(r.ik(T, **held))),
         f"{name} solver_for": lambda r: str(r.solver_for(**held)),
     }
     if locked:

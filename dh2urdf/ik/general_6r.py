@@ -68,7 +68,7 @@ class General6R(SolverBase):
         rng = np.random.default_rng(0)
         q = rng.uniform(-np.pi, np.pi, (TRIALS, 6))
         poses = np.stack([self.chain.fk(row) for row in q])
-        found, residual = np.empty((TRIALS, self.kmax, 6)), np.empty((TRIALS, self.kmax))
+        found, residual = np.zeros((TRIALS, self.kmax, 6)), np.empty((TRIALS, self.kmax))
         count = np.zeros(TRIALS, np.int64)
         self._solve(poses, found, residual, count)
         gap = np.abs(np.remainder(found - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)

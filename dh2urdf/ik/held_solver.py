@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.solver import IntArray
 from dh2urdf.transforms import Array
 
@@ -24,6 +24,7 @@ class HeldSolver:
 
     name: str
     kmax: int
+    __getstate__ = settled_state
 
     def __init__(self, chain: SerialChain, held: tuple[int, ...]) -> None:
         self.chain, self.held = chain, held

@@ -16,7 +16,7 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.transforms import Array
 
@@ -122,6 +122,7 @@ class SolverBase:
 
     name: ClassVar[str] = ""
     kmax: int = 0
+    __getstate__ = settled_state
 
     def __init__(
         self,
