@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -14,7 +13,8 @@ __all__ = [
     "Finding",
     "Severity",
     "Verdict",
-    "effect",
+    "accept",
+    "complain",
     "misread",
     "refuse",
 ]
@@ -123,17 +123,21 @@ class Finding:
         return tuple(dict.fromkeys(c for effect in self.effects for c in effect.consumers))
 
 
-def effect(consumers: Iterable[Consumer] | Consumer, verdict: Verdict, text: str = "") -> Effect:
-    """An effect on one consumer or several."""
-    everyone = (consumers,) if isinstance(consumers, Consumer) else tuple(consumers)
-    return Effect(everyone, verdict, text)
-
-
 def refuse(*consumers: Consumer, text: str = "") -> Effect:
     """Some consumers give no model."""
     return Effect(consumers, Verdict.REFUSES, text)
 
 
+def complain(*consumers: Consumer, text: str = "") -> Effect:
+    """Some consumers take the file, with words of their own."""
+    return Effect(consumers, Verdict.COMPLAINS, text)
+
+
 def misread(*consumers: Consumer, text: str) -> Effect:
     """Some consumers take the file for something else."""
     return Effect(consumers, Verdict.MISREADS, text)
+
+
+def accept(*consumers: Consumer, text: str) -> Effect:
+    """Some consumers take the file as it is meant, and something follows from it."""
+    return Effect(consumers, Verdict.ACCEPTS, text)

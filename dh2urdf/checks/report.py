@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from lxml import etree
 
 from dh2urdf.checks.findings import Effect, Finding
@@ -11,14 +9,11 @@ from dh2urdf.checks.findings import Effect, Finding
 __all__ = ["Found"]
 
 
-@dataclass(frozen=True, eq=False)
 class Found:
-    """A finding before it is placed in its file; the fields are those of ``Finding``."""
+    """A finding before it is placed in its file; the arguments are the fields of ``Finding``."""
 
-    at: etree._Element
-    message: str
-    effects: tuple[Effect, ...]
-    mend: str
+    def __init__(self, at: etree._Element, message: str, *effects: Effect, mend: str) -> None:
+        self.at, self.message, self.effects, self.mend = at, message, effects, mend
 
     def placed(self, rule: str) -> Finding:
         """The finding of a rule."""

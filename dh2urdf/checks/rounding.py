@@ -10,7 +10,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import Consumer, Verdict, effect
+from dh2urdf.checks.findings import Consumer, misread
 from dh2urdf.checks.report import Found
 from dh2urdf.transforms import Array
 
@@ -58,15 +58,13 @@ def rounded_angle(doc: Document) -> Iterator[Found]:
     yield Found(
         first.find("origin"),
         f'rpy="{text}" is rounded; joints: {shown}. {_cost(doc, mended)}',
-        (
-            effect(
-                (Consumer.IKFAST, Consumer.MOVEIT),
-                Verdict.MISREADS,
-                "see axes that are nearly parallel or nearly meet; they look for ones that do",
-            ),
+        misread(
+            Consumer.IKFAST,
+            Consumer.MOVEIT,
+            text="see axes that are nearly parallel or nearly meet; they look for ones that do",
         ),
-        f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such angles "
-        "right and prints what each costs",
+        mend=f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such "
+        "angles right and prints what each costs",
     )
 
 

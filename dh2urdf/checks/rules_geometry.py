@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from dh2urdf.checks.document import Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Verdict, effect
+from dh2urdf.checks.findings import URDFDOM, Consumer, accept, complain, misread, refuse
 from dh2urdf.checks.meshes import is_remote, locate, stl_extent
 from dh2urdf.checks.report import Found
 
@@ -43,11 +43,9 @@ def geometry_empty(doc: Document) -> Iterator[Found]:
                 yield Found(
                     shell,
                     "has no shape",
-                    (
-                        effect((Consumer.YOURDFPY, Consumer.PYBULLET), Verdict.REFUSES),
-                        effect(URDFDOM, Verdict.COMPLAINS, "leave it out"),
-                    ),
-                    "write a shape, or drop the element",
+                    refuse(Consumer.YOURDFPY, Consumer.PYBULLET),
+                    complain(*URDFDOM, text="leave it out"),
+                    mend="write a shape, or drop the element",
                 )
 
 
@@ -59,11 +57,9 @@ def geometry_unknown(doc: Document) -> Iterator[Found]:
                 yield Found(
                     shell,
                     f"<{shape.tag}> is none of <{'>, <'.join(SHAPES)}>",
-                    (
-                        effect(Consumer.YOURDFPY, Verdict.REFUSES),
-                        effect(URDFDOM, Verdict.COMPLAINS, "leave it out"),
-                    ),
-                    "a capsule is a cylinder and two spheres",
+                    refuse(Consumer.YOURDFPY),
+                    complain(*URDFDOM, text="leave it out"),
+                    mend="a capsule is a cylinder and two spheres",
                 )
 
 
@@ -77,19 +73,13 @@ def geometry_size(doc: Document) -> Iterator[Found]:
                     yield Found(
                         shell,
                         f'<{shape.tag} {key}="{shape.get(key)}"> has no extent',
-                        (
-                            *(
-                                [effect(Consumer.MUJOCO, Verdict.REFUSES)]
-                                if doc.mujoco_reads(shell)
-                                else []
-                            ),
-                            effect(
-                                (Consumer.RVIZ, Consumer.GAZEBO),
-                                Verdict.MISREADS,
-                                "show nothing, or make contact with nothing",
-                            ),
+                        *([refuse(Consumer.MUJOCO)] if doc.mujoco_reads(shell) else []),
+                        misread(
+                            Consumer.RVIZ,
+                            Consumer.GAZEBO,
+                            text="show nothing, or make contact with nothing",
                         ),
-                        "write positive sizes, or drop the shape",
+                        mend="write positive sizes, or drop the shape",
                     )
 
 
@@ -107,19 +97,19 @@ def mesh_missing(doc: Document) -> Iterator[Found]:
         if locate(filename, doc.path) is None:
             package = filename.startswith(("package://", "model://"))
             effects = [
-                effect(Consumer.PYBULLET, Verdict.REFUSES),
-                effect(Consumer.PINOCCHIO, Verdict.COMPLAINS, "loads the joints, not the geometry"),
-                effect((Consumer.RVIZ, Consumer.GAZEBO), Verdict.COMPLAINS, "leave it out"),
+                refuse(Consumer.PYBULLET),
+                complain(Consumer.PINOCCHIO, text="loads the joints, not the geometry"),
+                complain(Consumer.RVIZ, Consumer.GAZEBO, text="leave it out"),
             ]
             if shell.tag == "visual":
-                effects.append(effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "leaves it out"))
+                effects.append(complain(Consumer.YOURDFPY, text="leaves it out"))
             if doc.mujoco_reads(shell):
-                effects.insert(0, effect(Consumer.MUJOCO, Verdict.REFUSES))
+                effects.insert(0, refuse(Consumer.MUJOCO))
             yield Found(
                 mesh,
                 f"no file {filename!r}" if filename else "names no file",
-                tuple(effects),
-                "put the package on ROS_PACKAGE_PATH, or beside the URDF's folder"
+                *tuple(effects),
+                mend="put the package on ROS_PACKAGE_PATH, or beside the URDF's folder"
                 if package
                 else "mend the path; plain paths start at the URDF's folder",
             )
@@ -133,15 +123,11 @@ def mesh_path(doc: Document) -> Iterator[Found]:
         yield Found(
             plain[0],
             f"{plain[0].get('filename')!r} is a plain path{more}",
-            (
-                effect(
-                    (Consumer.RVIZ, Consumer.MOVEIT),
-                    Verdict.ACCEPTS,
-                    "find meshes by package:// or file:// only",
-                ),
-                effect(Consumer.PINOCCHIO, Verdict.ACCEPTS, "must be told the folder"),
+            accept(
+                Consumer.RVIZ, Consumer.MOVEIT, text="find meshes by package:// or file:// only"
             ),
-            "for ROS, write package://...",
+            accept(Consumer.PINOCCHIO, text="must be told the folder"),
+            mend="for ROS, write package://...",
         )
 
 
@@ -156,8 +142,8 @@ def mesh_package(doc: Document) -> Iterator[Found]:
             yield Found(
                 mesh,
                 f"{filename!r} is found by ROS only",
-                (effect(Consumer.MUJOCO, Verdict.REFUSES, "looks for a folder named package:"),),
-                "give MuJoCo a copy of the file with plain paths",
+                refuse(Consumer.MUJOCO, text="looks for a folder named package:"),
+                mend="give MuJoCo a copy of the file with plain paths",
             )
 
 
@@ -175,8 +161,8 @@ def mesh_format(doc: Document) -> Iterator[Found]:
             yield Found(
                 mesh,
                 f"is a {path.suffix} file",
-                (effect(Consumer.MUJOCO, Verdict.REFUSES, f"reads {', '.join(MUJOCO_MESHES)}"),),
-                "convert it to STL or OBJ",
+                refuse(Consumer.MUJOCO, text=f"reads {', '.join(MUJOCO_MESHES)}"),
+                mend="convert it to STL or OBJ",
             )
 
 
@@ -188,8 +174,8 @@ def mesh_scale(doc: Document) -> Iterator[Found]:
             yield Found(
                 mesh,
                 f'scale="{mesh.get("scale")}" leaves nothing of it',
-                (effect(Consumer.YOURDFPY, Verdict.REFUSES),),
-                "0.001 0.001 0.001 is from millimetres",
+                refuse(Consumer.YOURDFPY),
+                mend="0.001 0.001 0.001 is from millimetres",
             )
 
 
@@ -204,14 +190,14 @@ def mesh_units(doc: Document) -> Iterator[Found]:
             yield Found(
                 mesh,
                 f"is {size:.6g} m long; is it in millimetres?",
-                (
-                    effect(
-                        (Consumer.RVIZ, Consumer.GAZEBO, Consumer.MUJOCO, Consumer.YOURDFPY),
-                        Verdict.MISREADS,
-                        "take STL files to be in metres",
-                    ),
+                misread(
+                    Consumer.RVIZ,
+                    Consumer.GAZEBO,
+                    Consumer.MUJOCO,
+                    Consumer.YOURDFPY,
+                    text="take STL files to be in metres",
                 ),
-                'write scale="0.001 0.001 0.001"',
+                mend='write scale="0.001 0.001 0.001"',
             )
 
 
@@ -231,11 +217,9 @@ def material_undefined(doc: Document) -> Iterator[Found]:
             yield Found(
                 material,
                 "is defined nowhere",
-                (
-                    effect(Consumer.CHECK_URDF, Verdict.COMPLAINS),
-                    effect(Consumer.RVIZ, Verdict.MISREADS, "draws it in a colour of its own"),
-                ),
-                'add <color rgba="..."/>, or drop it',
+                complain(Consumer.CHECK_URDF),
+                misread(Consumer.RVIZ, text="draws it in a colour of its own"),
+                mend='add <color rgba="..."/>, or drop it',
             )
 
 
@@ -247,11 +231,9 @@ def material_name(doc: Document) -> Iterator[Found]:
             yield Found(
                 material,
                 "has no name",
-                (
-                    effect(Consumer.PYBULLET, Verdict.REFUSES),
-                    effect(URDFDOM, Verdict.COMPLAINS, "leave the visual out"),
-                ),
-                'write name="..."',
+                refuse(Consumer.PYBULLET),
+                complain(*URDFDOM, text="leave the visual out"),
+                mend='write name="..."',
             )
 
 
@@ -264,10 +246,8 @@ def material_twice(doc: Document) -> Iterator[Found]:
             yield Found(
                 material,
                 "a second material of this name",
-                (
-                    effect((*URDFDOM, Consumer.DRAKE), Verdict.REFUSES),
-                    effect(Consumer.PYBULLET, Verdict.COMPLAINS),
-                ),
-                "define it once",
+                refuse(*URDFDOM, Consumer.DRAKE),
+                complain(Consumer.PYBULLET),
+                mend="define it once",
             )
         seen.add(name)

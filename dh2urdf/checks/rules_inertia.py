@@ -8,7 +8,7 @@ import numpy as np
 from lxml import etree
 
 from dh2urdf.checks.document import MOVING, TENSOR, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, complain, misread, refuse
 from dh2urdf.checks.report import Found
 from dh2urdf.conversions.inertia import tensor, why_impossible
 from dh2urdf.transforms import Array
@@ -60,21 +60,21 @@ def massless(doc: Document) -> Iterator[Found]:
         empty = link.find("inertial") is None
         shells = any(doc.link_by_name[m].find("collision") is not None for m in part)
         effects = [
-            *([] if shells else [effect(Consumer.MUJOCO, Verdict.REFUSES)]),
+            *([] if shells else [refuse(Consumer.MUJOCO)]),
             *(
-                [effect(Consumer.PINOCCHIO, Verdict.COMPLAINS, "forward dynamics give NaN")]
+                [complain(Consumer.PINOCCHIO, text="forward dynamics give NaN")]
                 if _is_last(doc, name)
                 else []
             ),
-            effect(Consumer.GAZEBO, Verdict.MISREADS, "drops the link and all that hangs on it"),
+            misread(Consumer.GAZEBO, text="drops the link and all that hangs on it"),
         ]
         if empty:
-            effects.append(effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes it for 1 kg"))
+            effects.append(complain(Consumer.PYBULLET, text="takes it for 1 kg"))
         yield Found(
             link,
             "moves, and has no <inertial>" if empty else "moves, and has no mass",
-            tuple(effects),
-            f"give it a mass and a tensor; {ESTIMATE}",
+            *tuple(effects),
+            mend=f"give it a mass and a tensor; {ESTIMATE}",
         )
 
 
@@ -96,11 +96,9 @@ def massless_part(doc: Document) -> Iterator[Found]:
             yield Found(
                 link,
                 f"has no <inertial>; its mass is in {', '.join(map(repr, others))}",
-                (
-                    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "adds 1 kg"),
-                    effect(Consumer.GAZEBO, Verdict.MISREADS, "may drop the link"),
-                ),
-                "move the mass to this link",
+                complain(Consumer.PYBULLET, text="adds 1 kg"),
+                misread(Consumer.GAZEBO, text="may drop the link"),
+                mend="move the mass to this link",
             )
 
 
@@ -117,8 +115,8 @@ def massless_frame(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.link_by_name[silent[0]],
             f"has no <inertial>{_and_others(silent)}",
-            (effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes each for 1 kg"),),
-            "give it an <inertial> with mass 0 and a zero tensor",
+            complain(Consumer.PYBULLET, text="takes each for 1 kg"),
+            mend="give it an <inertial> with mass 0 and a zero tensor",
         )
 
 
@@ -134,18 +132,16 @@ def mass_negative(doc: Document) -> Iterator[Found]:
             yield Found(
                 link,
                 f"has a mass of {mass:g} kg",
-                (
-                    *_by_mujoco(doc, name),
-                    effect(Consumer.DRAKE, Verdict.COMPLAINS),
-                    effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
-                ),
-                "mend the sign",
+                *_by_mujoco(doc, name),
+                complain(Consumer.DRAKE),
+                misread(Consumer.PINOCCHIO, text="computes with it"),
+                mend="mend the sign",
             )
 
 
 def _by_mujoco(doc: Document, link: str) -> list[Effect]:
     """MuJoCo looks at the mass of what moves."""
-    return [effect(Consumer.MUJOCO, Verdict.REFUSES)] if link in doc.moving else []
+    return [refuse(Consumer.MUJOCO)] if link in doc.moving else []
 
 
 def inertial_incomplete(doc: Document) -> Iterator[Found]:
@@ -164,17 +160,11 @@ def inertial_incomplete(doc: Document) -> Iterator[Found]:
             yield Found(
                 inertial,
                 f"has no {', '.join(missing)}",
-                (
-                    effect(Consumer.PYBULLET, Verdict.REFUSES),
-                    *(
-                        []
-                        if missing[0] in ("ixy", "ixz", "iyz")
-                        else [effect(Consumer.MUJOCO, Verdict.REFUSES)]
-                    ),
-                    effect(URDFDOM, Verdict.COMPLAINS, "leave the whole <inertial> out"),
-                    *([effect(Consumer.DRAKE, Verdict.COMPLAINS)] if missing[0] == "mass" else []),
-                ),
-                "write what is missing, zeros where they are meant",
+                refuse(Consumer.PYBULLET),
+                *([] if missing[0] in ("ixy", "ixz", "iyz") else [refuse(Consumer.MUJOCO)]),
+                complain(*URDFDOM, text="leave the whole <inertial> out"),
+                *([complain(Consumer.DRAKE)] if missing[0] == "mass" else []),
+                mend="write what is missing, zeros where they are meant",
             )
 
 
@@ -190,15 +180,13 @@ def inertia_zero(doc: Document) -> Iterator[Found]:
             yield Found(
                 inertial,
                 "is a point: a mass without a tensor",
-                (
-                    effect(Consumer.MUJOCO, Verdict.REFUSES),
-                    *(
-                        [effect(Consumer.PINOCCHIO, Verdict.COMPLAINS, "may compute NaN")]
-                        if _is_last(doc, name) and _on_axis(doc, name, inertial)
-                        else []
-                    ),
+                refuse(Consumer.MUJOCO),
+                *(
+                    [complain(Consumer.PINOCCHIO, text="may compute NaN")]
+                    if _is_last(doc, name) and _on_axis(doc, name, inertial)
+                    else []
                 ),
-                f"write the tensor of a body of that size; {ESTIMATE}",
+                mend=f"write the tensor of a body of that size; {ESTIMATE}",
             )
 
 
@@ -224,10 +212,10 @@ def _impossible(doc: Document) -> Iterator[tuple[etree._Element, Array, str]]:
 
 
 TENSOR_READERS = (
-    effect(Consumer.MUJOCO, Verdict.REFUSES),
-    effect(Consumer.DRAKE, Verdict.COMPLAINS),
-    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "takes the tensor for zero"),
-    effect(Consumer.PINOCCHIO, Verdict.MISREADS, "computes with it"),
+    refuse(Consumer.MUJOCO),
+    complain(Consumer.DRAKE),
+    complain(Consumer.PYBULLET, text="takes the tensor for zero"),
+    misread(Consumer.PINOCCHIO, text="computes with it"),
 )
 
 
@@ -238,8 +226,8 @@ def inertia_not_positive(doc: Document) -> Iterator[Found]:
             yield Found(
                 inertial,
                 f"no body has this tensor: {why}",
-                TENSOR_READERS,
-                "mend the signs of the products of inertia, or the units",
+                *TENSOR_READERS,
+                mend="mend the signs of the products of inertia, or the units",
             )
 
 
@@ -250,8 +238,8 @@ def inertia_triangle(doc: Document) -> Iterator[Found]:
             yield Found(
                 inertial,
                 f"no body has this tensor: {why}",
-                TENSOR_READERS,
-                "raise the smaller moments; MuJoCo does it itself with "
+                *TENSOR_READERS,
+                mend="raise the smaller moments; MuJoCo does it itself with "
                 '<mujoco><compiler balanceinertia="true"/></mujoco>',
             )
 
@@ -263,12 +251,9 @@ def root_inertia(doc: Document) -> Iterator[Found]:
             yield Found(
                 doc.link_by_name[name],
                 "is the root and has an <inertial>",
-                (
-                    effect(
-                        Consumer.KDL,
-                        Verdict.COMPLAINS,
-                        "takes no root with inertia: leaves it out with a warning",
-                    ),
+                complain(
+                    Consumer.KDL,
+                    text="takes no root with inertia: leaves it out with a warning",
                 ),
-                "hang the mass on a child of the root by a fixed joint",
+                mend="hang the mass on a child of the root by a fixed joint",
             )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Verdict, effect
+from dh2urdf.checks.findings import URDFDOM, Consumer, accept, complain, misread, refuse
 from dh2urdf.checks.report import Found
 
 __all__ = [
@@ -35,17 +35,16 @@ def limit_missing(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 "has no <limit>",
-                (
-                    effect((*URDFDOM, Consumer.PYBULLET), Verdict.REFUSES),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
-                    effect(
-                        (Consumer.MUJOCO, Consumer.DRAKE, Consumer.IKPY),
-                        Verdict.MISREADS,
-                        "take the joint as unlimited",
-                    ),
+                refuse(*URDFDOM, Consumer.PYBULLET),
+                complain(Consumer.YOURDFPY, text="does not validate it"),
+                misread(
+                    Consumer.MUJOCO,
+                    Consumer.DRAKE,
+                    Consumer.IKPY,
+                    text="take the joint as unlimited",
                 ),
-                'write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide ones '
-                "rather than none",
+                mend='write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide '
+                "ones rather than none",
             )
 
 
@@ -60,12 +59,10 @@ def limit_incomplete(doc: Document) -> Iterator[Found]:
             yield Found(
                 limit,
                 f"has no {' and no '.join(missing)}",
-                (
-                    effect(URDFDOM, Verdict.REFUSES),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
-                    effect(Consumer.PYBULLET, Verdict.MISREADS, "reads 0: motors without force"),
-                ),
-                f"add {' '.join(f'{key}=...' for key in missing)}; URDF requires both",
+                refuse(*URDFDOM),
+                complain(Consumer.YOURDFPY, text="does not validate it"),
+                misread(Consumer.PYBULLET, text="reads 0: motors without force"),
+                mend=f"add {' '.join(f'{key}=...' for key in missing)}; URDF requires both",
             )
 
 
@@ -81,26 +78,23 @@ def limit_without_bounds(doc: Document) -> Iterator[Found]:
             yield Found(
                 limit,
                 f"has no {' and no '.join(missing)}",
-                (
-                    effect(
-                        URDFDOM,
-                        Verdict.MISREADS,
-                        "read 0: the joint cannot move" if both else "read 0 for it",
-                    ),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
-                    *(
-                        [
-                            effect(
-                                (Consumer.MUJOCO, Consumer.DRAKE, Consumer.IKPY),
-                                Verdict.MISREADS,
-                                "take the joint as unlimited",
-                            )
-                        ]
-                        if both
-                        else []
-                    ),
+                misread(
+                    *URDFDOM, text="read 0: the joint cannot move" if both else "read 0 for it"
                 ),
-                "write both bounds",
+                complain(Consumer.YOURDFPY, text="does not validate it"),
+                *(
+                    [
+                        misread(
+                            Consumer.MUJOCO,
+                            Consumer.DRAKE,
+                            Consumer.IKPY,
+                            text="take the joint as unlimited",
+                        )
+                    ]
+                    if both
+                    else []
+                ),
+                mend="write both bounds",
             )
 
 
@@ -113,12 +107,10 @@ def limit_reversed(doc: Document) -> Iterator[Found]:
             yield Found(
                 limit,
                 f"lower {lower:g} lies above upper {upper:g}",
-                (
-                    effect(Consumer.DRAKE, Verdict.REFUSES, "aborts"),
-                    effect(Consumer.MUJOCO, Verdict.MISREADS, "takes the joint as unlimited"),
-                    effect(URDFDOM, Verdict.MISREADS, "keep an empty range"),
-                ),
-                "exchange them, or mend the signs",
+                refuse(Consumer.DRAKE, text="aborts"),
+                misread(Consumer.MUJOCO, text="takes the joint as unlimited"),
+                misread(*URDFDOM, text="keep an empty range"),
+                mend="exchange them, or mend the signs",
             )
 
 
@@ -134,21 +126,20 @@ def limit_zero(doc: Document) -> Iterator[Found]:
             yield Found(
                 limit,
                 f"lower and upper are both {lower:g}",
-                (effect(Consumer.MUJOCO, Verdict.COMPLAINS, "takes the joint as unlimited"),),
-                "write a range, or make the joint a fixed one",
+                complain(Consumer.MUJOCO, text="takes the joint as unlimited"),
+                mend="write a range, or make the joint a fixed one",
             )
         if zero:
             yield Found(
                 limit,
                 f"{' and '.join(zero)} 0",
-                (
-                    effect(
-                        (Consumer.MOVEIT, Consumer.GAZEBO, Consumer.PYBULLET),
-                        Verdict.ACCEPTS,
-                        "may hold the joint still: a limit of 0 is a limit",
-                    ),
+                accept(
+                    Consumer.MOVEIT,
+                    Consumer.GAZEBO,
+                    Consumer.PYBULLET,
+                    text="may hold the joint still: a limit of 0 is a limit",
                 ),
-                "write the maker's figures, or large ones",
+                mend="write the maker's figures, or large ones",
             )
 
 
@@ -159,15 +150,12 @@ def continuous(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 "turns without end",
-                (
-                    effect(
-                        Consumer.PINOCCHIO,
-                        Verdict.ACCEPTS,
-                        "q has two numbers for it, cosine and sine: model.nq exceeds model.nv",
-                    ),
-                    effect(Consumer.IKFAST, Verdict.ACCEPTS, "takes it with a range of one turn"),
+                accept(
+                    Consumer.PINOCCHIO,
+                    text="q has two numbers for it, cosine and sine: model.nq exceeds model.nv",
                 ),
-                "if programs expect one number a joint, write a revolute one with limits of "
+                accept(Consumer.IKFAST, text="takes it with a range of one turn"),
+                mend="if programs expect one number a joint, write a revolute one with limits of "
                 "+-6.283185307179586",
             )
 
@@ -180,8 +168,8 @@ def axis_missing(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 "has no <axis>; that means x",
-                (effect(Consumer.PYBULLET, Verdict.COMPLAINS, "says that it takes x"),),
-                'write <axis xyz="1 0 0"/> if x is meant; most arms turn about z',
+                complain(Consumer.PYBULLET, text="says that it takes x"),
+                mend='write <axis xyz="1 0 0"/> if x is meant; most arms turn about z',
             )
 
 
@@ -193,20 +181,10 @@ def axis_zero(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint.find("axis"),
                 "is a zero vector",
-                (
-                    effect((Consumer.MUJOCO, Consumer.DRAKE), Verdict.REFUSES),
-                    effect(
-                        (Consumer.PINOCCHIO, Consumer.YOURDFPY),
-                        Verdict.COMPLAINS,
-                        "compute NaN",
-                    ),
-                    effect(
-                        (Consumer.CHECK_URDF, Consumer.IKPY),
-                        Verdict.MISREADS,
-                        "take it as it is",
-                    ),
-                ),
-                "write the direction",
+                refuse(Consumer.MUJOCO, Consumer.DRAKE),
+                complain(Consumer.PINOCCHIO, Consumer.YOURDFPY, text="compute NaN"),
+                misread(Consumer.CHECK_URDF, Consumer.IKPY, text="take it as it is"),
+                mend="write the direction",
             )
 
 
@@ -229,8 +207,8 @@ def axis_not_unit(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint.find("axis"),
                 f"has length {length:.6g}",
-                (effect(movers, Verdict.MISREADS, text),),
-                f'write <axis xyz="{unit}"/>',
+                misread(*movers, text=text),
+                mend=f'write <axis xyz="{unit}"/>',
             )
 
 
@@ -245,13 +223,7 @@ def damping_negative(doc: Document) -> Iterator[Found]:
                 yield Found(
                     dynamics,
                     f"{key} {value:g} drives the joint",
-                    (
-                        *(effect(c, Verdict.REFUSES) for c in refusing),
-                        effect(
-                            (Consumer.MUJOCO, Consumer.PYBULLET),
-                            Verdict.MISREADS,
-                            "simulate it as it stands",
-                        ),
-                    ),
-                    "mend the sign",
+                    *(refuse(c) for c in refusing),
+                    misread(Consumer.MUJOCO, Consumer.PYBULLET, text="simulate it as it stands"),
+                    mend="mend the sign",
                 )

@@ -12,8 +12,8 @@ from dh2urdf.checks.findings import (
     URDFDOM,
     Consumer,
     Effect,
-    Verdict,
-    effect,
+    accept,
+    complain,
     misread,
     refuse,
 )
@@ -35,10 +35,7 @@ def robot_name(doc: Document) -> Iterator[Found]:
     if not doc.root.get("name"):
         refusing = (*URDFDOM, Consumer.YOURDFPY, Consumer.PYBULLET, Consumer.DRAKE)
         yield Found(
-            doc.root,
-            "the robot has no name",
-            (refuse(*refusing),),
-            'write <robot name="...">',
+            doc.root, "the robot has no name", refuse(*refusing), mend='write <robot name="...">'
         )
 
 
@@ -49,11 +46,9 @@ def version(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.root,
             f'version="{text}" is no version of URDF',
-            (
-                refuse(*URDFDOM),
-                effect(Consumer.DRAKE, Verdict.COMPLAINS, "ignores the attribute"),
-            ),
-            "leave the attribute out, or write 1.0",
+            refuse(*URDFDOM),
+            complain(Consumer.DRAKE, text="ignores the attribute"),
+            mend="leave the attribute out, or write 1.0",
         )
 
 
@@ -66,11 +61,11 @@ def no_name(doc: Document) -> Iterator[Found]:
         elif not element.get("name"):
             effects = (
                 refuse(Consumer.PYBULLET),
-                effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "does not validate it"),
+                complain(Consumer.YOURDFPY, text="does not validate it"),
             )
         else:
             continue
-        yield Found(element, "has no name", effects, 'write name="..."')
+        yield Found(element, "has no name", *effects, mend='write name="..."')
 
 
 def _repeated(elements: list[etree._Element]) -> Iterator[etree._Element]:
@@ -88,11 +83,9 @@ def duplicate_link(doc: Document) -> Iterator[Found]:
         yield Found(
             link,
             "a second link of this name",
-            (
-                refuse(*STRICT),
-                misread(Consumer.YOURDFPY, Consumer.IKPY, text="take one and drop the other"),
-            ),
-            "rename one of them",
+            refuse(*STRICT),
+            misread(Consumer.YOURDFPY, Consumer.IKPY, text="take one and drop the other"),
+            mend="rename one of them",
         )
 
 
@@ -102,14 +95,12 @@ def duplicate_joint(doc: Document) -> Iterator[Found]:
         yield Found(
             joint,
             "a second joint of this name",
-            (
-                refuse(*URDFDOM, Consumer.DRAKE),
-                refuse(Consumer.PYBULLET, text="crashes"),
-                misread(
-                    Consumer.YOURDFPY, Consumer.MUJOCO, text="take the file; one shadows the other"
-                ),
+            refuse(*URDFDOM, Consumer.DRAKE),
+            refuse(Consumer.PYBULLET, text="crashes"),
+            misread(
+                Consumer.YOURDFPY, Consumer.MUJOCO, text="take the file; one shadows the other"
             ),
-            "rename one of them",
+            mend="rename one of them",
         )
 
 
@@ -120,14 +111,10 @@ def joint_named_as_link(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 "a link has this name too",
-                (
-                    effect(
-                        Consumer.PINOCCHIO,
-                        Verdict.ACCEPTS,
-                        "getFrameId without a FrameType raises on the name",
-                    ),
+                accept(
+                    Consumer.PINOCCHIO, text="getFrameId without a FrameType raises on the name"
                 ),
-                "name the joint otherwise, such as ..._joint",
+                mend="name the joint otherwise, such as ..._joint",
             )
 
 
@@ -140,13 +127,11 @@ def name_characters(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 f"the name holds {' '.join(map(repr, odd))}",
-                (
-                    effect(
-                        (Consumer.MOVEIT, Consumer.IKFAST),
-                        Verdict.ACCEPTS,
-                        "names become ROS parameters, topics and C++ identifiers",
-                    ),
-                    effect(Consumer.RVIZ, Verdict.ACCEPTS, "frame names of tf hold no slashes"),
+                accept(
+                    Consumer.MOVEIT,
+                    Consumer.IKFAST,
+                    text="names become ROS parameters, topics and C++ identifiers",
                 ),
-                "keep to ASCII letters, digits and underscores",
+                accept(Consumer.RVIZ, text="frame names of tf hold no slashes"),
+                mend="keep to ASCII letters, digits and underscores",
             )

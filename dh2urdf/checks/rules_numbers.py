@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from dh2urdf.checks.document import NUMBER, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, Verdict, effect
+from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, accept, complain, misread, refuse
 from dh2urdf.checks.report import Found
 
 __all__ = ["negative_zero", "not_finite", "number", "number_count", "xacro"]
@@ -32,7 +32,7 @@ def xacro(doc: Document) -> Iterator[Found]:
         name = etree.QName(element)
         if name.namespace == XACRO:
             effects: tuple[Effect, ...] = (
-                effect((*URDFDOM, Consumer.MUJOCO), Verdict.MISREADS, "skip the element"),
+                misread(*URDFDOM, Consumer.MUJOCO, text="skip the element"),
             )
             message = "is an element of xacro"
         else:
@@ -42,10 +42,10 @@ def xacro(doc: Document) -> Iterator[Found]:
             message = f"holds {left[0]!r}, an expression of xacro"
             keys = [k for k, v in element.attrib.items() if v == left[0]]
             in_joint = element.getparent() in doc.joints and (element.tag, keys[0]) in NUMERIC
-            effects = (effect(everyone, Verdict.REFUSES),) if in_joint else ()
-            effects += (effect(Consumer.PYBULLET, Verdict.MISREADS, "reads 0"),)
+            effects = (refuse(*everyone),) if in_joint else ()
+            effects += (misread(Consumer.PYBULLET, text="reads 0"),)
         yield Found(
-            element, message, effects, "expand the file first: xacro robot.xacro > robot.urdf"
+            element, message, *effects, mend="expand the file first: xacro robot.xacro > robot.urdf"
         )
 
 
@@ -77,8 +77,8 @@ def number(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 f'{key}="{element.get(key)}": {bad[0]!r} is no number',
-                _text_effects(doc, element, bad[0], short=len(words) < count),
-                "write it out; URDF has no expressions, units, commas or underscores",
+                *_text_effects(doc, element, bad[0], short=len(words) < count),
+                mend="write it out; URDF has no expressions, units, commas or underscores",
             )
 
 
@@ -88,29 +88,26 @@ def _text_effects(
     owner = _owner(element)
     python = bool(PYTHON.fullmatch(word))
     readers: tuple[Consumer, ...] = () if python else (Consumer.YOURDFPY,)
-    verdict = Verdict.COMPLAINS if short else Verdict.MISREADS
-    zero = effect(Consumer.PYBULLET, verdict, "reads what it can, 0 otherwise")
+    verdict = complain if short else misread
+    zero = verdict(Consumer.PYBULLET, text="reads what it can, 0 otherwise")
     if owner == "joint":
         if not python and element.tag in ("origin", "axis"):
             readers += (Consumer.IKPY,)
         if short or not DIGIT.match(word):
             readers += (Consumer.DRAKE,)
-        return effect((*URDFDOM, *readers, Consumer.MUJOCO), Verdict.REFUSES), zero
+        return (refuse(*URDFDOM, *readers, Consumer.MUJOCO), zero)
     if owner == "inertial":
         return (
-            effect((*readers, Consumer.MUJOCO), Verdict.REFUSES),
-            effect(URDFDOM, Verdict.COMPLAINS, "leave the whole <inertial> out"),
+            refuse(*readers, Consumer.MUJOCO),
+            complain(*URDFDOM, text="leave the whole <inertial> out"),
             zero,
         )
     if owner in ("visual", "collision") and doc.mujoco_reads(element):
         return (
-            effect((*readers, Consumer.MUJOCO), Verdict.REFUSES),
-            effect(URDFDOM, Verdict.COMPLAINS, f"leave the {owner} out"),
+            refuse(*readers, Consumer.MUJOCO),
+            complain(*URDFDOM, text=f"leave the {owner} out"),
         )
-    return (
-        effect(readers, Verdict.REFUSES),
-        effect(URDFDOM, Verdict.COMPLAINS, f"leave the {owner} out"),
-    )
+    return (refuse(*readers), complain(*URDFDOM, text=f"leave the {owner} out"))
 
 
 def number_count(doc: Document) -> Iterator[Found]:
@@ -121,18 +118,18 @@ def number_count(doc: Document) -> Iterator[Found]:
             in_joint = _owner(element) == "joint"
             readers = (*((Consumer.YOURDFPY,) if few else ()), Consumer.DRAKE, Consumer.IKPY)
             effects: tuple[Effect, ...] = (
-                effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out"),
+                complain(*URDFDOM, text="leave the element around it out"),
             )
             if in_joint:
-                effects = (effect((*URDFDOM, Consumer.MUJOCO, *readers), Verdict.REFUSES),)
+                effects = (refuse(*URDFDOM, Consumer.MUJOCO, *readers),)
             if in_joint and few:
-                worst = Verdict.REFUSES if element.tag == "axis" else Verdict.COMPLAINS
-                effects += (effect(Consumer.PYBULLET, worst),)
+                worst = refuse if element.tag == "axis" else complain
+                effects += (worst(Consumer.PYBULLET),)
             yield Found(
                 element,
                 f'{key}="{element.get(key)}": {len(words)} numbers, {count} belong there',
-                effects,
-                f"write {count}",
+                *effects,
+                mend=f"write {count}",
             )
 
 
@@ -145,23 +142,23 @@ def not_finite(doc: Document) -> Iterator[Found]:
         limit = element.tag == "limit"
         mend = "write the value; an unlimited joint has wide limits" if limit else "write the value"
         message = f'{key}="{element.get(key)}": {bad[0]} is not finite'
-        yield Found(element, message, tuple(_infinite_effects(element, bad[0])), mend)
+        yield Found(element, message, *tuple(_infinite_effects(element, bad[0])), mend=mend)
 
 
 def _infinite_effects(element: etree._Element, word: str) -> Iterator[Effect]:
     in_joint = _owner(element) == "joint"
-    yield effect((*(URDFDOM if in_joint else ()), Consumer.DRAKE), Verdict.REFUSES)
+    yield refuse(*(URDFDOM if in_joint else ()), Consumer.DRAKE)
     if not in_joint:
-        yield effect(URDFDOM, Verdict.COMPLAINS, "leave the element around it out")
+        yield complain(*URDFDOM, text="leave the element around it out")
     if _overflows(word) or element.tag == "mass":
-        yield effect(Consumer.MUJOCO, Verdict.REFUSES)
+        yield refuse(Consumer.MUJOCO)
     elif element.tag == "origin" or "nan" in word.lower():
-        yield effect(Consumer.MUJOCO, Verdict.COMPLAINS, "computes NaN")
+        yield complain(Consumer.MUJOCO, text="computes NaN")
     if in_joint and element.tag == "origin":
-        yield effect(Consumer.IKPY, Verdict.COMPLAINS, "computes NaN")
+        yield complain(Consumer.IKPY, text="computes NaN")
         if "nan" not in word.lower():
-            yield effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "computes NaN")
-    yield effect((Consumer.PYBULLET, Consumer.YOURDFPY), Verdict.MISREADS, "compute with it")
+            yield complain(Consumer.YOURDFPY, text="computes NaN")
+    yield misread(Consumer.PYBULLET, Consumer.YOURDFPY, text="compute with it")
 
 
 def _overflows(word: str) -> bool:
@@ -178,13 +175,10 @@ def negative_zero(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 f'{key}="{element.get(key)}": {minus[0]} is zero',
-                (
-                    effect(
-                        Consumer.IKFAST,
-                        Verdict.ACCEPTS,
-                        "programs that generate code may carry the sign along: "
-                        "atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi",
-                    ),
+                accept(
+                    Consumer.IKFAST,
+                    text="programs that generate code may carry the sign along: "
+                    "atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi",
                 ),
-                "write 0",
+                mend="write 0",
             )

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Verdict, effect
+from dh2urdf.checks.findings import URDFDOM, Consumer, accept, complain, misread, refuse
 from dh2urdf.checks.report import Found
 
 __all__ = ["fused_frames", "mimic", "mimic_leader", "repeated_element"]
@@ -31,15 +31,14 @@ def repeated_element(doc: Document) -> Iterator[Found]:
                     yield Found(
                         element,
                         f"has {counts[key]} <{key}>",
-                        (
-                            effect(Consumer.MUJOCO, Verdict.REFUSES),
-                            effect(
-                                (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.YOURDFPY),
-                                Verdict.MISREADS,
-                                "take the first without a word",
-                            ),
+                        refuse(Consumer.MUJOCO),
+                        misread(
+                            Consumer.PINOCCHIO,
+                            Consumer.CHECK_URDF,
+                            Consumer.YOURDFPY,
+                            text="take the first without a word",
                         ),
-                        "drop one of them",
+                        mend="drop one of them",
                     )
 
 
@@ -51,14 +50,12 @@ def fused_frames(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.link_by_name[frames[0]],
             f"hangs on a fixed joint; such links: {shown}",
-            (
-                effect(
-                    (Consumer.MUJOCO, Consumer.GAZEBO),
-                    Verdict.ACCEPTS,
-                    "fuse it with its parent: its name is gone, and MuJoCo drops all visuals",
-                ),
+            accept(
+                Consumer.MUJOCO,
+                Consumer.GAZEBO,
+                text="fuse it with its parent: its name is gone, and MuJoCo drops all visuals",
             ),
-            'add <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>',
+            mend='add <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>',
         )
 
 
@@ -73,11 +70,9 @@ def mimic_leader(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 "names no joint",
-                (
-                    effect((*URDFDOM, Consumer.MUJOCO, Consumer.DRAKE), Verdict.REFUSES),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
-                ),
-                'write <mimic joint="..."/>',
+                refuse(*URDFDOM, Consumer.MUJOCO, Consumer.DRAKE),
+                complain(Consumer.YOURDFPY),
+                mend='write <mimic joint="..."/>',
             )
             continue
         itself = leader == joint.get("name")
@@ -87,17 +82,16 @@ def mimic_leader(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 f"follows {what}",
-                (
-                    effect(Consumer.DRAKE, Verdict.REFUSES),
-                    effect(Consumer.MUJOCO, Verdict.REFUSES if itself else Verdict.COMPLAINS),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "takes the leader as 0"),
-                    effect(
-                        (Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.IKPY),
-                        Verdict.ACCEPTS,
-                        "do not look at it",
-                    ),
+                refuse(Consumer.DRAKE),
+                (refuse if itself else complain)(Consumer.MUJOCO),
+                complain(Consumer.YOURDFPY, text="takes the leader as 0"),
+                accept(
+                    Consumer.PINOCCHIO,
+                    Consumer.CHECK_URDF,
+                    Consumer.IKPY,
+                    text="do not look at it",
                 ),
-                "mend the name of the joint that it follows",
+                mend="mend the name of the joint that it follows",
             )
 
 
@@ -110,12 +104,12 @@ def mimic(doc: Document) -> Iterator[Found]:
             yield Found(
                 element,
                 f"follows {leader.get('name')!r}",
-                (
-                    effect(
-                        (Consumer.PINOCCHIO, Consumer.PYBULLET, Consumer.KDL, Consumer.IKPY),
-                        Verdict.ACCEPTS,
-                        "move it on its own; Pinocchio follows when asked (mimic=True)",
-                    ),
+                accept(
+                    Consumer.PINOCCHIO,
+                    Consumer.PYBULLET,
+                    Consumer.KDL,
+                    Consumer.IKPY,
+                    text="move it on its own; Pinocchio follows when asked (mimic=True)",
                 ),
-                "couple the joints in your own program",
+                mend="couple the joints in your own program",
             )

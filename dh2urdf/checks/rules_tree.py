@@ -12,8 +12,8 @@ from dh2urdf.checks.findings import (
     URDFDOM,
     Consumer,
     Effect,
-    Verdict,
-    effect,
+    accept,
+    complain,
     misread,
     refuse,
 )
@@ -42,8 +42,8 @@ def no_links(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.root,
             "the robot has no links",
-            (refuse(*URDFDOM, Consumer.PYBULLET, Consumer.IKPY),),
-            "is this the right file, or a xacro that was not expanded?",
+            refuse(*URDFDOM, Consumer.PYBULLET, Consumer.IKPY),
+            mend="is this the right file, or a xacro that was not expanded?",
         )
 
 
@@ -54,10 +54,7 @@ def joint_ends(doc: Document) -> Iterator[Found]:
         for tag in ("parent", "child"):
             if not doc.end(joint, tag):
                 yield Found(
-                    joint,
-                    f"has no <{tag}>",
-                    (refuse(*everyone),),
-                    f'write <{tag} link="..."/>',
+                    joint, f"has no <{tag}>", refuse(*everyone), mend=f'write <{tag} link="..."/>'
                 )
 
 
@@ -74,11 +71,9 @@ def unknown_child(doc: Document) -> Iterator[Found]:
         yield Found(
             joint,
             message,
-            (
-                refuse(*STRICT, Consumer.YOURDFPY),
-                misread(Consumer.IKPY, text="takes the joint as a link of its chain"),
-            ),
-            "mend the name, or add the link",
+            refuse(*STRICT, Consumer.YOURDFPY),
+            misread(Consumer.IKPY, text="takes the joint as a link of its chain"),
+            mend="mend the name, or add the link",
         )
 
 
@@ -88,11 +83,9 @@ def unknown_parent(doc: Document) -> Iterator[Found]:
         yield Found(
             joint,
             message,
-            (
-                refuse(*STRICT),
-                misread(Consumer.YOURDFPY, Consumer.IKPY, text="take the file all the same"),
-            ),
-            "mend the name, or add the link",
+            refuse(*STRICT),
+            misread(Consumer.YOURDFPY, Consumer.IKPY, text="take the file all the same"),
+            mend="mend the name, or add the link",
         )
 
 
@@ -103,12 +96,10 @@ def joins_itself(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 f"joins {doc.end(joint, 'child')!r} to itself",
-                (
-                    refuse(Consumer.CHECK_URDF, Consumer.IKPY, text="do not come back"),
-                    refuse(Consumer.PYBULLET, text="crashes"),
-                    refuse(Consumer.PINOCCHIO, Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
-                ),
-                "mend its parent or its child",
+                refuse(Consumer.CHECK_URDF, Consumer.IKPY, text="do not come back"),
+                refuse(Consumer.PYBULLET, text="crashes"),
+                refuse(Consumer.PINOCCHIO, Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                mend="mend its parent or its child",
             )
 
 
@@ -121,13 +112,11 @@ def two_parents(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 f"{child!r} hangs on joint {above[child]!r} already; a URDF is a tree",
-                (
-                    refuse(Consumer.PYBULLET, text="crashes"),
-                    refuse(Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
-                    refuse(Consumer.PINOCCHIO, text="or misreads, as the names fall"),
-                    misread(Consumer.CHECK_URDF, text="takes the file as a tree without a word"),
-                ),
-                "cut one of the joints; closed loops need SDF or MJCF",
+                refuse(Consumer.PYBULLET, text="crashes"),
+                refuse(Consumer.YOURDFPY, Consumer.MUJOCO, Consumer.DRAKE),
+                refuse(Consumer.PINOCCHIO, text="or misreads, as the names fall"),
+                misread(Consumer.CHECK_URDF, text="takes the file as a tree without a word"),
+                mend="cut one of the joints; closed loops need SDF or MJCF",
             )
         above.setdefault(child, str(joint.get("name")))
 
@@ -147,11 +136,9 @@ def loop(doc: Document) -> Iterator[Found]:
         yield Found(
             circle[0],
             f"joints form a loop: {names}",
-            (
-                refuse(*STRICT, Consumer.IKPY),
-                misread(Consumer.YOURDFPY, text="takes the file all the same"),
-            ),
-            "cut one of the joints; closed loops need SDF or MJCF",
+            refuse(*STRICT, Consumer.IKPY),
+            misread(Consumer.YOURDFPY, text="takes the file all the same"),
+            mend="cut one of the joints; closed loops need SDF or MJCF",
         )
 
 
@@ -163,14 +150,12 @@ def several_roots(doc: Document) -> Iterator[Found]:
         yield Found(
             doc.link_by_name[name],
             f"hangs on nothing, and so does {loose[0]!r}",
-            (
-                refuse(*URDFDOM),
-                refuse(Consumer.PYBULLET, text="crashes"),
-                effect(Consumer.YOURDFPY, Verdict.COMPLAINS, "hangs it on the base"),
-                misread(Consumer.DRAKE, text="leaves it floating"),
-                misread(Consumer.MUJOCO, text="welds it to the world"),
-            ),
-            "join it by a fixed joint, or drop it",
+            refuse(*URDFDOM),
+            refuse(Consumer.PYBULLET, text="crashes"),
+            complain(Consumer.YOURDFPY, text="hangs it on the base"),
+            misread(Consumer.DRAKE, text="leaves it floating"),
+            misread(Consumer.MUJOCO, text="welds it to the world"),
+            mend="join it by a fixed joint, or drop it",
         )
 
 
@@ -182,13 +167,11 @@ def joint_type(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 f"type {kind!r} is none of {', '.join(KINDS)}" if kind else "has no type",
-                (
-                    refuse(*STRICT, Consumer.IKPY)
-                    if kind != "spherical"
-                    else refuse(*URDFDOM, Consumer.DRAKE, Consumer.IKPY),
-                    effect(Consumer.YOURDFPY, Verdict.COMPLAINS),
-                ),
-                "a ball joint is three revolute joints; all else is one of the types above",
+                refuse(*STRICT, Consumer.IKPY)
+                if kind != "spherical"
+                else refuse(*URDFDOM, Consumer.DRAKE, Consumer.IKPY),
+                complain(Consumer.YOURDFPY),
+                mend="a ball joint is three revolute joints; all else is one of the types above",
             )
 
 
@@ -199,24 +182,20 @@ def many_degrees(doc: Document) -> Iterator[Found]:
             yield Found(
                 joint,
                 "has six degrees of freedom",
-                (
-                    refuse(Consumer.IKPY),
-                    *([] if doc.end(joint, "parent") in doc.roots else [_below_top()]),
-                    effect(Consumer.DRAKE, Verdict.COMPLAINS, "leaves the child a free body"),
-                    effect(Consumer.PYBULLET, Verdict.COMPLAINS, "makes it a fixed joint"),
-                    misread(Consumer.KDL, text="makes it a fixed joint"),
-                ),
-                "fix the base, and let the program that loads the file free it",
+                refuse(Consumer.IKPY),
+                *([] if doc.end(joint, "parent") in doc.roots else [_below_top()]),
+                complain(Consumer.DRAKE, text="leaves the child a free body"),
+                complain(Consumer.PYBULLET, text="makes it a fixed joint"),
+                misread(Consumer.KDL, text="makes it a fixed joint"),
+                mend="fix the base, and let the program that loads the file free it",
             )
         elif doc.kind(joint) == "planar":
             yield Found(
                 joint,
                 "has three degrees of freedom",
-                (
-                    refuse(Consumer.IKPY),
-                    misread(Consumer.KDL, text="makes it a fixed joint"),
-                ),
-                "write two prismatic joints and a revolute one",
+                refuse(Consumer.IKPY),
+                misread(Consumer.KDL, text="makes it a fixed joint"),
+                mend="write two prismatic joints and a revolute one",
             )
 
 
@@ -244,15 +223,12 @@ def side_frame_first(doc: Document) -> Iterator[Found]:
                 yield Found(
                     joint,
                     f"stands before the joint of {link!r} that leads on along the arm",
-                    (
-                        effect(
-                            Consumer.IKPY,
-                            Verdict.ACCEPTS,
-                            f"follows the first joint of each link, and so ends at {child!r} "
-                            "unless told every element of its way",
-                        ),
+                    accept(
+                        Consumer.IKPY,
+                        text=f"follows the first joint of each link, and so ends at {child!r} "
+                        "unless told every element of its way",
                     ),
-                    "write joints of side frames behind those of the arm",
+                    mend="write joints of side frames behind those of the arm",
                 )
 
 
