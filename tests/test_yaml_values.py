@@ -14,36 +14,9 @@ BOMB = "a: &a [x, x, x, x, x, x, x, x, x, x]\n" + "".join(
     f"{chr(98 + i)}: &{chr(98 + i)} [{', '.join(['*' + chr(97 + i)] * 10)}]\n" for i in range(8)
 )
 
-PIECES = st.sampled_from(
-    [
-        "axes: ",
-        "[",
-        "]",
-        "{",
-        "}",
-        "- ",
-        "? ",
-        "&a ",
-        "*a",
-        "!!set ",
-        "\n",
-        "\n  ",
-        "1e999",
-        ": ",
-        "'",
-        '"',
-        "\\",
-        "\\UFFFFFFFF",
-        "#",
-        "|",
-        ">",
-        "%YAML 1.2\n",
-        "---\n",
-        "9" * 400,
-        "\t",
-        "~",
-    ]
-)
+MARKS = ["[", "]", "{", "}", "- ", "? ", ": ", "'", '"', "\\", "#", "|", ">", "\n", "\n  ", "\t"]
+WORDS = ["axes: ", "&a ", "*a", "!!set ", "1e999", "~", "9" * 400, "\\UFFFFFFFF", "%YAML 1.2\n"]
+PIECES = st.sampled_from(MARKS + WORDS)
 
 
 @pytest.mark.parametrize(
