@@ -9,8 +9,11 @@ from __future__ import annotations
 __all__ = [
     "ANGLE",
     "CELL_CHARACTERS",
+    "CELL_DEPTH",
     "DEPTH",
     "DPI",
+    "EXPONENT",
+    "INERTIA",
     "JOINTS",
     "LENGTH",
     "LINKS",
@@ -41,6 +44,9 @@ residual of 1e-9 that a solution may have."""
 
 NUMBER = 1e30
 """Largest number of any other kind: squares and products of it are still floats."""
+
+INERTIA = 1e29
+"""Largest entry of an inertia tensor [kg m^2]: in other axes it may be three times as large."""
 
 # Arms
 
@@ -76,6 +82,12 @@ NODES = 20_000
 
 CELL_CHARACTERS = 200
 """Text of one number or expression."""
+
+CELL_DEPTH = 24
+"""Brackets and signs within one another in an expression."""
+
+EXPONENT = 10
+"""Largest power in an expression."""
 
 TEXT_CHARACTERS = 2_000
 """A name, a source: what is printed in one line, or one paragraph."""

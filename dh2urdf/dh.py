@@ -9,16 +9,44 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
+from itertools import islice
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.dh_motions import DHConvention, dh_factors, dh_transform
+from dh2urdf.bounds import JOINTS, LENGTH, NUMBER, ROWS
+from dh2urdf.dh_motions import DHConvention, convention_of, dh_factors, dh_transform
 from dh2urdf.dh_row import DHRow, JointType, Origin
+from dh2urdf.doors import found, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
 
 __all__ = ["DHConvention", "DHRow", "DHTable", "JointType", "Origin", "dh_factors", "dh_transform"]
+
+
+def _few(values: Any, what: str) -> tuple[Any, ...]:
+    """At most so many values as a table has rows.
+
+    Raises
+    ------
+    TableError
+    """
+    try:
+        out = tuple(islice(values, ROWS + 1))
+    except TypeError:
+        raise TableError(f"{what}: expected a list, got {found(values)}") from None
+    if len(out) > ROWS:
+        raise TableError(f"{what}: more than {ROWS}; a table has at most {JOINTS} joints")
+    return out
+
+
+def _rows(values: Any) -> tuple[DHRow, ...]:
+    rows = _few(values, "rows")
+    for row in rows:
+        if not isinstance(row, DHRow):
+            raise TableError(f"rows: expected DHRow objects, got {found(row)}")
+    return rows
 
 
 @dataclass(frozen=True)
@@ -54,16 +82,22 @@ class DHTable:
 
     def __post_init__(self) -> None:
         put = object.__setattr__
-        put(self, "rows", tuple(self.rows))
-        try:
-            put(self, "convention", DHConvention(self.convention))
-        except ValueError:
-            allowed = " or ".join(DHConvention)
-            raise TableError(f"convention: {self.convention!r}; allowed: {allowed}") from None
+        put(self, "rows", _rows(self.rows))
+        put(self, "convention", convention_of(self.convention, TableError))
+        for key in ("name", "source", "checked"):
+            put(self, key, text(getattr(self, key), key, TableError))
+        for key in ("base", "tool"):
+            if not isinstance(origin := getattr(self, key), Origin):
+                raise TableError(f"{key}: expected an Origin(xyz, rpy), got {found(origin)}")
         if not self.name:
             raise TableError("name: a table needs one")
         if self.n == 0:
             raise TableError("joints: a table needs at least one revolute or prismatic row")
+        if self.n > JOINTS:
+            raise TableError(f"joints: {self.n}; at most {JOINTS} are allowed")
+        far = self.length + math.hypot(*self.base.xyz)
+        if far > LENGTH:
+            raise TableError(f"lengths: sum to {far:g} m; at most {LENGTH:g} m are allowed")
         names = self.joint_names
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
@@ -152,11 +186,14 @@ class DHTable:
         return table_latex(self)
 
     def _config(self, q: ArrayLike) -> Array:
-        config = np.asarray(q, float)
+        expected = f"{self.n} numbers, one a joint, up to {NUMBER:g}"
+        config = real_array(q, "q", expected, ConfigurationError)
         if config.shape != (self.n,):
             raise ConfigurationError(
                 f"q: expected shape ({self.n},) for {self.n} joints, got {config.shape}"
             )
+        if not np.all(np.abs(config) <= NUMBER):
+            raise ConfigurationError(f"q: expected {expected}, got {found(q)}")
         return config
 
     def __str__(self) -> str:

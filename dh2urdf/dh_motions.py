@@ -17,9 +17,19 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf import transforms as tf
+from dh2urdf.bounds import ANGLE, LENGTH
+from dh2urdf.doors import choice, number
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 from dh2urdf.transforms import Array
 
-__all__ = ["DHConvention", "DHFactors", "dh_factors", "dh_transform"]
+__all__ = [
+    "DHConvention",
+    "DHFactors",
+    "convention_of",
+    "dh_factors",
+    "dh_matrix",
+    "dh_transform",
+]
 
 
 class DHConvention(StrEnum):
@@ -27,6 +37,17 @@ class DHConvention(StrEnum):
 
     STANDARD = "standard"  # distal: Paul, Spong, the lecture notes
     MODIFIED = "modified"  # proximal: Craig, Khalil
+
+
+def convention_of(value: object, error: type[Dh2UrdfError] = ArgumentError) -> DHConvention:
+    """The convention that a word names.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    return DHConvention(choice(value, "convention", DHConvention, error))
 
 
 class DHFactors(NamedTuple):
@@ -40,6 +61,7 @@ class DHFactors(NamedTuple):
 
 def dh_factors(theta: float, d: float, a: float, alpha: float) -> DHFactors:
     """``Rot_z(theta)``, ``Trans_z(d)``, ``Trans_x(a)`` and ``Rot_x(alpha)`` of one row."""
+    theta, d, a, alpha = _numbers(theta, d, a, alpha)
     return DHFactors(tf.rot_z(theta), tf.trans(0, 0, d), tf.trans(a, 0, 0), tf.rot_x(alpha))
 
 
@@ -60,9 +82,36 @@ def dh_transform(
     Returns
     -------
     array, shape (4, 4)
+
+    Raises
+    ------
+    ArgumentError
     """
+    return dh_matrix(*_numbers(theta, d, a, alpha), convention_of(convention))
+
+
+def _numbers(
+    theta: object, d: object, a: object, alpha: object
+) -> tuple[float, float, float, float]:
+    """The four parameters as floats within their bounds."""
+    return (
+        number(theta, "theta", -ANGLE, ANGLE, unit="rad"),
+        number(d, "d", -LENGTH, LENGTH, unit="m"),
+        number(a, "a", -LENGTH, LENGTH, unit="m"),
+        number(alpha, "alpha", -ANGLE, ANGLE, unit="rad"),
+    )
+
+
+def dh_matrix(
+    theta: float,
+    d: float,
+    a: float,
+    alpha: float,
+    convention: DHConvention = DHConvention.STANDARD,
+) -> Array:
+    """:func:`dh_transform` of floats that have been checked, shape (4, 4)."""
     ct, st, ca, sa = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
-    if DHConvention(convention) is DHConvention.STANDARD:
+    if convention is DHConvention.STANDARD:
         return np.array(
             [
                 [ct, -st * ca, st * sa, a * ct],

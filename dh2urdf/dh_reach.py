@@ -7,7 +7,9 @@ import math
 from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
-from dh2urdf.exceptions import TableError
+from dh2urdf.dh_motions import DHConvention, convention_of
+from dh2urdf.doors import integer
+from dh2urdf.exceptions import PoseError, TableError
 from dh2urdf.grids import number
 
 __all__ = ["dh_parameters", "why_unreachable"]
@@ -39,7 +41,10 @@ def dh_parameters(
         No four DH motions make this displacement; the message says why and names both remedies.
     """
     m = tf.check_pose(T)
-    if convention == "modified":
+    if m.shape != (4, 4):
+        raise PoseError(f"T: expected one pose of shape (4, 4), got {m.shape}")
+    i = integer(i, "i", 0, 1_000_000)
+    if convention_of(convention) is DHConvention.MODIFIED:
         theta, d, a, alpha = dh_parameters(tf.inverse(m), i=i)
         return -theta, -d, -a, -alpha
     problem = why_unreachable(m, i)

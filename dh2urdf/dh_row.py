@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
-from dh2urdf.dh_motions import DHConvention, dh_transform
+from dh2urdf.bounds import ANGLE, INERTIA, LENGTH, NUMBER
+from dh2urdf.dh_motions import DHConvention, dh_matrix
 from dh2urdf.dh_reach import why_unreachable
-from dh2urdf.exceptions import TableError
+from dh2urdf.doors import choice, found, number, real_array, text
+from dh2urdf.exceptions import ArgumentError, TableError
 from dh2urdf.transforms import Array
 
 __all__ = ["DHRow", "JointType", "Origin"]
@@ -34,9 +37,11 @@ class Origin:
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
+        problems: list[str] = []
         for key in ("xyz", "rpy"):
-            value = _triple(getattr(self, key), key)
-            object.__setattr__(self, key, value)
+            problems += _vector(self, key, 3)
+        if problems:
+            raise TableError(problems)
 
     @property
     def matrix(self) -> Array:
@@ -113,28 +118,26 @@ class DHRow:
 
     def __post_init__(self) -> None:
         problems: list[str] = []
-        put = object.__setattr__
-        try:
-            put(self, "joint_type", JointType(self.joint_type))
-        except ValueError:
-            allowed = ", ".join(JointType)
-            problems.append(f"type: {self.joint_type!r} is not a joint type; allowed: {allowed}")
-        for key in ("theta", "d", "a", "alpha"):
-            problems += _floats(self, key, required=True)
+        problems += _put(self, "joint_type", lambda v: JointType(choice(v, "type", JointType)))
+        problems += _put(self, "name", lambda v: text(v, "name"))
+        for key in ("theta", "d", "a", "alpha", "sign"):
+            problems += _scalar(self, key)
         for key in ("lower", "upper", "velocity", "effort", "damping", "friction", "mass"):
-            problems += _floats(self, key, required=False)
+            problems += _scalar(self, key) if getattr(self, key) is not None else []
         for key, size in (("com", 3), ("inertia", 6)):
-            problems += _tuples(self, key, size)
+            problems += _vector(self, key, size) if getattr(self, key) is not None else []
+        if not isinstance(self.origin, Origin | None):
+            problems.append(f"origin: expected an Origin, got {found(self.origin)}")
         bad = {problem.partition(":")[0] for problem in problems}
         problems += [p for p in self._range_problems(bad) if p.partition(":")[0] not in bad]
         if problems:
             raise TableError(problems)
-        put(self, "sign", int(self.sign))
+        object.__setattr__(self, "sign", int(self.sign))
 
     def _range_problems(self, bad: set[str]) -> list[str]:
         """Faults of the fields that are of the right kind; ``bad`` names those that are not."""
         out = []
-        if self.sign not in (1, -1):
+        if "sign" not in bad and self.sign not in (1, -1):
             out.append(f"sign: {self.sign!r} is not allowed; +1 or -1")
         lower = None if {"lower", "upper"} & bad else self.lower
         if lower is not None and self.upper is not None and lower > self.upper:
@@ -155,8 +158,8 @@ class DHRow:
             ]
             if self.origin is not None and any((self.theta, self.d, self.a, self.alpha)):
                 out.append("origin: a fixed row takes either xyz and rpy or DH parameters")
-        elif self.origin is not None:
-            step = dh_transform(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
+        elif self.origin is not None and not bad:
+            step = dh_matrix(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
             reason = why_unreachable(step) or "give its four DH parameters instead"
             out.append(
                 f"xyz: only a fixed row has xyz and rpy, this one is {self.joint_type}; {reason}"
@@ -181,46 +184,50 @@ class DHRow:
         if self.origin is not None:
             return self.origin.matrix
         theta, d = self.variables(q)
-        return dh_transform(theta, d, self.a, self.alpha, convention)
+        return dh_matrix(theta, d, self.a, self.alpha, convention)
 
 
 _JOINT_ONLY = ("lower", "upper", "velocity", "effort", "damping", "friction", "mass")
 
 
-def _triple(value: Sequence[float], key: str) -> tuple[float, float, float]:
-    try:
-        x, y, z = (float(v) for v in value)
-    except (TypeError, ValueError):
-        raise TableError(f"{key}: expected three numbers, got {value!r:.60}") from None
-    if not all(map(math.isfinite, (x, y, z))):
-        raise TableError(f"{key}: {value!r} is not finite")
-    return x, y, z
+def _bound(row: DHRow | Origin, key: str) -> tuple[float, str]:
+    """Largest value of a field, and its unit for messages."""
+    if key in ("lower", "upper"):
+        key = "d" if getattr(row, "joint_type", "") == JointType.PRISMATIC else "theta"
+    if key in ("d", "a", "com", "xyz"):
+        return LENGTH, "m"
+    if key == "sign":
+        return 1.0, ""
+    if key in ("theta", "alpha", "rpy"):
+        return ANGLE, "rad"
+    return (INERTIA if key == "inertia" else NUMBER), ""
 
 
-def _floats(row: DHRow, key: str, *, required: bool) -> list[str]:
-    """Turn one field into a float in place; say what is wrong with it otherwise."""
-    value = getattr(row, key)
-    if value is None:
-        return [f"{key}: missing"] if required else []
+def _put(row: DHRow | Origin, key: str, door: Callable[[Any], object]) -> list[str]:
+    """Put what a door makes of a field in its place; say what is wrong with it otherwise."""
     try:
-        number = float(value)
-    except (TypeError, ValueError):
-        return [f"{key}: expected a number, got {value!r:.60}"]
-    if not math.isfinite(number):
-        return [f"{key}: {value!r} is not finite"]
-    object.__setattr__(row, key, number + 0.0)
+        object.__setattr__(row, key, door(getattr(row, key)))
+    except ArgumentError as error:
+        return [str(error)]
     return []
 
 
-def _tuples(row: DHRow, key: str, size: int) -> list[str]:
+def _scalar(row: DHRow, key: str) -> list[str]:
+    bound, unit = _bound(row, key)
     value = getattr(row, key)
     if value is None:
-        return []
-    try:
-        numbers = tuple(float(v) for v in value)
-    except (TypeError, ValueError):
-        return [f"{key}: expected {size} numbers, got {value!r:.60}"]
-    if len(numbers) != size or not all(map(math.isfinite, numbers)):
-        return [f"{key}: expected {size} finite numbers, got {value!r:.60}"]
-    object.__setattr__(row, key, numbers)
-    return []
+        return [f"{key}: missing"]
+    return _put(row, key, lambda v: number(v, key, -bound, bound, unit=unit) + 0.0)
+
+
+def _vector(row: DHRow | Origin, key: str, size: int) -> list[str]:
+    bound, unit = _bound(row, key)
+    expected = f"{size} numbers from {-bound:g} to {bound:g}{' ' * bool(unit)}{unit}"
+
+    def door(value: Any) -> tuple[float, ...]:
+        array = real_array(value, key, expected)
+        if array.shape != (size,) or not np.all(np.abs(array) <= bound):
+            raise ArgumentError(f"{key}: expected {expected}, got {found(value)}")
+        return tuple((array + 0.0).tolist())
+
+    return _put(row, key, door)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy import ndarray
 from numpy.typing import NDArray
 
+from dh2urdf.bounds import TEXT_CHARACTERS
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
 __all__ = [
@@ -25,8 +26,8 @@ __all__ = [
     "integer",
     "number",
     "real_array",
+    "text",
 ]
-
 
 Array = NDArray[np.float64]
 
@@ -115,8 +116,9 @@ def number(
     low: float,
     high: float,
     error: type[Dh2UrdfError] = ArgumentError,
+    unit: str = "",
 ) -> float:
-    """A finite real number between two bounds, included.
+    """A finite real number between two bounds, included; the unit is for the message.
 
     Raises
     ------
@@ -125,9 +127,10 @@ def number(
     """
     if type(value) is float and low <= value <= high:
         return value
-    array = real_array(value, what, f"a number from {low:g} to {high:g}", error)
+    expected = f"a number from {low:g} to {high:g}{' ' * bool(unit)}{unit}"
+    array = real_array(value, what, expected, error)
     if array.shape or not low <= float(array) <= high:
-        raise error(f"{what}: expected a number from {low:g} to {high:g}, got {found(value)}")
+        raise error(f"{what}: expected {expected}, got {found(value)}")
     return float(array)
 
 
@@ -152,6 +155,23 @@ def integer(
     except TypeError:
         pass
     raise error(f"{what}: expected a whole number from {low} to {high}, got {found(value)}")
+
+
+def text(value: object, what: str, error: type[Dh2UrdfError] = ArgumentError) -> str:
+    """A text that a file can hold: bounded, and no half of a character.
+
+    Raises
+    ------
+    ArgumentError
+        Or ``error``.
+    """
+    if not isinstance(value, str):
+        raise error(f"{what}: expected a text, got {found(value)}")
+    if len(value) > TEXT_CHARACTERS:
+        raise error(f"{what}: {len(value)} characters; at most {TEXT_CHARACTERS} are allowed")
+    if any("\ud800" <= character <= "\udfff" for character in value):
+        raise error(f"{what}: {found(value)} holds half a character, which no file can hold")
+    return str(value)
 
 
 def flag(value: object, what: str) -> bool:

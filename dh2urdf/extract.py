@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from dh2urdf.conversions.frame_assignment import XRule
 from dh2urdf.dh import DHConvention, DHTable, JointType
+from dh2urdf.dh_motions import convention_of
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import pose_error
 
@@ -141,6 +142,7 @@ def extract_dh(
     from dh2urdf.conversions.near_misses import near_misses
     from dh2urdf.conversions.referee import configurations, table_poses
 
+    convention = convention_of(convention)
     tolerance = snapping.snap_tolerance(snap)
     given = read_source(source, base, tip, joint_types=joint_types, tool=tool, names=names)
     found, chain = given.found, given.found.chain
@@ -150,7 +152,7 @@ def extract_dh(
     allowed = LARGEST_ERROR * max(1.0, size)
     warnings = list(found.warnings)
     written = given.embedded if embedded and tolerance == 0 and not flip else None
-    if written is not None and written.convention == DHConvention(convention):
+    if written is not None and written.convention == convention:
         error = pose_error(table_poses(written, qs), truth)
         if error <= allowed:
             return Extraction(written, found.base, found.tip, error, len(qs), ())

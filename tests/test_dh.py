@@ -105,14 +105,14 @@ def test_all_faults_of_a_row_are_told():
     [
         (lambda: DHTable((), "standard"), "at least one"),
         (lambda: DHTable((DHRow(),), "standard", name=""), "needs one"),
-        (lambda: DHTable((DHRow(),), "distal"), "standard or modified"),
+        (lambda: DHTable((DHRow(),), "distal"), "'standard' or 'modified'"),
         (lambda: DHTable((DHRow(name="a"), DHRow(name="a")), "standard"), "more than one"),
-        (lambda: DHRow(joint_type="ball"), "revolute, prismatic, fixed"),
+        (lambda: DHRow(joint_type="ball"), "'revolute' or 'prismatic' or 'fixed'"),
         (lambda: DHRow(inertia=(1, 0, 0, 1, 0, 1)), "mass: missing"),
         (lambda: DHRow(joint_type="fixed", mass=1), "row above"),
-        (lambda: DHRow(com=(1, 2)), "3 finite numbers"),
-        (lambda: Origin((1, 2, math.inf)), "not finite"),
-        (lambda: Origin("ab"), "three numbers"),
+        (lambda: DHRow(com=(1, 2)), "com: expected 3 numbers"),
+        (lambda: Origin((1, 2, math.inf)), "xyz: expected 3 numbers from -1e"),
+        (lambda: Origin("ab"), "xyz: expected 3 numbers"),
     ],
 )
 def test_tables_that_cannot_be_meant_are_refused(build, message):

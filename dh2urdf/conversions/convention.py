@@ -9,6 +9,7 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.dh_motions import convention_of
 from dh2urdf.transforms import Array
 
 __all__ = ["to_convention"]
@@ -22,7 +23,7 @@ def to_convention(table: DHTable, convention: DHConvention | str) -> DHTable:
     goes into the tool (to modified) or the base (to standard). Where a fixed row stands between,
     the tail joins it. Centres of mass and tensors move with the frames.
     """
-    target = DHConvention(convention)
+    target = convention_of(convention)
     if target is table.convention:
         return table
     if target is DHConvention.MODIFIED:

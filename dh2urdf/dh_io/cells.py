@@ -6,15 +6,18 @@ import re
 from dataclasses import dataclass, field
 from decimal import Decimal
 
+from dh2urdf.dh import Origin
 from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.dh_io.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
 from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
 from dh2urdf.dh_io.units import SI, Kind, Units, unit_kind, unit_name
 from dh2urdf.dh_io.values import FUNCTIONS, ExpressionError, Value
+from dh2urdf.exceptions import TableError
 
 __all__ = ["Cells", "Context", "found"]
 
 _SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
+_NUMBER_MUST = re.compile(r"^-?[\d.e+-]+ (?=must)")
 _PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
@@ -185,6 +188,27 @@ class Cells:
     def get(self, key: str) -> Node | None:
         """Cell of a key, None where there is none or it is empty."""
         return self.cells.get(key)
+
+    def refuse(self, error: TableError, report: Report) -> None:
+        """Note what a row or a rigid step refuses at the cells that it names."""
+        for problem in error.problems:
+            key, _, message = problem.partition(": ")
+            cell = self.cells.get(key)
+            if cell is not None:
+                message = _NUMBER_MUST.sub("it ", message.partition(", got ")[0])
+                message = f"found {found(cell)}; {message}"
+            report.fault(self.mark_of(key), self.at(key), message)
+
+    def origin(
+        self, xyz: tuple[float, ...] | None, rpy: tuple[float, ...] | None, report: Report
+    ) -> Origin:
+        """The rigid step of two cells, none (and a fault) where it is beyond all bounds."""
+        none = (0.0, 0.0, 0.0)
+        try:
+            return Origin(xyz or none, rpy or none)  # type: ignore[arg-type]
+        except TableError as error:
+            self.refuse(error, report)
+            return Origin()
 
     def is_missing(self, key: str) -> bool:
         """Tell whether a cell is absent, and not merely under a misspelt key (a fault already)."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dh2urdf.bounds import ROWS
 from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
 from dh2urdf.dh_io.cells import Cells, Context, found
 from dh2urdf.dh_io.document import NOWHERE, Items, Keys, Node, Report, Scalar
@@ -53,7 +54,8 @@ def check_document(root: Node, report: Report, name: str) -> DHTable:
         table = DHTable(tuple(rows), convention, base=base, tool=tool, **words)
     except TableError as error:
         for problem in error.problems:
-            report.fault(cells.mark_of("joints"), "", problem)
+            key = problem.partition(":")[0]
+            report.fault(cells.mark_of(key if key in cells.keys else "joints"), "", problem)
         report.raise_faults()
         raise
     _warn(table, context)
@@ -127,6 +129,9 @@ def _rows(cells: Cells, context: Context) -> list[DHRow]:
         message += "expected a list of rows with theta, d, a and alpha"
         report.fault(cells.mark_of("joints"), "joints", message)
         return []
+    if len(node.values) > ROWS:
+        message = f"{len(node.values)} rows; a table has at most {ROWS}"
+        report.stop(node.values[ROWS].mark, f"joints: {message}")
     rows: list[DHRow] = []
     seen: dict[str, str] = {}
     joint = 1
@@ -154,10 +159,9 @@ def _origin(cells: Cells, key: str, context: Context) -> Origin:
     if node is None:
         return Origin()
     parts = Cells(node, key, ("xyz", "rpy"), context.report)
-    none = (0.0, 0.0, 0.0)
     xyz, rpy = parts.get("xyz"), parts.get("rpy")
-    return Origin(
-        (context.numbers(xyz, f"{key}.xyz", Kind.LENGTH, 3, "x, y, z") if xyz else none) or none,  # type: ignore[arg-type]
-        (context.numbers(rpy, f"{key}.rpy", Kind.ANGLE, 3, "roll, pitch, yaw") if rpy else none)  # type: ignore[arg-type]
-        or none,
+    return parts.origin(
+        context.numbers(xyz, f"{key}.xyz", Kind.LENGTH, 3, "x, y, z") if xyz else None,
+        context.numbers(rpy, f"{key}.rpy", Kind.ANGLE, 3, "roll, pitch, yaw") if rpy else None,
+        context.report,
     )

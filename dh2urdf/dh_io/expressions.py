@@ -24,6 +24,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from decimal import Decimal, DecimalException
 
+from dh2urdf.bounds import CELL_CHARACTERS, CELL_DEPTH
 from dh2urdf.dh_io.units import EXACT, PI, SI, Kind, Units, to_si, unit_kind, unit_name
 from dh2urdf.dh_io.values import (
     FUNCTIONS,
@@ -39,9 +40,6 @@ from dh2urdf.dh_io.values import (
 )
 
 __all__ = ["PI_NAMES", "Lookup", "evaluate", "parse_cell", "plain_text", "to_float"]
-
-MAX_LENGTH = 200
-MAX_DEPTH = 24
 
 PI_NAMES = ("pi", "PI", "Pi", "π")
 
@@ -106,16 +104,16 @@ def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool 
     ------
     ExpressionError
     """
-    if len(text) > MAX_LENGTH:
-        raise ExpressionError(f"the cell has {len(text)} characters; at most {MAX_LENGTH}")
+    if len(text) > CELL_CHARACTERS:
+        raise ExpressionError(f"the cell has {len(text)} characters; at most {CELL_CHARACTERS}")
     if _NOT_FINITE.fullmatch(text.strip()):
         raise ExpressionError("not a finite number", "leave an unknown cell out")
     parser = _Parser(_tokens(plain_text(text)), Kind.ANGLE if free else kind, units, lookup)
     try:
         value = parser.whole()
+        return value if free else parser.convert(value, kind)
     except DecimalException as error:
         raise ExpressionError(failure(error)) from None
-    return value if free else parser.convert(value, kind)
 
 
 _LATEX = (
@@ -196,8 +194,8 @@ class _Parser:
 
     def signed(self) -> Value:
         self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise ExpressionError(f"nested deeper than {MAX_DEPTH} levels")
+        if self.depth > CELL_DEPTH:
+            raise ExpressionError(f"nested deeper than {CELL_DEPTH} levels")
         if sign := self.accept("+", "-"):
             value = self.signed()
             value = value if sign == "+" else scale(value, Decimal(-1))

@@ -57,4 +57,4 @@ def _cells(line: str, number: int) -> list[Scalar]:
         raw = line[left + 1 : right]
         start = left + 2 + len(raw) - len(raw.lstrip())
         out.append(Scalar(raw.strip().replace(r"\|", "|"), Mark(number, start)))
-    return out
+    return out or [Scalar("", Mark(number, 1))]

@@ -21,7 +21,6 @@ _VARIABLE = re.compile(
     r"(?:(?P<angle>theta|Theta|th|θ|ϑ|t(?=_?\d))|(?P<length>d|[lsℓ](?=_?[\di]))|(?P<either>q))"
     r"_?(?P<index>\d+|i)?"
 )
-_LEADING_NUMBER = re.compile(r"^-?[\d.e+-]+ (?=must)")
 _PARAMETERS = ("theta", "d", "a", "alpha")
 _ORIGIN = ("xyz", "rpy")
 
@@ -243,7 +242,7 @@ class _Row:
             )
             return None
         xyz, rpy = self.vector("xyz", "x, y, z"), self.vector("rpy", "roll, pitch, yaw")
-        return Origin(xyz or (0.0, 0.0, 0.0), rpy or (0.0, 0.0, 0.0))  # type: ignore[arg-type]
+        return self.cells.origin(xyz, rpy, self.context.report)
 
     def check_limits(self, fields: dict[str, Any]) -> None:
         lower, upper = fields["lower"], fields["upper"]
@@ -259,10 +258,8 @@ class _Row:
         try:
             return DHRow(joint_type=self.type, **fields)
         except TableError as error:
-            for problem in error.problems:
-                key, _, message = problem.partition(": ")
-                if key not in self.bad:
-                    self.fault(key, _LEADING_NUMBER.sub("it ", message))
+            others = [p for p in error.problems if p.partition(":")[0] not in self.bad]
+            self.cells.refuse(TableError(others), self.context.report)
         return DHRow(joint_type=self.type)
 
 

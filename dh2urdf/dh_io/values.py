@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from decimal import Decimal, DecimalException, Overflow
 
+from dh2urdf.bounds import EXPONENT
 from dh2urdf.dh_io.units import EXACT, Kind
 from dh2urdf.exceptions import TableError
 
@@ -25,8 +26,6 @@ __all__ = [
     "scale",
     "times",
 ]
-
-MAX_EXPONENT = 10
 
 FUNCTIONS = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "abs")
 
@@ -87,8 +86,8 @@ def power(x: Value, y: Value) -> Value:
     """Power of plain numbers with a small exponent."""
     if any(v.kind is not Kind.NUMBER or v.variable for v in (x, y)):
         raise ExpressionError("a power takes plain numbers only")
-    if abs(y.number) > MAX_EXPONENT:
-        raise ExpressionError(f"an exponent of at most {MAX_EXPONENT} is allowed")
+    if abs(y.number) > EXPONENT:
+        raise ExpressionError(f"an exponent of at most {EXPONENT} is allowed")
     if x.number == 0 and y.number < 0:
         raise ExpressionError("division by zero")
     return Value(EXACT.power(x.number, y.number))
