@@ -8,6 +8,7 @@ A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joi
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import Any
@@ -18,11 +19,15 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import JOINTS, LENGTH, NUMBER, ROWS
 from dh2urdf.dh_motions import DHConvention, convention_of, dh_factors, dh_transform
 from dh2urdf.dh_row import DHRow, JointType, Origin
-from dh2urdf.doors import found, real_array, text
+from dh2urdf.doors import choice, found, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
 
 __all__ = ["DHConvention", "DHRow", "DHTable", "JointType", "Origin", "dh_factors", "dh_transform"]
+
+PARAMETERS = "theta d a alpha"
+COLUMNS = (*PARAMETERS.split(), "lower", "upper", "sign")
+LETTERS = {kind.value[0].upper(): kind for kind in JointType}
 
 
 def _few(values: Any, what: str) -> tuple[Any, ...]:
@@ -45,8 +50,19 @@ def _rows(values: Any) -> tuple[DHRow, ...]:
     rows = _few(values, "rows")
     for row in rows:
         if not isinstance(row, DHRow):
-            raise TableError(f"rows: expected DHRow objects, got {found(row)}")
+            raise TableError(
+                f"rows: expected DHRow objects, got {found(row)}; of numbers "
+                'DHTable.from_array(rows, convention=..., columns="theta d a alpha") makes a table'
+            )
     return rows
+
+
+def _columns(columns: Any) -> list[str]:
+    given = columns.replace(",", " ").split() if isinstance(columns, str) else columns
+    keys = [choice(key, "columns", COLUMNS, TableError) for key in _few(given, "columns")]
+    if len(set(keys)) != len(keys) or not set(COLUMNS[:4]) <= set(keys):
+        raise TableError(f"columns: found {' '.join(keys)!r}; expected {PARAMETERS}, each once")
+    return keys
 
 
 @dataclass(frozen=True)
@@ -102,6 +118,52 @@ class DHTable:
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
             raise TableError(f"name: {', '.join(map(repr, twice))} names more than one joint")
+
+    @classmethod
+    def from_array(
+        cls,
+        rows: ArrayLike,
+        convention: DHConvention | str,
+        columns: str | Iterable[str] = PARAMETERS,
+        joint_types: str | Iterable[str] | None = None,
+        name: str = "robot",
+    ) -> DHTable:
+        """A table from an array, a row a joint, in [rad] and [m].
+
+        Parameters
+        ----------
+        rows : array_like, shape (n, columns)
+        convention : DHConvention
+        columns : str
+            What the columns hold: theta, d, a and alpha in any order, and lower, upper and sign
+            where they are given.
+        joint_types : str, optional
+            A letter a row: ``"RRP"``, R revolute, P prismatic, F fixed. All revolute by default.
+        name : str
+
+        Raises
+        ------
+        TableError
+        """
+        keys = _columns(columns)
+        expected = f"an array of shape (n, {len(keys)}): {' '.join(keys)}"
+        array = real_array(rows, "rows", expected, TableError)
+        if array.ndim != 2 or array.shape[1] != len(keys) or len(array) > ROWS:
+            what = f"expected {expected}, n at most {ROWS}, got shape {array.shape}"
+            raise TableError(f"rows: {what}")
+        types = _few("R" * len(array) if joint_types is None else joint_types, "joint_types")
+        if len(types) != len(array):
+            raise TableError(f"joint_types: {len(types)} for {len(array)} rows")
+        out, problems = [], []
+        for at, (row, kind) in enumerate(zip(array.tolist(), types, strict=True)):
+            fields = dict(zip(keys, row, strict=True))
+            try:
+                out.append(DHRow(joint_type=LETTERS.get(str(kind), kind), **fields))
+            except TableError as error:
+                problems += [f"rows[{at}].{problem}" for problem in error.problems]
+        if problems:
+            raise TableError(problems)
+        return cls(tuple(out), convention_of(convention, TableError), name=name)
 
     @property
     def joints(self) -> tuple[DHRow, ...]:
