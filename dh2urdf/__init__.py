@@ -45,7 +45,7 @@ _LATE = {
     "IKSolutions": ("dh2urdf.ik.solutions", "IKSolutions"),
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
-    "UrdfOptions": ("dh2urdf.conversions.dh_to_urdf", "UrdfOptions"),
+    "UrdfOptions": ("dh2urdf.conversions.urdf_options", "UrdfOptions"),
     "check_urdf": ("dh2urdf.checks.rules", "check_urdf"),
     "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import JOINTS, LENGTH, NUMBER, ROWS
 from dh2urdf.dh_motions import DHConvention, convention_of, dh_factors, dh_transform
 from dh2urdf.dh_row import DHRow, JointType, Origin
-from dh2urdf.doors import choice, found, real_array, text
+from dh2urdf.doors import choice, found, instance, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
 
@@ -103,8 +103,7 @@ class DHTable:
         for key in ("name", "source", "checked"):
             put(self, key, text(getattr(self, key), key, TableError))
         for key in ("base", "tool"):
-            if not isinstance(origin := getattr(self, key), Origin):
-                raise TableError(f"{key}: expected an Origin(xyz, rpy), got {found(origin)}")
+            instance(getattr(self, key), key, Origin, TableError)
         if not self.name:
             raise TableError("name: a table needs one")
         if self.n == 0:

@@ -47,7 +47,7 @@ def convention_of(value: object, error: type[Dh2UrdfError] = ArgumentError) -> D
     ArgumentError
         Or ``error``.
     """
-    return DHConvention(choice(value, "convention", DHConvention, error))
+    return DHConvention(choice(value, "convention", tuple(DHConvention), error))
 
 
 class DHFactors(NamedTuple):

@@ -14,7 +14,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, INERTIA, LENGTH, NUMBER
 from dh2urdf.dh_motions import DHConvention, dh_matrix
 from dh2urdf.dh_reach import why_unreachable
-from dh2urdf.doors import choice, found, number, real_array, text
+from dh2urdf.doors import choice, found, instance, number, real_array, text
 from dh2urdf.exceptions import ArgumentError, TableError
 from dh2urdf.transforms import Array
 
@@ -118,7 +118,9 @@ class DHRow:
 
     def __post_init__(self) -> None:
         problems: list[str] = []
-        problems += _put(self, "joint_type", lambda v: JointType(choice(v, "type", JointType)))
+        problems += _put(
+            self, "joint_type", lambda v: JointType(choice(v, "type", tuple(JointType)))
+        )
         problems += _put(self, "name", lambda v: text(v, "name"))
         for key in ("theta", "d", "a", "alpha", "sign"):
             problems += _scalar(self, key)
@@ -126,8 +128,8 @@ class DHRow:
             problems += _scalar(self, key) if getattr(self, key) is not None else []
         for key, size in (("com", 3), ("inertia", 6)):
             problems += _vector(self, key, size) if getattr(self, key) is not None else []
-        if not isinstance(self.origin, Origin | None):
-            problems.append(f"origin: expected an Origin, got {found(self.origin)}")
+        if self.origin is not None:
+            problems += _put(self, "origin", lambda v: instance(v, "origin", Origin))
         bad = {problem.partition(":")[0] for problem in problems}
         problems += [p for p in self._range_problems(bad) if p.partition(":")[0] not in bad]
         if problems:

@@ -24,12 +24,12 @@ from dh2urdf.conversions.model_to_chain import (
 )
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
+from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import real_array
 from dh2urdf.exceptions import ConfigurationError, VerificationError
 from dh2urdf.robot_configurations import RobotConfigurations
 from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robot_pictures import RobotPictures
-from dh2urdf.robots import load_table
 from dh2urdf.transforms import Array, pose_error
 
 __all__ = ["Robot"]
@@ -107,14 +107,14 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         self._check_agreement()
 
     @classmethod
-    def from_dh(cls, table: DHTable | str | os.PathLike[str]) -> Robot:
+    def from_dh(cls, table: TableLike) -> Robot:
         """A robot of a DH table, a table file, or the name of a table that ships.
 
         Raises
         ------
         TableFileError, NameNotFoundError
         """
-        given = table if isinstance(table, DHTable) else load_table(table)
+        given = as_table(table)
         text, _ = urdf_text_and_warnings(given, UrdfOptions(embed_table=False))
         return cls(pin.buildModelFromXML(text), "base_link", "tool0", table=given)
 

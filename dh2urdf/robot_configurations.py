@@ -54,8 +54,8 @@ class RobotConfigurations:
         rng : numpy.random.Generator or int, optional
         """
         far = np.where(self.slides, 1.0, np.pi)
-        low = np.where(np.isfinite(self.lower), self.lower, -far)
-        high = np.where(np.isfinite(self.upper), self.upper, far)
+        low = np.where(np.isfinite(self.lower), self.lower, np.minimum(-far, self.upper - far))
+        high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
         return generator(rng).uniform(low, high)
 
     @cached_property

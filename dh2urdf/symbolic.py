@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh import DHConvention, DHRow, JointType
+from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.exceptions import MissingExtraError
 
 __all__ = ["symbolic_product", "symbolic_text", "symbolic_transforms"]
@@ -37,9 +38,9 @@ def _length(value: float) -> Any:
     return sp.Rational(repr(value)) if value else sp.Integer(0)
 
 
-def symbolic_transforms(table: DHTable) -> list[Any]:
+def symbolic_transforms(table: TableLike) -> list[Any]:
     """``H_i^{i-1}`` for i = 1 ... n as sympy matrices in q_1 ... q_n, fixed rows folded in."""
-    out: list[Any] = []
+    table, out = as_table(table), list[Any]()
     for row in table.rows:
         if row.is_joint:
             out.append(_row(row, len(out) + 1, table.convention))
@@ -79,9 +80,9 @@ def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
     return sp.Matrix(rows)
 
 
-def symbolic_product(table: DHTable) -> Any:
+def symbolic_product(table: TableLike) -> Any:
     """``H_n^0`` in symbols; angles about parallel axes are added (``c_12``)."""
-    sp = _sympy()
+    sp, table = _sympy(), as_table(table)
     product, group = sp.eye(4), sp.eye(4)
     matrices = symbolic_transforms(table)
     for k, matrix in enumerate(matrices):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +12,10 @@ from cyclopts import Parameter
 from dh2urdf.cli.options import whole
 from dh2urdf.cli.output import emit, emit_json, no_options, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
-from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
+from dh2urdf.dh_io.files import shown
+from dh2urdf.exceptions import Dh2UrdfError, VerificationError
 
 __all__ = ["convert_"]
 
@@ -32,7 +36,7 @@ def convert_(
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
     json: bool = False,
 ) -> int:
-    """Turn DH tables into URDF files that Pinocchio has checked.
+    """Turn DH tables into URDF files that Pinocchio has checked, or into tables of other formats.
 
     Each file is loaded back and compared with the DH product, frame by frame; one that differs
     is not written.
@@ -46,9 +50,10 @@ def convert_(
         All tables that ship with the package; `convert --shipped --out-dir urdf` made the folder
         urdf/ of the repository.
     output
-        The URDF to write; - for stdout. Default: the table's name beside you.
+        The file to write; - for stdout. Default: a URDF with the table's name beside you. Its
+        suffix decides: .urdf, or .yaml, .toml, .json, .csv, .md for the table itself.
     out_dir
-        Folder for the files of several tables.
+        Folder for the URDF files, made where there is none.
     force
         Replace files that dh2urdf did not write.
     collision
@@ -74,6 +79,8 @@ def convert_(
         raise Dh2UrdfError("convert: TABLES: name one or more, or --shipped; see `dh2urdf list`")
     if output is not None and len(tables) > 1:
         raise Dh2UrdfError("convert: -o names one file; for several tables use --out-dir")
+    if out_dir is not None:
+        _make(out_dir)
     if len(tables) == 1:
         result = _convert(tables[0], _target(tables[0], output, out_dir), options, force)
         _show_one(result, json=json)
@@ -81,8 +88,15 @@ def convert_(
     return _convert_many(tables, out_dir or Path(), options, force=force, json=json)
 
 
-def _target(source: str, output: Path | None, out_dir: Path | None) -> Path | None:
-    """Path to write; None is named after the table once it is read."""
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        raise Dh2UrdfError(f"{shown(folder)}: {getattr(error, 'strerror', error)}") from None
+
+
+def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
+    """Path to write, named after the source where none is given."""
     if output is not None:
         return output
     if source == "-" and out_dir is None:
@@ -91,29 +105,36 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path | No
     return (out_dir or Path()) / f"{stem}.urdf"
 
 
-def _convert(
-    source: str, target: Path | None, options: UrdfOptions, force: bool
-) -> dict[str, object]:
+def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, object]:
     from dh2urdf.conversions.write_urdf import verified_urdf, write_urdf
 
     table, warnings = read_source(source)
-    assert target is not None
+    result: dict[str, object] = {"source": source, "path": target}
+    suffix = target.suffix.lower()
     if str(target) == "-":
         text, max_error, more = verified_urdf(table, options)
-        return {
-            "source": source,
-            "path": "-",
-            "text": text,
-            "max_error": max_error,
-            "warnings": [*warnings, *more],
-        }
+        return result | {"text": text, "max_error": max_error, "warnings": [*warnings, *more]}
+    if suffix in FORMATS:
+        _write_table(table, target, FORMATS[suffix], force)
+        return result | {"max_error": 0.0, "warnings": list(warnings)}
+    if suffix not in (".urdf", ".xml") and (os.path.isfile(target) or not os.path.exists(target)):
+        known = ", ".join([".urdf", *FORMATS])
+        raise Dh2UrdfError(f"{shown(target)}: the suffix decides what convert writes: {known}")
     report = write_urdf(table, target, options=options, force=force)
-    return {
-        "source": source,
-        "path": report.path,
+    return result | {
         "max_error": report.max_error,
         "warnings": [*warnings, *report.warnings],
     }
+
+
+def _write_table(table: DHTable, target: Path, format: str, force: bool) -> None:
+    """Write the table itself, after reading its text back."""
+    text = table_to_text(table, format)
+    if parse_table(text, format).table != table:
+        raise VerificationError(f"{shown(target)}: the text reads back as another table")
+    if not force:
+        refuse_foreign(target)
+    atomic_write(target, text)
 
 
 def _show_one(result: dict[str, object], *, json: bool) -> None:
@@ -122,7 +143,7 @@ def _show_one(result: dict[str, object], *, json: bool) -> None:
         return
     for warning in result["warnings"]:  # type: ignore[attr-defined]
         note(f"warning: {warning}")
-    if result["path"] == "-":
+    if "text" in result:
         emit(str(result["text"]))
         note(_checked(result))
         return
@@ -130,6 +151,8 @@ def _show_one(result: dict[str, object], *, json: bool) -> None:
 
 
 def _checked(result: dict[str, object]) -> str:
+    if Path(str(result["path"])).suffix.lower() in FORMATS:
+        return "reads back as the same table"
     return f"largest difference between Pinocchio and the DH product {result['max_error']:.1e}"
 
 
@@ -140,14 +163,9 @@ def _convert_many(
     from dh2urdf.cli.progress import track
 
     done, failed = [], []
-    try:
-        out_dir.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise Dh2UrdfError(f"{out_dir}: {error.strerror}") from None
     targets: dict[Path, str] = {}
     for source in track(tables, "converting"):
         target = _target(source, None, out_dir)
-        assert target is not None
         try:
             if target in targets:
                 raise Dh2UrdfError(f"{source}: {target} was already written from {targets[target]}")

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from dh2urdf.cli.options import real
 from dh2urdf.cli.output import emit, emit_json, note
-from dh2urdf.exceptions import Dh2UrdfError, OutputExistsError, UrdfError
+from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 
 __all__ = ["extract_"]
@@ -133,9 +133,10 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
     if output is None or to_stdout:
         emit(text)
         return
-    from dh2urdf.dh_io import atomic_write
+    from dh2urdf.dh_io import atomic_write, refuse_foreign
 
-    _check_free(output, force)
+    if not force:
+        refuse_foreign(output, SIGNATURE)
     atomic_write(output, text)
     note(
         f"{output}: {found.base} to {found.tip}, largest FK difference {found.max_error:.2g} "
@@ -153,18 +154,6 @@ def _text(found: Extraction, format: str) -> str:
     if format == "latex":
         return f"% {found.table.source}\n{table_latex(found.table)}\n"
     return table_to_text(found.table, format)
-
-
-def _check_free(path: Path, force: bool) -> None:
-    """Refuse to write over what is not ours."""
-    if force or not path.exists() or path.is_dir():
-        return
-    try:
-        ours = SIGNATURE in path.read_text(encoding="utf-8", errors="replace")
-    except OSError:
-        ours = False
-    if not ours:
-        raise OutputExistsError(f"{path}: exists and was not extracted by dh2urdf; use --force")
 
 
 def _show_json(found: Extraction) -> None:

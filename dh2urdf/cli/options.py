@@ -14,7 +14,7 @@ from typing import Annotated, Any, NamedTuple
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER
-from dh2urdf.dh_io import Kind, Units, parse_cell
+from dh2urdf.dh_io import FORMATS, Kind, Units, parse_cell
 from dh2urdf.dh_io.units import SI
 from dh2urdf.dh_io.values import FUNCTIONS
 from dh2urdf.doors import found
@@ -170,6 +170,8 @@ class Rule(NamedTuple):
 
 _PICTURE = (Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),)
 
+_TABLES = " ".join(f"output={suffix}" for suffix in FORMATS)
+
 RULES: dict[str, tuple[Rule, ...]] = {
     "show_": (
         Rule("format", bars="json symbolic values q", why="it prints the table alone"),
@@ -197,6 +199,7 @@ RULES: dict[str, tuple[Rule, ...]] = {
     "convert_": (
         Rule("output", bars="out_dir", why="each says where to write"),
         Rule("force", bars="output=-"),
+        *(Rule(o, bars=_TABLES, why="it is for a URDF") for o in ("digits", "collision")),
     ),
 }
 """For each verb, the options that say nothing, or two things, beside others."""

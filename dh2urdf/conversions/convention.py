@@ -9,13 +9,14 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.dh_motions import convention_of
 from dh2urdf.transforms import Array
 
 __all__ = ["to_convention"]
 
 
-def to_convention(table: DHTable, convention: DHConvention | str) -> DHTable:
+def to_convention(table: TableLike, convention: DHConvention | str) -> DHTable:
     """The same arm in the other convention; FK from base to tool is equal for every q.
 
     ``Rot_z(theta) Trans_z(d)`` stays in its row. The tail ``Trans_x(a) Rot_x(alpha)`` of a
@@ -23,7 +24,7 @@ def to_convention(table: DHTable, convention: DHConvention | str) -> DHTable:
     goes into the tool (to modified) or the base (to standard). Where a fixed row stands between,
     the tail joins it. Centres of mass and tensors move with the frames.
     """
-    target = convention_of(convention)
+    table, target = as_table(table), convention_of(convention)
     if target is table.convention:
         return table
     if target is DHConvention.MODIFIED:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 from lxml import etree
 
+from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.bodies import Body, LinkFrames, draw_bodies, link_frames
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
@@ -19,11 +21,12 @@ from dh2urdf.conversions.inertia import (
     why_impossible,
     without_noise,
 )
+from dh2urdf.conversions.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
 from dh2urdf.transforms import Array, matrix_to_rpy
 
-__all__ = ["UrdfOptions", "default_limits", "urdf_text_and_warnings"]
+__all__ = ["MARK", "UrdfOptions", "default_limits", "urdf_text_and_warnings"]
 
 MATERIALS = {
     "base": "0.24 0.30 0.40 1.0",
@@ -38,38 +41,10 @@ DEFAULT_EFFORT = 1000.0
 DEFAULT_VELOCITY = 10.0
 """Velocity limit written where the table has none [rad/s or m/s]; URDF requires it."""
 
-XML_FORBIDDEN = {chr(c) for c in range(32)} - {"\t", "\n", "\r"}
+XML_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 
-
-@dataclass(frozen=True)
-class UrdfOptions:
-    """What may be chosen about the file.
-
-    Parameters
-    ----------
-    dh_frames : bool
-        Write the DH frames as fixed links ``dh_0 ... dh_n``.
-    collision : bool
-        Write the drawn bodies as collision geometry too.
-    density : float
-        Density [kg/m^3] of the drawn bodies where a row has no mass. Half that of aluminium,
-        as arms are hollow: it puts a UR5 at 21 kg (maker: 20.6) and an iiwa 14 at 28 kg (29.9).
-    balance_inertia : bool
-        Raise the small moments of published tensors that no body could have, so that every
-        consumer accepts them (with a warning); off keeps them as published.
-    digits : int or None
-        Round origins and limits to so many decimals, for IKFast users; None writes all floats
-        whole.
-    embed_table : bool
-        Keep the table itself in a ``<dh2urdf>`` element.
-    """
-
-    dh_frames: bool = True
-    collision: bool = False
-    density: float = 1350.0
-    balance_inertia: bool = True
-    digits: int | None = None
-    embed_table: bool = True
+MARK = " written from a DH table "
+"""Comment in a file without its table, by which its writer knows it again."""
 
 
 def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, tuple[str, ...]]:
@@ -85,15 +60,19 @@ def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, t
 
 
 def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
-    """Lower and upper bound of q [rad] or [m] where the row has none.
+    """Lower and upper bound of q [rad] or [m], made up where the row has none.
 
-    Revolute: +-2 pi. Prismatic: as far as the table's own lengths sum to, at least 1 m.
+    Revolute: +-2 pi. Prismatic: as far as the table's own lengths sum to, at least 1 m. Where
+    the given bound lies beyond that, as far again beyond it.
     """
-    far = 2.0 * math.pi if row.joint_type is JointType.REVOLUTE else table.length or 1.0
-    return (
-        -far if row.lower is None else row.lower,
-        far if row.upper is None else row.upper,
-    )
+    slides = row.joint_type is JointType.PRISMATIC
+    far, bound = (table.length or 1.0, LENGTH) if slides else (2.0 * math.pi, ANGLE)
+    lower, upper = row.lower, row.upper
+    if lower is None:
+        lower = -far if upper is None or upper > -far else max(upper - far, -bound)
+    if upper is None:
+        upper = far if lower < far else min(lower + far, bound)
+    return lower, upper
 
 
 def _check_names(table: DHTable) -> None:
@@ -102,7 +81,7 @@ def _check_names(table: DHTable) -> None:
     problems = [
         f"name: {name!r} holds a character that XML forbids"
         for name in (table.name, *table.joint_names)
-        if XML_FORBIDDEN & set(name)
+        if XML_FORBIDDEN.search(name)
     ]
     problems += [
         f"name: {name!r} is taken by a fixed joint of the written file"
@@ -148,6 +127,8 @@ class _Writer:
             from dh2urdf.dh_io import table_to_text
 
             embedded.text = table_to_text(self.table, "json")
+        else:
+            self.robot.append(etree.Comment(MARK))
         if any(row.mass is None for row in self.table.joints):
             estimate = f"estimated from the drawn bodies at {self.options.density:g} kg/m^3"
             self.robot.append(etree.Comment(f" links without a mass in the table: {estimate} "))
@@ -261,20 +242,26 @@ class _Writer:
         return balanced(inertia)
 
     def _limit_warnings(self) -> None:
-        reach = self.table.length or 1.0
-        for kind, written in (
-            (JointType.REVOLUTE, "+-2 pi rad"),
-            (JointType.PRISMATIC, f"+-{reach:.6g} m, as far as the table's lengths sum to"),
-        ):
-            names = [
-                name + _half(row)
-                for name, row in zip(self.table.joint_names, self.table.joints, strict=True)
-                if row.joint_type is kind and (row.lower is None or row.upper is None)
-            ]
-            if names:
-                self.warnings.append(
-                    f"{', '.join(names)}: no limits in the table; written as {written}"
-                )
+        """Say which limits were made up, the same ones together."""
+        made_up: dict[str, list[str]] = {}
+        for name, row in zip(self.table.joint_names, self.table.joints, strict=True):
+            if row.lower is None or row.upper is None:
+                made_up.setdefault(self._made_up(row), []).append(name + _half(row))
+        self.warnings += [
+            f"{', '.join(names)}: no limits in the table; written as {written}"
+            for written, names in made_up.items()
+        ]
+
+    def _made_up(self, row: DHRow) -> str:
+        """The limits of a row that has none, in words."""
+        slides = row.joint_type is JointType.PRISMATIC
+        far = default_limits(replace(row, lower=None, upper=None), self.table)[1]
+        beyond = [v for v in default_limits(row, self.table) if abs(v) > far]
+        beyond = [v for v in beyond if v not in (row.lower, row.upper)]
+        if beyond:
+            return f"{beyond[0]:.6g} {'m' if slides else 'rad'}, beyond the one that is given"
+        reach = f"+-{far:.6g} m, as far as the table's lengths sum to"
+        return reach if slides else "+-2 pi rad"
 
     def _inertial_element(self, link: etree._Element, body: Inertial) -> None:
         inertial = etree.SubElement(link, "inertial")

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dh2urdf.bounds import INERTIA, NUMBER
 from dh2urdf.transforms import Array
 
 __all__ = ["Inertial", "balanced", "tensor", "why_impossible", "without_noise"]
@@ -39,14 +40,19 @@ class Inertial:
         return Inertial(mass, self.com, self.inertia * (mass / self.mass))
 
     def rounded(self, digits: int = 9) -> Inertial:
-        """Estimates need no more digits, and so read the same from every processor."""
+        """Estimates need no more digits, and so read the same from every processor.
+
+        What is too large for a file is written as large as may be.
+        """
+        size = _size(self.inertia)
+        if size > 0.1 * INERTIA:
+            inertia = self.inertia * (0.1 * INERTIA / size)
+            return Inertial(min(self.mass, NUMBER), self.com, inertia)
         reach = float(np.abs(self.com).max())
         return Inertial(
             _significant(self.mass, abs(self.mass), digits),
             np.array([_significant(v, reach, digits) for v in self.com]),
-            np.array(
-                [[_significant(v, _size(self.inertia), digits) for v in r] for r in self.inertia]
-            ),
+            np.array([[_significant(v, size, digits) for v in r] for r in self.inertia]),
         )
 
     @staticmethod

@@ -13,6 +13,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.conversions.inertia import Inertial, tensor
 from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, TreeJoint, TreeLink
 from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
+from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
@@ -30,29 +31,6 @@ LARGEST = 1e30
 """Largest number of any kind: squares and products of it are still floats."""
 
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
-
-
-def parse_xml(data: bytes, where: str) -> etree._Element:
-    """The root element of a document, entities and network off.
-
-    Raises
-    ------
-    UrdfError
-        Not XML, or with a document type; the message names the line.
-    """
-    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
-    try:
-        root = etree.fromstring(data, parser)
-    except (etree.XMLSyntaxError, ValueError) as error:
-        line = getattr(error, "lineno", None) or 1
-        message = str(getattr(error, "msg", error)).split(", line ")[0]
-        raise UrdfError(f"{where}:{line}: not XML: {message}") from None
-    if root.getroottree().docinfo.doctype:
-        line = data[: max(data.find(b"<!DOCTYPE"), 0)].count(b"\n") + 1
-        raise UrdfError(
-            f"{where}:{line}: <!DOCTYPE>: document types and entities are not allowed in a URDF"
-        )
-    return root
 
 
 def read_urdf(root: etree._Element, where: str) -> KinematicTree:

@@ -12,21 +12,21 @@ from dh2urdf.dh import DHTable, JointType
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import Array, pose_error
 
-__all__ = ["LARGEST_ERROR", "allowed_error", "random_configurations", "verify_urdf_text"]
+__all__ = ["LARGEST_ERROR", "random_configurations", "verify_urdf_text"]
 
 LARGEST_ERROR = 1e-9
-"""Largest FK difference [m and rad] with which a file may be written."""
+"""Largest FK difference [rad, and m per m of arm beyond 1 m] of a file with whole floats."""
+
+COARSE = 1e-2
+"""Largest FK difference [rad, and m per m of arm] of a rounded file that is of any use."""
 
 
-def allowed_error(table: DHTable, digits: int | None) -> float:
-    """Largest difference [m and rad] with which the file may be written.
-
-    1e-9 where floats are whole; where they are rounded on request, what rounding every origin
-    by half a last digit in each direction can add up to at the tip.
-    """
-    if digits is None:
-        return LARGEST_ERROR
-    return 0.5 * math.sqrt(3) * 10.0**-digits * (table.n + 2) * (2.0 + table.length) + LARGEST_ERROR
+def _size(table: DHTable) -> float:
+    """How far the arm reaches at most [m], its slides drawn out."""
+    travel = [
+        np.abs(default_limits(r, table)).max() for r in table.joints if r.joint_type == "prismatic"
+    ]
+    return math.hypot(*table.base.xyz) + table.length + float(sum(travel)) or 1.0
 
 
 def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
@@ -40,16 +40,18 @@ def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
 
 
 def verify_urdf_text(
-    text: str, table: DHTable, count: int = 16, allowed: float = LARGEST_ERROR
+    text: str, table: DHTable, count: int = 16, digits: int | None = None
 ) -> float:
     """Largest difference [m and rad] between the file's frames and the DH product.
 
-    Every ``dh_i`` frame that the file has, and ``tool0``, over ``count`` random configurations.
+    Every ``dh_i`` frame that the file has, and ``tool0``, over ``count`` random configurations;
+    limits are compared too.
 
     Raises
     ------
     VerificationError
-        The file does not load, or differs by more than is allowed.
+        The file does not load, or differs by more than rounding to ``digits`` explains, or by
+        more than a rounded file of any use does.
     """
     try:
         model = pin.buildModelFromXML(text)
@@ -57,23 +59,54 @@ def verify_urdf_text(
         raise VerificationError(f"Pinocchio does not load the written file: {error}") from None
     data = model.createData()
     order = [model.joints[model.getJointId(name)].idx_q for name in table.joint_names]
+    _check_limits(model, order, table, 0.0 if digits is None else 0.5 * 10.0**-digits)
     names = [f"dh_{i}" for i in range(table.n + 1)]
     body = pin.FrameType.BODY
     present = [i for i, name in enumerate(names) if model.existFrame(name, body)]
     ids = [model.getFrameId(names[i], body) for i in present]
     tip = model.getFrameId("tool0", body)
-    largest = 0.0
+    size = _size(table) if digits is not None else max(1.0, _size(table))
+    largest = relative = 0.0
     for q in random_configurations(table, count):
         q_model = np.empty(model.nq)
         q_model[order] = q
         pin.framesForwardKinematics(model, data, q_model)
         frames = table.frames(q)
-        expected = [*frames[present], frames[-1] @ table.tool.matrix]
-        placed = [data.oMf[k].homogeneous for k in [*ids, tip]]
-        largest = max(largest, pose_error(np.stack(placed), np.stack(expected)))
-    if not largest <= allowed:
+        expected = np.stack([*frames[present], frames[-1] @ table.tool.matrix])
+        placed = np.stack([data.oMf[k].homogeneous for k in [*ids, tip]])
+        largest = max(largest, pose_error(placed, expected))
+        for T in (placed, expected):
+            T[:, :3, 3] /= size
+        relative = max(relative, pose_error(placed, expected))
+    explained = 0.0 if digits is None else math.sqrt(3) * 10.0**-digits * (table.n + 2)
+    if not relative <= LARGEST_ERROR + explained * (1.0 + 0.5 * table.length) / size:
         raise VerificationError(
             f"{table.name}: the written file differs from the DH product by {largest:.3g} "
-            f"(allowed {allowed:.0e})"
+            f"(relative to {size:.3g} m of arm allowed {LARGEST_ERROR:.0e})"
+        )
+    if relative > COARSE:
+        raise VerificationError(
+            f"{table.name}: rounded to {digits} decimals the file differs from the DH product by "
+            f"{largest:.2g} m or rad, over a hundredth of the arm's {size:.3g} m or of a radian; "
+            "give more digits"
         )
     return largest
+
+
+def _check_limits(model: pin.Model, order: list[int], table: DHTable, slack: float) -> None:
+    """Compare the limits that Pinocchio reads with the table's.
+
+    Raises
+    ------
+    VerificationError
+    """
+    for name, row, i in zip(table.joint_names, table.joints, order, strict=True):
+        wanted = np.array(default_limits(row, table))
+        read = np.array([model.lowerPositionLimit[i], model.upperPositionLimit[i]])
+        off = np.abs(read - wanted) > slack + 1e-15 * np.abs(wanted)
+        if off.any() or read[0] > read[1] or (read[0] == read[1] and wanted[0] < wanted[1]):
+            low, high = read
+            raise VerificationError(
+                f"{table.name}: {name} has the limits {low:g} to {high:g} in the written file, "
+                f"{wanted[0]:g} to {wanted[1]:g} in the table"
+            )

@@ -26,8 +26,9 @@ Messages
     ``joints[3].alpha`` is the third row of the file, counted from 1.
 """
 
-from dh2urdf.dh_io.atomic import atomic_write
+from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign
 from dh2urdf.dh_io.expressions import parse_cell
+from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
 from dh2urdf.dh_io.units import SI, Kind, Units
@@ -39,13 +40,16 @@ __all__ = [
     "Kind",
     "NearMiss",
     "TableFile",
+    "TableLike",
     "Units",
+    "as_table",
     "atomic_write",
     "format_of",
     "near_misses",
     "parse_cell",
     "parse_table",
     "read_table",
+    "refuse_foreign",
     "table_to_text",
     "write_table",
 ]

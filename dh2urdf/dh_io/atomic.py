@@ -9,9 +9,10 @@ import stat
 import tempfile
 from pathlib import Path
 
-from dh2urdf.exceptions import OutputError
+from dh2urdf.dh_io.files import path_of, shown
+from dh2urdf.exceptions import OutputError, OutputExistsError
 
-__all__ = ["atomic_write"]
+__all__ = ["atomic_write", "refuse_foreign"]
 
 _REASONS = {
     errno.ENOENT: "there is no such folder",
@@ -44,11 +45,13 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     OutputError
         The folder is missing, the path is a folder, no permission, the disk is full.
     """
-    where = Path(path)
+    where = path_of(path)
     try:
         data = content.encode() if isinstance(content, str) else content
     except UnicodeEncodeError as error:
-        raise OutputError(f"{where}: cannot write {error.object[error.start]!r} as UTF-8") from None
+        raise OutputError(
+            f"{shown(where)}: cannot write {error.object[error.start]!r} as UTF-8"
+        ) from None
     try:
         target = Path(os.path.realpath(where))
         mode = _mode(target)
@@ -63,6 +66,27 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     except (OSError, ValueError) as error:
         raise OutputError(f"{where}: cannot write: {_reason(error)}") from None
     return where
+
+
+def refuse_foreign(path: Path, *marks: str) -> None:
+    """Refuse to write over a file that does not open with one of the marks of this package.
+
+    Raises
+    ------
+    OutputExistsError
+    """
+    if not os.path.isfile(path):
+        return
+    try:
+        with path.open("rb") as file:
+            head = file.read(65536).decode(errors="replace")
+    except OSError as error:
+        raise OutputError(f"{shown(path)}: cannot read: {_reason(error)}") from None
+    if head.strip() and not any(mark in head for mark in marks):
+        raise OutputExistsError(
+            f"{shown(path)}: exists and was not written by dh2urdf; --force (force=True) "
+            "replaces it"
+        )
 
 
 def _mode(target: Path) -> int | None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, NoReturn
 
 from dh2urdf.bounds import DEPTH, NODES, TABLE_BYTES
+from dh2urdf.doors import found as value
 from dh2urdf.exceptions import TableFileError
 
 __all__ = ["Items", "Keys", "LineStarts", "Mark", "Node", "Report", "Scalar"]
@@ -92,6 +93,8 @@ class Report:
     @classmethod
     def of_text(cls, filename: str, text: str) -> Report:
         """Report of a text that has been looked at: of bounded size, printable, not empty."""
+        if not isinstance(text, str):
+            raise TableFileError(f"text: expected a text, got {value(text)}")
         report = cls(filename, text)
         if "\0" in text:
             report.stop(NOWHERE, "not a text file: it holds binary data")

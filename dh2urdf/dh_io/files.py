@@ -5,11 +5,13 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from pathlib import Path
 from typing import BinaryIO
 
+from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
-__all__ = ["decode", "read_bytes", "read_text", "shown"]
+__all__ = ["decode", "path_of", "read_bytes", "read_text", "shown"]
 
 _REASONS = {
     errno.ENOENT: "there is no such file",
@@ -94,6 +96,19 @@ def read_text(
     """Like :func:`read_bytes`, decoded by :func:`decode`."""
     name = shown(source) if isinstance(source, str | os.PathLike) else "<stdin>"
     return decode(read_bytes(source, limit, error), name, error)
+
+
+def path_of(path: object, what: str = "path", expected: str = "a path") -> Path:
+    """A path of text, bytes or any object that stands for one.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    try:
+        return Path(os.fsdecode(path))  # type: ignore[arg-type]
+    except TypeError:
+        raise ArgumentError(f"{what}: expected {expected}, got {found(path)}") from None
 
 
 def shown(path: str | os.PathLike[str]) -> str:

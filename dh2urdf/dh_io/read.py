@@ -12,11 +12,12 @@ from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.document import Node, Report
-from dh2urdf.dh_io.files import read_text, shown
+from dh2urdf.dh_io.files import path_of, read_text, shown
 from dh2urdf.dh_io.read_csv import read_csv
 from dh2urdf.dh_io.read_json import read_json
 from dh2urdf.dh_io.read_markdown import read_markdown
 from dh2urdf.dh_io.read_toml import read_toml
+from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
 
 __all__ = ["FORMATS", "TableFile", "format_of", "parse_table", "read_table"]
@@ -79,7 +80,7 @@ def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> Ta
     TableFileError
         All faults of the file at once, each with its line and column.
     """
-    where = Path(path)
+    where = path_of(path)
     kind = format
     if kind is None and not os.path.isdir(where):
         kind = format_of(where)
@@ -108,14 +109,11 @@ def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
 
 
 def _document(text: str, format: str, report: Report) -> Node:
-    if format == "yaml":
+    if choice(format, "format", tuple(dict.fromkeys(FORMATS.values())), TableFileError) == "yaml":
         from dh2urdf.dh_io.read_yaml import read_yaml
 
         return read_yaml(text, report)
-    if format in _READERS:
-        return _READERS[format](text, report)
-    formats = ", ".join(dict.fromkeys(FORMATS.values()))
-    raise TableFileError(f"format: {format!r} is not known; allowed: {formats}")
+    return _READERS[format](text, report)
 
 
 def _near(path: Path) -> str:

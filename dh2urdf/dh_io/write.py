@@ -10,9 +10,12 @@ from pathlib import Path
 
 from dh2urdf.dh import DHRow, DHTable, JointType, Origin
 from dh2urdf.dh_io.atomic import atomic_write
+from dh2urdf.dh_io.files import path_of
+from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.read import format_of
 from dh2urdf.dh_io.schema import ROW_KEYS
 from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
+from dh2urdf.doors import choice, found
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
 
@@ -30,7 +33,7 @@ _WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}
 
 
 def write_table(
-    table: DHTable,
+    table: TableLike,
     path: str | os.PathLike[str],
     *,
     format: str | None = None,
@@ -40,7 +43,7 @@ def write_table(
 
     Parameters
     ----------
-    table : DHTable
+    table : DHTable, path or name of a table that ships
     path : path
     format : str, optional
         ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``; by the suffix where not given.
@@ -54,27 +57,38 @@ def write_table(
     OutputError
         The file cannot be written; an older one stays as it was.
     """
-    return atomic_write(path, table_to_text(table, format or format_of(path), units))
+    return atomic_write(path, table_to_text(table, format or format_of(path_of(path)), units))
 
 
-def table_to_text(table: DHTable, format: str, units: Units = SI) -> str:
+def table_to_text(table: TableLike, format: str, units: Units = SI) -> str:
     """Text of a table in one of the formats.
 
     Parameters
     ----------
-    table : DHTable
+    table : DHTable, path or name of a table that ships
     format : str
         ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``.
     units : Units
     """
-    units = Units(*units)
-    for kind in (Kind.LENGTH, Kind.ANGLE):
-        if units.of(kind) not in UNIT_SIZES[kind]:
-            allowed = ", ".join(UNIT_SIZES[kind])
-            raise TableError(f"units: {units.of(kind)!r} is no {kind}; allowed: {allowed}")
-    if format not in _WRITERS:
-        raise TableError(f"format: {format!r} is not known; allowed: {', '.join(_WRITERS)}")
-    return _WRITERS[format](table, units)
+    table, units = as_table(table), _units(units)
+    return _WRITERS[choice(format, "format", _WRITERS, TableError)](table, units)
+
+
+def _units(units: Units) -> Units:
+    """The units of a file, each one that is known.
+
+    Raises
+    ------
+    TableError
+    """
+    try:
+        length, angle = units
+    except (TypeError, ValueError):
+        raise TableError(f"units: expected Units(length, angle), got {found(units)}") from None
+    return Units(
+        choice(length, "units.length", UNIT_SIZES[Kind.LENGTH], TableError),
+        choice(angle, "units.angle", UNIT_SIZES[Kind.ANGLE], TableError),
+    )
 
 
 def _words(table: DHTable) -> list[tuple[str, str]]:

@@ -1,0 +1,73 @@
+"""A DH table by path or by name."""
+
+from __future__ import annotations
+
+import difflib
+import os
+from functools import lru_cache
+from pathlib import Path
+
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io.files import path_of, shown
+from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
+from dh2urdf.exceptions import NameNotFoundError
+
+__all__ = ["TableLike", "as_table", "list_tables", "load_table", "load_table_file"]
+
+FOLDER = Path(__file__).parents[1] / "robots"
+"""Tables that ship, one YAML file an arm."""
+
+TableLike = DHTable | str | os.PathLike[str]
+
+
+@lru_cache(maxsize=1)
+def list_tables() -> tuple[str, ...]:
+    """Names of the tables that ship, sorted."""
+    return tuple(sorted(path.stem for path in FOLDER.glob("*.yaml")))
+
+
+def as_table(table: TableLike) -> DHTable:
+    """A table, or the one of a path or name; the door of every function that takes a table.
+
+    Raises
+    ------
+    ArgumentError
+        Neither; or an error of :func:`load_table`.
+    """
+    return table if isinstance(table, DHTable) else load_table(table)
+
+
+def load_table(path: str | os.PathLike[str]) -> DHTable:
+    """A DH table from a file, or one that ships, by name.
+
+    Parameters
+    ----------
+    path : path or str
+        A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
+        package (``.urdf``: the table that it carries), or a name of :func:`list_tables`.
+
+    Raises
+    ------
+    TableFileError
+        Every fault of the file at once.
+    NameNotFoundError
+        Neither a file nor a name; the message lists the names that are near.
+    """
+    return load_table_file(path).table
+
+
+def load_table_file(path: str | os.PathLike[str]) -> TableFile:
+    """Like :func:`load_table`, with what looked odd about the file."""
+    where = path_of(path, "table", "a DHTable, a path or the name of a table that ships")
+    if where.suffix.lower() == ".urdf":
+        from dh2urdf.dh_io.xml import embedded_table
+
+        return TableFile(embedded_table(where), ())
+    if isinstance(path, str) and path in list_tables():
+        return read_table(FOLDER / f"{path}.yaml")
+    if where.suffix.lower() in FORMATS or os.path.exists(where):
+        return read_table(where)
+    names = list_tables()
+    close = difflib.get_close_matches(where.name, names, 3, 0.5)
+    hint = f"did you mean {' or '.join(close)}?" if close else "`dh2urdf list` names them"
+    raise NameNotFoundError(f"{shown(path)}: neither a file nor a table that ships; {hint}")

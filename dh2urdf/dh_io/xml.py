@@ -1,0 +1,59 @@
+"""XML documents, and the DH table that a URDF of this package carries."""
+
+from __future__ import annotations
+
+import os
+
+from lxml import etree
+
+from dh2urdf.bounds import ROBOT_BYTES
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io.files import read_bytes, shown
+from dh2urdf.dh_io.read import parse_table
+from dh2urdf.exceptions import TableFileError, UrdfError
+
+__all__ = ["embedded_table", "parse_xml"]
+
+
+def parse_xml(data: bytes, where: str) -> etree._Element:
+    """The root element of a document, entities and network off.
+
+    Raises
+    ------
+    UrdfError
+        Not XML, or with a document type; the message names the line.
+    """
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    try:
+        root = etree.fromstring(data, parser)
+    except (etree.XMLSyntaxError, ValueError) as error:
+        line = getattr(error, "lineno", None) or 1
+        message = str(getattr(error, "msg", error)).split(", line ")[0]
+        raise UrdfError(f"{where}:{line}: not XML: {message}") from None
+    if root.getroottree().docinfo.doctype:
+        line = data[: max(data.find(b"<!DOCTYPE"), 0)].count(b"\n") + 1
+        raise UrdfError(
+            f"{where}:{line}: <!DOCTYPE>: document types and entities are not allowed in a URDF"
+        )
+    return root
+
+
+def embedded_table(path: str | os.PathLike[str]) -> DHTable:
+    """The DH table that a URDF written by this package carries, identical to the original.
+
+    Raises
+    ------
+    UrdfError
+        Not XML, or no embedded table.
+    """
+    root = parse_xml(read_bytes(path, ROBOT_BYTES, UrdfError), shown(path))
+    text = root.findtext("dh2urdf")
+    if not text:
+        raise UrdfError(
+            f"{shown(path)}: no DH table is embedded in this URDF; `dh2urdf extract` finds one by "
+            "frame assignment"
+        )
+    try:
+        return parse_table(text, "json", f"{shown(path)}:<dh2urdf>").table
+    except TableFileError as error:
+        raise UrdfError(f"{shown(path)}: the embedded DH table is damaged: {error}") from None
