@@ -109,8 +109,8 @@ THREADS = 1_024
 ORIENTATIONS = 10_000
 """Orientations of a workspace map: 5 degrees apart."""
 
-POINTS = (2, 2_000)
-"""Points along a side of a workspace map."""
+POINTS = (2, 1_000)
+"""Points along a side of a workspace map: a million poses."""
 
 DPI = (10.0, 1_200.0)
 """Dots per inch of a picture: more than a printer's take 1 GB."""

@@ -13,6 +13,7 @@ and its text says what was wrong, where, and what is allowed::
     │   └── ArgumentError                an option of the wrong kind or beyond its bounds
     ├── NameNotFoundError (LookupError)  no such table, frame or joint
     ├── NoSolutionError (LookupError)    a choice from an empty list of solutions
+    ├── UnreachedError                   nothing of what was asked for is within reach
     ├── NoSolverError                    no analytic solver for this chain or task
     ├── OutputError (OSError)            a file that cannot be written
     │   └── OutputExistsError            a file of somebody else's in the way
@@ -38,6 +39,7 @@ __all__ = [
     "ServerError",
     "TableError",
     "TableFileError",
+    "UnreachedError",
     "UrdfError",
     "VerificationError",
 ]
@@ -93,6 +95,10 @@ class NoSolutionError(Dh2UrdfError, LookupError):
 
 class NoSolverError(Dh2UrdfError):
     """No analytic solver covers this chain or task; the message says which classes exist."""
+
+
+class UnreachedError(Dh2UrdfError):
+    """Nothing of what was asked for is within reach: there is nothing to draw."""
 
 
 class OutputError(Dh2UrdfError, OSError):

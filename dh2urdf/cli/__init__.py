@@ -12,7 +12,7 @@ import os
 import sys
 from collections.abc import Sequence
 
-from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.exceptions import Dh2UrdfError, UnreachedError
 
 __all__ = ["main"]
 
@@ -46,7 +46,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         if debug:
             raise
         sys.stderr.write(f"dh2urdf: {error}\n")
-        status = 2
+        status = 1 if isinstance(error, UnreachedError) else 2
     except KeyboardInterrupt:
         sys.stderr.write("interrupted\n")
         status = 130

@@ -30,7 +30,7 @@ def workspace_(
     rpy: Values = None,
     deg: bool = False,
     points: Annotated[int | None, whole(*POINTS)] = None,
-    orientations: Annotated[int, whole(1, ORIENTATIONS)] = 150,
+    orientations: Annotated[int | None, whole(1, ORIENTATIONS)] = None,
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
     base: str | None = None,
     tip: str | None = None,
@@ -60,7 +60,7 @@ def workspace_(
     points
         Points along a side of the map of branches.
     orientations
-        Orientations tried at each point.
+        Orientations tried at each point; default: 150.
     limits
         Keep the joint limits.
     base, tip

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.bounds import ORIENTATIONS, POINTS
+from dh2urdf.doors import integer, real_array
+from dh2urdf.exceptions import ArgumentError, UnreachedError
 from dh2urdf.figures.planar_workspace import planar_picture
 from dh2urdf.figures.section_workspace import section_picture
 from dh2urdf.figures.style import Picture
@@ -28,6 +29,9 @@ __all__ = ["workspace_figure"]
 FINE, COARSE = 221, 75
 """Points along a side of the map of branches and of the map of orientations."""
 
+TRIED = 150
+"""Orientations tried at each point."""
+
 
 def workspace_figure(
     robot: Robot,
@@ -36,7 +40,7 @@ def workspace_figure(
     at: float | None = None,
     rpy: ArrayLike | None = None,
     points: int | None = None,
-    orientations: int = 150,
+    orientations: int | None = None,
     within_limits: bool = True,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Picture:
@@ -57,7 +61,7 @@ def workspace_figure(
     points : int, optional
         Points along a side of the map of branches; the other map has a third of them.
     orientations : int
-        Orientations tried at each point.
+        Orientations tried at each point, 150.
     within_limits : bool
     progress : callable, optional
         Called with what is computed, the number of poses done, and their total.
@@ -68,22 +72,29 @@ def workspace_figure(
 
     Raises
     ------
-    NoSolverError, ConfigurationError
+    NoSolverError, ArgumentError
+    UnreachedError
+        The section misses everything that the arm reaches.
     """
-    if orientations < 1:
-        raise ConfigurationError(f"orientations: at least 1, not {orientations}")
+    if points is not None:
+        integer(points, "points", *POINTS)
+    if orientations is not None:
+        integer(orientations, "orientations", 1, ORIENTATIONS)
+    task = task_of(robot)
+    if orientations is not None and task.sides == "none":
+        raise ArgumentError(f"orientations: they change nothing for {robot.model.name}")
     flat = planar_arm(robot)
-    if flat is not None and not plane and rpy is None:
+    if flat is not None and not plane and rpy is at is points is None:
         return planar_picture(robot, flat, within_limits=within_limits)
 
     def telling(what: str) -> Callable[[int, int], None] | None:
         return None if progress is None else lambda done, total: progress(what, done, total)
 
-    task = task_of(robot)
     R = default_orientation(robot, task)
     if rpy is not None:
-        r, p, y = np.asarray(rpy, float).tolist()
-        R = rpy_to_matrix((r, p, y))
+        if robot.n > 6 or task.name == "position":
+            raise ArgumentError(f"rpy: it changes nothing for {robot.model.name}")
+        R = rpy_to_matrix(real_array(rpy, "rpy", "three angles").reshape(3).tolist())
     counts = shares = None
     held = held_values(robot, within_limits=within_limits) if robot.n > 6 else None
     if robot.n <= 6:
@@ -94,10 +105,12 @@ def workspace_figure(
     if task.sides != "none":
         grid = section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
         told = telling("orientations")
-        share = dexterity(
-            robot, grid, orientations, within_limits=within_limits, held=held, progress=told
-        )
-        shares = grid, share, orientations
+        count = orientations or TRIED
+        share = dexterity(robot, grid, count, within_limits=within_limits, held=held, progress=told)
+        shares = grid, share, count
+    if not any(panel[1].any() for panel in (counts, shares) if panel):
+        name = f"{robot.tip} of {robot.model.name}"
+        raise UnreachedError(f"the section {grid.name} misses everything that {name} reaches")
     tried = [f"{robot.joint_names[k]} held at {len(v)} values" for k, v in (held or {}).items()]
     return section_picture(
         robot, counts, shares, R, within_limits=within_limits, tried=", ".join(tried)

@@ -39,12 +39,10 @@ def branch_counts(
     ------
     NoSolverError
     """
-    Ts = np.tile(np.eye(4), (grid.points[..., 0].size, 1, 1))
-    Ts[:, :3, :3], Ts[:, :3, 3] = R, grid.points.reshape(-1, 3)
     task = task_of(robot)
     counts = [
         robot.ik_batch(part, within_limits=within_limits, task=task.name).count
-        for part in _parts(Ts, progress)
+        for part in _parts(grid, R[None], progress)
     ]
     return np.concatenate(counts).reshape(len(grid.v), len(grid.u))
 
@@ -77,15 +75,11 @@ def dexterity(
     """
     task = task_of(robot)
     turns = orientations(robot, task, count)
-    points = grid.points.reshape(-1, 3)
-    Ts = np.tile(np.eye(4), (len(points), len(turns), 1, 1))
-    Ts[..., :3, :3], Ts[..., :3, 3] = turns, points[:, None]
-    flat = Ts.reshape(-1, 4, 4)
     tries: list[dict[int | str, float] | None] = [None]
     if held:
         tries = [{k: float(v)} for k, values in held.items() for v in values]
     reached = []
-    for part in _parts(flat, progress):
+    for part in _parts(grid, turns, progress):
         hit = np.zeros(len(part), np.bool_)
         for locked in tries:
             left = np.flatnonzero(~hit)
@@ -93,8 +87,8 @@ def dexterity(
                 part[left], within_limits=within_limits, task=task.name, locked=locked
             )
             hit[left] = found.count > 0
-        reached.append(hit)
-    share: Array = np.concatenate(reached).reshape(len(points), len(turns)).mean(axis=1)
+        reached.append(hit.reshape(-1, len(turns)).mean(axis=1))
+    share: Array = np.concatenate(reached)
     return share.reshape(len(grid.v), len(grid.u))
 
 
@@ -109,9 +103,14 @@ def held_values(
     return {solver.joint: values}
 
 
-def _parts(Ts: Array, progress: Progress | None) -> Iterator[Array]:
-    """Poses in chunks, telling how far it has come."""
-    for start in range(0, len(Ts), CHUNK):
-        yield Ts[start : start + CHUNK]
+def _parts(grid: Section, turns: Array, progress: Progress | None) -> Iterator[Array]:
+    """Poses in chunks, each point turned in all ways (k, 3, 3), telling how far it has come."""
+    points, each = grid.points.reshape(-1, 3), len(turns)
+    step = max(1, CHUNK // each)
+    for start in range(0, len(points), step):
+        part = points[start : start + step, None]
+        Ts = np.tile(np.eye(4), (len(part), each, 1, 1))
+        Ts[..., :3, :3], Ts[..., :3, 3] = turns, part
+        yield Ts.reshape(-1, 4, 4)
         if progress:
-            progress(min(start + CHUNK, len(Ts)), len(Ts))
+            progress((start + len(part)) * each, len(points) * each)
