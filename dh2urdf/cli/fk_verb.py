@@ -14,9 +14,8 @@ __all__ = ["fk_"]
 
 def fk_(
     robot: str,
-    values: list[str] | None = None,
     /,
-    *,
+    *values: str,
     q: Values = None,
     deg: bool = False,
     base: str | None = None,
@@ -41,7 +40,7 @@ def fk_(
         One JSON object instead of text.
     """
     arm = robot_of(robot, base, tip)
-    config = parse_configuration([*(values or []), *(q or [])], arm, deg=deg)
+    config = parse_configuration([*values, *(q or [])], arm, deg=deg)
     T = arm.fk(config)
     rpy = matrix_to_rpy(T)
     outside = [

@@ -168,8 +168,6 @@ class Rule(NamedTuple):
     why: str = "it would change nothing"
 
 
-_PICTURE = (Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),)
-
 _TABLES = " ".join(f"output={suffix}" for suffix in FORMATS)
 
 RULES: dict[str, tuple[Rule, ...]] = {
@@ -183,8 +181,11 @@ RULES: dict[str, tuple[Rule, ...]] = {
         Rule("matrix", bars="xyz rpy", why="the matrix is the whole pose"),
         Rule("rpy", bars="task=position", why="a position has no orientation"),
     ),
-    "figure_": (*_PICTURE, Rule("deg", needs="q")),
-    "workspace_": (*_PICTURE, Rule("deg", needs="rpy")),
+    "figure_": (
+        Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),
+        Rule("deg", needs="q"),
+    ),
+    "workspace_": (Rule("deg", needs="rpy"),),
     "view_": (
         Rule("base", needs="robot"),
         Rule("tip", needs="robot"),
@@ -235,7 +236,7 @@ def _is_given(option: str, given: Mapping[str, Any]) -> bool:
         return all(_is_given(part, given) for part in option.split("+"))
     name, _, wanted = option.partition("=")
     value = given.get(name)
-    if value is None or value is False:
+    if value is None or value is False or value == ():
         return False
     suffix = value.suffix.lower() if isinstance(value, Path) else ""
     return not wanted or wanted in (str(value), suffix)

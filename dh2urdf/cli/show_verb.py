@@ -17,9 +17,8 @@ __all__ = ["show_"]
 
 def show_(
     table: str,
-    values: list[str] | None = None,
     /,
-    *,
+    *values: str,
     q: Values = None,
     deg: bool = False,
     symbolic: bool = False,
@@ -51,7 +50,7 @@ def show_(
     if format != "text":
         emit(_formatted(dh, format))
         return 0
-    cells = [*(values or []), *(q or [])]
+    cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
     name, why = _solver(arm)
     if json:

@@ -101,8 +101,10 @@ def _candidates(label: Label) -> Array:
 
 def _fixed_cost(label: Label, spots: Array, samples: Array, weights: Array, bounds: Array) -> Array:
     half = label.size / 2 + PADDING
-    away = np.abs(spots[:, None, :] - samples[None, :, :]) <= half
-    covered = away.all(axis=2) @ weights
+    low, high = spots.min(axis=0) - half, spots.max(axis=0) + half
+    near = ((samples >= low) & (samples <= high)).all(axis=1)
+    beside, over = (np.abs(spots[:, k, None] - samples[None, near, k]) <= half[k] for k in (0, 1))
+    covered = (beside & over) @ weights[near]
     outside = np.maximum(bounds[0] - (spots - half), 0) + np.maximum(spots + half - bounds[1], 0)
     way = spots - label.anchor
     gap = np.maximum(np.abs(way) - label.size / 2, 0.0)

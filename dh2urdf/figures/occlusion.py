@@ -9,7 +9,6 @@ ray is put into the solid's own frame.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -58,10 +57,10 @@ def occlusion(parts: list[Part], view: View) -> Occlusion:
     x, y, fronts = _fronts(parts, view)
     order = _order(parts, view, fronts)
     again = []
-    nearest = np.argmax(fronts, axis=0)
+    rays, nearest = fronts.reshape(len(parts), -1), np.argmax(fronts, axis=0)
     for place, k in enumerate(order):
-        later = order[place + 1 :]
-        covered = np.isfinite(fronts[later]).any(axis=0) & (nearest == k) & np.isfinite(fronts[k])
+        seen = np.flatnonzero((nearest == k) & np.isfinite(fronts[k]))
+        covered = np.isfinite(rays[:, seen][order[place + 1 :]]).any(axis=0)
         if int(covered.sum()) >= WRONG:
             again.append((k, _in_front(k, x, y, fronts)))
     return Occlusion(order, again)
@@ -70,18 +69,18 @@ def occlusion(parts: list[Part], view: View) -> Occlusion:
 def _order(parts: list[Part], view: View, fronts: Array) -> list[int]:
     """Far parts first; a knot of parts that hide one another is cut at its weakest tie."""
     behind = np.zeros((len(parts), len(parts)))
-    for i, j in combinations(range(len(parts)), 2):
-        both = np.isfinite(fronts[i]) & np.isfinite(fronts[j])
-        lead = float(np.sign(fronts[i][both] - fronts[j][both]).sum())
-        behind[i, j], behind[j, i] = max(-lead, 0.0), max(lead, 0.0)
+    for i, front in enumerate(fronts):
+        hit = np.isfinite(front)
+        others = fronts[:, hit]
+        lead = np.where(np.isfinite(others), np.sign(front[hit] - others), 0.0).sum(axis=1)
+        behind[i] = np.maximum(-lead, 0.0)
     depth = [min(float(view.depth(T[:3, 3])) for _, T in part.solids) for part in parts]
     order: list[int] = []
-    left = set(range(len(parts)))
-    while left:
-        index = sorted(left, key=lambda k: depth[k])
-        best = min(index, key=lambda k: sum(float(behind[m, k]) for m in left if m != k))
-        order.append(best)
-        left.remove(best)
+    left = np.argsort(depth, kind="stable")
+    while len(left):
+        best = int(np.argmin(behind[np.ix_(left, left)].sum(axis=0)))
+        order.append(int(left[best]))
+        left = np.delete(left, best)
     return order
 
 
