@@ -130,7 +130,7 @@ def test_what_a_file_of_poses_cannot_mean_is_named(file, case):
 
 WORDS = """
 x y z roll qw t00 yaw[deg] [ ° _mm units:mm 1 -0.5 0 pi/2 nan -inf 1e400
-1e308 0x1 9**9**9 (((( 1_0 ٣ 90deg 400mm 0,5 sqrt(-1) 1/0 "1 ""1"" - +
+1e308 0x1 9**9**9 (((( 1_0 ٣ 90deg 400mm 0,5 sqrt(-1) 1/0 1e9999999 -1e9999999 "1 ""1"" - +
 """
 CELLS = WORDS.split()
 ROW = st.lists(st.sampled_from(CELLS), min_size=4, max_size=13).map(",".join)

@@ -1,0 +1,214 @@
+"""Options of every verb: numbers read alike, bounds, options that go together, hostile lines."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import os
+import tempfile
+import time
+import warnings
+
+import numpy as np
+import pytest
+from hostile import hostile
+from hypothesis import strategies as st
+
+import dh2urdf
+from dh2urdf.cli import VERBS, main
+
+POSE = ["--xyz=0,0,0", "--rpy=0,0,0"]
+FEW = ["--points", "5", "--orientations", "2"]
+
+
+def call(*argv, stdin=""):
+    """Run the command line in a new folder: status, stdout, stderr, files left behind."""
+    out, err, back = io.StringIO(), io.StringIO(), os.getcwd()
+    with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.stdin", io.StringIO(stdin))
+        os.chdir(folder)
+        try:
+            with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+                main([str(a) for a in argv])
+        except SystemExit as stop:
+            status = stop.code
+        finally:
+            left = sorted(os.listdir())
+            os.chdir(back)
+    return status, out.getvalue(), err.getvalue(), left
+
+
+NEGATIVE = [
+    ["workspace", "ur5", "-o", "x.png", "--at", "-0.1", *FEW],
+    ["workspace", "ur5", "-o", "x.png", "--at", "-100mm", *FEW],
+    ["workspace", "ur5", "-o", "x.png", "--rpy", "0", "-90", "0", "--deg", *FEW],
+    ["workspace", "ur5", "-o", "x.png", "--rpy", "0", "-pi/2", "-90deg", *FEW],
+    ["workspace", "ur5", "-o", "x.png", "--rpy=0,-1e-3,0", *FEW],
+    ["figure", "planar_rr", "-o", "x.png", "--view", "300", "-20"],
+    ["figure", "planar_rr", "-o", "x.png", "--view", "-60deg", "-.3rad", "--q", "-pi/3", "-(1)"],
+]
+
+
+@pytest.mark.parametrize("argv", NEGATIVE, ids=[" ".join(a[4:7]) for a in NEGATIVE])
+def test_negative_values_are_values_at_every_option(argv):
+    """A value that begins with a minus is read, and the picture is written."""
+    status, _, err, left = call(*argv)
+    assert (status, err, left) == (0, "", ["x.png"])
+
+
+def test_a_negative_value_means_the_same_as_by_an_equals_sign():
+    """--rpy 0 -pi/2 0, --rpy=0,-pi/2,0 and degrees are one pose; so are joint values."""
+    ways = (
+        ["--xyz", "-.4", "-100mm", ".3", "--rpy", "0", "-pi/2", "-90deg"],
+        ["--xyz=-.4,-0.1,.3", "--rpy=0,-pi/2,-pi/2"],
+        ["--xyz", "-400mm", "-1e-1", "3e-1", "--rpy", "-0", "-90", "-acos(0)", "--deg"],
+    )
+    poses = [json.loads(call("ik", "ur5", *way, "--json")[1])["T_base_tip"] for way in ways]
+    assert np.abs(np.array(poses) - poses[0]).max() < 1e-15
+    q = [-1.0, -np.pi / 2, 0.0, 0.0, 0.0, 0.0]
+    for way in (
+        ["-1", "-pi/2", "0", "0", "0", "0"],
+        ["--q", "-1", "-90deg", "0", "0", "0", "0"],
+        ["--", "-1", "-pi/2", "0", "0", "0", "0"],
+    ):
+        assert json.loads(call("fk", "ur5", "--json", *way)[1])["q"] == q
+        assert json.loads(call("fk", "--json", "ur5", *way)[1])["q"] == q
+
+
+def test_options_before_two_hyphens_count():
+    """--deg before -- holds for the values behind it."""
+    a = call("fk", "ur5", "--deg", "--json", "--", "-90", "0", "0", "0", "0", "0")
+    assert json.loads(a[1])["q"][0] == -np.pi / 2
+
+
+BEYOND = [
+    (["figure", "ur5", "-o", "x.png", "--dpi"], ["-5", "0", "5000", "inf", "nan", "1e400", "x"]),
+    (["figure", "ur5", "-o", "x.png", "--view"], ["-20", "0 nan", "1 2 3", "inf 0", "1e300 0"]),
+    (["workspace", "ur5", "-o", "x.png", "--at"], ["inf", "nan", "1e300", "-1e99", "90deg", ""]),
+    (["workspace", "ur5", "-o", "x.png", "--rpy"], ["0 0", "0 nan 0", "inf 0 0", "0 0 1e300"]),
+    (["workspace", "ur5", "-o", "x.png", "--points"], ["-1", "0", "1", "1e6", "2.5", "nan"]),
+    (["workspace", "ur5", "-o", "x.png", "--orientations"], ["0", "-3", "100000000", "1.5", "inf"]),
+    (["workspace", "ur5", "-o", "x.png", "--dpi"], ["-1", "1e9", "nan"]),
+    (["convert", "ur5", "-o", "x.urdf", "--digits"], ["-1", "1.5", "99", "nan", "x"]),
+    (["extract", "x.urdf", "--snap"], ["-1", "nan", "inf", "1e30", "x"]),
+    (["view", "ur5", "--port"], ["-1", "65536", "1.5", "nan", "1e400"]),
+    (["ik", "ur5", "--matrix"], ["1e308 " * 12, "nan " * 16, "1 2 3"]),
+    (
+        ["ik", "ur5", "--rpy=0,0,0", "--xyz"],
+        ["1e308 0 0", "0 nan 0", "0 0", "-inf 0 0", "90deg 0 0"],
+    ),
+    (["ik", "ur5", "--xyz=0,0,0", "--rpy"], ["1e308 0 0", "0 nan 0", "0 0", "1m 0 0"]),
+    (
+        ["ik", "ur5", "--xyz=0,0,0", "--rpy=0,0,0", "--seed"],
+        ["", "1", "1e300 0 0 0 0 0", "nan " * 6],
+    ),
+    (
+        ["ik", "ur5", "--xyz=0,0,0", "--rpy=0,0,0", "--locked"],
+        ["0", "0=", "0=nan", "0=1e300", "9=1"],
+    ),
+    (["fk", "ur5", "--q"], ["1", "inf 0 0 0 0 0", "1e300 0 0 0 0 0", "0 0 0 0 0 400mm"]),
+    (["show", "ur5", "--q"], ["1", "nan 0 0 0 0 0"]),
+]
+
+
+@pytest.mark.parametrize(("argv", "values"), BEYOND, ids=[" ".join(a) for a, _ in BEYOND])
+def test_what_no_option_can_mean_is_one_message(argv, values):
+    """Out of bounds, not finite, not a number: status 2, the option is named, nothing is left."""
+    for value in values:
+        status, out, err, left = call(*argv, *value.split())
+        assert (status, out, left) == (2, "", []), value
+        assert argv[-1].lstrip("-") in err
+        assert err.count("\n") == 1
+
+
+TOGETHER = [
+    (["show", "ur5", "--json", "--format", "csv"], "--json"),
+    (["show", "ur5", "--json", "--symbolic"], "--symbolic"),
+    (["show", "ur5", "--deg"], "--q"),
+    (["ik", "ur5", "--csv", "x.csv", "--xyz", "1", "2", "3"], "stands alone"),
+    (["ik", "ur5", "--csv", "x.csv", "--matrix", "1"], "stands alone"),
+    (["ik", "ur5", "--matrix", "1", "--rpy", "1", "2", "3"], "--matrix"),
+    (["ik", "ur5", "--xyz=1,2,3", "--rpy=0,0,0", "--task", "position"], "--task position"),
+    (["figure", "ur5", "-o", "x.svg", "--dpi", "90"], "PNG"),
+    (["figure", "ur5", "-o", "x.png", "--deg"], "--q"),
+    (["workspace", "ur5", "-o", "x.png", "--deg"], "--rpy"),
+    (["workspace", "planar_rr", "-o", "x.png", "--orientations", "9"], "orientations"),
+    (["workspace", "franka_fer", "-o", "x.png", "--rpy", "0", "0", "0"], "rpy"),
+    (["view", "--tip", "x"], "ROBOT"),
+    (["extract", "x.urdf", "--json", "--format", "csv"], "--output"),
+    (["extract", "x.urdf", "--json", "-o", "-"], "--output -"),
+    (["extract", "x.urdf", "--force"], "--output"),
+    (["convert", "ur5", "-o", "x.urdf", "--out-dir", "y"], "--out-dir"),
+]
+
+
+@pytest.mark.parametrize(("argv", "word"), TOGETHER, ids=[" ".join(a) for a, _ in TOGETHER])
+def test_options_that_do_nothing_together_are_refused(argv, word):
+    """Status 2 and the other option's name, before anything is read or written."""
+    status, out, err, left = call(*argv)
+    assert (status, out, left) == (2, "", [])
+    assert word in err
+
+
+def test_a_section_beside_the_workspace_is_status_1():
+    """A plane that the arm does not reach is said, and no picture of nothing is written."""
+    for robot in ("ur5", "planar_rr", "planar_rrr"):
+        status, out, err, left = call("workspace", robot, "-o", "x.png", "--at", "99", *FEW[:2])
+        assert (status, out, left) == (1, "", [])
+        assert "99 m misses everything" in err
+
+
+ROBOTS = st.sampled_from(
+    ["ur5", "planar_rr", "planar_rrr", "kinova_gen3", "nowhere", "a.yaml", "-"]
+)
+NUMBERS = """
+0 1 -1 -0.5 90 -90deg pi/2 -pi/2 400mm -1e-3 1e9999999 -1e9999999 nan -nan inf -inf 1e308 1e-320
+9**9**9 (((( -( -- - + 1_0 1,2,3 -1,-2,-3 0=1 0=nan joint_1=.1 ٣ -π q sqrt(-1) 1/0 -.5.5 0x1F
+"""
+WORDS = """
+a.png a.svg b.pdf c.urdf -o --output --json --deg --force --q --rpy --xyz --matrix --csv --seed
+--locked --task position --turns all nearest --within-limits --base --tip base_link tool0 --at
+--points 3 --orientations 2 --dpi --plane xz --view --no-frames --no-table --style schematic
+--branches
+--format csv latex text --symbolic --digits --snap --convention modified --explain --help
+--version --debug=1 --no-limits --shipped=1 --flip --x-axis away --no-run --=x --x=
+"""
+TOKENS = st.one_of(
+    st.sampled_from(NUMBERS.split()),
+    st.sampled_from(WORDS.split()),
+    st.text(max_size=6),
+    st.sampled_from(["", " ", "\0", "\ud800", "\uffff", "x" * 300, "-\n", "é.png", "/dev/null"]),
+)
+POSED = st.tuples(*[st.sampled_from(NUMBERS.split())] * 6).map(
+    lambda v: ["--xyz", *v[:3], "--rpy", *v[3:]]
+)
+LINES = st.one_of(
+    st.tuples(st.sampled_from(sorted(set(VERBS) - {"view"})), ROBOTS, st.lists(TOKENS, max_size=7)),
+    st.tuples(st.just("ik"), ROBOTS, POSED),
+    st.tuples(st.just("fk"), ROBOTS, st.lists(st.sampled_from(NUMBERS.split()), max_size=7)),
+)
+
+
+@hostile(line=LINES, stdin=st.one_of(st.just(""), st.text(max_size=20)))
+def test_hostile_command_lines_are_answers_or_one_message(line, stdin):
+    """Status 0, 1 or 2 within ten seconds; no traceback, no warning; refusals leave no file."""
+    verb, robot, tokens = line
+    start = time.monotonic()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        status, _, err, left = call(verb, robot, *tokens, stdin=stdin)
+    assert time.monotonic() - start < 10.0
+    assert status in (0, 1, 2)
+    assert "Traceback" not in err
+    assert status != 2 or err.strip()
+    assert status == 0 or left == []
+
+
+def test_the_reading_of_a_robot_goes_by_the_same_names():
+    """Every verb of the table has a module and help of its own."""
+    for verb in VERBS:
+        status, out, err, _ = call(verb, "--help")
+        assert (status, err) == (0, "")
+        assert VERBS[verb].split(":")[0][:20] in out.replace("\n", " ")
+    assert dh2urdf.__version__ in call("--version")[1]
