@@ -8,6 +8,8 @@ from __future__ import annotations
 
 __all__ = [
     "ANGLE",
+    "APART_BYTES",
+    "APART_SECONDS",
     "CELL_CHARACTERS",
     "CELL_DEPTH",
     "DEPTH",
@@ -65,7 +67,7 @@ a level per link, and ends the process some thousand further on."""
 TABLE_BYTES = 1_000_000
 """A table file; one of 60 joints with everything given has 20 kB."""
 
-ROBOT_BYTES = 50_000_000
+ROBOT_BYTES = 10_000_000
 """A robot description without its meshes; makers' largest have 1 MB."""
 
 POSES_BYTES = 100_000_000
@@ -93,6 +95,12 @@ TEXT_CHARACTERS = 2_000
 """A name, a source: what is printed in one line, or one paragraph."""
 
 # Work asked for in one call
+
+APART_SECONDS = 8
+"""Time that xacro or MuJoCo may take over a file; makers' largest take one second."""
+
+APART_BYTES = 2_000_000_000
+"""Addresses that they may ask for, half of which are libraries."""
 
 TURNS = 100_000
 """Solutions that ``turns="all"`` may list for one pose."""

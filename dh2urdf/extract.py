@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
@@ -153,12 +154,14 @@ def extract_dh(
     warnings = list(found.warnings)
     written = given.embedded if embedded and tolerance == 0 and not flip else None
     if written is not None and written.convention == convention:
-        error = pose_error(table_poses(written, qs), truth)
+        fits = written.n == chain.n
+        error = pose_error(table_poses(written, qs), truth) if fits else math.inf
         if error <= allowed:
             return Extraction(written, found.base, found.tip, error, len(qs), ())
         warnings.append(
-            f"the table that the file carries differs from its joints by {error:.2g}; frames are "
-            "assigned anew"
+            "the table that the file carries "
+            + (f"differs from its joints by {error:.2g}" if fits else f"has {written.n} joints")
+            + "; frames are assigned anew"
         )
     signs = flip_signs(chain, flip)
     changes: list[Change] = []

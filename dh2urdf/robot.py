@@ -25,12 +25,12 @@ from dh2urdf.conversions.model_to_chain import (
 from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
-from dh2urdf.doors import real_array
-from dh2urdf.exceptions import ConfigurationError, VerificationError
+from dh2urdf.doors import flag, real_array
+from dh2urdf.exceptions import ConfigurationError, UrdfError, VerificationError
 from dh2urdf.robot_configurations import RobotConfigurations
 from dh2urdf.robot_ik import RobotIK
 from dh2urdf.robot_pictures import RobotPictures
-from dh2urdf.transforms import Array, pose_error
+from dh2urdf.transforms import Array
 
 __all__ = ["Robot"]
 
@@ -40,8 +40,8 @@ _frame_jacobian = pin.computeFrameJacobian
 _ALIGNED = pin.LOCAL_WORLD_ALIGNED
 
 AGREEMENT = 1e-12
-"""Largest difference between Pinocchio and the chain when a robot is built, relative to the
-arm's size: both are products of the same few rigid transforms."""
+"""Largest difference between Pinocchio and the chain when a robot is built [rad, and m per m of
+all lengths on the way]: both are products of the same few rigid transforms."""
 
 
 class _Working(threading.local):
@@ -77,9 +77,12 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         Names of the two frames; ``T_base_tip`` is what ``fk`` and ``ik`` speak of.
     source : Path or None
         The robot description that the robot was made from.
+    warnings : tuple of str
+        What was mended in memory while loading, each with its element and line.
     """
 
     source: Path | None = None
+    warnings: tuple[str, ...] = ()
     __getstate__ = settled_state
 
     def __init__(
@@ -120,7 +123,12 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
 
     @classmethod
     def from_urdf(
-        cls, path: str | os.PathLike[str], base: str | None = None, tip: str | None = None
+        cls,
+        path: str | os.PathLike[str],
+        base: str | None = None,
+        tip: str | None = None,
+        *,
+        strict: bool = False,
     ) -> Robot:
         """A robot of a URDF (``.xacro`` with the extra, MJCF) between two of its links.
 
@@ -129,14 +137,19 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         path : path
         base, tip : str, optional
             Links anywhere in the tree. Without them: the root, and the end of the longest chain.
+        strict : bool
+            Refuse a file in which something had to be mended, which ``warnings`` tells.
 
         Raises
         ------
         UrdfError, NameNotFoundError
         """
-        loaded = load_model(path, base, tip)
+        loaded = load_model(path, base, tip, strict=flag(strict, "strict"))
         robot = cls(loaded.model, loaded.base, loaded.tip, mimics=loaded.mimics)
-        robot.source = Path(path)
+        coupled = robot._coupling.warnings if robot._coupling else ()
+        if strict and coupled:
+            raise UrdfError("\n".join(coupled))
+        robot.source, robot.warnings = Path(path), (*loaded.mends, *coupled)
         return robot
 
     def fk(self, q: ArrayLike) -> Array:
@@ -259,17 +272,17 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
     def _check_agreement(self) -> None:
         """Compare the chain's product with Pinocchio's frame placement."""
         rng = np.random.default_rng(0)
-        worst = 0.0
+        reach = float(np.abs(self.chain.links[:, :3, 3]).sum())
         for _ in range(3):
             q = self.random_configuration(rng)
-            T_base_tip = self._placements(q[None])[0]
-            worst = max(worst, pose_error(self.chain.fk(self._flat(q)[0][0]), T_base_tip))
-        allowed = AGREEMENT * max(1.0, float(np.abs(self.chain.links[:, :3, 3]).max()))
-        if worst > allowed:
-            raise VerificationError(
-                f"the chain from {self.base} to {self.tip} differs from Pinocchio by {worst:.3g} "
-                f"(allowed {allowed:.2g})"
-            )
+            joints = self._flat(q)[0][0]
+            off = np.abs(self.chain.fk(joints) - self._placements(q[None])[0])
+            size = max(1.0, reach + float(np.abs(joints[self.chain.prismatic]).sum()))
+            if not (off[:3, :3].max() <= AGREEMENT and off[:3, 3].max() <= AGREEMENT * size):
+                raise VerificationError(
+                    f"the chain from {self.base} to {self.tip} differs from Pinocchio by "
+                    f"{off.max():.3g} (allowed {AGREEMENT:.2g} rad, {AGREEMENT * size:.2g} m)"
+                )
 
     def __repr__(self) -> str:
         return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"

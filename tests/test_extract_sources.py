@@ -56,11 +56,6 @@ BROKEN = {
         '<child link="root"/>',
         r':\d+: <joint name="shoulder">: closes a loop',
     ),
-    "two roots": (
-        "</robot>",
-        '<link name="lost"/></robot>',
-        r':18: <link name="lost">: a second root',
-    ),
     "two parents": (
         "</robot>",
         '<joint name="third" type="fixed"><parent link="root"/><child link="hand"/></joint>'
@@ -71,11 +66,6 @@ BROKEN = {
         'xyz="0 0 0.4"',
         'xyz="0 0 nan"',
         r':9: <origin> of <joint name="shoulder">: xyz="0 0 nan" is not finite',
-    ),
-    "NaN in an inertial": (
-        'xyz="0.1 0.2 0.3"',
-        'xyz="nan 0 0"',
-        r':3: <origin> of <link name="arm">: xyz="nan 0 0" is not finite',
     ),
     "a zero axis": (
         '<axis xyz="0 0 1"/>',
@@ -89,11 +79,6 @@ BROKEN = {
     "words": ('xyz="0 0 0.4"', 'xyz="0 0 up"', r"is not 3 numbers"),
     "xacro": ('xyz="0 0 0.4"', 'xyz="0 0 ${h}"', r"this is xacro, not URDF"),
     "an unknown type": ('type="prismatic"', 'type="sliding"', r':13: .* type="sliding" is not one'),
-    "a floating joint": (
-        'type="revolute"',
-        'type="floating"',
-        r':7: <joint name="shoulder">: a floating joint between',
-    ),
     "a planar joint": (
         'type="prismatic"',
         'type="planar"',
@@ -112,7 +97,6 @@ BROKEN = {
     ),
     "a name twice": ('name="elbow"', 'name="shoulder"', r":13: .*second joint of this name"),
     "crossed limits": ('lower="-2"', 'lower="2"', r":10: <limit> .* lower 2.0 lies above upper"),
-    "a negative mass": ('mass value="1"', 'mass value="-1"', r":5: <inertial> .*mass of -1.0"),
     "no joints": (URDF[URDF.index("  <joint") : URDF.index("</robot>")], "", r"no joints"),
 }
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh_io.files import read_bytes
+from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 
 __all__ = ["MOVING", "NUMBERS", "TENSOR", "Document"]

@@ -31,6 +31,8 @@ class Coupling:
         Bounds within which every follower stays in its own.
     first : tuple of n int
         For each value, the first joint of the chain that it moves.
+    warnings : tuple of str
+        Joints whose own bounds leave nothing of those of the others, and so count for nothing.
     """
 
     matrix: Array
@@ -39,6 +41,7 @@ class Coupling:
     lower: Array
     upper: Array
     first: tuple[int, ...]
+    warnings: tuple[str, ...] = ()
 
 
 def couple(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
@@ -54,7 +57,10 @@ def couple(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
     offset = np.array([constant for _, _, constant in terms])
     lower, upper = np.full(len(names), -np.inf), np.full(len(names), np.inf)
     first = [chain.n] * len(names)
-    for k, (leader, factor, constant) in enumerate(terms):
+    warnings = []
+    leads = [name == leader for name, (leader, _, _) in zip(chain.names, terms, strict=True)]
+    for k in sorted(range(chain.n), key=lambda k: not leads[k]):  # leaders before followers
+        leader, factor, constant = terms[k]
         v = names.index(leader)
         matrix[k, v] = factor
         first[v] = min(first[v], k)
@@ -62,8 +68,15 @@ def couple(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
             ends = sorted(
                 ((bound - constant) / factor) for bound in (chain.lower[k], chain.upper[k])
             )
-            lower[v], upper[v] = max(lower[v], ends[0]), min(upper[v], ends[1])
-    return Coupling(matrix, offset, names, lower, upper, tuple(first))
+            low, high = max(lower[v], ends[0]), min(upper[v], ends[1])
+            if low <= high:
+                lower[v], upper[v] = low, high
+            else:
+                warnings.append(
+                    f"joint {chain.names[k]!r}: its limits exclude those of {leader!r}, which it "
+                    "follows; left out"
+                )
+    return Coupling(matrix, offset, names, lower, upper, tuple(first), tuple(warnings))
 
 
 def _resolve(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:

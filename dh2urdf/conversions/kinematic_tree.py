@@ -7,14 +7,17 @@ place in the file that messages name.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import NoReturn
 
+import numpy as np
+
+from dh2urdf.bounds import JOINTS
 from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, inverse
 
 __all__ = [
     "MOVING",
@@ -24,6 +27,8 @@ __all__ = [
     "TreeLink",
     "choose_ends",
     "find_path",
+    "held_at_rest",
+    "listed",
     "rigid_part",
 ]
 
@@ -61,6 +66,8 @@ class TreeJoint:
         Name of the joint that this one follows in the file, or empty.
     where : str
         ``file:line: <joint name="...">``.
+    fault : str
+        What cannot be meant of it, with its place: no matter unless the joint is on the chain.
     """
 
     name: str
@@ -77,6 +84,7 @@ class TreeJoint:
     damping: float | None = None
     friction: float | None = None
     mimic: str = ""
+    fault: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,17 +99,23 @@ class Step:
         """The link that the step leads to."""
         return self.joint.child if self.forward else self.joint.parent
 
+    @property
+    def at_rest(self) -> Array:
+        """The step at q = 0."""
+        return self.joint.origin if self.forward else inverse(self.joint.origin)
+
 
 @dataclass(frozen=True, eq=False)
 class KinematicTree:
-    """A robot file; ``warnings`` are remarks of its reader."""
+    """A robot file; ``mends`` tells what its reader set right, ``remarks`` what is odd."""
 
     where: str
     name: str
     root: str
     links: dict[str, TreeLink]
     joints: tuple[TreeJoint, ...]
-    warnings: tuple[str, ...] = field(default=())
+    remarks: tuple[str, ...] = ()
+    mends: tuple[str, ...] = ()
 
     @cached_property
     def parent_joint(self) -> dict[str, TreeJoint]:
@@ -140,11 +154,19 @@ class KinematicTree:
         """
         if name in self.links:
             return name
-        close = difflib.get_close_matches(name, self.links, 1)
-        hint = f"; did you mean {close[0]!r}?" if close else ""
+        near = {other[:60]: other for other in self.links}
+        close = difflib.get_close_matches(name[:60], near, 1)
+        hint = f"; did you mean {shown(near[close[0]])!r}?" if close else ""
         raise NameNotFoundError(
-            f"{self.where}: no link named {name!r}; the file has {', '.join(self.links)}{hint}"
+            f"{self.where}: no link named {shown(name)!r}; the file has {listed(self.links)}{hint}"
         )
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names in a message: the first forty, and how many more."""
+    everyone = list(names)
+    more = f" and {len(everyone) - 40} more" if len(everyone) > 40 else ""
+    return ", ".join(map(shown, everyone[:40])) + more
 
 
 def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:
@@ -162,16 +184,27 @@ def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:
         down.pop()
     steps = [Step(joint, False) for joint in up]
     steps += [Step(joint, True) for joint in reversed(down)]
+    ends, moving = f"{shown(base)!r} and {shown(tip)!r}", 0
     for step in steps:
-        if step.joint.kind not in (*MOVING, "fixed"):
+        if step.joint.fault:
+            raise UrdfError(step.joint.fault)
+        moving += step.joint.kind in MOVING
+        if moving and step.joint.kind not in (*MOVING, "fixed"):
             raise UrdfError(
-                f"{step.joint.where}: a {step.joint.kind} joint between {base!r} and {tip!r}; "
+                f"{step.joint.where}: a {step.joint.kind} joint between {ends}; "
                 f"a chain takes {', '.join(MOVING)} and fixed joints"
             )
-    if not any(step.joint.kind in MOVING for step in steps):
-        tips = ", ".join(tree.leaves)
-        raise UrdfError(f"{tree.where}: no joint moves between {base!r} and {tip!r}; tips: {tips}")
+    if not moving:
+        tips = listed(tree.leaves)
+        raise UrdfError(f"{tree.where}: no joint moves between {ends}; tips: {tips}")
+    if moving > JOINTS:
+        raise UrdfError(f"{tree.where}: {moving} joints between {ends}; a chain has up to {JOINTS}")
     return steps
+
+
+def held_at_rest(steps: Sequence[Step]) -> list[TreeJoint]:
+    """Joints of more than one degree of freedom, all before the first that the chain moves."""
+    return [step.joint for step in steps if step.joint.kind not in (*MOVING, "fixed")]
 
 
 def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple[str, str]:
@@ -196,7 +229,9 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
         if moving:
             chains.setdefault(moving, []).append(leaf)
     if not chains:
-        _explain_no_chain(tree, start)
+        raise UrdfError(
+            f"{tree.where}: no revolute, continuous or prismatic joint below {shown(start)!r}"
+        )
     most = max(map(len, chains))
     longest = {moving: tips for moving, tips in chains.items() if len(moving) == most}
     if len(longest) == 1:
@@ -207,34 +242,25 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
     trunk = _shared(list(longest))
     if len(trunk) > most - len(trunk):
         return start, _fork(tree, start, [tips[0] for tips in longest.values()])
-    offered = ", ".join(tip for tips in longest.values() for tip in tips)
+    offered = listed(tip for tips in longest.values() for tip in tips)
     raise UrdfError(
         f"{tree.where}: {len(longest)} chains of {most} joints; choose the tip, one of: {offered}"
     )
 
 
-def _explain_no_chain(tree: KinematicTree, start: str) -> NoReturn:
-    """Raise UrdfError; name a joint of another kind that stands before the moving ones."""
-    moves = any(joint.kind in MOVING for joint in tree.joints)
-    for joint in tree.joints:
-        if moves and joint.kind not in (*MOVING, "fixed"):
-            raise UrdfError(
-                f"{joint.where}: a {joint.kind} joint on the way from {start!r}; choose a base "
-                f"behind it, such as {joint.child!r}"
-            )
-    raise UrdfError(f"{tree.where}: no revolute, continuous or prismatic joint below {start!r}")
-
-
 def _moving_names(tree: KinematicTree, base: str, tip: str) -> tuple[str, ...]:
-    """Names of the moving joints from base to tip; empty where another kind is on the way."""
+    """Names of the moving joints from base to tip; empty where another kind is among them."""
     up, down = tree.above(base), tree.above(tip)
     while up and down and up[-1] is down[-1]:
         up.pop()
         down.pop()
-    way = [*up, *reversed(down)]
-    if any(joint.kind not in (*MOVING, "fixed") for joint in way):
-        return ()
-    return tuple(joint.name for joint in way if joint.kind in MOVING)
+    names: list[str] = []
+    for joint in (*up, *reversed(down)):
+        if joint.kind in MOVING:
+            names.append(joint.name)
+        elif names and joint.kind != "fixed":
+            return ()
+    return tuple(names)
 
 
 def _shared(chains: list[tuple[str, ...]]) -> tuple[str, ...]:
@@ -254,19 +280,23 @@ def _fork(tree: KinematicTree, base: str, tips: list[str]) -> str:
     return common[-1]
 
 
-def rigid_part(tree: KinematicTree, link: str, cut: frozenset[str]) -> Iterator[list[Step]]:
-    """Ways from a link to all links that hang together with it when some joints are cut.
+def rigid_part(
+    tree: KinematicTree, link: str, cut: frozenset[str]
+) -> Iterator[tuple[str, Step | None, Array]]:
+    """All links that hang together with a link when some joints are cut.
+
+    Each with the step that leads to it and its pose in the first link's frame, joints at 0.
 
     Parameters
     ----------
     cut : frozenset of joint names
     """
-    todo: list[tuple[str, list[Step]]] = [(link, [])]
+    todo: list[tuple[str, Step | None, Array]] = [(link, None, np.eye(4))]
     seen = {link}
     while todo:
-        name, way = todo.pop()
-        yield way
+        name, last, T = todo.pop()
+        yield name, last, T
         for step in tree.neighbours[name]:
             if step.joint.name not in cut and step.link not in seen:
                 seen.add(step.link)
-                todo.append((step.link, [*way, step]))
+                todo.append((step.link, step, T @ step.at_rest))

@@ -17,10 +17,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from dh2urdf import transforms as tf
+from dh2urdf.bounds import ANGLE, LENGTH, TABLE_BYTES
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.typed_axes import typed_to_chain
-from dh2urdf.dh import Origin
-from dh2urdf.exceptions import PoseError, TableError, UrdfError
+from dh2urdf.dh_io.files import read_text, shown
+from dh2urdf.dh_io.read_yaml import yaml_values
+from dh2urdf.doors import found, real_array
+from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
 
 __all__ = ["SUFFIXES", "read_axes"]
 
@@ -31,7 +37,7 @@ OTHERS = ("types", "tool", "names", "name")
 AXIS_KEYS = ("axis", "point", "type", "name")
 
 
-def read_axes(path: Path, data: bytes) -> SerialChain:
+def read_axes(path: Path) -> SerialChain:
     """The chain of a file of joint axes.
 
     Raises
@@ -39,66 +45,57 @@ def read_axes(path: Path, data: bytes) -> SerialChain:
     UrdfError
         Not such a file; the message names the key.
     """
-    content = _load(path, data)
+    where = shown(path)
+    try:
+        content = yaml_values(read_text(path, TABLE_BYTES, UrdfError), where)
+    except TableFileError as error:
+        raise UrdfError(str(error)) from None
+    if not isinstance(content, dict):
+        raise UrdfError(f"{where}: expected keys such as {', '.join(LISTS)}, got {found(content)}")
     given = [key for key in LISTS if key in content]
     if len(given) != 1:
         hint = " (a DH table? `dh2urdf convert` reads those)" if "convention" in content else ""
-        raise UrdfError(f"{path}: needs one of the lists {', '.join(LISTS)}{hint}")
-    unknown = [str(key) for key in content if key not in (*LISTS, *OTHERS)]
-    if unknown:
-        raise UrdfError(
-            f"{path}: {unknown[0]!r} is not known; allowed: {', '.join(LISTS + OTHERS)}"
-        )
+        raise UrdfError(f"{where}: needs one of the lists {', '.join(LISTS)}{hint}")
     source, types, names = content[given[0]], content.get("types"), content.get("names")
     try:
+        _check_keys(content, (*LISTS, *OTHERS))
         if given[0] == "axes":
             source, types, names = _axes(source, types, names)
         return typed_to_chain(source, types, _tool(content.get("tool")), names)
     except (UrdfError, PoseError, TableError) as error:
-        raise UrdfError(f"{path}: {given[0]}: {error}") from None
+        raise UrdfError(f"{where}: {given[0]}: {error}") from None
 
 
-def _load(path: Path, data: bytes) -> Mapping[str, Any]:
-    from ruamel.yaml import YAML
-    from ruamel.yaml.error import YAMLError
-
-    try:
-        content = YAML(typ="safe", pure=True).load(data.decode("utf-8"))
-    except (YAMLError, ValueError) as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f"{path}:{mark.line + 1}" if mark else str(path)
-        raise UrdfError(f"{place}: {getattr(error, 'problem', None) or error}") from None
-    if not isinstance(content, Mapping):
-        raise UrdfError(f"{path}: expected keys such as {', '.join(LISTS)}, got {content!r:.40}")
-    return content
+def _check_keys(content: Mapping[str, Any], allowed: Sequence[str], what: str = "") -> None:
+    unknown = [key for key in content if key not in allowed]
+    if unknown:
+        raise UrdfError(f"{what}{found(unknown[0])} is not known; allowed: {', '.join(allowed)}")
 
 
-def _axes(
-    source: Any, types: Any, names: Any
-) -> tuple[list[Any], Sequence[Any] | None, Sequence[str] | None]:
+def _axes(source: Any, types: Any, names: Any) -> tuple[list[Any], Any, Any]:
     """Directions and points, with the types and names that the entries carry themselves."""
-    if not isinstance(source, Sequence) or isinstance(source, str):
-        raise UrdfError(f"expected a list, got {source!r:.40}")
+    if not isinstance(source, list):
+        raise UrdfError(f"expected a list, got {found(source)}")
     pairs, kinds, labels = [], [], []
     for i, entry in enumerate(source, 1):
-        if not isinstance(entry, Mapping) or "axis" not in entry:
+        if not isinstance(entry, dict) or "axis" not in entry:
             raise UrdfError(f"joint {i}: expected {{axis: [x, y, z], point: [x, y, z]}}")
-        unknown = [str(key) for key in entry if key not in AXIS_KEYS]
-        if unknown:
-            allowed = ", ".join(AXIS_KEYS)
-            raise UrdfError(f"joint {i}: {unknown[0]!r} is not known; allowed: {allowed}")
+        _check_keys(entry, AXIS_KEYS, f"joint {i}: ")
         pairs.append([entry["axis"], entry.get("point", [0, 0, 0])])
-        kinds.append(entry.get("type", "revolute"))
-        labels.append(str(entry.get("name", f"joint_{i}")))
+        kinds.append(entry.get("type") or "revolute")
+        labels.append(entry.get("name"))
     return pairs, types or kinds, names or labels
 
 
 def _tool(tool: Any) -> Any:
     """A matrix, or xyz and rpy."""
-    if not isinstance(tool, Mapping):
+    if not isinstance(tool, dict):
         return tool
-    unknown = [str(key) for key in tool if key not in ("xyz", "rpy")]
-    if unknown:
-        raise UrdfError(f"tool: {unknown[0]!r} is not known; allowed: xyz, rpy")
-    zero = (0.0, 0.0, 0.0)
-    return Origin(tool.get("xyz", zero), tool.get("rpy", zero)).matrix
+    _check_keys(tool, ("xyz", "rpy"), "tool: ")
+    triples = []
+    for key, most in (("xyz", LENGTH), ("rpy", ANGLE)):
+        triple = real_array(tool.get(key, (0, 0, 0)), f"tool: {key}", "three numbers", UrdfError)
+        if triple.shape != (3,) or not (np.abs(triple) <= most).all():
+            raise UrdfError(f"tool: {key}: expected three numbers up to {most:g}")
+        triples.append(triple.tolist())
+    return tf.origin_matrix(*triples)

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pinocchio as pin
 
 from dh2urdf import transforms as tf
+from dh2urdf.conversions.apart import mjcf_apart
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
 from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
-from dh2urdf.exceptions import MissingExtraError, UrdfError
+from dh2urdf.dh_io.files import shown
+from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
 __all__ = ["read_mjcf"]
@@ -20,26 +24,24 @@ KINDS = ("free", "ball", "prismatic", "revolute")
 """MuJoCo's joint types in its own order."""
 
 
-def read_mjcf(path: str | os.PathLike[str]) -> tuple[KinematicTree, dict[str, int]]:
-    """Bodies and sites of an MJCF as links, and the place of each joint in ``qpos``.
+def read_mjcf(path: Path) -> tuple[KinematicTree, dict[str, int], pin.Model]:
+    """Bodies and sites of an MJCF as links, the place of each joint in ``qpos``, and a model.
 
     A body with several joints becomes a row of links; a joint off its body's origin or with a
-    reference value gets the steps that say so, so that q is MuJoCo's ``qpos``.
+    reference value gets the steps that say so, so that q is MuJoCo's ``qpos``. The model is
+    Pinocchio's own reading.
 
     Raises
     ------
     MissingExtraError, UrdfError
     """
-    try:
+    with mjcf_apart(path) as (compiled, read):
         import mujoco
-    except ImportError:
-        raise MissingExtraError("mjcf", f"reading the MJCF {os.fspath(path)}") from None
-    try:
-        model = mujoco.MjModel.from_xml_path(os.fspath(path))
-    except ValueError as error:
-        raise UrdfError(f"{os.fspath(path)}: MuJoCo: {str(error).strip()}") from None
-    bodies = _Bodies(model, os.fspath(path))
-    return bodies.tree(), bodies.addresses
+
+        bodies = _Bodies(mujoco.MjModel.from_binary_path(compiled), shown(path))
+        model = pin.Model()
+        model.loadFromBinary(read)
+    return bodies.tree(), bodies.addresses, model
 
 
 class _Bodies:

@@ -8,16 +8,13 @@ extraction.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pinocchio as pin
-from lxml import etree
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.kinematic_tree import MOVING
 from dh2urdf.dh import DHConvention, DHTable, JointType
-from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
 __all__ = [
@@ -27,7 +24,6 @@ __all__ = [
     "model_referee",
     "screw_referee",
     "table_poses",
-    "urdf_model",
 ]
 
 FAR = 100.0
@@ -35,39 +31,6 @@ FAR = 100.0
 
 Referee = Callable[[Array], Array]
 """From configurations (m, n) to ``T_base_tip`` (m, 4, 4)."""
-
-
-def urdf_model(root: etree._Element, where: str, links: Collection[str]) -> pin.Model:
-    """Pinocchio's model of the bare kinematics of a URDF: links, joints and their numbers.
-
-    Parameters
-    ----------
-    links : collection of str
-        The links to keep, with all that lie between them and the root.
-
-    Raises
-    ------
-    UrdfError
-    """
-    robot = etree.Element("robot", name=root.get("name") or "robot")
-    for link in root.iterchildren("link"):
-        if link.get("name") in links:
-            etree.SubElement(robot, "link", name=link.get("name"))
-    for joint in root.iterchildren("joint"):
-        if joint.find("child").get("link") not in links:
-            continue
-        kind = joint.get("type")
-        bare = etree.SubElement(robot, "joint", name=joint.get("name"), type=kind)
-        for tag in ("parent", "child", "origin", "axis"):
-            part = joint.find(tag)
-            if part is not None and (tag != "axis" or kind in MOVING):
-                etree.SubElement(bare, tag, dict(part.attrib))
-        if kind in ("revolute", "prismatic"):
-            etree.SubElement(bare, "limit", lower="-9", upper="9", effort="0", velocity="0")
-    try:
-        return pin.buildModelFromXML(etree.tostring(robot, encoding="unicode"))
-    except (ValueError, RuntimeError) as error:
-        raise UrdfError(f"{where}: Pinocchio does not load it: {error}") from None
 
 
 def model_referee(model: pin.Model, base: int, tip: int, names: Sequence[str]) -> Referee:

@@ -76,7 +76,7 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
             links.append(T @ before)
             T = after
         else:
-            T = T @ _at_rest(step)
+            T = T @ step.at_rest
     links.append(T)
     joints = [step.joint for step in moving]
     chain = SerialChain(
@@ -96,7 +96,7 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
         tip,
         bodies=tuple(_body(tree, step, cut) for step in moving),
         drives=tuple(Actuation(j.velocity, j.effort, j.damping, j.friction) for j in joints),
-        warnings=(*tree.warnings, *_remarks(tree, moving, cut)),
+        warnings=(*tree.remarks, *_remarks(tree, moving, cut)),
         origin=os.path.basename(tree.where),
     )
 
@@ -112,22 +112,14 @@ def _halves(step: Step) -> tuple[Array, Array]:
     return turn @ FLIP, FLIP @ turn.T @ tf.inverse(joint.origin)
 
 
-def _at_rest(step: Step) -> Array:
-    """A step at q = 0."""
-    return step.joint.origin if step.forward else tf.inverse(step.joint.origin)
-
-
 def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | None:
     """All that is fixed to the link after a joint, in the chain's frame of that joint."""
     _, T_joint_link = _halves(step)
-    parts = []
-    for way in rigid_part(tree, step.link, cut):
-        inertial = tree.links[way[-1].link if way else step.link].inertial
-        if inertial is not None:
-            T_joint_part = T_joint_link
-            for part in way:
-                T_joint_part = T_joint_part @ _at_rest(part)
-            parts.append(inertial.moved(T_joint_part))
+    parts = [
+        inertial.moved(T_joint_link @ T_link_part)
+        for name, _, T_link_part in rigid_part(tree, step.link, cut)
+        if (inertial := tree.links[name].inertial) is not None
+    ]
     return Inertial.total(parts) if parts else None
 
 
@@ -140,11 +132,10 @@ def _remarks(tree: KinematicTree, moving: Sequence[Step], cut: frozenset[str]) -
         if step.joint.mimic
     ]
     held = [
-        part.joint.name
+        last.joint.name
         for step in moving
-        for way in rigid_part(tree, step.link, cut)
-        for part in way[-1:]
-        if part.joint.kind != "fixed"
+        for _, last, _ in rigid_part(tree, step.link, cut)
+        if last is not None and last.joint.kind != "fixed"
     ]
     if held:
         names = list(dict.fromkeys(held))

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
 
 import pinocchio as pin
 from lxml import etree
 
-from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.conversions.kinematic_tree import choose_ends
-from dh2urdf.conversions.read_urdf import parse_xml, read_urdf
-from dh2urdf.dh_io.files import read_bytes
-from dh2urdf.exceptions import MissingExtraError, UrdfError
+from dh2urdf.conversions.description import read_description
 
 __all__ = ["LoadedModel", "Mimic", "load_model"]
 
@@ -31,16 +26,19 @@ class Mimic:
 class LoadedModel:
     """Pinocchio's model of a file, the ends of the chain in it, and which joints mimic another.
 
-    Mimicking joints are joints of their own in the model.
+    Mimicking joints are joints of their own in the model. ``mends`` tells what was set right.
     """
 
     model: pin.Model
     base: str
     tip: str
     mimics: dict[str, Mimic]
+    mends: tuple[str, ...]
 
 
-def load_model(path: str | os.PathLike[str], base: str | None, tip: str | None) -> LoadedModel:
+def load_model(
+    path: str | os.PathLike[str], base: str | None, tip: str | None, *, strict: bool = False
+) -> LoadedModel:
     """Read a file; without base and tip take the root and the end of the longest chain.
 
     Raises
@@ -52,48 +50,11 @@ def load_model(path: str | os.PathLike[str], base: str | None, tip: str | None) 
     MissingExtraError
         A xacro file without the ``xacro`` extra, an MJCF without ``mjcf``.
     """
-    source = Path(path)
-    data = read_bytes(source, ROBOT_BYTES, UrdfError)
-    if source.suffix == ".xacro":
-        data = expand_xacro(source).encode()
-    root = parse_xml(data, str(source))
-    if root.tag == "mujoco":
-        return _from_mjcf(source, base, tip)
-    ends = choose_ends(read_urdf(root, str(source)), base, tip)
-    try:
-        model = pin.buildModelFromXML(etree.tostring(root, encoding="unicode"))
-    except (ValueError, RuntimeError) as error:
-        raise UrdfError(f"{source}: Pinocchio does not load it: {error}") from None
-    return LoadedModel(model, *ends, read_mimics(root))
-
-
-def _from_mjcf(source: Path, base: str | None, tip: str | None) -> LoadedModel:
-    from dh2urdf.conversions.read_mjcf import read_mjcf
-
-    tree, _ = read_mjcf(source)
-    start, end = choose_ends(tree, base, tip)
-    try:
-        model = pin.buildModelFromMJCF(os.fspath(source))
-    except (ValueError, RuntimeError) as error:
-        raise UrdfError(f"{source}: Pinocchio does not load it: {error}") from None
-    return LoadedModel(model, model.frames[0].name if start == tree.root else start, end, {})
-
-
-def expand_xacro(source: Path) -> str:
-    """The URDF text of a xacro file.
-
-    Raises
-    ------
-    MissingExtraError, UrdfError
-    """
-    try:
-        import xacro
-    except ImportError:
-        raise MissingExtraError("xacro", f"reading {source.name}") from None
-    try:
-        return str(xacro.process_file(os.fspath(source)).toxml())
-    except Exception as error:
-        raise UrdfError(f"{source}: xacro: {error}") from None
+    found = read_description(path, base, tip, strict=strict)
+    start = found.base
+    if found.addresses and start == found.tree.root:
+        start = found.model.frames[0].name
+    return LoadedModel(found.model, start, found.tip, read_mimics(found.root), found.mends)
 
 
 def read_mimics(root: etree._Element) -> dict[str, Mimic]:

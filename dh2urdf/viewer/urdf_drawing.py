@@ -14,9 +14,9 @@ from lxml import etree
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.bodies import Body
 from dh2urdf.conversions.model_to_chain import frame_id
-from dh2urdf.conversions.read_urdf import parse_xml
 from dh2urdf.dh import Origin
 from dh2urdf.dh_io.files import read_bytes
+from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array

@@ -1,0 +1,87 @@
+"""The bare kinematics of a URDF that has been read, as a text that Pinocchio takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+
+import pinocchio as pin
+from lxml import etree
+
+from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.kinematic_tree import KinematicTree
+from dh2urdf.exceptions import UrdfError
+from dh2urdf.transforms import Array
+
+__all__ = ["bare_model"]
+
+NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
+
+TENSOR = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+
+
+def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]) -> pin.Model:
+    """Pinocchio's model of a URDF: its links with their inertias, its joints and their numbers.
+
+    The numbers of origins and axes are the file's own, read anew; nothing else is left for
+    urdfdom to stumble over.
+
+    Parameters
+    ----------
+    root : lxml element
+        The document, as :func:`~dh2urdf.conversions.read_urdf.read_urdf` leaves it.
+    chain : collection of str
+        Joints that move; all others are held at 0.
+
+    Raises
+    ------
+    UrdfError
+    """
+    robot = etree.Element("robot", name=tree.name)
+    for name, link in tree.links.items():
+        element = etree.SubElement(robot, "link", name=name)
+        if link.inertial is not None:
+            _inertial(element, link.inertial)
+    for joint in root.iterchildren("joint"):
+        _joint(robot, joint, chain)
+    try:
+        model = pin.buildModelFromXML(etree.tostring(robot, encoding="unicode"))
+    except (ValueError, RuntimeError) as error:
+        raise UrdfError(f"{tree.where}: Pinocchio does not load it: {error}") from None
+    for read in tree.joints:
+        if read.name in chain and read.kind in ("revolute", "prismatic"):
+            k = model.joints[model.getJointId(read.name)].idx_q
+            model.lowerPositionLimit[k] = -math.inf if read.lower is None else read.lower
+            model.upperPositionLimit[k] = math.inf if read.upper is None else read.upper
+    return model
+
+
+def _joint(robot: etree._Element, joint: etree._Element, chain: Collection[str]) -> None:
+    name = joint.get("name")
+    kind = joint.get("type") if name in chain else "fixed"
+    bare = etree.SubElement(robot, "joint", name=name, type=kind)
+    for tag in ("parent", "child"):
+        etree.SubElement(bare, tag, link=joint.find(tag).get("link"))
+    parts = ("origin", "axis", "limit", "dynamics") if kind != "fixed" else ("origin",)
+    for tag in parts:
+        part = joint.find(tag)
+        if part is not None:
+            keys = NUMBERS[-4:] if kind == "continuous" and tag == "limit" else NUMBERS
+            etree.SubElement(bare, tag, {k: _plain(part.get(k)) for k in keys if k in part.attrib})
+
+
+def _plain(text: str) -> str:
+    """The same numbers in digits that every program reads."""
+    return " ".join(repr(float(word)) for word in text.split())
+
+
+def _inertial(link: etree._Element, body: Inertial) -> None:
+    element = etree.SubElement(link, "inertial")
+    etree.SubElement(element, "origin", xyz=_words(body.com))
+    etree.SubElement(element, "mass", value=repr(float(body.mass)))
+    tensor = {key: repr(float(body.inertia[at])) for key, at in TENSOR.items()}
+    etree.SubElement(element, "inertia", tensor)
+
+
+def _words(values: Array) -> str:
+    return " ".join(repr(float(value)) for value in values)

@@ -1,0 +1,115 @@
+"""A robot description, of whatever format, as a tree and the way from base to tip in it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+import pinocchio as pin
+from lxml import etree
+
+from dh2urdf.bounds import ROBOT_BYTES
+from dh2urdf.conversions.apart import expand_xacro, is_xacro
+from dh2urdf.conversions.bare_urdf import bare_model
+from dh2urdf.conversions.kinematic_tree import (
+    MOVING,
+    KinematicTree,
+    Step,
+    choose_ends,
+    find_path,
+    held_at_rest,
+)
+from dh2urdf.conversions.read_urdf import read_urdf
+from dh2urdf.dh_io.files import read_bytes, shown
+from dh2urdf.dh_io.xml import parse_xml
+from dh2urdf.exceptions import UrdfError
+
+__all__ = ["Description", "description_bytes", "read_description"]
+
+
+class Description(NamedTuple):
+    """A chain in a robot description.
+
+    Parameters
+    ----------
+    root : lxml element
+        The document; of a URDF with all that was mended.
+    model : pin.Model
+        Pinocchio's own reading; of a URDF the joints of the chain, all others held at 0.
+    addresses : dict
+        Of an MJCF the place of each joint in q, else empty.
+    mends : tuple of str
+        What was set right, each with its element and line.
+    """
+
+    tree: KinematicTree
+    base: str
+    tip: str
+    steps: list[Step]
+    root: etree._Element
+    model: pin.Model
+    addresses: dict[str, int]
+    mends: tuple[str, ...]
+
+
+def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
+    """Bytes of a file, a xacro expanded, or of a text that is a URDF; and its name in messages.
+
+    Raises
+    ------
+    UrdfError, MissingExtraError
+    """
+    if isinstance(source, str) and source.lstrip().startswith("<"):
+        return source.encode(errors="replace"), "URDF text"
+    data = read_bytes(source, ROBOT_BYTES, UrdfError)
+    return (expand_xacro(Path(source)) if is_xacro(source) else data), shown(source)
+
+
+def read_description(
+    source: str | os.PathLike[str], base: str | None, tip: str | None, *, strict: bool = False
+) -> Description:
+    """The chain between two links of a URDF, xacro or MJCF.
+
+    Without base and tip the root and the end of the longest chain. With ``strict`` a file that
+    needed mending is refused.
+
+    Raises
+    ------
+    UrdfError
+        The message names the element and its line.
+    NameNotFoundError, MissingExtraError
+    """
+    data, where = description_bytes(source)
+    root = parse_xml(data, where)
+    if root.tag == "mujoco":
+        return _from_mjcf(root, Path(source), base, tip)
+    tree = read_urdf(root, where, base, tip)
+    ends = choose_ends(tree, base, tip)
+    steps = find_path(tree, *ends)
+    mends = list(tree.mends)
+    held = {joint.name: joint for joint in held_at_rest(steps)}
+    for element in root.iterchildren("joint"):
+        if joint := held.get(element.get("name", "")):
+            mends.append(f"{joint.where}: a {joint.kind} joint before the arm; held at rest")
+            element.set("type", "fixed")
+    if strict and mends:
+        more = f"\nand {len(mends) - 20} more" if len(mends) > 20 else ""
+        raise UrdfError("\n".join(mends[:20]) + more)
+    chain = {step.joint.name for step in steps if step.joint.kind in MOVING}
+    model = bare_model(tree, root, chain)
+    return Description(tree, *ends, steps, root, model, {}, tuple(mends))
+
+
+def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | None) -> Description:
+    from dh2urdf.conversions.read_mjcf import read_mjcf
+
+    tree, addresses, model = read_mjcf(path)
+    ends = choose_ends(tree, base, tip)
+    steps = find_path(tree, *ends)
+    for joint in held_at_rest(steps):
+        raise UrdfError(
+            f"{joint.where}: a {joint.kind} joint before the arm; choose a base behind it, such "
+            f"as {joint.child!r}"
+        )
+    return Description(tree, *ends, steps, root, model, addresses, ())
