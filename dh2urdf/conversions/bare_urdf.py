@@ -67,7 +67,9 @@ def _joint(robot: etree._Element, joint: etree._Element, chain: Collection[str])
         part = joint.find(tag)
         if part is not None:
             keys = NUMBERS[-4:] if kind == "continuous" and tag == "limit" else NUMBERS
-            etree.SubElement(bare, tag, {k: _plain(part.get(k)) for k in keys if k in part.attrib})
+            numbers = {k: _plain(part.get(k)) for k in keys if k in part.attrib}
+            if numbers:
+                etree.SubElement(bare, tag, numbers)
 
 
 def _plain(text: str) -> str:
