@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from dh2urdf import grids
 from dh2urdf.grids import number
+from dh2urdf.quoting import latex, markdown, one_line
 
 if TYPE_CHECKING:
     from dh2urdf.dh import DHRow, DHTable, Origin
@@ -45,7 +46,8 @@ def table_grid(table: DHTable) -> tuple[list[str], list[str], list[list[str]]]:
     rows, joint = [], 0
     for row in table.rows:
         joint += row.is_joint
-        rows.append(_cells(row, joint, table.joint_names[joint - 1] if row.is_joint else ""))
+        name = one_line(table.joint_names[joint - 1]) if row.is_joint else ""
+        rows.append(_cells(row, joint, name))
     kept = [
         k for k, key in enumerate(KEYS) if key not in {"limits", "step"} or any(r[k] for r in rows)
     ]
@@ -85,7 +87,9 @@ def step(origin: Origin) -> str:
 
 def title(table: DHTable) -> str:
     """Name and convention, and the base and tool where there are any."""
-    lines = [f"{table.name}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"]
+    lines = [
+        f"{one_line(table.name)}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"
+    ]
     if not table.base.is_identity:
         lines.append(f"base: {step(table.base)}")
     if not table.tool.is_identity:
@@ -101,8 +105,10 @@ def table_text(table: DHTable) -> str:
 
 def table_markdown(table: DHTable) -> str:
     """The table as a Markdown pipe table."""
-    _, header, rows = table_grid(table)
-    return grids.grid_markdown(header, rows)
+    keys, header, rows = table_grid(table)
+    at = keys.index("name")
+    cells = [[markdown(c) if k == at else c for k, c in enumerate(row)] for row in rows]
+    return grids.grid_markdown(header, cells)
 
 
 def table_html(table: DHTable) -> str:
@@ -137,6 +143,8 @@ def table_latex(table: DHTable) -> str:
 
 
 def _latex_cell(key: str, text: str) -> str:
+    if key == "name":
+        return latex(text)
     plain = text.replace("\N{MINUS SIGN}", "-").replace("…", r"\ldots{}")
     if key in {"theta", "d", "a", "alpha"} and plain:
         head, mark, index = plain.partition("q")
@@ -144,4 +152,4 @@ def _latex_cell(key: str, text: str) -> str:
             digits = index[: len(index) - len(index.lstrip("0123456789"))]
             return f"${head}q_{{{digits}}}{index[len(digits) :]}$"
         return f"${plain}$"
-    return plain.replace("_", r"\_").replace("°", r"$^\circ$")
+    return plain.replace("°", r"$^\circ$")

@@ -43,8 +43,8 @@ def grid_text(header: Sequence[str], rows: Grid, *, left: Collection[int] = ()) 
 
 
 def grid_markdown(header: Sequence[str], rows: Grid) -> str:
-    """A pipe table, columns aligned to the right."""
-    table = [[c.replace("|", r"\|") for c in r] for r in [header, *rows]]
+    """A pipe table, columns aligned to the right; cells are Markdown already."""
+    table = [list(r) for r in [header, *rows]]
     widths = [max(3, *(len(r[k]) for r in table)) for k in range(len(header))]
     lines = [
         "| " + " | ".join(c.rjust(w) for c, w in zip(r, widths, strict=True)) + " |" for r in table

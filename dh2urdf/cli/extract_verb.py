@@ -12,6 +12,7 @@ from dh2urdf.cli.options import real
 from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
+from dh2urdf.quoting import one_line
 
 __all__ = ["extract_"]
 
@@ -152,7 +153,7 @@ def _text(found: Extraction, format: str) -> str:
     if format in CONSTRUCTORS:
         return CONSTRUCTORS[format](found.table)
     if format == "latex":
-        return f"% {found.table.source}\n{table_latex(found.table)}\n"
+        return f"% {one_line(found.table.source)}\n{table_latex(found.table)}\n"
     return table_to_text(found.table, format)
 
 

@@ -9,6 +9,7 @@ from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
+from dh2urdf.quoting import one_line
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 
@@ -71,7 +72,7 @@ def show_(
     emit(str(dh))
     for label, text in (("source", dh.source), ("checked", dh.checked)):
         if text:
-            emit(f"\n{label}: {' '.join(text.split())}")
+            emit(f"\n{label}: {' '.join(one_line(text).split())}")
     _show_transforms(dh, config)
     if symbolic:
         _show_symbols(dh)

@@ -13,6 +13,7 @@ import numpy as np
 from dh2urdf.conversions.inertia import tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
+from dh2urdf.quoting import matlab, one_line
 from dh2urdf.transforms import Array
 
 __all__ = ["CONSTRUCTORS", "matlab_corke", "matlab_rst", "rtb_python"]
@@ -20,8 +21,8 @@ __all__ = ["CONSTRUCTORS", "matlab_corke", "matlab_rst", "rtb_python"]
 
 def rtb_python(table: DHTable) -> str:
     """Python source of a ``DHRobot``; of a ``Robot`` by elementary transforms with fixed rows."""
-    lines = [f"# {line}" for line in _head(table)]
-    lines += ["import roboticstoolbox as rtb", "from spatialmath import SE3", ""]
+    lines = ["import roboticstoolbox as rtb", "from spatialmath import SE3", ""]
+    lines += [*(f"# {line}" for line in _head(table)), ""]  # a comment on top may name a coding
     if all(row.is_joint for row in table.rows):
         return "\n".join([*lines, *_rtb_links(table)]) + "\n"
     return "\n".join([*lines, *_rtb_ets(table)]) + "\n"
@@ -103,7 +104,7 @@ def matlab_corke(table: DHTable) -> str:
         for key in ("base", "tool")
         if not getattr(table, key).is_identity
     ]
-    lines.append(f"robot = SerialLink(L, 'name', '{_quoted(table.name)}'{''.join(ends)});")
+    lines.append(f"robot = SerialLink(L, 'name', {matlab(table.name)}{''.join(ends)});")
     return "\n".join(lines) + "\n"
 
 
@@ -177,15 +178,15 @@ class _Tree:
         self._end(name, row if carries else None)
 
     def _start(self, name: str, kind: str) -> None:
-        self.lines.append(f"body = rigidBody('{_quoted(name)}');")
-        self.lines.append(f"jnt = rigidBodyJoint('{_quoted(name)}', '{kind}');")
+        self.lines.append(f"body = rigidBody({matlab(name)});")
+        self.lines.append(f"jnt = rigidBodyJoint({matlab(name)}, '{kind}');")
 
     def _end(self, name: str, carried: DHRow | None) -> None:
         self.lines.append("body.Joint = jnt;")
         if self.weighs:
             self.lines += _rst_inertial(carried)
         self.lines.append(f"addBody(robot, body, {self.parent});")
-        self.parent = f"'{_quoted(name)}'"
+        self.parent = matlab(name)
 
 
 def _rst_inertial(row: DHRow | None) -> list[str]:
@@ -220,7 +221,8 @@ def _optional(row: DHRow, put: Callable[[str, list[float]], str]) -> list[str]:
 
 def _head(table: DHTable) -> list[str]:
     lines = [f"{table.name}, {table.convention} DH, metres and radians"]
-    return lines + [text for text in (table.source, table.checked) if text]
+    lines += [text for text in (table.source, table.checked) if text]
+    return [one_line(line) for line in lines]
 
 
 def _matlab(values: Sequence[float] | Array) -> str:
@@ -229,10 +231,6 @@ def _matlab(values: Sequence[float] | Array) -> str:
     if array.ndim == 1:
         return "[" + " ".join(repr(float(v)) for v in array) + "]"
     return "[" + "; ".join(" ".join(repr(float(v) + 0.0) for v in row) for row in array) + "]"
-
-
-def _quoted(text: str) -> str:
-    return text.replace("'", "''")
 
 
 CONSTRUCTORS: dict[str, Callable[[DHTable], str]] = {

@@ -18,6 +18,7 @@ from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
 from dh2urdf.doors import choice, found
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
+from dh2urdf.quoting import markdown
 
 __all__ = ["table_to_text", "write_table"]
 
@@ -29,6 +30,7 @@ Widths = dict[str, int]
 
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
 _PLAIN_LINE = re.compile(r"[A-Za-z][^:#|\\\"*`]*")
+_MARKUP = re.compile(r"[`*<>&\[\]|~$!_]")
 _WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}
 
 
@@ -157,18 +159,19 @@ def _yaml_word(text: str) -> str:
 
 def _is_plain_line(text: str) -> bool:
     """Tell whether a text can stand after ``key:`` as it is, on a line of its own."""
-    if not _PLAIN_LINE.fullmatch(text) or text.casefold() in _WORDS:
-        return False
-    return text.isprintable() and text == text.strip()
+    plain = _PLAIN_LINE.fullmatch(text) and text.casefold() not in _WORDS
+    return bool(plain) and markdown(text) == text
 
 
 def _json_word(text: str) -> str:
-    return json.dumps(text, ensure_ascii=False)
+    return json.dumps(text, ensure_ascii=not text.isprintable())
 
 
 def _line_word(text: str) -> str:
     """Text for one line of a CSV or Markdown file."""
-    return text if _is_plain_line(text) else json.dumps(text).replace("|", "\\u007c")
+    if _is_plain_line(text):
+        return text
+    return _MARKUP.sub(lambda sign: f"\\u{ord(sign[0]):04x}", json.dumps(text))
 
 
 def _inline(fields: Sequence[Field], equals: str, key: Quote, widths: Widths | None = None) -> str:

@@ -11,7 +11,7 @@ from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh_print import degrees, plus, step
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.figures.canvas import Canvas, text_size
-from dh2urdf.figures.style import FAINT, INK, MUTED
+from dh2urdf.figures.style import FAINT, INK, MUTED, plain
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
@@ -44,7 +44,7 @@ class DHPanel:
         self.rounded = False
         self.rows = [self._row(row, i) for i, row in self._numbered()]
         self.header = self._header()
-        self.title = f"{table.name}, {table.convention} DH"
+        self.title = f"{plain(table.name)}, {table.convention} DH"
         self.notes = [*self._frame_notes(), *notes]
         if self.rounded:
             self.notes.append("Long values are rounded to six digits here.")

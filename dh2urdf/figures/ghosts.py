@@ -9,7 +9,7 @@ import numpy as np
 
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import BRANCH_COLOURS
-from dh2urdf.figures.style import INK
+from dh2urdf.figures.style import INK, plain
 from dh2urdf.transforms import Array
 
 __all__ = ["Ghost", "group_ghosts", "merged_name"]
@@ -57,7 +57,7 @@ def group_ghosts(
             groups.append([k])
         else:
             group.append(k)
-    padded = ["", *names, *[""] * (len(ghosts) - len(names))]
+    padded = ["", *map(plain, names), *[""] * (len(ghosts) - len(names))]
     out = []
     for number, group in enumerate(groups):
         own = [padded[k] for k in group if padded[k]]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.drawing.colours import BRANCH_COLOURS
 from dh2urdf.figures.projection import View
-from dh2urdf.figures.style import FAINT, INK, MUTED, RC, Picture, mix, mpl
+from dh2urdf.figures.style import FAINT, INK, MUTED, RC, Picture, mix, mpl, plain
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace import PlanarArm, caption
@@ -46,7 +46,7 @@ def planar_picture(robot: Robot, arm: PlanarArm, *, within_limits: bool = True) 
         _Surface(left, arm, within_limits).draw()
         _annulus(right, bar, arm, within_limits)
         text = caption(robot, "Plane of motion", within_limits=within_limits)
-        figure.text(0.035, 0.03, text, color=MUTED, size=9)
+        figure.text(0.035, 0.03, plain(text), color=MUTED, size=9)
         return figure
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.drawing.arm import zero_configuration
 from dh2urdf.exceptions import Dh2UrdfError
-from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl
+from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace import Section, Task, caption, task_of
@@ -76,7 +76,7 @@ def section_picture(
                 _silhouette(axes, robot, panel[0], R, within_limits)
         what = f"Slice {panels[0][0].name}"
         text = caption(robot, what, within_limits=within_limits, tried=tried)
-        lines = textwrap.fill(text, LINE * len(panels), break_on_hyphens=False)
+        lines = textwrap.fill(plain(text), LINE * len(panels), break_on_hyphens=False)
         figure.text(0.02, 0.015, lines, color=MUTED, size=9, va="bottom")
         return figure
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from dh2urdf.exceptions import MissingExtraError
+from dh2urdf.quoting import one_line
 
 try:
     import matplotlib as mpl
@@ -15,7 +18,7 @@ try:
 except ImportError:
     raise MissingExtraError("plot", "drawing a figure") from None
 
-__all__ = ["FAINT", "INK", "MUTED", "RC", "Picture", "mix", "mpl"]
+__all__ = ["FAINT", "INK", "MUTED", "RC", "Picture", "mix", "mpl", "plain"]
 
 INK = "#1b2333"
 MUTED = "#5c6470"
@@ -62,3 +65,17 @@ def mix(colour: str, share: float, other: str = "#ffffff") -> str:
     first, second = np.array(to_rgb(colour)), np.array(to_rgb(other))
     r, g, b = (share * first + (1.0 - share) * second).tolist()
     return str(to_hex((r, g, b)))
+
+
+def plain(text: str) -> str:
+    """A text of a user as it is drawn: no formula, and only what the font has."""
+    signs = "".join(c if ord(c) in _drawn() else "\N{WHITE SQUARE}" for c in one_line(text))
+    return signs.replace("$", r"\$")
+
+
+@lru_cache(maxsize=1)
+def _drawn() -> Collection[int]:
+    """Characters of the font."""
+    from matplotlib.font_manager import findfont, get_font
+
+    return frozenset(get_font(findfont(RC["font.sans-serif"][0])).get_charmap())
