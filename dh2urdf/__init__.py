@@ -6,27 +6,37 @@
 >>> robot.fk([0, 0, 0, 0, 0, 0]).shape
 (4, 4)
 
-Importing this package loads NumPy only; Pinocchio comes with the first model, Numba with the
-first array of configurations or the first inverse kinematics.
+Importing this package loads nothing else; NumPy comes with the first name that is asked for,
+Pinocchio with the first model, Numba with the first array of configurations or the first inverse
+kinematics.
 """
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from dh2urdf import exceptions, transforms
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
-from dh2urdf.dh_reach import dh_parameters
+from dh2urdf import exceptions
 from dh2urdf.exceptions import Dh2UrdfError
 
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from dh2urdf import transforms
     from dh2urdf.chain import SerialChain
     from dh2urdf.checks.rules import check_urdf
     from dh2urdf.conversions.convention import to_convention
     from dh2urdf.conversions.dh_to_urdf import UrdfOptions
     from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
+    from dh2urdf.dh import (
+        DHConvention,
+        DHRow,
+        DHTable,
+        JointType,
+        Origin,
+        dh_factors,
+        dh_transform,
+    )
     from dh2urdf.dh_io import write_table as save_table
+    from dh2urdf.dh_reach import dh_parameters
     from dh2urdf.extract import Extraction, extract_dh
     from dh2urdf.ik.batch import IKBatch
     from dh2urdf.ik.path import IKPath
@@ -38,6 +48,15 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _LATE = {
+    **{
+        name: ("dh2urdf.dh", name)
+        for name in (
+            *("DHConvention", "DHRow", "DHTable", "JointType", "Origin"),
+            *("dh_factors", "dh_transform"),
+        )
+    },
+    "dh_parameters": ("dh2urdf.dh_reach", "dh_parameters"),
+    "transforms": ("dh2urdf.transforms", ""),
     "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
     "Extraction": ("dh2urdf.extract", "Extraction"),
     "IKBatch": ("dh2urdf.ik.batch", "IKBatch"),
@@ -96,11 +115,12 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name not in _LATE:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    module, attribute = _LATE[name]
-    value = getattr(import_module(module), attribute)
+    path, attribute = _LATE[name]
+    module = import_module(path)
+    value = getattr(module, attribute) if attribute else module
     globals()[name] = value
     return value
 

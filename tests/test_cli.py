@@ -278,7 +278,7 @@ def test_closed_pipe_ends_quietly():
 
 
 def test_import_and_convert_load_nothing_heavy():
-    """import dh2urdf loads NumPy only; converting loads no Numba, matplotlib, viser or mujoco."""
+    """import dh2urdf loads nothing; converting loads no Numba, matplotlib, viser or mujoco."""
     code = (
         "import sys, dh2urdf\n"
         "heavy = {'numba', 'matplotlib', 'viser', 'mujoco', 'dask', 'yourdfpy', 'sympy', 'scipy'}\n"

@@ -47,14 +47,29 @@ def main(argv: Sequence[str] | None = None) -> None:
             raise
         sys.stderr.write(f"dh2urdf: {error}\n")
         status = 1 if isinstance(error, UnreachedError) else 2
-    except KeyboardInterrupt:
-        sys.stderr.write("interrupted\n")
-        status = 130
     except OSError as error:
         if debug:
             raise
         status = _lost_output(error)
+    except BaseException as error:
+        if not _is_interrupt(error):
+            raise
+        sys.stderr.write("interrupted\n")
+        status = 130
+    if argv is None:
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
     sys.exit(status)
+
+
+def _is_interrupt(error: BaseException | None) -> bool:
+    """Tell Ctrl-C from other errors, also where the interpreter or a library wrapped it."""
+    return error is not None and (
+        isinstance(error, KeyboardInterrupt)
+        or _is_interrupt(error.__cause__)
+        or _is_interrupt(error.__context__)
+    )
 
 
 def _run(tokens: list[str]) -> int:
@@ -94,7 +109,7 @@ def _open_streams() -> None:
             setattr(sys, name, open(os.open(os.devnull, flags), mode))  # noqa: SIM115
     codecs.register_error("spelt", _spelt)
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="spelt")
 
 

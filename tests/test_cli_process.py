@@ -1,0 +1,92 @@
+"""The command line as a process: interrupted, without a stdout, on a terminal without signs."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+IK = ["ik", "ur5", "--xyz", "0.4", "0.2", "0.3", "--rpy", "0", "3", "0"]
+LONG = ["workspace", "ur5", "-o", "x.png", "--points", "200", "--orientations", "1000"]
+START = "import sys; from dh2urdf.cli import main; print(end='go', flush=True); main(sys.argv[1:])"
+
+
+def shell(command, **environment):
+    """Run a command of the shell, in which ``dh2urdf`` stands for the command line."""
+    command = command.replace("dh2urdf", f"{sys.executable} -m dh2urdf")
+    return subprocess.run(
+        command,
+        shell=True,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+        env={**os.environ, **environment},
+    )
+
+
+@pytest.mark.parametrize("argv", [IK, LONG], ids=["ik", "workspace"])
+def test_an_interrupt_at_any_moment_is_one_word_and_status_130(argv, tmp_path):
+    """From the first import on, Ctrl-C ends the process with one word and leaves no file."""
+    for moment in (0.0, 0.003, 0.01, 0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.25):
+        process = subprocess.Popen(
+            [sys.executable, "-c", START, *argv],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=tmp_path,
+        )
+        assert process.stdout.read(2) == "go"
+        time.sleep(moment)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        finished = argv is IK and process.returncode == 0
+        assert finished or (process.returncode, err) == (130, "interrupted\n")
+        assert list(tmp_path.iterdir()) == []
+
+
+def test_the_command_line_is_imported_before_anything_heavy():
+    """What is imported outside of the guarded part is the package's names and errors alone."""
+    code = "import sys, dh2urdf.cli; print(*sys.modules)"
+    loaded = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout.split()
+    ours = {name for name in loaded if name.startswith("dh2urdf")}
+    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.exceptions"}
+    assert not {"numpy", "cyclopts", "rich", "pinocchio"} & set(loaded)
+
+
+@pytest.mark.parametrize("verb", ["list", "list --json", "convert ur5 -o -", "show ur5", "--help"])
+@pytest.mark.parametrize("place", ["> /dev/full", ">&-"])
+def test_a_stdout_that_cannot_be_written_is_one_message(verb, place):
+    """A full disk and a closed stdout: status 2 and one line on stderr."""
+    done = shell(f"dh2urdf {verb} {place}")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("dh2urdf: standard output: ")
+    assert done.stderr.count("\n") == 1
+
+
+def test_closed_stdin_and_stderr_do_not_disturb():
+    """Without stderr the answer is complete; without stdin the source is said to be empty."""
+    assert shell("dh2urdf convert ur5 -o - 2>&-").stdout.endswith("</robot>\n")
+    done = shell("dh2urdf convert - <&-")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "empty" in done.stderr
+
+
+def test_a_terminal_without_our_signs_shows_their_spelling(tmp_path):
+    """In ASCII a minus is a hyphen, JSON keeps every name, and nothing fails."""
+    table = "name: größe\nconvention: standard\nunits: {length: m, angle: deg}\njoints:\n"
+    (tmp_path / "a.yaml").write_text(table + "  - {theta: 0, d: -0.5, a: 0, alpha: 0}\n", "utf-8")
+    for environment in ({"PYTHONIOENCODING": "ascii"}, {"LC_ALL": "C", "PYTHONUTF8": "0"}):
+        done = shell(f"dh2urdf fk {tmp_path}/a.yaml 0", **environment)
+        assert done.returncode == 0
+        assert "xyz [m]: 0  0  -0.5" in done.stdout.replace("\N{MINUS SIGN}", "-")
+        done = shell(f"dh2urdf show {tmp_path}/a.yaml --json", **environment)
+        assert json.loads(done.stdout)["name"] == "größe"
+        for verb in ("list", "--help", "ik ur5 --help", "show ur5", f"show {tmp_path}/a.yaml"):
+            done = shell(f"dh2urdf {verb}", **environment)
+            assert (done.returncode, done.stderr) == (0, "")
