@@ -13,7 +13,19 @@ from dh2urdf.ik.solutions import branch_words_of
 from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
 from dh2urdf.transforms import Array
 
-__all__ = ["HeldJoints"]
+__all__ = ["HeldJoints", "new_outputs"]
+
+
+def new_outputs(m: int, kmax: int, n: int) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
+    """Arrays for the solutions of m poses: q, residual, count, branch, free."""
+    codes = np.zeros((2, m, kmax), np.int64)
+    return (
+        np.empty((m, kmax, n)),
+        np.empty((m, kmax)),
+        np.zeros(m, np.int64),
+        codes[0],
+        codes[1],
+    )
 
 
 class HeldJoints:
@@ -65,16 +77,21 @@ class HeldJoints:
         branch_out: IntArray,
         free_out: IntArray,
     ) -> None:
-        """Solve for the moving joints and write the held values between them."""
-        q = np.empty((len(Ts), self.kmax, len(self.moving)))
-        self.inner.solve_batch(Ts, within_limits, q, residual_out, count_out, branch_out, free_out)
-        q_out[:, :, self.moving] = q
+        """Solve for the moving joints and write the held values between them.
+
+        The outputs may have other numbers of rows than this solver has solutions: at another
+        held value another solver may cover the chain.
+        """
+        q, residual, count, branch, free = new_outputs(len(Ts), self.kmax, len(self.moving))
+        self.inner.solve_batch(Ts, within_limits, q, residual, count, branch, free)
+        k = min(self.kmax, q_out.shape[1])
+        count_out[:] = np.minimum(count, k)
+        q_out[:, :k, self.moving], residual_out[:, :k] = q[:, :k], residual[:, :k]
         for i, value in self.held.items():
             q_out[:, :, i] = value
-        free = free_out.copy()
-        free_out[:] = 0
+        branch_out[:, :k], free_out[:] = branch[:, :k], 0
         for bit, i in enumerate(self.moving):
-            free_out |= (free >> bit & 1) << int(i)
+            free_out[:, :k] |= (free[:, :k] >> bit & 1) << int(i)
 
     def __str__(self) -> str:
         return self.name

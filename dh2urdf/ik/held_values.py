@@ -6,7 +6,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.general_6r import General6R
-from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.held import HeldJoints, new_outputs
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_wrist import TRIAL_VALUE, HeldWrist
 from dh2urdf.ik.part_chains import hold, without_end
@@ -94,20 +94,17 @@ class HeldOneByOne(HeldSolver):
         free_out: IntArray,
     ) -> None:
         """Solve the poses of one set of values after the other."""
+        outputs = q_out, residual_out, count_out, branch_out, free_out
         order = np.lexsort(values.T)
         breaks = np.flatnonzero(np.any(np.diff(values[order], axis=0), axis=1)) + 1
         for rows in np.split(order, breaks):
             if not len(rows):
                 continue
             solver = self.at(tuple(values[rows[0]].tolist()))
-            k = min(solver.kmax, self.kmax)
-            q, residual, count, branch, free = new_outputs(len(rows), solver.kmax, self.chain.n)
-            solver.solve_batch(
-                np.ascontiguousarray(Ts[rows]), within_limits, q, residual, count, branch, free
-            )
-            count_out[rows] = np.minimum(count, k)
-            q_out[rows, :k], residual_out[rows, :k] = q[:, :k], residual[:, :k]
-            branch_out[rows, :k], free_out[rows, :k] = branch[:, :k], free[:, :k]
+            found = new_outputs(len(rows), self.kmax, self.chain.n)
+            solver.solve_batch(np.ascontiguousarray(Ts[rows]), within_limits, *found)
+            for out, part in zip(outputs, found, strict=True):
+                out[rows] = part
 
 
 class HeldGeneral(HeldOneByOne):
@@ -145,15 +142,3 @@ def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSo
             if isinstance(model, General6R):
                 return HeldGeneral(chain, joint, model)
     return HeldOneByOne(chain, held, task)
-
-
-def new_outputs(m: int, kmax: int, n: int) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
-    """Arrays for the solutions of m poses: q, residual, count, branch, free."""
-    codes = np.zeros((2, m, kmax), np.int64)
-    return (
-        np.empty((m, kmax, n)),
-        np.empty((m, kmax)),
-        np.zeros(m, np.int64),
-        codes[0],
-        codes[1],
-    )

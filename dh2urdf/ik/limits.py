@@ -12,7 +12,15 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.tolerances import LIMIT_SLACK
 from dh2urdf.transforms import Array
 
-__all__ = ["all_turns", "inside", "middle", "plain_ranges", "turn_counts", "turned_to"]
+__all__ = [
+    "all_turns",
+    "inside",
+    "middle",
+    "near_ranges",
+    "plain_ranges",
+    "turn_counts",
+    "turned_to",
+]
 
 TWO_PI = 2.0 * math.pi
 
@@ -31,6 +39,13 @@ def middle(chain: SerialChain) -> Array:
     nearest = np.clip(0.0, chain.lower, chain.upper)
     lower, upper = np.where(both, chain.lower, 0.0), np.where(both, chain.upper, 0.0)
     return np.where(both, 0.5 * (lower + upper), nearest)
+
+
+def near_ranges(chain: SerialChain) -> tuple[Array, Array]:
+    """What of each range is within half a turn, or the arm's size, of zero; else its near end."""
+    span = np.where(chain.prismatic, chain.size, np.pi)
+    low = np.maximum(chain.lower, np.minimum(-span, chain.upper - span))
+    return low, np.minimum(chain.upper, np.maximum(span, chain.lower + span))
 
 
 def plain_ranges(chain: SerialChain) -> bool:

@@ -141,9 +141,8 @@ def _first_stage(
     if origin is not None:
         q = problem.arranged(found, origin, within_limits).q
         return _Stage(pose, q, np.linalg.norm(q - origin, axis=1), np.zeros(len(q), np.int64))
-    q = problem.with_all_turns(found).q
-    if not 0 < len(q) <= MOST_STATES:
-        q = found.q
+    few = 0 < limits.turn_counts(problem.chain, found.q).sum() <= MOST_STATES
+    q = problem.with_all_turns(found).q if few else found.q
     wound = np.linalg.norm(q - limits.middle(problem.chain), axis=1)
     return _Stage(pose, q, UNWOUND * wound, np.zeros(len(q), np.int64))
 

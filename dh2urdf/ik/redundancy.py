@@ -17,6 +17,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.families import task_jacobian
 from dh2urdf.ik.held import HeldJoints
+from dh2urdf.ik.limits import near_ranges
 from dh2urdf.ik.numeric import NumericProblem
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
@@ -30,6 +31,9 @@ TRIALS = 4
 
 STARTS = 8
 """Starts of the numeric search; a member of a family is soon found, if there is one."""
+
+MOST = 16
+"""Solutions of a pose with the joints held; another solver may cover the chain at each value."""
 
 VALUES = (1, 24, 7)
 """Values at which each of 0, 1, 2 joints is held: a turn in steps of 15 degrees, of 51 for two."""
@@ -76,7 +80,7 @@ class RedundantChain(SolverBase):
         self.alone = self.idle == sum(1 << i for i in self.held)
         rows = [_values(chain, i, len(self.held))[: 1 if self.alone else None] for i in self.held]
         self.values = list(itertools.product(*rows))
-        self.kmax = self._solver(self.values[0]).kmax
+        self.kmax = max(self._solver(self.values[0]).kmax, MOST)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -143,21 +147,20 @@ class RedundantChain(SolverBase):
 
 
 def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:
-    """The last joints without which the others determine the task."""
+    """The last joints without which the others determine the task, or nearly, as best they can."""
     spare = spare_joints(chain, task)
-    for joints in sorted(itertools.combinations(range(chain.n), spare), reverse=True):
+    choices = sorted(itertools.combinations(range(chain.n), spare), reverse=True)
+    for joints in choices:
         if not spare_joints(hold(chain, dict.fromkeys(joints, 0.1)), task):
             return joints
-    raise AssertionError("the rank of the Jacobian is reached by some of its columns")
+    J = task_jacobian(chain, task, random_configurations(chain, 1))[0]
+    J[:3] /= chain.size
+    return max(choices, key=lambda c: float(np.linalg.norm(np.delete(J, c, axis=1), -2)))
 
 
 def _values(chain: SerialChain, joint: int, held: int) -> list[float]:
     """Values at which a joint is held: rest, then spread over its range."""
-    lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
-    span = chain.size if chain.prismatic[joint] else np.pi
-    low, high = max(lower, -span), min(upper, span)
-    if low > high:
-        low, high = (lower, lower + span) if lower > span else (upper - span, upper)
+    low, high = (float(end[joint]) for end in near_ranges(chain))
     rest = min(max(0.0, low), high)
     count = VALUES[held]
     grid = low + (high - low) * (np.arange(count) + 0.5) / count

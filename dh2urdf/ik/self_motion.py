@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from dh2urdf.bounds import SAMPLES
+from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik import limits
-from dh2urdf.ik.held_values import new_outputs
+from dh2urdf.ik.held import new_outputs
 from dh2urdf.ik.swept import SweptJoint, sample_values
 from dh2urdf.ik.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
 from dh2urdf.transforms import Array
@@ -183,7 +185,7 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
     if within_limits:
         middle = limits.middle(solver.chain)
         extra = inside_members(solver, T, middle, 16 * VALUES)[:, solver.joint]
-        extra = extra[_reached(solver, T, extra, True)]
+        extra = _every_turn(solver, extra[_reached(solver, T, extra, True)])
         values = np.concatenate([values, extra])
         reached = np.concatenate([reached, np.ones(len(extra), np.bool_)])
         order = np.argsort(values, kind="stable")
@@ -197,6 +199,18 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
     return ends.reshape(-1, 2)
 
 
+def _every_turn(solver: SweptJoint, values: Array) -> Array:
+    """Values of the swept joint in all turns that its limits allow, shape (k,)."""
+    lower, upper = solver.joints[solver.joint, 1:]
+    if solver.joints[solver.joint, 0] or not np.isfinite(upper - lower):
+        return values
+    most = np.ceil((upper - lower) / limits.TWO_PI)
+    turns = np.arange(-most, most + 1.0)
+    every = (values[:, None] + limits.TWO_PI * turns).ravel()
+    inside: Array = every[(lower <= every) & (every <= upper)]
+    return inside
+
+
 def _grid(solver: SweptJoint, within_limits: bool) -> Array:
     """Values at which reach is tried, both bounds of the range among them."""
     one_turn = sample_values(solver.chain, solver.joint, 2, False)
@@ -206,7 +220,13 @@ def _grid(solver: SweptJoint, within_limits: bool) -> Array:
         low, high = solver.chain.lower[solver.joint], solver.chain.upper[solver.joint]
         lower = float(low) if np.isfinite(low) else lower
         upper = float(high) if np.isfinite(high) else upper
-    grid: Array = np.linspace(lower, upper, max(2, int(np.ceil((upper - lower) / step)) + 1))
+    parts = np.ceil((upper - lower) / step) if step else 1.0
+    if parts > SAMPLES:
+        raise ArgumentError(
+            f"intervals: the range of {solver.chain.names[solver.joint]} takes {parts:.3g} values, "
+            f"at most {SAMPLES} are tried; within_limits=False tries one turn"
+        )
+    grid: Array = np.linspace(lower, upper, max(2, int(parts) + 1))
     return grid
 
 

@@ -10,9 +10,11 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.families import task_jacobian
+from dh2urdf.ik.held import new_outputs
 from dh2urdf.ik.held_solver import HeldSolver
-from dh2urdf.ik.held_values import new_outputs, select_held
+from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.held_wrist import HeldWrist
+from dh2urdf.ik.limits import near_ranges
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
 from dh2urdf.transforms import Array
 
@@ -38,7 +40,7 @@ def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: b
     """
     lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
     if chain.prismatic[joint]:
-        lower, upper = max(lower, -chain.size), min(upper, chain.size)
+        lower, upper = (float(end[joint]) for end in near_ranges(chain))
     elif not within_limits or upper - lower > 2.0 * np.pi:
         middle = 0.5 * (lower + upper) if np.isfinite(upper - lower) else 0.0
         lower, upper = middle - np.pi, middle + np.pi
@@ -174,9 +176,7 @@ class SweptJoint(SolverBase):
 def _self_motion(chain: SerialChain) -> Array:
     """Mean size of each joint's part in the unit self-motion over random configurations, (n,)."""
     rng = np.random.default_rng(3)
-    span = np.where(chain.prismatic, chain.size, np.pi)
-    lower, upper = np.maximum(chain.lower, -span), np.minimum(chain.upper, span)
-    J = task_jacobian(chain, Task.POSE, rng.uniform(lower, upper, (TRIALS, chain.n)))
+    J = task_jacobian(chain, Task.POSE, rng.uniform(*near_ranges(chain), (TRIALS, chain.n)))
     J[:, :3] /= chain.size
     motion: Array = np.abs(np.linalg.svd(J)[2][:, -1]).mean(axis=0)
     return motion
