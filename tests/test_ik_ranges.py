@@ -115,6 +115,7 @@ def test_any_seed_is_answered_or_refused(name, value, at):
         lambda: robot.ik_path(T[None], start=q, within_limits=False),
         lambda: robot.ik_numeric(T, seed=q, within_limits=False, starts=2).residual,
         lambda: nearest(q),
+        lambda: robot.ik(T, locked={at % robot.n: value}, within_limits=False).residual,
     ):
         answer = outcome(call)
         refused = isinstance(answer, Dh2UrdfError)
@@ -122,6 +123,7 @@ def test_any_seed_is_answered_or_refused(name, value, at):
         if refused:
             assert isinstance(answer, ConfigurationError)
             assert f"[{at % robot.n}]" in str(answer)
+            assert not str(answer).endswith("allows it")
 
 
 def test_more_turns_than_can_be_listed_are_refused():

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import finite_array, instance, integer
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError
@@ -37,8 +38,7 @@ def held_values(
             raise ConfigurationError(f"locked: joint {chain.names[i]!r} is held twice")
         plain = isinstance(value, float) and math.isfinite(value)
         held[i] = value if plain else _numbers(key, value)
-        if within_limits:
-            _check_limits(key, held[i], chain.lower[i], chain.upper[i])
+        _check_limits(chain, key, i, held[i], within_limits)
     joints = tuple(sorted(held))
     if not joints:
         return (), np.empty((1, 0))
@@ -71,14 +71,21 @@ def _numbers(key: int | str, value: Held) -> Array:
     return values
 
 
-def _check_limits(key: int | str, values: Held, lower: float, upper: float) -> None:
-    """Refuse values outside the limits of their joint."""
+def _check_limits(
+    chain: SerialChain, key: int | str, joint: int, values: Held, within_limits: bool
+) -> None:
+    """Refuse values outside the limits of their joint, or beyond the bounds of any joint."""
+    upper = LENGTH if chain.prismatic[joint] else ANGLE
+    lower = -upper
+    if within_limits:
+        lower, upper = max(lower, chain.lower[joint]), min(upper, chain.upper[joint])
     if isinstance(values, float) and lower <= values <= upper:
         return
     every = np.atleast_1d(values)
     outside = (every < lower) | (every > upper)
     if outside.any():
+        where = "of the joint; within_limits=False allows it" if within_limits else "of any joint"
         raise ConfigurationError(
             f"locked[{key!r}]: {every[outside][0]:g} is outside the limits {lower:g} to "
-            f"{upper:g} of the joint; within_limits=False allows it"
+            f"{upper:g} {where}"
         )
