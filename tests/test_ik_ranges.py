@@ -201,7 +201,7 @@ def test_any_chain_is_answered_or_refused(rows, far, task):
         DHRow(theta, d, a, alpha, JointType.PRISMATIC if kind == "P" else JointType.REVOLUTE)
         for kind, theta, d, a, alpha in rows
     )
-    robot = outcome(dh2urdf.Robot.from_dh, DHTable(tuple(made), "standard"))
+    robot = outcome(lambda: dh2urdf.Robot.from_dh(DHTable(tuple(made), "standard")))
     if isinstance(robot, Dh2UrdfError):
         return
     q = robot.random_configuration(0)
