@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
+from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.cli.options import real
-from dh2urdf.cli.output import emit, emit_json, note
+from dh2urdf.cli.output import emit, emit_json, note, stdin
+from dh2urdf.dh_io.files import read_text
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 from dh2urdf.quoting import one_line
@@ -115,7 +116,7 @@ def extract_(
 
 def _stdin() -> str:
     """The text of a URDF on stdin."""
-    text = sys.stdin.read()
+    text = read_text(stdin(), ROBOT_BYTES, UrdfError)
     if not text.lstrip().startswith("<"):
         raise UrdfError("<stdin>:1: not XML")
     return text

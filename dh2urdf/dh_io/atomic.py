@@ -54,11 +54,11 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
         ) from None
     try:
         target = Path(os.path.realpath(where))
-        mode = _mode(target)
+        mode = _mode(where)
         if mode is not None and stat.S_ISDIR(mode):
             raise IsADirectoryError(errno.EISDIR, "")
         if mode is not None and not stat.S_ISREG(mode):
-            target.write_bytes(data)
+            where.write_bytes(data)
             return where
         if mode is not None and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, "")
