@@ -11,25 +11,19 @@ Lecture notes section 5; Spong, Hutchinson and Vidyasagar, eq. 3.10; Craig, eq. 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.bounds import ANGLE, LENGTH
+from dh2urdf.bounds import NUMBER
 from dh2urdf.doors import choice, number
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 from dh2urdf.transforms import Array
 
-__all__ = [
-    "DHConvention",
-    "DHFactors",
-    "convention_of",
-    "dh_factors",
-    "dh_matrix",
-    "dh_transform",
-]
+__all__ = ["DHConvention", "DHFactors", "convention_of", "dh_factors", "dh_transform"]
 
 
 class DHConvention(StrEnum):
@@ -40,14 +34,16 @@ class DHConvention(StrEnum):
 
 
 def convention_of(value: object, error: type[Dh2UrdfError] = ArgumentError) -> DHConvention:
-    """The convention that a word names.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """The convention that a word names; an error for any other."""
+    if isinstance(value, DHConvention):
+        return value
     return DHConvention(choice(value, "convention", tuple(DHConvention), error))
+
+
+def _numbers(*values: object) -> Iterator[float]:
+    """The four parameters as finite floats; an error that names the one that is none."""
+    for key, value in zip(("theta", "d", "a", "alpha"), values, strict=True):
+        yield number(value, key, -NUMBER, NUMBER)
 
 
 class DHFactors(NamedTuple):
@@ -87,31 +83,9 @@ def dh_transform(
     ------
     ArgumentError
     """
-    return dh_matrix(*_numbers(theta, d, a, alpha), convention_of(convention))
-
-
-def _numbers(
-    theta: object, d: object, a: object, alpha: object
-) -> tuple[float, float, float, float]:
-    """The four parameters as floats within their bounds."""
-    return (
-        number(theta, "theta", -ANGLE, ANGLE, unit="rad"),
-        number(d, "d", -LENGTH, LENGTH, unit="m"),
-        number(a, "a", -LENGTH, LENGTH, unit="m"),
-        number(alpha, "alpha", -ANGLE, ANGLE, unit="rad"),
-    )
-
-
-def dh_matrix(
-    theta: float,
-    d: float,
-    a: float,
-    alpha: float,
-    convention: DHConvention = DHConvention.STANDARD,
-) -> Array:
-    """:func:`dh_transform` of floats that have been checked, shape (4, 4)."""
+    theta, d, a, alpha = _numbers(theta, d, a, alpha)
     ct, st, ca, sa = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
-    if convention is DHConvention.STANDARD:
+    if convention_of(convention) is DHConvention.STANDARD:
         return np.array(
             [
                 [ct, -st * ca, st * sa, a * ct],

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, INERTIA, LENGTH, NUMBER
-from dh2urdf.dh_motions import DHConvention, dh_matrix
+from dh2urdf.dh_motions import DHConvention, dh_transform
 from dh2urdf.dh_reach import why_unreachable
 from dh2urdf.doors import choice, found, instance, number, real_array, text
 from dh2urdf.exceptions import ArgumentError, TableError
@@ -161,7 +161,7 @@ class DHRow:
             if self.origin is not None and any((self.theta, self.d, self.a, self.alpha)):
                 out.append("origin: a fixed row takes either xyz and rpy or DH parameters")
         elif self.origin is not None and not bad:
-            step = dh_matrix(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
+            step = dh_transform(self.theta, self.d, self.a, self.alpha) @ self.origin.matrix
             reason = why_unreachable(step) or "give its four DH parameters instead"
             out.append(
                 f"xyz: only a fixed row has xyz and rpy, this one is {self.joint_type}; {reason}"
@@ -175,6 +175,7 @@ class DHRow:
 
     def variables(self, q: float = 0.0) -> tuple[float, float]:
         """Joint angle theta [rad] and link offset d [m] with the joint at q."""
+        q = number(q, "q", -NUMBER, NUMBER)
         if self.joint_type is JointType.REVOLUTE:
             return self.sign * q + self.theta, self.d
         if self.joint_type is JointType.PRISMATIC:
@@ -186,7 +187,7 @@ class DHRow:
         if self.origin is not None:
             return self.origin.matrix
         theta, d = self.variables(q)
-        return dh_matrix(theta, d, self.a, self.alpha, convention)
+        return dh_transform(theta, d, self.a, self.alpha, convention)
 
 
 _JOINT_ONLY = ("lower", "upper", "velocity", "effort", "damping", "friction", "mass")

@@ -15,7 +15,7 @@ from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.read import format_of
 from dh2urdf.dh_io.schema import ROW_KEYS
 from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
-from dh2urdf.doors import choice, found
+from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
 from dh2urdf.quoting import markdown
@@ -72,25 +72,10 @@ def table_to_text(table: TableLike, format: str, units: Units = SI) -> str:
         ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``.
     units : Units
     """
-    table, units = as_table(table), _units(units)
-    return _WRITERS[choice(format, "format", _WRITERS, TableError)](table, units)
-
-
-def _units(units: Units) -> Units:
-    """The units of a file, each one that is known.
-
-    Raises
-    ------
-    TableError
-    """
-    try:
-        length, angle = units
-    except (TypeError, ValueError):
-        raise TableError(f"units: expected Units(length, angle), got {found(units)}") from None
-    return Units(
-        choice(length, "units.length", UNIT_SIZES[Kind.LENGTH], TableError),
-        choice(angle, "units.angle", UNIT_SIZES[Kind.ANGLE], TableError),
-    )
+    table, pair = as_table(table), instance(units, "units", tuple, TableError)
+    kinds = zip((Kind.LENGTH, Kind.ANGLE), pair, strict=False)
+    known = [choice(unit, f"units.{k}", UNIT_SIZES[k], TableError) for k, unit in kinds]
+    return _WRITERS[choice(format, "format", _WRITERS, TableError)](table, Units(*known))
 
 
 def _words(table: DHTable) -> list[tuple[str, str]]:
