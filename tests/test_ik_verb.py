@@ -241,3 +241,50 @@ def test_a_joint_is_held_once(run):
         status, out, err = run("ik", "ur5", *argv)
         assert (status, out) == (2, "")
         assert "shoulder_pan_joint is held twice" in err
+
+
+def rounded(digits):
+    """A pose with a tilted tool, as somebody typed it."""
+    T = dh2urdf.transforms.origin_matrix([0.4, 0.05, 0.3], [0.3, 2.9, 0.2])
+    return T, T.round(digits)
+
+
+@pytest.mark.parametrize("digits", [2, 3, 4, 5])
+def test_a_rounded_matrix_is_refused_with_a_hint_and_solved_with_nearest(run, digits):
+    """--nearest takes the nearest rotation of a matrix or of a file, and says how far it was."""
+    T, typed = rounded(digits)
+    cells = [repr(float(v)) for v in typed[:3].ravel()]
+    status, out, err = run("ik", "denso_vs6556", "--matrix", *cells)
+    assert (status, out) == (2, "")
+    assert "--nearest" in err
+    assert "--matrix: rotation part is not orthonormal" in err
+    status, out, err = run("ik", "denso_vs6556", "--matrix", *cells, "--nearest")
+    assert (status, len(out.splitlines())) == (0, 10)
+    off = float(err.split("off by ")[1].split(" rad")[0])
+    assert off == pytest.approx(np.abs(np.linalg.svd(typed[:3, :3])[1] - 1).max(), rel=0.1)
+    _, out, _ = run("ik", "denso_vs6556", "--matrix", *cells, "--nearest", "--json")
+    found = json.loads(out)
+    assert found["pose_change"] == pytest.approx(off, rel=0.1)
+    assert np.abs(np.array(found["T_base_tip"]) - T).max() < 2 * 10.0**-digits
+
+
+def test_rounded_matrices_of_a_file_are_named_by_line_or_taken(run, tmp_path):
+    """Without --nearest the line is named; with it only what was never a rotation."""
+    _, typed = rounded(4)
+    row = ",".join(repr(float(v)) for v in typed[:3].ravel())
+    (tmp_path / "poses.csv").write_text(f"{row}\n\n{row}\n")
+    status, _, err = run("ik", "denso_vs6556", "--csv", "poses.csv")
+    assert status == 2
+    assert "poses.csv:1: rotation part" in err
+    status, out, err = run("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+    assert (status, len(out.splitlines())) == (0, 17)
+    assert err.startswith("--nearest: the rotation was off by ")
+    (tmp_path / "poses.csv").write_text(f"{row}\n{','.join(['0.7'] * 12)}\n")
+    status, _, err = run("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+    assert (status, "poses.csv:2:" in err) == (2, True)
+
+
+def test_nearest_beside_angles_would_change_nothing(run):
+    """Three angles are always a rotation."""
+    status, _, err = run("ik", "denso_vs6556", *POSE, "--nearest")
+    assert (status, "--nearest" in err) == (2, True)

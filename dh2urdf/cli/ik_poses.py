@@ -24,6 +24,7 @@ from dh2urdf.transforms import (
     check_pose,
     origin_matrix,
     quaternion_to_matrix,
+    rounded_off,
     rpy_to_matrix,
 )
 
@@ -67,8 +68,9 @@ def pose_of(
     *,
     deg: bool,
     position_only: bool = False,
+    nearest: bool = False,
 ) -> Array:
-    """The pose of ``--xyz --rpy`` or of ``--matrix``, shape (4, 4).
+    """The pose of ``--xyz --rpy`` or of ``--matrix``, shape (4, 4), as it was given.
 
     Raises
     ------
@@ -79,7 +81,7 @@ def pose_of(
     if matrix:
         kinds = [KINDS[key] for key in MATRIX]
         entries = read_numbers(matrix, "--matrix", (12, 16), kinds, units, error=PoseError)
-        return check_pose(_of_matrix(np.array(entries)), what="--matrix")
+        return _checked(_of_matrix(np.array(entries)), "--matrix", nearest)
     if not xyz:
         raise PoseError("a pose is needed: --xyz X Y Z --rpy R P Y, --matrix, or --csv FILE")
     position = read_numbers(xyz, "--xyz", (3,), Kind.LENGTH, units, error=PoseError)
@@ -89,7 +91,7 @@ def pose_of(
     return origin_matrix(position, angles)
 
 
-def poses_of_csv(source: str, *, deg: bool) -> Poses:
+def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
     """The poses of a CSV file, a line each; commas, semicolons or tabs part its cells.
 
     A header line names the columns in any order, with their units where these are not metres and
@@ -105,7 +107,7 @@ def poses_of_csv(source: str, *, deg: bool) -> Poses:
     """
     text = read_text(stdin() if source == "-" else source, POSES_BYTES, PoseError)
     name = "<stdin>" if source == "-" else shown(source)
-    sheet = _Sheet(name, Units("m", "deg" if deg else "rad"))
+    sheet = _Sheet(name, Units("m", "deg" if deg else "rad"), nearest)
     try:
         sheet.read(text.split("\n"))
     except csv.Error as error:
@@ -119,6 +121,7 @@ class _Sheet:
 
     file: str
     units: Units
+    nearest: bool = False
     layout: tuple[str, ...] = ()
     order: list[int] = field(default_factory=list)
     width: int = 0
@@ -241,7 +244,7 @@ class _Sheet:
     def _assembled(self, values: Array) -> Array:
         """Poses of the rows of a layout."""
         if self.layout[0] == MATRIX[0]:
-            return self._checked(_of_matrix(values))
+            return self._rigid(_of_matrix(values))
         T = np.tile(np.eye(4), (len(values), 1, 1))
         T[:, :3, 3] = values[:, :3]
         if "qw" in self.layout:
@@ -255,14 +258,20 @@ class _Sheet:
                 pose[:3, :3] = rpy_to_matrix(row)
         return T
 
-    def _checked(self, T: Array) -> Array:
+    def _rigid(self, T: Array) -> Array:
         """Rigid poses; one that is not is named by its line."""
         try:
-            return check_pose(T)
+            return _checked(T, self.file, self.nearest)
         except PoseError:
             for line, pose in zip(self.lines, T, strict=True):
-                check_pose(pose, what=f"{self.file}:{line}")
+                _checked(pose, f"{self.file}:{line}", self.nearest)
             raise
+
+
+def _checked(T: Array, what: str, nearest: bool) -> Array:
+    """Poses that are rigid, or near enough to a rotation where that is asked for."""
+    check_pose(rounded_off(T)[0] if nearest else T, what=what)
+    return T
 
 
 def _of_matrix(entries: Array) -> Array:

@@ -43,6 +43,7 @@ def ik_(
     task: Literal["pose", "position", "position+axis"] = "pose",
     turns: Literal["nearest", "all"] = "nearest",
     within_limits: bool = False,
+    nearest: bool = False,
     deg: bool = False,
     base: str | None = None,
     tip: str | None = None,
@@ -74,6 +75,8 @@ def ik_(
         nearest, or all where a range is wider than a turn.
     within_limits
         Leave out solutions outside the joint limits instead of marking them.
+    nearest
+        Take the nearest rotation where that of a matrix is rounded, and tell how far it was.
     deg
         Bare angles are degrees, and angles are shown in degrees.
     base, tip
@@ -87,13 +90,15 @@ def ik_(
         "locked": _held(locked, arm, deg=deg),
         "task": task,
         "within_limits": within_limits,
+        "nearest": nearest,
     }
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     if csv is not None:
-        poses = poses_of_csv(csv, deg=deg)
+        poses = poses_of_csv(csv, deg=deg, nearest=nearest)
         return _many(arm, poses, goal, turns, options, deg=deg, json=json)
-    T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position")
+    T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position", nearest=nearest)
     found = arm.ik(T, seed=goal, turns=turns, **options)
+    _tell_change(found.pose_change)
     if goal is None:
         found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
     reason = _reason(arm, T, found, options)
@@ -104,6 +109,12 @@ def ik_(
     if reason:
         note(f"no solution: {reason}" if not found else f"no solution within limits: {reason}")
     return 1 if reason else 0
+
+
+def _tell_change(change: float) -> None:
+    """Say how far rotations were from the nearest ones."""
+    if change:
+        note(f"--nearest: the rotation was off by {change:.2g} rad")
 
 
 def _which(options: dict[str, Any]) -> dict[str, Any]:
@@ -155,6 +166,7 @@ def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
         "base": arm.base,
         "tip": arm.tip,
         "T_base_tip": found.T,
+        "pose_change": found.pose_change,
         "joint_names": arm.joint_names,
         "solutions": [
             {
@@ -214,10 +226,11 @@ def _many(
 ) -> int:
     """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
     missed: dict[int, IKSolutions | None] = {}
+    change = 0.0
     data: list[dict[str, Any]] = []
     lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
     for i, found in enumerate(_solved(arm, poses.T, goal, turns, options)):
-        over = _outside(arm, found.q)
+        over, change = _outside(arm, found.q), max(change, found.pose_change)
         if not (over == 0.0).all(axis=1).any():
             missed[i] = found if len(missed) < SHOWN else None
         if json:
@@ -231,6 +244,7 @@ def _many(
         emit_json("ik", poses=data, unreached=list(missed))
     elif lines:
         emit(grid_csv(lines[0], lines[1:]))
+    _tell_change(change)
     for i, first in missed.items():
         if first is not None:
             reason = _reason(arm, poses.T[i], first, options)

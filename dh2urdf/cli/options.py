@@ -180,6 +180,7 @@ RULES: dict[str, tuple[Rule, ...]] = {
         Rule("csv", bars="xyz rpy matrix", why="a file of poses stands alone"),
         Rule("matrix", bars="xyz rpy", why="the matrix is the whole pose"),
         Rule("rpy", bars="task=position", why="a position has no orientation"),
+        Rule("nearest", needs="matrix csv"),
     ),
     "figure_": (
         Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),
