@@ -40,8 +40,9 @@ class JointsTab:
         self.robot = robot
         self.scale = np.where(robot.slides, 1000.0, 180.0 / math.pi)
         reach = np.where(robot.slides, max(robot.chain.size, 0.1), TURN)
-        self.low = np.where(np.isfinite(robot.lower), robot.lower, -reach)
-        self.high = np.where(np.isfinite(robot.upper), robot.upper, reach)
+        low, high = np.minimum(-reach, robot.upper - reach), np.maximum(reach, robot.lower + reach)
+        self.low = np.where(np.isfinite(robot.lower), robot.lower, low)
+        self.high = np.where(np.isfinite(robot.upper), robot.upper, high)
         with self.tab:
             self.readout = self.gui.add_html("")
             for k, name in enumerate(robot.joint_names):
