@@ -77,7 +77,10 @@ def test_a_negative_value_means_the_same_as_by_an_equals_sign():
 
 
 def test_options_before_two_hyphens_count():
-    """--deg before -- holds for the values behind it."""
+    """--deg before -- holds for the values behind it; sources stand before and behind options."""
+    status, _, err, left = call("convert", "ur5", "--out-dir", "x", "ur3", "--force", "--", "ur10")
+    assert (status, err, left) == (0, "", ["x"])
+    assert call("check", "nowhere.urdf", "--json", "--", "-1.urdf")[1].count("there is no") == 2
     a = call("fk", "ur5", "--deg", "--json", "--", "-90", "0", "0", "0", "0", "0")
     assert json.loads(a[1])["q"][0] == -np.pi / 2
 
@@ -139,6 +142,8 @@ TOGETHER = [
     (["extract", "x.urdf", "--json", "--format", "csv"], "--output"),
     (["extract", "x.urdf", "--json", "-o", "-"], "--output -"),
     (["extract", "x.urdf", "--force"], "--output"),
+    (["fk", "planar_rr", "0", "--q", "0"], "--q"),
+    (["convert", "ur5", "-o", "x.yaml", "--no-dh-frames"], "URDF"),
     (["convert", "ur5", "-o", "x.urdf", "--out-dir", "y"], "--out-dir"),
 ]
 

@@ -93,7 +93,8 @@ def _run(tokens: list[str]) -> int:
     try:
         command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)
     except CycloptsError as error:
-        raise Dh2UrdfError(str(error).replace(MARK, "")) from None
+        message = str(error).replace(MARK, "").replace("Unknown option: ", "unknown option ")
+        raise Dh2UrdfError(f"{message} See --help.") from None
     given = {name: plain(value) for name, value in bound.arguments.items()}
     check_together(command.__name__, given)
     bound.arguments.update(given)

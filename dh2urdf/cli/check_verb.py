@@ -23,7 +23,7 @@ from dh2urdf.checks import (
     ask_all,
     check_urdf,
 )
-from dh2urdf.cli.output import emit, emit_json, no_options, note
+from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.cli.progress import track
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import Dh2UrdfError
@@ -35,9 +35,7 @@ SHOWN = 4
 
 
 def check_(
-    files: Annotated[list[str], Parameter(allow_leading_hyphen=True)],
-    /,
-    *,
+    *files: str,
     run: Annotated[bool, Parameter(negative="--no-run")] = True,
     json: bool = False,
 ) -> int:
@@ -57,7 +55,8 @@ def check_(
     json
         One JSON object instead of text.
     """
-    no_options("check", files)
+    if not files:
+        raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
     results, failed = [], []
     for file in track(files, "checking"):
         try:

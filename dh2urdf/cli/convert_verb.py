@@ -10,7 +10,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from dh2urdf.cli.options import whole
-from dh2urdf.cli.output import emit, emit_json, no_options, note, read_source
+from dh2urdf.cli.output import emit, emit_json, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
@@ -21,13 +21,9 @@ __all__ = ["convert_"]
 
 
 def convert_(
-    tables: Annotated[list[str] | None, Parameter(allow_leading_hyphen=True)] = None,
-    /,
-    *,
+    *tables: str,
     shipped: bool = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)
-    ] = None,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     out_dir: Path | None = None,
     force: bool = False,
     collision: bool = False,
@@ -70,11 +66,10 @@ def convert_(
     options = UrdfOptions(
         dh_frames=dh_frames, collision=collision, digits=digits, balance_inertia=balance_inertia
     )
-    no_options("convert", tables or [])
     if shipped:
         from dh2urdf.robots import list_tables
 
-        tables = [*(tables or []), *list_tables()]
+        tables = (*tables, *list_tables())
     if not tables:
         raise Dh2UrdfError("convert: TABLES: name one or more, or --shipped; see `dh2urdf list`")
     if output is not None and len(tables) > 1:
@@ -157,7 +152,7 @@ def _checked(result: dict[str, object]) -> str:
 
 
 def _convert_many(
-    tables: list[str], out_dir: Path, options: UrdfOptions, *, force: bool, json: bool
+    tables: tuple[str, ...], out_dir: Path, options: UrdfOptions, *, force: bool, json: bool
 ) -> int:
     """Convert one after another; a bad file is reported and does not stop the rest."""
     from dh2urdf.cli.progress import track

@@ -33,7 +33,7 @@ SUFFIXES = {
 
 
 def extract_(
-    source: Annotated[str, Parameter(allow_leading_hyphen=True)],
+    source: str,
     /,
     *,
     base: str | None = None,
@@ -41,9 +41,7 @@ def extract_(
     convention: Literal["standard", "modified"] = "standard",
     snap: Annotated[float | None, real(0.0, 1.0)] = None,
     explain: bool = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], allow_leading_hyphen=True)
-    ] = None,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     format: Format | None = None,
     force: bool = False,
     x_axis: Literal["auto", "away"] = "auto",

@@ -170,12 +170,16 @@ class Rule(NamedTuple):
 
 _TABLES = " ".join(f"output={suffix}" for suffix in FORMATS)
 
+_OF_URDF = ("digits", "collision", "dh_frames", "balance_inertia")
+
 RULES: dict[str, tuple[Rule, ...]] = {
     "show_": (
         Rule("format", bars="json symbolic values q", why="it prints the table alone"),
         Rule("json", bars="symbolic", why="symbols are text"),
         Rule("deg", needs="values q"),
+        Rule("values", bars="q", why="both are the joint values"),
     ),
+    "fk_": (Rule("values", bars="q", why="both are the joint values"),),
     "ik_": (
         Rule("csv", bars="xyz rpy matrix", why="a file of poses stands alone"),
         Rule("matrix", bars="xyz rpy", why="the matrix is the whole pose"),
@@ -201,7 +205,7 @@ RULES: dict[str, tuple[Rule, ...]] = {
     "convert_": (
         Rule("output", bars="out_dir", why="each says where to write"),
         Rule("force", bars="output=-"),
-        *(Rule(o, bars=_TABLES, why="it is for a URDF") for o in ("digits", "collision")),
+        *(Rule(o, bars=_TABLES, why="it is for a URDF") for o in _OF_URDF),
     ),
 }
 """For each verb, the options that say nothing, or two things, beside others."""
@@ -237,7 +241,7 @@ def _is_given(option: str, given: Mapping[str, Any]) -> bool:
         return all(_is_given(part, given) for part in option.split("+"))
     name, _, wanted = option.partition("=")
     value = given.get(name)
-    if value is None or value is False or value == ():
+    if value is None or value == ():
         return False
     suffix = value.suffix.lower() if isinstance(value, Path) else ""
     return not wanted or wanted in (str(value), suffix)

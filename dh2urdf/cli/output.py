@@ -15,7 +15,7 @@ from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.cli.options import read_numbers
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Units
-from dh2urdf.exceptions import ConfigurationError, Dh2UrdfError, TableError
+from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
@@ -27,7 +27,6 @@ __all__ = [
     "emit",
     "emit_json",
     "matrix_text",
-    "no_options",
     "note",
     "parse_configuration",
     "read_source",
@@ -70,18 +69,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, Path):
         return str(value)
     raise TypeError(f"not serialisable: {type(value)}")
-
-
-def no_options(verb: str, sources: Iterable[str]) -> None:
-    """Refuse what begins with a hyphen and is not the hyphen of stdin.
-
-    Raises
-    ------
-    Dh2UrdfError
-    """
-    for source in sources:
-        if source.startswith("-") and source != "-":
-            raise Dh2UrdfError(f"unknown option {source}; see dh2urdf {verb} --help")
 
 
 def stdin() -> BinaryIO:
