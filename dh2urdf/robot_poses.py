@@ -84,6 +84,9 @@ class RobotPoses:
     ) -> IKPath:
         """A joint path through a sequence of poses: fewest breaks, then least joint motion.
 
+        Joint motion is the sum of ``sqrt(dq_1^2 + ... + dq_n^2)`` over the steps. With seven joints
+        the posture at each pose is chosen so as to make it small.
+
         Parameters
         ----------
         Ts : array_like, shape (m, 4, 4)

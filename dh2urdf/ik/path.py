@@ -9,17 +9,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.doors import number
 from dh2urdf.ik import limits
-from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.families import Family
 from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.solutions import IKSolutions
 from dh2urdf.ik.tolerances import PATH_JUMP
 from dh2urdf.transforms import Array
 
-__all__ = ["IKPath", "find_path"]
+__all__ = ["IKPath", "PathFinder", "Stage"]
 
 MOST_STATES = 512
 """Configurations (solutions times turns) followed side by side."""
@@ -64,7 +63,10 @@ class IKPath:
 
     @property
     def motion(self) -> float:
-        """Length of the path in joint space [rad or m], jumps included."""
+        """Length of the path in joint space, jumps included, [rad or m].
+
+        The sum over the steps of ``sqrt(dq_1^2 + ... + dq_n^2)``.
+        """
         reached = self.q[np.isfinite(self.q[:, :1]).all(axis=1)]
         return float(np.linalg.norm(np.diff(reached, axis=0), axis=1).sum())
 
@@ -88,85 +90,116 @@ class IKPath:
 
 
 @dataclass(frozen=True)
-class _Stage:
+class Stage:
     """The configurations considered at one pose, their cost so far and their predecessors."""
 
     pose: int
     q: Array
     cost: Array
-    parent: np.ndarray[tuple[int], np.dtype[np.int64]]
+    parent: NDArray[np.int64]
+
+    def cheapest(self) -> NDArray[np.int64]:
+        """Indices of the states, the cheapest first."""
+        return np.argsort(self.cost, kind="stable")
 
 
-def find_path(
-    problem: Problem,
-    batch: IKBatch,
-    start: Array | None,
-    within_limits: bool,
-    max_jump: float | None,
-) -> IKPath:
-    """The path of least joint motion through the solutions of a batch of poses.
+class PathFinder:
+    """Finds the path of least joint motion through poses.
 
     Parameters
     ----------
     problem : Problem
-    batch : IKBatch
-        All solutions of the poses, in the order of the path.
+    Ts : array, shape (m, 4, 4)
+        Checked poses in the order of the path.
     start : array, shape (n,), optional
         Checked configuration before the first pose; the way from there counts as motion.
     within_limits : bool
     max_jump : float, optional
         Motion of a joint between neighbours that counts as a break [rad or m].
     """
-    jump = PATH_JUMP if max_jump is None else number(max_jump, "max_jump", 1e-9, np.inf)
-    stages: list[_Stage] = []
-    unreachable = []
-    for i in range(len(batch)):
-        found = batch.solutions(i)
-        if not found:
-            unreachable.append(i)
-        elif not stages:
-            stages.append(_first_stage(problem, i, found, start, within_limits))
-        else:
-            ahead = batch.solutions(i + 1) if i + 1 < len(batch) else None
-            stages.append(_next_stage(problem, stages[-1], i, found, ahead, within_limits, jump))
-    q = np.full((len(batch), problem.chain.n), np.nan)
-    breaks = _trace(stages, q, jump)
-    return IKPath(q, breaks, tuple(unreachable), problem.chain.names, jump)
+
+    def __init__(
+        self,
+        problem: Problem,
+        Ts: Array,
+        start: Array | None,
+        within_limits: bool,
+        max_jump: float | None,
+    ) -> None:
+        self.jump = PATH_JUMP if max_jump is None else number(max_jump, "max_jump", 1e-9, np.inf)
+        self.problem, self.chain, self.Ts = problem, problem.chain, Ts
+        self.origin, self.within_limits = start, within_limits
+        self.batch = problem.solve_many(Ts, within_limits, None, None)
+
+    def find(self) -> IKPath:
+        """The path."""
+        reached = self.batch.count > 0
+        stages: list[Stage] = []
+        for i in np.flatnonzero(reached).tolist():
+            stages.append(self.next(stages[-1], i) if stages else self.first(i))
+        q = np.full((len(self.Ts), self.chain.n), np.nan)
+        if stages:
+            q[reached] = self.best(stages)
+        steps = np.abs(np.diff(q[reached], axis=0)).max(axis=1, initial=0.0)
+        breaks = np.flatnonzero(reached)[1:][steps > self.jump]
+        missing = np.flatnonzero(~reached)
+        names = self.chain.names
+        return IKPath(q, tuple(breaks.tolist()), tuple(missing.tolist()), names, self.jump)
+
+    def first(self, pose: int) -> Stage:
+        """Where the path may begin: near the start, or at any solution in any turn."""
+        found = self.batch.solutions(pose)
+        if self.origin is not None:
+            q = self.problem.arranged(found, self.origin, self.within_limits).q
+            return Stage(pose, q, np.linalg.norm(q - self.origin, axis=1), np.zeros(len(q), int))
+        few = 0 < limits.turn_counts(self.chain, found.q).sum() <= MOST_STATES
+        q = self.problem.with_all_turns(found).q if few else found.q
+        wound = np.linalg.norm(q - limits.middle(self.chain), axis=1)
+        return Stage(pose, q, UNWOUND * wound, np.zeros(len(q), int))
+
+    def next(self, last: Stage, pose: int) -> Stage:
+        """Every way on from the last stage; for each configuration the cheapest."""
+        targets = self.targets(last, pose)
+        q = limits.turned_to(self.chain, targets[None], last.q[:, None])
+        cost = last.cost[:, None] + self.step_costs(q - last.q[:, None])
+        order = np.argsort(cost, axis=None, kind="stable")
+        _, first = np.unique(_turn_keys(q, targets).ravel()[order], return_index=True)
+        keep = order[np.sort(first)[:MOST_STATES]]
+        source, target = np.unravel_index(keep, cost.shape)
+        return Stage(pose, q[source, target], cost[source, target], source.astype(np.int64))
+
+    def step_costs(self, step: Array) -> Array:
+        """Lengths of steps (..., n), more by ``BREAK`` where a joint jumps."""
+        jumps = np.abs(step).max(axis=-1, initial=0.0) > self.jump
+        costs: Array = np.linalg.norm(step, axis=-1) + BREAK * jumps
+        return costs
+
+    def targets(self, last: Stage, pose: int) -> Array:
+        """Solutions (k, n), singular families by members nearest to where the path is or goes."""
+        found = self.batch.solutions(pose)
+        rows = [found.q]
+        for q, free in zip(found.q, found.free_joints, strict=True):
+            if not free:
+                continue
+            family = Family(self.chain, self.problem.task, found.T, free, q)
+            ahead = self.batch.solutions(pose + 1).q if pose + 1 < len(self.batch) else ()
+            goals = [*last.q[last.cheapest()[:8]], *ahead]
+            members = (family.nearest(goal, self.within_limits) for goal in goals)
+            rows += [member[None] for member in members if member is not None]
+        return np.concatenate(rows)
+
+    def best(self, stages: list[Stage]) -> Array:
+        """The cheapest path (m, n)."""
+        return trace(stages, int(stages[-1].cheapest()[0]))
 
 
-def _first_stage(
-    problem: Problem, pose: int, found: IKSolutions, origin: Array | None, within_limits: bool
-) -> _Stage:
-    """Where the path may begin: near the start, or at any solution in any turn."""
-    if origin is not None:
-        q = problem.arranged(found, origin, within_limits).q
-        return _Stage(pose, q, np.linalg.norm(q - origin, axis=1), np.zeros(len(q), np.int64))
-    few = 0 < limits.turn_counts(problem.chain, found.q).sum() <= MOST_STATES
-    q = problem.with_all_turns(found).q if few else found.q
-    wound = np.linalg.norm(q - limits.middle(problem.chain), axis=1)
-    return _Stage(pose, q, UNWOUND * wound, np.zeros(len(q), np.int64))
-
-
-def _next_stage(
-    problem: Problem,
-    last: _Stage,
-    pose: int,
-    found: IKSolutions,
-    ahead: IKSolutions | None,
-    within_limits: bool,
-    jump: float,
-) -> _Stage:
-    """Every way on from the last stage; for each configuration the cheapest."""
-    targets = _with_members(problem, last, found, ahead, within_limits)
-    q = limits.turned_to(problem.chain, targets[None], last.q[:, None])
-    step = q - last.q[:, None]
-    cost = last.cost[:, None] + np.linalg.norm(step, axis=2)
-    cost = cost + BREAK * (np.abs(step).max(axis=2) > jump)
-    order = np.argsort(cost, axis=None, kind="stable")
-    _, first = np.unique(_turn_keys(q, targets).ravel()[order], return_index=True)
-    keep = order[np.sort(first)[:MOST_STATES]]
-    source, target = np.unravel_index(keep, cost.shape)
-    return _Stage(pose, q[source, target], cost[source, target], source.astype(np.int64))
+def trace(stages: list[Stage], state: int) -> Array:
+    """Follow a state of the last stage back to the beginning: a path (m, n)."""
+    q = np.empty((len(stages), stages[0].q.shape[1]))
+    for i in range(len(stages) - 1, -1, -1):
+        q[i] = stages[i].q[state]
+        state = int(stages[i].parent[state])
+    return q
 
 
 def _turn_keys(q: Array, targets: Array) -> Array:
@@ -176,40 +209,3 @@ def _turn_keys(q: Array, targets: Array) -> Array:
         len(targets) * 64.0 ** np.arange(q.shape[2])
     )
     return keys
-
-
-def _with_members(
-    problem: Problem,
-    last: _Stage,
-    found: IKSolutions,
-    ahead: IKSolutions | None,
-    within_limits: bool,
-) -> Array:
-    """Solutions (k, n), singular families by their members nearest to where the path is or goes."""
-    rows = [found.q]
-    for q, free in zip(found.q, found.free_joints, strict=True):
-        if not free:
-            continue
-        family = Family(problem.chain, problem.task, found.T, free, q)
-        best = last.q[np.argsort(last.cost, kind="stable")[:8]]
-        goals = [*best, *(ahead.q if ahead is not None else ())]
-        members = (family.nearest(goal, within_limits) for goal in goals)
-        rows += [member[None] for member in members if member is not None]
-    return np.concatenate(rows)
-
-
-def _trace(stages: list[_Stage], q: Array, jump: float) -> tuple[int, ...]:
-    """Follow the cheapest end back to the beginning, into q (m, n); the breaks on the way."""
-    if not stages:
-        return ()
-    state = int(stages[-1].cost.argmin())
-    breaks = []
-    for stage, before in zip(stages[::-1], [*stages[-2::-1], None], strict=True):
-        q[stage.pose] = stage.q[state]
-        if before is None:
-            break
-        parent = int(stage.parent[state])
-        if np.abs(stage.q[state] - before.q[parent]).max() > jump:
-            breaks.append(stage.pose)
-        state = parent
-    return tuple(breaks[::-1])

@@ -14,9 +14,10 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.chain_unit import lengths_in
 from dh2urdf.ik.held_solver import HeldSolver
-from dh2urdf.ik.path import IKPath, find_path
+from dh2urdf.ik.path import IKPath
 from dh2urdf.ik.problem import Problem, Progress
 from dh2urdf.ik.solutions import IKSolutions
+from dh2urdf.ik.swept_path import find_path
 from dh2urdf.ik.swept_problem import SweptProblem
 from dh2urdf.transforms import Array
 
@@ -79,8 +80,7 @@ class ScaledProblem(Problem):
     ) -> IKPath:
         """The path of least joint motion through poses Ts (m, 4, 4), see :func:`find_path`."""
         origin = None if start is None else start / self.scale
-        batch = self.inner.solve_many(lengths_in(Ts, self.unit), within_limits, None, None)
-        found = find_path(self.inner, batch, origin, within_limits, max_jump)
+        found = find_path(self.inner, lengths_in(Ts, self.unit), origin, within_limits, max_jump)
         return replace(found, q=found.q * self.scale)
 
     def intervals(self, T: Array, within_limits: bool) -> Array:

@@ -17,7 +17,6 @@ from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.exceptions import ConfigurationError, PoseError
-from dh2urdf.ik import path
 from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.chain_unit import in_own_unit
 from dh2urdf.ik.given_poses import many_poses, one_pose
@@ -25,11 +24,13 @@ from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.locked import Locked, held_values
 from dh2urdf.ik.notice import notice_if_slow
+from dh2urdf.ik.path import IKPath
 from dh2urdf.ik.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.scaled_problem import ScaledProblem
 from dh2urdf.ik.solutions import IKSolutions, as_configuration
 from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.ik.swept import SweptJoint
+from dh2urdf.ik.swept_path import find_path
 from dh2urdf.ik.swept_problem import SweptProblem
 from dh2urdf.transforms import Array
 
@@ -145,8 +146,8 @@ class InverseKinematics:
         task: Task | str = Task.POSE,
         max_jump: float | None = None,
         nearest: bool = False,
-    ) -> path.IKPath:
-        """A continuous joint path through a sequence of poses, see :func:`path.find_path`."""
+    ) -> IKPath:
+        """A continuous joint path through a sequence of poses, see :func:`find_path`."""
         inside = flag(within_limits, "within_limits")
         problem = self._compiled(task, locked, inside)
         poses, change = many_poses(Ts, nearest, False, problem.first_bad_pose)
@@ -157,8 +158,7 @@ class InverseKinematics:
         if isinstance(problem, ScaledProblem):
             found = problem.path(poses, origin, inside, max_jump)
         else:
-            batch = problem.solve_many(poses, inside, None, None)
-            found = path.find_path(problem, batch, origin, inside, max_jump)
+            found = find_path(problem, poses, origin, inside, max_jump)
         return replace(found, pose_change=change)
 
     def why_none(

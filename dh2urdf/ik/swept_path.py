@@ -1,0 +1,133 @@
+"""A path of an arm with one joint to spare: as short as its self-motions allow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.ik.path import BREAK, MOST_STATES, IKPath, PathFinder, Stage, trace
+from dh2urdf.ik.problem import Problem
+from dh2urdf.ik.swept_problem import SweptProblem
+from dh2urdf.transforms import Array
+
+__all__ = ["find_path"]
+
+SAMPLES = 64
+"""Values of the swept joint at every pose."""
+
+CELL = 0.1
+"""Joint distance [rad or m] below which two states of a pose, or two ends, are as good as one: what
+lies between is found when the path is made shorter."""
+
+TRIALS = 64
+"""Most paths that are made shorter: those to the cheapest ends."""
+
+KEYS = 64
+"""Poses from which a path is told from others; a longer one has them at equal distances."""
+
+EQUAL = 1e-3
+"""Relative difference of lengths below which the path found first stays."""
+
+
+def find_path(
+    problem: Problem, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
+) -> IKPath:
+    """The path of least joint motion through poses, see :class:`dh2urdf.ik.path.PathFinder`."""
+    if isinstance(problem, SweptProblem):
+        return SweptPath(problem, Ts, start, within_limits, max_jump).find()
+    return PathFinder(problem, Ts, start, within_limits, max_jump).find()
+
+
+class SweptPath(PathFinder):
+    """Between the samples of the poses a path follows the arm, and is then made shorter."""
+
+    def __init__(self, problem: SweptProblem, *arguments: Any) -> None:
+        solver = problem.solver.like(SAMPLES)
+        dense = SweptProblem(problem.chain, solver, problem.task, problem.referee)
+        super().__init__(dense, *arguments)
+        links, joints = self.chain.tables
+        if not self.within_limits:
+            joints = np.column_stack([joints[:, 0], np.full((self.chain.n, 2), [-np.inf, np.inf])])
+        self.arm = links, joints
+
+    def next(self, last: Stage, pose: int) -> Stage:
+        """The last stage's states where they follow the arm, and the samples, one for a cell."""
+        from dh2urdf.kernels.path_states import onward
+
+        samples = self.batch.solutions(pose).q
+        count = len(last.q) + len(samples)
+        q, cost, parent = np.empty((count, self.chain.n)), np.empty(count), np.empty(count, int)
+        onward(
+            *(*self.arm, self.Ts[pose], self.chain.size, self.jump, BREAK),
+            *(last.q, last.cost, samples, q, cost, parent),
+        )
+        order = np.argsort(cost, kind="stable")[: np.isfinite(cost).sum()]
+        cells = np.round(q[order] / CELL) @ 97.0 ** np.arange(self.chain.n)
+        _, first = np.unique(cells, return_index=True)
+        keep = order[np.sort(first)[: MOST_STATES // 2]]
+        return Stage(pose, q[keep], cost[keep], parent[keep])
+
+    def best(self, stages: list[Stage]) -> Array:
+        """The shortest of the paths to several ends, each made as short as it gets.
+
+        Through its keys a path is no longer than through all poses, so that those whose keys are
+        longer than the shortest path need no more.
+        """
+        last, ends, trials = stages[-1], np.empty((0, self.chain.n)), []
+        poses, least = np.array([stage.pose for stage in stages]), np.inf
+        for state in last.cheapest():
+            if np.any(np.abs(ends - last.q[state]).max(axis=1) < CELL):
+                continue
+            q = trace(stages, int(state))
+            rows = self._keys(q)
+            keys = q[rows]
+            length = self._shorten(poses[rows], keys, np.inf)
+            length += BREAK * np.round(last.cost[state] / BREAK)
+            ends = np.concatenate([ends, [last.q[state], keys[-1]]])
+            trials.append((length, q, rows, keys))
+            if len(trials) == TRIALS:
+                break
+        best = np.empty(0)
+        for length, q, rows, keys in sorted(trials, key=lambda trial: round(trial[0], 6)):
+            if length > least - EQUAL * (least % BREAK):
+                break
+            filled = self._filled(poses, q, rows, keys)
+            for path in [q] if filled is None else [filled, q]:
+                whole = self._shorten(poses, path, self.jump)
+                if whole < least:
+                    best, least = path, whole
+                if least < length + EQUAL * (length % BREAK):
+                    break
+        return best
+
+    def _keys(self, q: Array) -> Array:
+        """Rows of a path (m, n): some at equal distances, and both ends of each break."""
+        m = len(q)
+        breaks = np.flatnonzero(self.step_costs(np.diff(q, axis=0)) >= BREAK)
+        rows: Array = np.unique([*range(0, m, -(-m // KEYS)), m - 1, *breaks, *(breaks + 1)])
+        return rows
+
+    def _shorten(self, poses: Array, q: Array, jump: float) -> float:
+        """Shorten a path (m, n) through some poses in place; its length."""
+        from dh2urdf.kernels.shorten import shorten
+
+        Ts = np.ascontiguousarray(self.Ts[poses])
+        start = np.empty((0, self.chain.n)) if self.origin is None else self.origin[None]
+        return float(shorten(*self.arm, Ts, self.chain.size, start, jump, BREAK, q))
+
+    def _filled(self, poses: Array, q: Array, rows: Array, keys: Array) -> Array | None:
+        """A path through all poses near the shortened keys of q (m, n); None where that breaks."""
+        from dh2urdf.kernels.path_states import onward
+
+        every = np.arange(len(q))
+        path = np.column_stack([np.interp(every, rows, column) for column in keys.T])
+        none, cost, parent = np.empty((0, self.chain.n)), np.empty(1), np.empty(1, int)
+        for i in np.setdiff1d(every, rows):
+            onward(
+                *(*self.arm, self.Ts[poses[i]], self.chain.size, self.jump, BREAK),
+                *(path[i : i + 1].copy(), np.zeros(1), none, path[i : i + 1], cost, parent),
+            )
+            if not np.isfinite(cost[0]):
+                return None
+        return path
