@@ -133,7 +133,7 @@ TOGETHER = [
     (["ik", "ur5", "--csv", "x.csv", "--matrix", "1"], "stands alone"),
     (["ik", "ur5", "--matrix", "1", "--rpy", "1", "2", "3"], "--matrix"),
     (["ik", "ur5", "--xyz=1,2,3", "--rpy=0,0,0", "--task", "position"], "--task position"),
-    (["figure", "ur5", "-o", "x.svg", "--dpi", "90"], "PNG"),
+    (["figure", "ur5", "-o", "x.svg", "--dpi", "90"], "--output .svg"),
     (["figure", "ur5", "-o", "x.png", "--deg"], "--q"),
     (["workspace", "ur5", "-o", "x.png", "--deg"], "--rpy"),
     (["workspace", "planar_rr", "-o", "x.png", "--orientations", "9"], "orientations"),
@@ -143,7 +143,7 @@ TOGETHER = [
     (["extract", "x.urdf", "--json", "-o", "-"], "--output -"),
     (["extract", "x.urdf", "--force"], "--output"),
     (["fk", "planar_rr", "0", "--q", "0"], "--q"),
-    (["convert", "ur5", "-o", "x.yaml", "--no-dh-frames"], "URDF"),
+    (["convert", "ur5", "-o", "x.yaml", "--no-dh-frames"], ".yaml"),
     (["convert", "ur5", "-o", "x.urdf", "--out-dir", "y"], "--out-dir"),
 ]
 
@@ -177,7 +177,7 @@ a.png a.svg b.pdf c.urdf -o --output --json --deg --force --q --rpy --xyz --matr
 --points 3 --orientations 2 --dpi --plane xz --view --no-frames --no-table --style schematic
 --branches
 --format csv latex text --symbolic --digits --snap --convention modified --explain --help
---version --debug=1 --no-limits --shipped=1 --flip --x-axis away --no-run --=x --x=
+--version --debug=1 --no-limits --flip --x-axis away --no-run --=x --x=
 """
 TOKENS = st.one_of(
     st.sampled_from(NUMBERS.split()),

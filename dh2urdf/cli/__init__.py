@@ -96,7 +96,7 @@ def _run(tokens: list[str]) -> int:
         message = str(error).replace(MARK, "").replace("Unknown option: ", "unknown option ")
         raise Dh2UrdfError(f"{message} See --help.") from None
     given = {name: plain(value) for name, value in bound.arguments.items()}
-    check_together(command.__name__, given)
+    check_together(command.__name__.rstrip("_"), given)
     bound.arguments.update(given)
     result = command(*bound.args, **bound.kwargs)
     return result if isinstance(result, int) else 0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import csv
-from array import array
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from dh2urdf.dh_io import Kind, Units
 from dh2urdf.dh_io.document import Report
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.grid import INDEX, heading, metadata, separator, unit_words
-from dh2urdf.dh_io.units import UNIT_SIZES, unit_kind
+from dh2urdf.dh_io.units import UNIT_SIZES
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.transforms import (
@@ -25,7 +25,6 @@ from dh2urdf.transforms import (
     origin_matrix,
     quaternion_to_matrix,
     rounded_off,
-    rpy_to_matrix,
 )
 
 __all__ = ["Poses", "pose_of", "poses_of_csv"]
@@ -35,6 +34,12 @@ MATRIX = tuple(f"t{i}{j}" for i in range(4) for j in range(4))
 
 LAYOUTS = ((*PLACE, *TURN), (*PLACE, *QUATERNION), MATRIX[:12], MATRIX)
 """Columns that make a pose, in the order in which they are read."""
+
+NAMELESS = (LAYOUTS[0], *LAYOUTS[2:])
+"""Those that a file may hold without a header."""
+
+SURE = min(LARGEST.values())
+"""Up to here a number is within the bounds of every kind."""
 
 KNOWN = ", or ".join([*(", ".join(names) for names in LAYOUTS[:2]), "t00 ... t23 or t33"])
 
@@ -48,8 +53,7 @@ OFF_UNIT = 0.01
 """How far the norm of a quaternion may be from 1: one typed with three decimals is within it."""
 
 
-@dataclass(frozen=True)
-class Poses:
+class Poses(NamedTuple):
     """Poses of a file, shape (m, 4, 4), and the line of each."""
 
     T: Array
@@ -106,166 +110,107 @@ def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
         The message names file and line.
     """
     text = read_text(stdin() if source == "-" else source, POSES_BYTES, PoseError)
-    name = "<stdin>" if source == "-" else shown(source)
-    sheet = _Sheet(name, Units("m", "deg" if deg else "rad"), nearest)
+    file = "<stdin>" if source == "-" else shown(source)
+    units, columns = Units("m", "deg" if deg else "rad"), list[_Column]()
+    poses, at, lines = list[Array](), list[int](), text.split("\n")
+    first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
+    rows = csv.reader(lines, delimiter=separator(first), skipinitialspace=True, strict=True)
     try:
-        sheet.read(text.split("\n"))
-    except csv.Error as error:
-        raise PoseError(f"{sheet.file}: not CSV: {error}") from None
-    return Poses(sheet.poses(), sheet.file, sheet.lines)
-
-
-@dataclass
-class _Sheet:
-    """The numbers of a file of poses, the line of each, and what its columns are."""
-
-    file: str
-    units: Units
-    nearest: bool = False
-    layout: tuple[str, ...] = ()
-    order: list[int] = field(default_factory=list)
-    width: int = 0
-    each: list[Units] = field(default_factory=list)
-    cells: array[float] = field(default_factory=lambda: array("d"))
-    lines: array[int] = field(default_factory=lambda: array("q"))
-    measured: dict[int, list[float]] = field(default_factory=dict)
-
-    def read(self, lines: list[str]) -> None:
-        """Take all lines."""
-        first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
-        rows = csv.reader(lines, delimiter=separator(first), skipinitialspace=True, strict=True)
         for row in rows:
-            cells = [cell.strip() for cell in row]
+            cells, where = [cell.strip() for cell in row], f"{file}:{rows.line_num}"
             if not any(cells):
                 continue
             if cells[0].startswith("#") and cells[0] != "#":
-                self._comment(lines[rows.line_num - 1], rows.line_num)
-            elif self.layout:
-                self._row(cells, rows.line_num)
-            elif any(cell[:1] in "+-.0123456789" for cell in cells if cell):
-                self._unnamed(len(cells), rows.line_num)
-                self._row(cells, rows.line_num)
-            else:
-                self._header(cells, rows.line_num)
-
-    def _fault(self, line: int, message: str) -> PoseError:
-        return PoseError(f"{self.file}:{line}: {message}")
-
-    def _comment(self, text: str, line: int) -> None:
-        """Units of the columns that name none, where the comment tells them."""
-        entry = metadata(text, line, Report(self.file))
-        if entry is None or not entry[0].text.startswith("units"):
-            return
-        words = unit_words(entry[1])
-        if not words or self.layout:
-            message = f"found units: {found(entry[1].text)}; expected units: mm, deg above the rows"
-            raise self._fault(line, message)
-        for kind, unit in words:
-            self.units = self.units._replace(**{kind.text: getattr(unit, "text", "")})
-
-    def _header(self, cells: list[str], line: int) -> None:
-        """Find where each wanted column is, and its unit."""
-        heads = [(key.casefold(), unit) for key, unit in map(heading, cells)]
-        at = {key: k for k, (key, _) in enumerate(heads) if key not in INDEX}
-        for k, (key, unit) in enumerate(heads):
-            if key not in at:
+                units = _stated(units, lines[rows.line_num - 1], where, late=bool(columns))
                 continue
-            if key not in KINDS:
-                raise self._fault(line, f"unknown column {found(cells[k])}; known are {KNOWN}")
-            if at[key] != k:
-                raise self._fault(line, f"two columns for {key}")
-            if unit and unit_kind(unit) is not KINDS[key]:
-                allowed = ", ".join(UNIT_SIZES[KINDS[key]]) or "none"
-                raise self._fault(line, f"found unit {unit!r} for {key}; allowed: {allowed}")
-        layout = next((names for names in LAYOUTS if set(names) == set(at)), None)
-        if layout is None:
-            raise self._fault(line, f"columns {KNOWN} are needed, got {', '.join(at)}")
-        self._take(layout, [at[key] for key in layout], [heads[at[key]][1] for key in layout])
-        self.width = len(cells)
+            if not columns:
+                columns = _columns(cells, units, where)
+                if columns[0].named:
+                    continue
+            poses.append(_pose(cells, columns, where, nearest))
+            at.append(rows.line_num)
+    except csv.Error as error:
+        raise PoseError(f"{file}: not CSV: {error}") from None
+    if not poses:
+        raise PoseError(f"{file}: holds no poses")
+    return Poses(np.stack(poses), file, at)
 
-    def _unnamed(self, count: int, line: int) -> None:
-        """Choose the layout that has so many columns."""
-        layout = next((n for n in LAYOUTS if len(n) == count and "qw" not in n), None)
-        if layout is None:
-            name = "; a quaternion needs a header line that names its columns"
-            message = f"6 or 12 or 16 numbers are needed, got {count}{name if count == 7 else ''}"
-            raise self._fault(line, message)
-        self._take(layout, list(range(count)), [""] * count)
-        self.width = count
 
-    def _take(self, layout: tuple[str, ...], order: list[int], units: list[str]) -> None:
-        self.layout, self.order = layout, order
-        self.each = [
-            self.units._replace(**{str(KINDS[key]): unit}) if unit else self.units
-            for key, unit in zip(layout, units, strict=True)
-        ]
+class _Column(NamedTuple):
+    """Name of a column, where it stands among how many, its unit and the size of that."""
 
-    def _row(self, cells: list[str], line: int) -> None:
-        """Numbers of one line as they stand; measured at once where they are more than that."""
-        if len(cells) != self.width:
-            raise self._fault(line, f"{len(cells)} cells, the first line has {self.width}")
-        picked, size = [cells[k] for k in self.order], len(self.cells)
-        try:
-            self.cells.extend(map(float, picked))
-            if "_" not in "".join(picked):
-                self.lines.append(line)
-                return
-        except ValueError:
-            pass
-        del self.cells[size:]
-        columns = zip(self.layout, picked, self.each, strict=True)
+    name: str
+    place: int
+    width: int
+    units: Units
+    size: float
+    named: bool
+
+
+def _stated(units: Units, comment: str, where: str, *, late: bool) -> Units:
+    """Units of the columns that name none, where a comment tells them."""
+    entry = metadata(comment, 1, Report(where))
+    if entry is None or not entry[0].text.startswith("units"):
+        return units
+    words = unit_words(entry[1])
+    if not words or late:
+        given = found(entry[1].text)
+        raise PoseError(f"{where}: found units: {given}; expected units: mm, deg above the poses")
+    return units._replace(**{kind.text: getattr(unit, "text", "") for kind, unit in words})
+
+
+def _columns(cells: list[str], units: Units, where: str) -> list[_Column]:
+    """The columns that a first row names, or those of so many numbers, in the order of a layout."""
+    named = not any(cell[:1] in "+-.0123456789" for cell in cells if cell)
+    head = cells if named else next((n for n in NAMELESS if len(n) == len(cells)), None)
+    if head is None:
+        quaternion = "; name the columns of a quaternion" if len(cells) == 7 else ""
+        raise PoseError(f"{where}: 6 or 12 or 16 numbers are needed, got {len(cells)}{quaternion}")
+    columns = dict[str, _Column]()
+    for place, (cell, (text, unit)) in enumerate(zip(head, map(heading, head), strict=True)):
+        name = text.casefold()
+        if name in INDEX:
+            continue
+        if name not in KINDS or name in columns:
+            fault = "a second" if name in columns else "unknown"
+            raise PoseError(f"{where}: {fault} column {found(cell)}; known are {KNOWN}")
+        sizes, kind = UNIT_SIZES[KINDS[name]], str(KINDS[name])
+        if unit and unit not in sizes:
+            allowed = ", ".join(sizes) or "none"
+            raise PoseError(f"{where}: found unit {unit!r} for {name}; allowed: {allowed}")
+        own = units._replace(**{kind: unit}) if unit else units
+        one, parts = sizes.get(own.of(KINDS[name]), (1, 1))
+        size = float(parts) / float(one)
+        columns[name] = _Column(name, place, len(cells), own, size, named)
+    for layout in LAYOUTS:
+        if set(layout) == set(columns):
+            return [columns[name] for name in layout]
+    raise PoseError(f"{where}: columns {KNOWN} are needed, got {', '.join(columns)}")
+
+
+def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -> Array:
+    """The pose of one line, shape (4, 4)."""
+    if len(cells) != columns[0].width:
+        raise PoseError(f"{where}: {len(cells)} cells, the first line has {columns[0].width}")
+    picked = [cells[column.place] for column in columns]
+    try:
+        values = [float(c) / column.size for c, column in zip(picked, columns, strict=True)]
+    except ValueError:
+        values = [math.nan]
+    if not all(abs(v) <= SURE for v in values) or "_" in "".join(picked):
         values = [
-            read_number(cell, f"{self.file}:{line}: {key}", KINDS[key], units, PoseError)
-            for key, cell, units in columns
+            read_number(cell, f"{where}: {c.name}", KINDS[c.name], c.units, PoseError)
+            for cell, c in zip(picked, columns, strict=True)
         ]
-        self.cells.extend(values)
-        self.measured[len(self.lines)] = values
-        self.lines.append(line)
-
-    def poses(self) -> Array:
-        """All poses, shape (m, 4, 4)."""
-        if not self.lines:
-            raise PoseError(f"{self.file}: holds no poses")
-        values = np.array(self.cells).reshape(len(self.lines), -1)
-        for k, (key, units) in enumerate(zip(self.layout, self.each, strict=True)):
-            size, parts = UNIT_SIZES[KINDS[key]].get(units.of(KINDS[key]), (1, 1))
-            values[:, k] /= float(parts) / float(size)
-        for i, row in self.measured.items():
-            values[i] = row
-        for k, key in enumerate(self.layout):
-            far = ~(np.abs(values[:, k]) <= LARGEST[KINDS[key]])
-            self._refuse(far, f"{key}: not a number from -{{0:g}} to {{0:g}}", LARGEST[KINDS[key]])
-        return self._assembled(values)
-
-    def _refuse(self, bad: Array, message: str, *parts: object) -> None:
-        if bad.any():
-            raise self._fault(self.lines[int(np.argmax(bad))], message.format(*parts))
-
-    def _assembled(self, values: Array) -> Array:
-        """Poses of the rows of a layout."""
-        if self.layout[0] == MATRIX[0]:
-            return self._rigid(_of_matrix(values))
-        T = np.tile(np.eye(4), (len(values), 1, 1))
-        T[:, :3, 3] = values[:, :3]
-        if "qw" in self.layout:
-            norm = np.linalg.norm(values[:, 3:], axis=1)
-            far = np.abs(norm - 1.0) > OFF_UNIT
-            message = "the norm of the quaternion is {:.3g}; expected 1"
-            self._refuse(far, message, norm[np.argmax(far)])
-            T[:, :3, :3] = quaternion_to_matrix(values[:, 3:] / norm[:, None])
-        else:
-            for pose, row in zip(T, values[:, 3:].tolist(), strict=True):
-                pose[:3, :3] = rpy_to_matrix(row)
-        return T
-
-    def _rigid(self, T: Array) -> Array:
-        """Rigid poses; one that is not is named by its line."""
-        try:
-            return _checked(T, self.file, self.nearest)
-        except PoseError:
-            for line, pose in zip(self.lines, T, strict=True):
-                _checked(pose, f"{self.file}:{line}", self.nearest)
-            raise
+    if columns[0].name == MATRIX[0]:
+        return _checked(_of_matrix(np.array(values)), where, nearest)
+    if columns[-1].name == "yaw":
+        return origin_matrix(values[:3], values[3:])
+    T, norm = origin_matrix(values[:3], (0.0, 0.0, 0.0)), math.hypot(*values[3:])
+    if abs(norm - 1.0) > OFF_UNIT:
+        raise PoseError(f"{where}: the norm of the quaternion is {norm:.3g}; expected 1")
+    T[:3, :3] = quaternion_to_matrix(np.array(values[3:]) / norm)
+    return T
 
 
 def _checked(T: Array, what: str, nearest: bool) -> Array:
@@ -275,8 +220,7 @@ def _checked(T: Array, what: str, nearest: bool) -> Array:
 
 
 def _of_matrix(entries: Array) -> Array:
-    """Matrices from 12 or 16 numbers each, row by row, shape (..., 4, 4)."""
-    T = np.zeros((*entries.shape[:-1], 4, 4))
-    T[..., 3, 3] = 1.0
-    T[..., : entries.shape[-1] // 4, :] = entries.reshape(*entries.shape[:-1], -1, 4)
+    """A matrix from 12 or 16 numbers, row by row, shape (4, 4)."""
+    T = np.eye(4)
+    T[: len(entries) // 4] = entries.reshape(-1, 4)
     return T

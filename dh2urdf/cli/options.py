@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
@@ -65,28 +65,16 @@ def read_numbers(
     values: Iterable[str],
     what: str,
     sizes: Sequence[int],
-    kinds: Kind | Sequence[Kind] = Kind.NUMBER,
-    units: Units = SI,
+    kinds: Kind | Sequence[Kind],
+    units: Units,
     *,
     names: Sequence[str] = (),
     error: type[Dh2UrdfError] = ArgumentError,
 ) -> list[float]:
-    """Numbers of an option or a line in [m], [rad] or plain; commas part them as spaces do.
+    """Numbers of an option in [m], [rad] or plain, parted by spaces or commas.
 
-    Parameters
-    ----------
-    values : iterable of str
-    what : str
-        The option, for messages.
-    sizes : sequence of int
-        How many there may be.
-    kinds : Kind or sequence of Kind
-        What they measure, all of them or each.
-    units : Units
-        Units of bare numbers.
-    names : sequence of str
-        What each is called, for messages.
-    error : exception type
+    ``sizes`` says how many there may be, ``kinds`` what they measure, all or each, ``units`` in
+    what bare ones are, and ``names`` what each is called in messages.
 
     Raises
     ------
@@ -95,38 +83,32 @@ def read_numbers(
     """
     cells = [cell.strip() for value in values for cell in value.split(",") if cell.strip()]
     if len(cells) not in sizes:
-        wanted = " or ".join(map(str, sizes))
         needed = f"values are needed ({', '.join(names)})" if names else "numbers are needed"
-        raise error(f"{what}: {wanted} {needed}, got {len(cells)}")
+        raise error(f"{what}: {' or '.join(map(str, sizes))} {needed}, got {len(cells)}")
     each = [kinds] * len(cells) if isinstance(kinds, Kind) else kinds
-    out = []
-    for k, (cell, kind) in enumerate(zip(cells, each, strict=False)):
-        where = f"{what}: {names[k]}" if names else what
-        out.append(read_number(cell, where, kind, units, error))
-    return out
+    places = [f"{what}: {name}" for name in names] or [what] * len(cells)
+    return [
+        read_number(cell, place, kind, units, error)
+        for cell, place, kind in zip(cells, places, each, strict=False)
+    ]
 
 
-def read_number(cell: str, what: str, kind: Kind, units: Units, error: type[Dh2UrdfError]) -> float:
-    """One of the numbers of :func:`read_numbers`."""
-    return _number(cell, what, kind, units, (-LARGEST[kind], LARGEST[kind]), error)
-
-
-def _number(
+def read_number(
     cell: str,
     what: str,
     kind: Kind,
-    units: Units,
-    bounds: tuple[float, float],
+    units: Units = SI,
     error: type[Dh2UrdfError] = ArgumentError,
+    bounds: tuple[float, float] | None = None,
 ) -> float:
-    """One number; where it has no name the parser puts it before the message."""
+    """One number in [m], [rad] or plain; the parser says itself which option ``what`` is."""
     start = f"{what}: " if what else ""
     try:
         value = parse_cell(cell, kind, units)
     except TableError as fault:
         hint = getattr(fault, "hint", "")
         raise error(f"{start}{found(cell)}: {fault}{hint and '; ' + hint}") from None
-    low, high = bounds
+    low, high = bounds or (-LARGEST[kind], LARGEST[kind])
     if not low <= value <= high:
         unit = f" {SI.of(kind)}".rstrip()
         raise error(f"{start}expected a number from {low:g} to {high:g}{unit}, got {found(cell)}")
@@ -135,11 +117,11 @@ def _number(
 
 def real(low: float, high: float, kind: Kind = Kind.NUMBER) -> Parameter:
     """An option that takes one number between bounds, in [m], [rad] or plain."""
-
-    def read(_: object, tokens: Sequence[Any]) -> float:
-        return _number(plain(tokens[0].value), "", kind, SI, (low, high))
-
-    return Parameter(converter=read)
+    return Parameter(
+        converter=lambda _, tokens: read_number(
+            plain(tokens[0].value), "", kind, bounds=(low, high)
+        )
+    )
 
 
 def whole(low: int, high: int) -> Parameter:
@@ -147,7 +129,7 @@ def whole(low: int, high: int) -> Parameter:
 
     def read(_: object, tokens: Sequence[Any]) -> int:
         cell = plain(tokens[0].value)
-        value = _number(cell, "", Kind.NUMBER, SI, (-NUMBER, NUMBER))
+        value = read_number(cell, "", Kind.NUMBER)
         if value.is_integer() and low <= value <= high:
             return int(value)
         raise ArgumentError(f"expected a whole number from {low} to {high}, got {found(cell)}")
@@ -155,102 +137,61 @@ def whole(low: int, high: int) -> Parameter:
     return Parameter(converter=read)
 
 
-class Rule(NamedTuple):
-    """An option and those that it needs, one of them at least, or does not go with.
+_TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
 
-    An option stands for itself, for one value (``task=position``) or for the suffix of a path
-    (``output=.svg``); with ``+`` for several at once.
-    """
-
-    option: str
-    needs: str = ""
-    bars: str = ""
-    why: str = "it would change nothing"
-
-
-_TABLES = " ".join(f"output={suffix}" for suffix in FORMATS)
-
-_OF_URDF = ("digits", "collision", "dh_frames", "balance_inertia")
-
-RULES: dict[str, tuple[Rule, ...]] = {
-    "show_": (
-        Rule("format", bars="json symbolic values q", why="it prints the table alone"),
-        Rule("json", bars="symbolic", why="symbols are text"),
-        Rule("deg", needs="values q"),
-        Rule("values", bars="q", why="both are the joint values"),
-    ),
-    "fk_": (Rule("values", bars="q", why="both are the joint values"),),
-    "ik_": (
-        Rule("csv", bars="xyz rpy matrix", why="a file of poses stands alone"),
-        Rule("matrix", bars="xyz rpy", why="the matrix is the whole pose"),
-        Rule("rpy", bars="task=position", why="a position has no orientation"),
-        Rule("nearest", needs="matrix csv"),
-    ),
-    "figure_": (
-        Rule("dpi", bars="output=.svg output=.pdf", why="it is the resolution of a PNG"),
-        Rule("deg", needs="q"),
-    ),
-    "workspace_": (Rule("deg", needs="rpy"),),
-    "view_": (
-        Rule("base", needs="robot"),
-        Rule("tip", needs="robot"),
-        Rule("deg", needs="q"),
-    ),
-    "extract_": (
-        Rule("json", bars="output=-", why="both would go to stdout"),
-        Rule("json+format", needs="output"),
-        Rule("force", needs="output"),
-        Rule("force", bars="output=-"),
-    ),
-    "convert_": (
-        Rule("output", bars="out_dir", why="each says where to write"),
-        Rule("force", bars="output=-"),
-        *(Rule(o, bars=_TABLES, why="it is for a URDF") for o in _OF_URDF),
-    ),
+ALONE: dict[str, dict[str, str]] = {
+    "show": {"json": "format symbolic", "format": "symbolic values q", "q": "values"},
+    "fk": {"q": "values"},
+    "ik": {"csv": "xyz rpy matrix", "matrix": "xyz rpy", "task=position": "rpy"},
+    "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
+    "extract": {"json": "output=-", "output=-": "force"},
+    "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
-"""For each verb, the options that say nothing, or two things, beside others."""
+"""For each verb, options, and those that say nothing beside them.
+
+An option stands for itself, for one value (``task=position``) or for the suffix of a path
+(``output=.svg``); with ``+`` for two at once.
+"""
+
+NEEDED: dict[str, dict[str, str]] = {
+    "show": {"deg": "values q"},
+    "ik": {"nearest": "matrix csv"},
+    "figure": {"deg": "q"},
+    "workspace": {"deg": "rpy"},
+    "view": {"base": "robot", "tip": "robot", "deg": "q"},
+    "extract": {"json+format": "output", "force": "output"},
+}
+"""For each verb, options, and those without one of which they say nothing."""
 
 
 def check_together(verb: str, given: Mapping[str, Any]) -> None:
-    """Refuse options that do nothing, or contradict one another, together.
-
-    Parameters
-    ----------
-    verb : str
-        Name of its function.
-    given : mapping
-        The arguments that were given, by name.
+    """Refuse options that say nothing beside or without others.
 
     Raises
     ------
     ArgumentError
     """
-    for option, needs, bars, why in RULES.get(verb, ()):
-        if not _is_given(option, given):
-            continue
-        if needs and not any(_is_given(other, given) for other in needs.split()):
-            others = " or ".join(map(_shown, needs.split()))
-            raise ArgumentError(f"{_shown(option)} does nothing without {others}")
-        for other in bars.split():
-            if _is_given(other, given):
-                raise ArgumentError(f"{_shown(option)} does not go with {_shown(other)}: {why}")
-
-
-def _is_given(option: str, given: Mapping[str, Any]) -> bool:
-    if "+" in option:
-        return all(_is_given(part, given) for part in option.split("+"))
-    name, _, wanted = option.partition("=")
-    value = given.get(name)
-    if value is None or value == ():
-        return False
-    suffix = value.suffix.lower() if isinstance(value, Path) else ""
-    return not wanted or wanted in (str(value), suffix)
+    facts = set()
+    for name, value in given.items():
+        if value is not None and value != ():
+            suffix = value.suffix.lower() if isinstance(value, Path) else value
+            facts |= {name, f"{name}={value}", f"{name}={suffix}"}
+    for option, others in ALONE.get(verb, {}).items():
+        for other in others.split():
+            if {option, other} <= facts:
+                raise ArgumentError(
+                    f"{_shown(option)} stands alone: {_shown(other)} does nothing beside it"
+                )
+    for option, others in NEEDED.get(verb, {}).items():
+        if facts >= set(option.split("+")) and not facts & set(others.split()):
+            needed = " or ".join(map(_shown, others.split()))
+            raise ArgumentError(f"{_shown(option)} does nothing without {needed}")
 
 
 def _shown(option: str) -> str:
     """``--task position``, or ``VALUES`` where it has no name on the command line."""
-    if "+" in option:
-        return " with ".join(map(_shown, option.split("+")))
-    name, _, value = option.partition("=")
-    shown = name.upper() if name in ("values", "robot") else "--" + name.replace("_", "-")
-    return f"{shown} {value}".rstrip()
+    parts = [part.replace("_", "-").partition("=") for part in option.split("+")]
+    return " with ".join(
+        f"{name.upper() if name in ('values', 'robot') else '--' + name} {value}".rstrip()
+        for name, _, value in parts
+    )

@@ -74,8 +74,7 @@ class JointsTab:
         if event.client is None:
             return
         q = self.q.copy()
-        bounded = min(max(event.target.value / self.scale[k], self.low[k]), self.high[k])
-        q[k] = bounded
+        q[k] = min(self.high[k], max(self.low[k], event.target.value / self.scale[k]))  # no NaN
         self.on_move(q)
 
     def _pressed(self, event: Any) -> None:
