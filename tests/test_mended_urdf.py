@@ -4,9 +4,11 @@ import math
 import re
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from dh2urdf import Robot, extract_dh
+from dh2urdf.cli import main
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 
 ARM = """<robot name="arm">
@@ -252,3 +254,46 @@ def test_a_mimic_whose_limits_exclude_its_leaders(tmp_path):
     assert robot.fk([0.7]).shape == (4, 4)
     with pytest.raises(Dh2UrdfError, match="exclude"):
         Robot.from_urdf(path, tip="tool0", strict=True)
+
+
+@pytest.mark.parametrize("fault", [*OFF, *ON])
+def test_check_fix_writes_what_was_mended(fault, tmp_path, capsys):
+    """The written file is the same arm, and has nothing to mend, even strictly."""
+    old, new, message = {**OFF, **ON}[fault]
+    path, out = write(tmp_path, old, new), tmp_path / "out.urdf"
+    with pytest.raises(SystemExit) as stop:
+        main(["check", str(path), "--fix", str(out), "--tip", "tool0"])
+    assert stop.value.code == 0
+    assert re.search(message, capsys.readouterr().out)
+    robot = Robot.from_urdf(out, tip="tool0", strict=True)
+    assert robot.warnings == ()
+    q = np.array([0.7, -0.4])
+    mended = Robot.from_urdf(path, tip="tool0")
+    np.testing.assert_array_equal(robot.fk(q), mended.fk(q))
+    model = pin.buildModelFromUrdf(str(out))
+    assert model.existBodyName("tool0")
+
+
+def test_check_fix_spares_others_files(tmp_path, capsys):
+    """A file that is not ours stays, unless forced; one that was mended is written over."""
+    old, new, _ = OFF["reversed"]
+    path, out = write(tmp_path, old, new), tmp_path / "out.urdf"
+    out.write_text("<robot/>")
+    for extra, status in ([], 2), (["--force"], 0), ([], 0):
+        with pytest.raises(SystemExit) as stop:
+            main(["check", str(path), "--tip", "tool0", "--fix", str(out), *extra])
+        assert stop.value.code == status
+    assert "--force" in capsys.readouterr().err
+    assert 'lower="-0.0135" upper="0"' in out.read_text()
+
+
+def test_check_fix_refuses_what_has_no_obvious_reading(tmp_path, capsys):
+    """A zero axis of the arm is nobody's to guess: status 2 and no file."""
+    old, new, message = FATAL["a zero axis"]
+    path, out = write(tmp_path, old, new), tmp_path / "out.urdf"
+    for flags in ([], ["--force"]):
+        with pytest.raises(SystemExit) as stop:
+            main(["check", str(path), "--fix", str(out), *flags])
+        assert stop.value.code == 2
+        assert re.search(message, capsys.readouterr().err)
+        assert not out.exists()

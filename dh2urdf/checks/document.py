@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import math
 import os
-import re
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
 
 from lxml import etree
 
-from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.dh_io.files import read_bytes
+from dh2urdf.bounds import NUMBER as LARGEST
+from dh2urdf.conversions.description import description_bytes
+from dh2urdf.conversions.read_urdf import count_elements
+from dh2urdf.conversions.urdf_reader import FLOAT
+from dh2urdf.dh_io.files import shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 
@@ -41,8 +42,7 @@ NUMBERS = {
 }
 """Attributes that hold numbers, and how many."""
 
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-"""A number as every consumer reads it: no hexadecimals, no underscores, no units."""
+NUMBER = FLOAT
 
 
 class Document:
@@ -70,13 +70,15 @@ class Document:
         UrdfError
             No such file, not XML, entities, or no ``<robot>``.
         """
-        file = Path(path)
-        data = read_bytes(file, ROBOT_BYTES, UrdfError)
-        root = parse_xml(data, str(file))
+        data, where = description_bytes(path)
+        root = parse_xml(data, where)
         if root.tag != "robot":
-            tag = etree.QName(root).localname
+            tag = shown(str(etree.QName(root).localname))
             hint = "; this is MJCF" if tag == "mujoco" else "; this is SDF" if tag == "sdf" else ""
-            raise UrdfError(f"{file}:{root.sourceline}: the root is <{tag}>, not <robot>{hint}")
+            raise UrdfError(f"{where}:{root.sourceline}: the root is <{tag}>, not <robot>{hint}")
+        for tag in ("link", "joint"):
+            count_elements(root, tag, where)
+        file = Path(path)
         return cls(root, file)
 
     def end(self, joint: etree._Element, tag: str) -> str:
@@ -89,7 +91,7 @@ class Document:
         return str(joint.get("type", ""))
 
     def numbers(self, element: etree._Element | None, key: str) -> list[float] | None:
-        """Numbers of an attribute; None where they are missing or not finite numbers."""
+        """Numbers of an attribute; None where they are missing, not finite or beyond 1e30."""
         text = None if element is None else element.get(key)
         if element is None or text is None:
             return None
@@ -97,7 +99,7 @@ class Document:
         if len(words) != NUMBERS[(element.tag, key)] or not all(map(NUMBER.fullmatch, words)):
             return None
         values = [float(word) for word in words]
-        return values if all(map(math.isfinite, values)) else None
+        return values if all(abs(value) <= LARGEST for value in values) else None
 
     def number(self, element: etree._Element | None, key: str) -> float | None:
         """One number of an attribute, or None."""

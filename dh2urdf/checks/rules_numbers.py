@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 
 from lxml import etree
 
+from dh2urdf.bounds import NUMBER as LARGEST
 from dh2urdf.checks.document import NUMBER, Document
 from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, accept, complain, misread, refuse
 from dh2urdf.checks.report import Found
@@ -141,7 +143,9 @@ def not_finite(doc: Document) -> Iterator[Found]:
             continue
         limit = element.tag == "limit"
         mend = "write the value; an unlimited joint has wide limits" if limit else "write the value"
-        message = f'{key}="{element.get(key)}": {bad[0]} is not finite'
+        huge = _overflows(bad[0]) and math.isfinite(float(bad[0]))
+        what = f"lies beyond {LARGEST:.0e}" if huge else "is not finite"
+        message = f'{key}="{element.get(key)}": {bad[0]} {what}'
         yield Found(element, message, *tuple(_infinite_effects(element, bad[0])), mend=mend)
 
 
@@ -162,7 +166,7 @@ def _infinite_effects(element: etree._Element, word: str) -> Iterator[Effect]:
 
 
 def _overflows(word: str) -> bool:
-    return bool(NUMBER.fullmatch(word)) and abs(float(word)) == float("inf")
+    return bool(NUMBER.fullmatch(word)) and abs(float(word)) > LARGEST
 
 
 def negative_zero(doc: Document) -> Iterator[Found]:

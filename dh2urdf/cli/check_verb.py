@@ -23,12 +23,19 @@ from dh2urdf.checks import (
     ask_all,
     check_urdf,
 )
+from dh2urdf.checks.mending import mended_urdf
 from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.cli.progress import track
+from dh2urdf.conversions.apart import is_xacro
+from dh2urdf.conversions.description import description_bytes
+from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes
-from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
 __all__ = ["check_"]
+
+MENDED = "mended by dh2urdf"
+"""Comment by which a mended file is known as ours."""
 
 SHOWN = 4
 """Findings of one kind that are shown in full; the rest by line."""
@@ -37,6 +44,10 @@ SHOWN = 4
 def check_(
     *files: str,
     run: Annotated[bool, Parameter(negative="--no-run")] = True,
+    fix: Path | None = None,
+    base: str | None = None,
+    tip: str | None = None,
+    force: bool = False,
     json: bool = False,
 ) -> int:
     """Say what the consumers of a URDF would say of it, and how to mend it.
@@ -49,19 +60,34 @@ def check_(
     Parameters
     ----------
     files
-        URDF files, from anywhere; - for stdin.
+        URDF or xacro files, from anywhere; - for stdin. Lines of a xacro are those of the URDF
+        that it expands to.
     run
         Load the files in the consumers that are installed.
+    fix
+        Write the file here with all that has an obvious reading mended, and say what that was;
+        what is left to mend, a check of that file tells.
+    base, tip
+        Links of the arm that --fix may not guess about; without them the root, and the end of
+        the longest chain.
+    force
+        Replace a file that this package did not write.
     json
         One JSON object instead of text.
     """
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
+    if fix is not None:
+        if len(files) != 1:
+            raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
+        with _on_disk(files[0]) as path:
+            text, mends = mended_urdf(path, base, tip)
+        return _write(text, mends, fix, force=force, json=json)
     results, failed = [], []
     for file in track(files, "checking"):
         try:
             with _on_disk(file) as path:
-                findings = check_urdf(path)
+                findings = check_urdf(path if file == "-" else file)
                 said = ask_all(path) if run else ()
             results.append(("<stdin>" if file == "-" else file, findings, said))
         except Dh2UrdfError as error:
@@ -76,15 +102,32 @@ def check_(
     return 2 if failed else int(any(_is_bad(found, said) for _, found, said in results))
 
 
+def _write(text: bytes, mends: tuple[str, ...], output: Path, *, force: bool, json: bool) -> int:
+    """Write a mended file, and say what was mended."""
+    if not force:
+        refuse_foreign(output, MENDED)
+    head, _, body = text.partition(b"\n")
+    atomic_write(output, head + f"\n<!--{MENDED}-->\n".encode() + body)
+    if json:
+        emit_json("check", path=str(output), mends=list(mends))
+        return 0
+    for mend in mends:
+        emit(mend)
+    emit(f"{output}: written, {len(mends)} mended, and read back")
+    return 0
+
+
 @contextmanager
 def _on_disk(file: str) -> Iterator[Path]:
-    """Path of a file; what comes by stdin is put into one."""
-    if file != "-":
+    """Path of a URDF; what comes by stdin, or of a xacro, is put into one."""
+    if file != "-" and not is_xacro(file):
         yield Path(file)
         return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "stdin.urdf"
-        path.write_bytes(read_bytes(sys.stdin.buffer, ROBOT_BYTES))
+        path = Path(folder) / f"{'stdin' if file == '-' else Path(file).stem}.urdf"
+        stdin = file == "-"
+        data = read_bytes(sys.stdin.buffer, ROBOT_BYTES) if stdin else description_bytes(file)[0]
+        path.write_bytes(data)
         yield path
 
 

@@ -144,6 +144,7 @@ ALONE: dict[str, dict[str, str]] = {
     "fk": {"q": "values"},
     "ik": {"csv": "xyz rpy matrix", "matrix": "xyz rpy", "task=position": "rpy"},
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
+    "check": {"fix": "run"},
     "extract": {"json": "output=-", "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
@@ -159,6 +160,7 @@ NEEDED: dict[str, dict[str, str]] = {
     "figure": {"deg": "q"},
     "workspace": {"deg": "rpy"},
     "view": {"base": "robot", "tip": "robot", "deg": "q"},
+    "check": {"base": "fix", "tip": "fix", "force": "fix"},
     "extract": {"json+format": "output", "force": "output"},
 }
 """For each verb, options, and those without one of which they say nothing."""

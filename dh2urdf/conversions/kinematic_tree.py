@@ -6,8 +6,7 @@ place in the file that messages name.
 
 from __future__ import annotations
 
-import difflib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from dh2urdf.bounds import JOINTS
 from dh2urdf.conversions.inertia import Inertial
+from dh2urdf.conversions.naming import listed, no_such
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array, inverse
@@ -28,7 +28,6 @@ __all__ = [
     "choose_ends",
     "find_path",
     "held_at_rest",
-    "listed",
     "rigid_part",
 ]
 
@@ -154,19 +153,8 @@ class KinematicTree:
         """
         if name in self.links:
             return name
-        near = {other[:60]: other for other in self.links}
-        close = difflib.get_close_matches(name[:60], near, 1)
-        hint = f"; did you mean {shown(near[close[0]])!r}?" if close else ""
-        raise NameNotFoundError(
-            f"{self.where}: no link named {shown(name)!r}; the file has {listed(self.links)}{hint}"
-        )
-
-
-def listed(names: Iterable[str]) -> str:
-    """Names in a message: the first forty, and how many more."""
-    everyone = list(names)
-    more = f" and {len(everyone) - 40} more" if len(everyone) > 40 else ""
-    return ", ".join(map(shown, everyone[:40])) + more
+        wrong = no_such(name, self.links, "the file")
+        raise NameNotFoundError(f"{self.where}: no link named {wrong}")
 
 
 def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:

@@ -6,6 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from dh2urdf import transforms as tf
+from dh2urdf.bounds import LINKS
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import TIP_NAMES
 from dh2urdf.conversions.model_to_chain import (
@@ -16,6 +17,7 @@ from dh2urdf.conversions.model_to_chain import (
     model_to_chain,
     tip_names,
 )
+from dh2urdf.conversions.naming import listed
 from dh2urdf.conversions.tree_to_chain import Actuation, ChainSource
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
@@ -33,6 +35,8 @@ def model_source(
     NameNotFoundError, UrdfError
     """
     links = frame_names(model)
+    if model.njoints > LINKS:
+        raise UrdfError(f"{model.name}: {model.njoints} joints; up to {LINKS} are read")
     if not links:
         raise UrdfError(f"{model.name}: the model has no links")
     base_id = frame_id(model, base or links[0])
@@ -119,7 +123,7 @@ def _default_tip(model: pin.Model, base: int) -> int:
     most = max(map(len, found))
     longest = [tips for ids, tips in found.items() if len(ids) == most]
     if len(longest) > 1:
-        names = ", ".join(model.frames[t].name for tips in longest for t in tips)
+        names = listed(model.frames[t].name for tips in longest for t in tips)
         raise UrdfError(f"several chains of {most} joints; name the tip, one of: {names}")
     tips = {model.frames[t].name: t for t in longest[0]}
     usual = [tips[name] for name in TIP_NAMES if name in tips]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -10,7 +9,9 @@ from itertools import pairwise
 import numpy as np
 import pinocchio as pin
 
+from dh2urdf.bounds import JOINTS
 from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.naming import listed, no_such
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array
@@ -70,10 +71,7 @@ def frame_id(model: pin.Model, name: str) -> int:
     for kind in (pin.FrameType.BODY, pin.FrameType.FIXED_JOINT, pin.FrameType.OP_FRAME):
         if model.existFrame(name, kind):
             return int(model.getFrameId(name, kind))
-    names = frame_names(model)
-    close = difflib.get_close_matches(name, names, 1)
-    hint = f"; did you mean {close[0]!r}?" if close else ""
-    raise NameNotFoundError(f"no frame named {name!r}; the model has {', '.join(names)}{hint}")
+    raise NameNotFoundError(f"no frame named {no_such(name, frame_names(model), 'the model')}")
 
 
 def chain_path(model: pin.Model, base: int, tip: int) -> ChainPath:
@@ -92,7 +90,9 @@ def chain_path(model: pin.Model, base: int, tip: int) -> ChainPath:
     ids = tuple(int(i) for i in (*reversed(up), *down))
     names = f"{model.frames[base].name!r} and {model.frames[tip].name!r}"
     if not ids:
-        raise UrdfError(f"no joint moves between {names}; tips: {', '.join(tip_names(model))}")
+        raise UrdfError(f"no joint moves between {names}; tips: {listed(tip_names(model))}")
+    if len(ids) > JOINTS:
+        raise UrdfError(f"{len(ids)} joints between {names}; a chain has up to {JOINTS}")
     for i in ids:
         if model.joints[i].nv != 1 or "Helical" in model.joints[i].shortname():
             raise UrdfError(

@@ -10,6 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from dh2urdf import transforms as tf
+from dh2urdf.bounds import LINKS
 from dh2urdf.conversions.apart import mjcf_apart
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
@@ -55,6 +56,8 @@ class _Bodies:
 
     def tree(self) -> KinematicTree:
         m = self.m
+        if m.nbody + m.njnt + m.nsite > LINKS:
+            raise UrdfError(f"{self.where}: more than {LINKS} bodies, joints and sites")
         root = self.link(m.body(0).name or "world", None)
         names = {0: root}
         for b in range(1, m.nbody):

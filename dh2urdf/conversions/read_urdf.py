@@ -8,12 +8,13 @@ from typing import NoReturn
 from lxml import etree
 
 from dh2urdf.bounds import ANGLE, LINKS
-from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, TreeJoint, TreeLink, listed
+from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.naming import listed
 from dh2urdf.conversions.urdf_reader import UrdfReader
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 
-__all__ = ["read_urdf"]
+__all__ = ["count_elements", "read_urdf"]
 
 
 def read_urdf(
@@ -36,14 +37,24 @@ def read_urdf(
     if root.tag != "robot":
         raise UrdfError(f"{where}:{root.sourceline}: root element is <{root.tag}>, not <robot>")
     for tag in ("link", "joint"):
-        count = sum(1 for _ in root.iterchildren(tag))
-        if count == 0 or count > LINKS:
-            allowed = "" if count == 0 else f"; up to {LINKS} are read"
-            raise UrdfError(
-                f"{where}:{root.sourceline}: <robot> has {count or 'no'} {tag}s{allowed}"
-            )
+        if count_elements(root, tag, where) == 0:
+            raise UrdfError(f"{where}:{root.sourceline}: <robot> has no {tag}s")
     forest = _Forest(root, UrdfReader(where))
     return forest.tree(base, tip)
+
+
+def count_elements(root: etree._Element, tag: str, where: str) -> int:
+    """Number of links or joints of a ``<robot>``.
+
+    Raises
+    ------
+    UrdfError
+        More than are read.
+    """
+    count = sum(1 for _ in root.iterchildren(tag))
+    if count > LINKS:
+        raise UrdfError(f"{where}:{root.sourceline}: {count} {tag}s; up to {LINKS} are read")
+    return count
 
 
 class _Forest:

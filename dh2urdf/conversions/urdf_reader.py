@@ -106,13 +106,14 @@ class UrdfReader:
             fault = f"{self.place(element)}: {fault}"
         except UrdfError as error:
             fault = str(error)
-        if math.isnan(default):
-            del element.attrib[key]
-        else:
+        mended = "left out" if math.isnan(default) else f"taken as {default!r}"
+        self.mends.append(f"{fault}; {mended}")
+        if not math.isnan(default):
             element.set(key, repr(default))
-        self.mends.append(
-            f"{fault}; {'left out' if math.isnan(default) else f'taken as {default!r}'}"
-        )
+            return None
+        del element.attrib[key]
+        if not element.attrib:  # urdfdom takes no <dynamics/>
+            element.getparent().remove(element)
         return None
 
     def name(self, element: etree._Element) -> str:

@@ -1,0 +1,28 @@
+"""Names of links and joints in messages."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+from dh2urdf.dh_io.files import shown
+from dh2urdf.doors import found
+
+__all__ = ["listed", "no_such"]
+
+
+def listed(names: Iterable[str]) -> str:
+    """The first forty names, and how many more."""
+    everyone = list(names)
+    more = f" and {len(everyone) - 40} more" if len(everyone) > 40 else ""
+    return ", ".join(map(shown, everyone[:40])) + more
+
+
+def no_such(name: object, names: Iterable[str], owner: str) -> str:
+    """What to say of a name that is not among those there are."""
+    everyone = list(names)
+    near = {other[:60]: other for other in everyone}
+    close = difflib.get_close_matches(name[:60], near, 1) if isinstance(name, str) else []
+    hint = f"; did you mean {shown(near[close[0]])!r}?" if close else ""
+    said = repr(shown(name)) if isinstance(name, str) else found(name)
+    return f"{said}; {owner} has {listed(everyone)}{hint}"
