@@ -19,11 +19,16 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.bounds import LENGTH
 from dh2urdf.dh import JointType
-from dh2urdf.exceptions import Dh2UrdfError
+from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["SerialChain", "settled_state"]
+
+
+FARTHEST = 1000 * LENGTH
+"""Longest link [m]: all rows of the largest table in one."""
 
 
 def settled_state(thing: object) -> dict[str, Any]:
@@ -61,6 +66,8 @@ class SerialChain:
         sizes = (self.links.shape, len(self.names), self.lower.shape, self.upper.shape)
         if sizes != ((n + 1, 4, 4), n, (n,), (n,)):
             raise Dh2UrdfError(f"a chain of {n} joints cannot have parts of sizes {sizes}")
+        if not (np.abs(self.links) * self.unit <= FARTHEST).all():
+            raise UrdfError(f"a chain with numbers that are none, or beyond {FARTHEST:.0e} m")
         for key in ("links", "lower", "upper"):
             array = np.array(getattr(self, key), float, order="C")
             array.flags.writeable = False

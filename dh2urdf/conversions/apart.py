@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import contextlib
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,17 +17,18 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 from dh2urdf.bounds import APART_BYTES, APART_SECONDS, ROBOT_BYTES
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.exceptions import MissingExtraError, UrdfError
 
-__all__ = ["expand_xacro", "is_xacro", "mjcf_apart"]
+__all__ = ["check_expression", "expand_xacro", "is_xacro", "mjcf_apart"]
 
-HIDDEN = ("gi_", "cr_", "ag_", "tb_", "f_", "func_", "co_", "_")
-"""What names that lead from a value to the interpreter begin with."""
-
-FORBIDDEN = ("format", "format_map", "vars", "mro")
+FORBIDDEN = re.compile(
+    "_.*|format|format_map|vars|mro|(gi|cr|ag|tb)_(frame|code)|f_(back|builtins|globals|locals)"
+)
+"""Attributes that lead from a value to the interpreter."""
 
 
 def is_xacro(path: str | os.PathLike[str]) -> bool:
@@ -75,6 +77,7 @@ def _apart(reader: str, source: Path, module: str, extra: str, purpose: str) -> 
                 timeout=APART_SECONDS,
                 check=False,
                 env={**os.environ, "PYTHONPATH": path},
+                cwd=folder if reader == "mjcf" else None,  # where MuJoCo leaves its log
             )
             status = run.returncode
         except subprocess.TimeoutExpired:
@@ -88,14 +91,14 @@ def _apart(reader: str, source: Path, module: str, extra: str, purpose: str) -> 
 
 def _xacro(source: str, folder: Path) -> None:
     import xacro
+    from xacro import substitution_args
 
-    compute = xacro.safe_eval
+    def compute(expr: str, names: dict[str, Any], scope: Any = None) -> object:
+        check_expression(expr)
+        names["__builtins__"] = {}
+        return eval(expr.strip(), names, scope)
 
-    def evaluate(expr: str, *symbols: object) -> object:
-        _check_expression(expr)
-        return compute(expr, *symbols)
-
-    xacro.safe_eval = evaluate
+    xacro.safe_eval = substitution_args.eval = compute
     try:
         text = xacro.process_file(source).toxml()
     except Exception as error:
@@ -103,7 +106,7 @@ def _xacro(source: str, folder: Path) -> None:
     (folder / "text").write_text(text, encoding="utf-8")
 
 
-def _check_expression(expr: str) -> None:
+def check_expression(expr: str) -> None:
     """Refuse names by which an expression could leave arithmetic.
 
     Raises
@@ -111,10 +114,9 @@ def _check_expression(expr: str) -> None:
     UrdfError
     """
     for node in ast.walk(ast.parse(expr.strip(), mode="eval")):
-        name = getattr(node, "attr", None) or getattr(node, "id", None) or ""
-        hidden = isinstance(node, ast.Attribute) and name.startswith(HIDDEN)
-        if hidden or name.startswith("__") or name in FORBIDDEN:
-            raise UrdfError(f"{name!r} is not allowed in an expression")
+        attribute, name = getattr(node, "attr", ""), getattr(node, "id", "")
+        if FORBIDDEN.fullmatch(attribute) or name.startswith("__"):
+            raise UrdfError(f"{attribute or name!r} is not allowed in an expression")
 
 
 def _mjcf(source: str, folder: Path) -> None:
@@ -129,7 +131,8 @@ def _mjcf(source: str, folder: Path) -> None:
     try:
         pin.buildModelFromMJCF(source).saveToBinary(str(folder / "pinocchio.bin"))
     except Exception as error:
-        raise UrdfError(f"Pinocchio does not load it: {str(error).strip()}") from None
+        words = str(error).strip().rpartition("\n")[2]
+        raise UrdfError(f"Pinocchio does not load it: {words}") from None
 
 
 READERS: dict[str, Callable[[str, Path], None]] = {"xacro": _xacro, "mjcf": _mjcf}

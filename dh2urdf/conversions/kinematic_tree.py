@@ -217,9 +217,9 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
         if moving:
             chains.setdefault(moving, []).append(leaf)
     if not chains:
-        raise UrdfError(
-            f"{tree.where}: no revolute, continuous or prismatic joint below {shown(start)!r}"
-        )
+        faults = (joint.fault for joint in tree.joints if joint.fault)
+        none = f"{tree.where}: no revolute, continuous or prismatic joint below {shown(start)!r}"
+        raise UrdfError(next(faults, none))
     most = max(map(len, chains))
     longest = {moving: tips for moving, tips in chains.items() if len(moving) == most}
     if len(longest) == 1:

@@ -42,7 +42,8 @@ def model_source(
     base_id = frame_id(model, base or links[0])
     tip_id = _default_tip(model, base_id) if tip is None else frame_id(model, tip)
     path = chain_path(model, base_id, tip_id)
-    chain = model_to_chain(model, path)
+    with np.errstate(all="ignore"):  # of numbers that the chain refuses
+        chain = model_to_chain(model, path)
     T_world_base = _neutral_frames(model, base_id)
     frames = [T_world_base @ T for T in chain.joint_frames]
     source = ChainSource(
@@ -112,14 +113,15 @@ def _default_tip(model: pin.Model, base: int) -> int:
         Tips of different branches with equally many joints; the message lists them.
     """
     found: dict[tuple[int, ...], list[int]] = {}
+    refused = UrdfError("the model has no chain of revolute and prismatic joints")
     for name in tip_names(model):
         tip = frame_id(model, name)
         try:
             found.setdefault(chain_path(model, base, tip).ids, []).append(tip)
-        except UrdfError:
-            continue
+        except UrdfError as error:
+            refused = error
     if not found:
-        raise UrdfError("the model has no chain of revolute and prismatic joints")
+        raise refused
     most = max(map(len, found))
     longest = [tips for ids, tips in found.items() if len(ids) == most]
     if len(longest) > 1:

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pinocchio as pin
 
-from dh2urdf.bounds import JOINTS
+from dh2urdf.bounds import ANGLE, JOINTS, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.naming import listed, no_such
 from dh2urdf.dh import JointType
@@ -115,15 +115,16 @@ def model_to_chain(model: pin.Model, path: ChainPath) -> SerialChain:
     types: list[JointType] = []
     for k, i in enumerate(path.ids):
         S = np.asarray(data.joints[i].S, float).reshape(6)
-        slides = bool(np.abs(S[:3]).max() > np.abs(S[3:]).max())
-        axis = S[:3] if slides else S[3:]
-        types.append(JointType.PRISMATIC if slides else JointType.REVOLUTE)
+        linear = bool(np.abs(S[:3]).max() > np.abs(S[3:]).max())
+        axis = S[:3] if linear else S[3:]
+        types.append(JointType.PRISMATIC if linear else JointType.REVOLUTE)
         turn = np.eye(4)
         turn[:3, :3] = frame_with_z(-axis if k < path.up else axis)
         frames.append(data.oMi[i].homogeneous @ turn)
     frames.append(data.oMf[path.tip].homogeneous)
     links = [_relative(a, b) for a, b in pairwise(frames)]
-    lower, upper = zip(*(_limits(model, i) for i in path.ids), strict=True)
+    slides = [kind is JointType.PRISMATIC for kind in types]
+    lower, upper = zip(*map(_limits, [model] * len(types), path.ids, slides), strict=True)
     return SerialChain(
         links=np.stack(links),
         joint_types=tuple(types),
@@ -138,11 +139,13 @@ def is_continuous(model: pin.Model, i: int) -> bool:
     return bool(model.joints[i].shortname().startswith(CONTINUOUS))
 
 
-def _limits(model: pin.Model, i: int) -> tuple[float, float]:
+def _limits(model: pin.Model, i: int, slides: bool) -> tuple[float, float]:
+    """Bounds of a joint; none where they are so far that they bound nothing."""
     if is_continuous(model, i):
         return -np.inf, np.inf
-    k = model.joints[i].idx_q
-    return float(model.lowerPositionLimit[k]), float(model.upperPositionLimit[k])
+    k, far = model.joints[i].idx_q, LENGTH if slides else ANGLE
+    lower, upper = float(model.lowerPositionLimit[k]), float(model.upperPositionLimit[k])
+    return lower if abs(lower) <= far else -np.inf, upper if abs(upper) <= far else np.inf
 
 
 def _relative(T_world_a: Array, T_world_b: Array) -> Array:

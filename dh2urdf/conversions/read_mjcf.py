@@ -10,7 +10,7 @@ import numpy as np
 import pinocchio as pin
 
 from dh2urdf import transforms as tf
-from dh2urdf.bounds import LINKS
+from dh2urdf.bounds import ANGLE, LENGTH, LINKS
 from dh2urdf.conversions.apart import mjcf_apart
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
@@ -20,6 +20,19 @@ from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
 __all__ = ["read_mjcf"]
+
+NUMBERS = (
+    "body_pos",
+    "body_quat",
+    "body_mass",
+    "body_inertia",
+    "body_ipos",
+    "jnt_axis",
+    "jnt_pos",
+    "qpos0",
+    "site_pos",
+)
+"""What is read of a compiled model, by MuJoCo's own names."""
 
 KINDS = ("free", "ball", "prismatic", "revolute")
 """MuJoCo's joint types in its own order."""
@@ -58,6 +71,9 @@ class _Bodies:
         m = self.m
         if m.nbody + m.njnt + m.nsite > LINKS:
             raise UrdfError(f"{self.where}: more than {LINKS} bodies, joints and sites")
+        for key in NUMBERS:
+            if not (np.abs(getattr(m, key)) <= LENGTH).all():
+                raise UrdfError(f"{self.where}: {key}: numbers that are no numbers or beyond 1e9")
         root = self.link(m.body(0).name or "world", None)
         names = {0: root}
         for b in range(1, m.nbody):
@@ -97,13 +113,17 @@ class _Bodies:
         axis = as_pinocchio_takes(np.array(m.jnt_axis[j], float))
         rest = np.eye(4)
         if kind in ("revolute", "prismatic"):
+            if not np.linalg.norm(axis) > 0.5:
+                raise UrdfError(f"{self.where}: joint {m.joint(j).name!r}: no direction")
             reference = -float(m.qpos0[m.jnt_qposadr[j]])
             if kind == "revolute":
                 rest[:3, :3] = tf.rotation(axis, reference)
             else:
                 rest[:3, 3] = axis * reference
         limited = bool(m.jnt_limited[j])
-        lower, upper = (float(v) for v in m.jnt_range[j]) if limited else (None, None)
+        far = LENGTH if kind == "prismatic" else ANGLE
+        ends = [float(v) for v in m.jnt_range[j]]
+        lower, upper = (v if limited and abs(v) <= far else None for v in ends)
         name = m.joint(j).name or f"joint_{j}"
         dof = int(m.jnt_dofadr[j])
         self.addresses[name] = int(m.jnt_qposadr[j])
