@@ -81,7 +81,7 @@ def check_(
         if len(files) != 1:
             raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
         with _on_disk(files[0]) as path:
-            text, mends = mended_urdf(path, base, tip)
+            text, mends = mended_urdf(path if files[0] == "-" else files[0], base, tip)
         return _write(text, mends, fix, force=force, json=json)
     results, failed = [], []
     for file in track(files, "checking"):
