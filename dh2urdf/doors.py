@@ -81,7 +81,11 @@ def real_array(
 
 
 def finite_array(
-    values: object, what: str, expected: str, error: type[Dh2UrdfError] = ArgumentError
+    values: object,
+    what: str,
+    expected: str,
+    error: type[Dh2UrdfError] = ArgumentError,
+    shape: tuple[int, ...] | None = None,
 ) -> Array:
     """:func:`real_array` without NaN and infinity.
 
@@ -91,6 +95,8 @@ def finite_array(
         Or ``error``, with the index of the first entry that is not finite.
     """
     array = real_array(values, what, expected, error)
+    if shape is not None and array.shape != shape:
+        raise error(f"{what}: expected {expected}, got {found(values)}")
     finite = np.isfinite(array)
     if not finite.all():
         index = ", ".join(map(str, np.argwhere(~finite)[0]))

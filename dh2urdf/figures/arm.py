@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dh2urdf.doors import finite_array
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures.canvas import Canvas
@@ -108,7 +109,8 @@ class _ArmPicture:
         self.key = [(ghost.colour, ghost.name) for ghost in self.ghosts if ghost.name]
         self.style, self.show_frames = style, frames
         dh_frames = self.arm.table.frames(self.q)
-        self.view = View(*view) if view else best_view(dh_frames, self.arm.chain)
+        eye = None if view is None else finite_array(view, "view", "two angles", shape=(2,))
+        self.view = View(*eye.tolist()) if eye is not None else best_view(dh_frames, self.arm.chain)
         self.parts = self._parts(self.q)
         self.floor = self._floor()
         self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]

@@ -101,10 +101,14 @@ def _candidates(label: Label) -> Array:
 
 def _fixed_cost(label: Label, spots: Array, samples: Array, weights: Array, bounds: Array) -> Array:
     half = label.size / 2 + PADDING
-    low, high = spots.min(axis=0) - half, spots.max(axis=0) + half
-    near = ((samples >= low) & (samples <= high)).all(axis=1)
-    beside, over = (np.abs(spots[:, k, None] - samples[None, near, k]) <= half[k] for k in (0, 1))
-    covered = (beside & over) @ weights[near]
+    first = np.searchsorted(samples[:, 0], spots[:, 0] - half[0])
+    last = np.searchsorted(samples[:, 0], spots[:, 0] + half[0], side="right")
+    covered = np.array(
+        [
+            weights[a:b] @ (np.abs(samples[a:b, 1] - y) <= half[1])
+            for a, b, y in zip(first, last, spots[:, 1], strict=True)
+        ]
+    )
     outside = np.maximum(bounds[0] - (spots - half), 0) + np.maximum(spots + half - bounds[1], 0)
     way = spots - label.anchor
     gap = np.maximum(np.abs(way) - label.size / 2, 0.0)
@@ -127,7 +131,7 @@ def _crowding(spots: Array, half: Array, others: Array, halves: Array) -> Array:
 
 
 def _samples(lines: list[Line]) -> tuple[Array, Array]:
-    """Points along all lines and their weights."""
+    """Points along all lines from left to right, and their weights."""
     points, weights = [np.zeros((0, 2))], [np.zeros(0)]
     for line in lines:
         start, end = line.points
@@ -135,4 +139,6 @@ def _samples(lines: list[Line]) -> tuple[Array, Array]:
         count = max(2, int(length / SPACING) + 1)
         points.append(start + np.linspace(0, 1, count)[:, None] * (end - start))
         weights.append(np.full(count, line.weight * length / count))
-    return np.concatenate(points), np.concatenate(weights)
+    all_points = np.concatenate(points)
+    order = np.argsort(all_points[:, 0])
+    return all_points[order], np.concatenate(weights)[order]

@@ -6,7 +6,9 @@ import io
 import os
 from pathlib import Path
 
+from dh2urdf.bounds import DPI
 from dh2urdf.dh_io import atomic_write
+from dh2urdf.doors import number
 from dh2urdf.exceptions import OutputError, OutputExistsError
 from dh2urdf.figures.style import RC, Picture, mpl
 
@@ -87,5 +89,6 @@ def save_picture(
     OutputExistsError
         Without ``force``: somebody else's file is in the way.
     """
+    number(dpi, "dpi", *DPI)
     format = check_target(path, force=force)
     return atomic_write(path, picture_bytes(figure, format, dpi=dpi))

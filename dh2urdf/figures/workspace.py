@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 from numpy.typing import ArrayLike
 
-from dh2urdf.bounds import ORIENTATIONS, POINTS
-from dh2urdf.doors import integer, real_array
+from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
+from dh2urdf.doors import finite_array, integer, number
 from dh2urdf.exceptions import ArgumentError, UnreachedError
 from dh2urdf.figures.planar_workspace import planar_picture
 from dh2urdf.figures.section_workspace import section_picture
@@ -76,6 +76,8 @@ def workspace_figure(
     UnreachedError
         The section misses everything that the arm reaches.
     """
+    if at is not None:
+        number(at, "at", -LENGTH, LENGTH, unit="m")
     if points is not None:
         integer(points, "points", *POINTS)
     if orientations is not None:
@@ -94,7 +96,7 @@ def workspace_figure(
     if rpy is not None:
         if robot.n > 6 or task.name == "position":
             raise ArgumentError(f"rpy: it changes nothing for {robot.model.name}")
-        R = rpy_to_matrix(real_array(rpy, "rpy", "three angles").reshape(3).tolist())
+        R = rpy_to_matrix(finite_array(rpy, "rpy", "three angles", shape=(3,)).tolist())
     counts = shares = None
     held = held_values(robot, within_limits=within_limits) if robot.n > 6 else None
     if robot.n <= 6:

@@ -9,6 +9,7 @@ import socket
 from collections.abc import Callable
 from typing import Any
 
+from dh2urdf.doors import integer, text
 from dh2urdf.exceptions import ConfigurationError, MissingExtraError, ServerError
 
 try:
@@ -42,8 +43,9 @@ def start_server(host: str, port: int | None) -> Any:
     ServerError
         The port is in use, or the host is not an address of this machine.
     """
-    if port is not None and not 0 <= port <= 65535:
-        raise ConfigurationError(f"port: {port} is not between 0 and 65535")
+    if port is not None:
+        integer(port, "port", 0, 65535, ConfigurationError)
+    text(host, "host")
     chosen = _free_port(host) if port is None else _checked_port(host, port)
     server: Any = quietly(
         lambda: viser.ViserServer(host=host, port=chosen, label="dh2urdf", verbose=False)
@@ -108,8 +110,8 @@ def _bound(host: str, port: int) -> socket.socket:
         family, kind, proto, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
-    except socket.gaierror as error:
-        raise ServerError(f"host {host!r}: {error.strerror}") from None
+    except (socket.gaierror, UnicodeError) as error:
+        raise ServerError(f"host {host!r}: {getattr(error, 'strerror', error)}") from None
     probe = socket.socket(family, kind, proto)
     try:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
