@@ -14,15 +14,16 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import settled_state
 from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
 from dh2urdf.conversions.coupling import couple
+from dh2urdf.conversions.description import read_description
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.kinematic_tree import Mimic
 from dh2urdf.conversions.model_to_chain import (
     chain_path,
     frame_id,
     model_to_chain,
     with_locked,
 )
-from dh2urdf.conversions.urdf_to_model import Mimic, load_model
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
@@ -144,12 +145,13 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         ------
         UrdfError, NameNotFoundError
         """
-        loaded = load_model(path, base, tip, strict=flag(strict, "strict"))
-        robot = cls(loaded.model, loaded.base, loaded.tip, mimics=loaded.mimics)
+        found = read_description(path, base, tip, strict=flag(strict, "strict"))
+        mimics = {joint.name: joint.mimic for joint in found.tree.joints if joint.mimic}
+        robot = cls(found.model, found.base_frame, found.tip, mimics=mimics)
         coupled = robot._coupling.warnings if robot._coupling else ()
         if strict and coupled:
             raise UrdfError("\n".join(coupled))
-        robot.source, robot.warnings = Path(path), (*loaded.mends, *coupled)
+        robot.source, robot.warnings = Path(path), (*found.mends, *coupled)
         return robot
 
     def fk(self, q: ArrayLike) -> Array:

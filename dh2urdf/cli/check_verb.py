@@ -23,11 +23,10 @@ from dh2urdf.checks import (
     ask_all,
     check_urdf,
 )
-from dh2urdf.checks.mending import mended_urdf
 from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.cli.progress import track
 from dh2urdf.conversions.apart import is_xacro
-from dh2urdf.conversions.description import description_bytes
+from dh2urdf.conversions.description import description_bytes, mended_urdf
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
@@ -82,7 +81,11 @@ def check_(
             raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
         with _on_disk(files[0]) as path:
             text, mends = mended_urdf(path if files[0] == "-" else files[0], base, tip)
-        return _write(text, mends, fix, force=force, json=json)
+        if not force:
+            refuse_foreign(fix, MENDED)
+        atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
+        emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
+        return 0
     results, failed = [], []
     for file in track(files, "checking"):
         try:
@@ -100,21 +103,6 @@ def check_(
         for bad in failed:
             note(f"dh2urdf: {bad['error']}")
     return 2 if failed else int(any(_is_bad(found, said) for _, found, said in results))
-
-
-def _write(text: bytes, mends: tuple[str, ...], output: Path, *, force: bool, json: bool) -> int:
-    """Write a mended file, and say what was mended."""
-    if not force:
-        refuse_foreign(output, MENDED)
-    head, _, body = text.partition(b"\n")
-    atomic_write(output, head + f"\n<!--{MENDED}-->\n".encode() + body)
-    if json:
-        emit_json("check", path=str(output), mends=list(mends))
-        return 0
-    for mend in mends:
-        emit(mend)
-    emit(f"{output}: written, {len(mends)} mended, and read back")
-    return 0
 
 
 @contextmanager

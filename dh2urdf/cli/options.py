@@ -144,7 +144,7 @@ ALONE: dict[str, dict[str, str]] = {
     "fk": {"q": "values"},
     "ik": {"csv": "xyz rpy matrix", "matrix": "xyz rpy", "task=position": "rpy"},
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
-    "check": {"fix": "run"},
+    "check": {"fix": "run json"},
     "extract": {"json": "output=-", "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }

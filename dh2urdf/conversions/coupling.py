@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.kinematic_tree import Mimic
 from dh2urdf.transforms import Array
-
-if TYPE_CHECKING:
-    from dh2urdf.conversions.urdf_to_model import Mimic
 
 __all__ = ["Coupling", "couple"]
 

@@ -18,14 +18,13 @@ from dh2urdf.conversions.kinematic_tree import (
     Step,
     choose_ends,
     find_path,
-    held_at_rest,
 )
 from dh2urdf.conversions.read_urdf import read_urdf
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
-from dh2urdf.exceptions import UrdfError
+from dh2urdf.exceptions import UrdfError, VerificationError
 
-__all__ = ["Description", "description_bytes", "read_description"]
+__all__ = ["Description", "description_bytes", "mended_urdf", "read_description"]
 
 
 class Description(NamedTuple):
@@ -51,6 +50,12 @@ class Description(NamedTuple):
     model: pin.Model
     addresses: dict[str, int]
     mends: tuple[str, ...]
+
+    @property
+    def base_frame(self) -> str:
+        """Name of the base in the model; Pinocchio calls the world of an MJCF otherwise."""
+        world = self.addresses and self.base == self.tree.root
+        return str(self.model.frames[0].name) if world else self.base
 
 
 def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
@@ -88,7 +93,7 @@ def read_description(
     ends = choose_ends(tree, base, tip)
     steps = find_path(tree, *ends)
     mends = list(tree.mends)
-    held = {joint.name: joint for joint in held_at_rest(steps)}
+    held = {s.joint.name: s.joint for s in steps if s.joint.kind not in (*MOVING, "fixed")}
     for element in root.iterchildren("joint"):
         if joint := held.get(element.get("name", "")):
             mends.append(f"{joint.where}: a {joint.kind} joint before the arm; held at rest")
@@ -107,9 +112,32 @@ def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | No
     tree, addresses, model = read_mjcf(path)
     ends = choose_ends(tree, base, tip)
     steps = find_path(tree, *ends)
-    for joint in held_at_rest(steps):
+    if steps[0].joint.kind not in (*MOVING, "fixed"):
+        joint = steps[0].joint
         raise UrdfError(
             f"{joint.where}: a {joint.kind} joint before the arm; choose a base behind it, such "
             f"as {joint.child!r}"
         )
     return Description(tree, *ends, steps, root, model, addresses, ())
+
+
+def mended_urdf(
+    source: str | os.PathLike[str], base: str | None, tip: str | None
+) -> tuple[str, tuple[str, ...]]:
+    """The text of a URDF or xacro with all that has an obvious reading mended, and what that was.
+
+    Raises
+    ------
+    UrdfError
+        Something on the way from base to tip has no obvious reading.
+    VerificationError
+        Read back, the text is not the same robot.
+    """
+    found = read_description(source, base, tip)
+    text = etree.tostring(found.root.getroottree(), encoding="unicode")
+    again = read_description(text, found.base, found.tip, strict=True).model
+    again.lowerPositionLimit = found.model.lowerPositionLimit  # none is written as wide ones
+    again.upperPositionLimit = found.model.upperPositionLimit
+    if again != found.model:
+        raise VerificationError(f"{found.tree.where}: the mended file is not read as it was meant")
+    return text, found.mends

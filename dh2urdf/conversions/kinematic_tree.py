@@ -6,9 +6,10 @@ place in the file that messages name.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,12 +23,12 @@ from dh2urdf.transforms import Array, inverse
 __all__ = [
     "MOVING",
     "KinematicTree",
+    "Mimic",
     "Step",
     "TreeJoint",
     "TreeLink",
     "choose_ends",
     "find_path",
-    "held_at_rest",
     "rigid_part",
 ]
 
@@ -47,6 +48,14 @@ class TreeLink:
     inertial: Inertial | None = None
 
 
+class Mimic(NamedTuple):
+    """What a joint follows: ``q = multiplier * q_leader + offset``."""
+
+    leader: str
+    multiplier: float
+    offset: float
+
+
 @dataclass(frozen=True, eq=False)
 class TreeJoint:
     """A joint between two links.
@@ -61,8 +70,8 @@ class TreeJoint:
         Unit vector in the joint frame; the child link moves along or about it.
     lower, upper, velocity, effort, damping, friction : float or None
         In [rad] or [m], per second, [N m] or [N].
-    mimic : str
-        Name of the joint that this one follows in the file, or empty.
+    mimic : Mimic, optional
+        What the joint follows in the file.
     where : str
         ``file:line: <joint name="...">``.
     fault : str
@@ -82,7 +91,7 @@ class TreeJoint:
     effort: float | None = None
     damping: float | None = None
     friction: float | None = None
-    mimic: str = ""
+    mimic: Mimic | None = None
     fault: str = ""
 
 
@@ -165,13 +174,7 @@ def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:
     NameNotFoundError, UrdfError
         No such link, nothing moves between them, or a joint of another kind is on the way.
     """
-    up = tree.above(tree.check_link(base))
-    down = tree.above(tree.check_link(tip))
-    while up and down and up[-1] is down[-1]:
-        up.pop()
-        down.pop()
-    steps = [Step(joint, False) for joint in up]
-    steps += [Step(joint, True) for joint in reversed(down)]
+    steps = _way(tree, tree.check_link(base), tree.check_link(tip))
     ends, moving = f"{shown(base)!r} and {shown(tip)!r}", 0
     for step in steps:
         if step.joint.fault:
@@ -188,11 +191,6 @@ def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:
     if moving > JOINTS:
         raise UrdfError(f"{tree.where}: {moving} joints between {ends}; a chain has up to {JOINTS}")
     return steps
-
-
-def held_at_rest(steps: Sequence[Step]) -> list[TreeJoint]:
-    """Joints of more than one degree of freedom, all before the first that the chain moves."""
-    return [step.joint for step in steps if step.joint.kind not in (*MOVING, "fixed")]
 
 
 def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple[str, str]:
@@ -238,17 +236,22 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
 
 def _moving_names(tree: KinematicTree, base: str, tip: str) -> tuple[str, ...]:
     """Names of the moving joints from base to tip; empty where another kind is among them."""
+    names: list[str] = []
+    for step in _way(tree, base, tip):
+        if step.joint.kind in MOVING:
+            names.append(step.joint.name)
+        elif names and step.joint.kind != "fixed":
+            return ()
+    return tuple(names)
+
+
+def _way(tree: KinematicTree, base: str, tip: str) -> list[Step]:
+    """All joints from base up to the common ancestor and down to the tip."""
     up, down = tree.above(base), tree.above(tip)
     while up and down and up[-1] is down[-1]:
         up.pop()
         down.pop()
-    names: list[str] = []
-    for joint in (*up, *reversed(down)):
-        if joint.kind in MOVING:
-            names.append(joint.name)
-        elif names and joint.kind != "fixed":
-            return ()
-    return tuple(names)
+    return [Step(joint, False) for joint in up] + [Step(joint, True) for joint in reversed(down)]
 
 
 def _shared(chains: list[tuple[str, ...]]) -> tuple[str, ...]:

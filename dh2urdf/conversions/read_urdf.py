@@ -8,7 +8,7 @@ from typing import NoReturn
 from lxml import etree
 
 from dh2urdf.bounds import ANGLE, LINKS
-from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, Mimic, TreeJoint, TreeLink
 from dh2urdf.conversions.naming import listed
 from dh2urdf.conversions.urdf_reader import UrdfReader
 from dh2urdf.dh_io.files import shown
@@ -112,12 +112,15 @@ class _Forest:
         if mimic is None:
             return
         try:
-            for key in ("multiplier", "offset"):
-                reader.numbers(mimic, key, (0.0,), ANGLE)
+            factor, offset = (
+                reader.numbers(mimic, key, (default,), ANGLE)[0]
+                for key, default in (("multiplier", 1.0), ("offset", 0.0))
+            )
             leader, name = mimic.get("joint", ""), element.get("name")
             if leader not in self.joints or leader == name:
                 reader.fail(mimic, f"no joint {shown(leader)!r} to follow")
-            joint = self.joints[name] = replace(self.joints[name], mimic=leader)
+            follows = Mimic(leader, factor, offset)
+            joint = self.joints[name] = replace(self.joints[name], mimic=follows)
             self.above[joint.child] = joint
         except UrdfError as error:
             reader.mends.append(f"{error}; left out")
