@@ -367,7 +367,7 @@ def test_a_broken_mjcf(tmp_path):
     """MuJoCo's own complaint, in one message."""
     path = tmp_path / "broken.xml"
     path.write_text(MJCF.replace('type="slide"', 'type="sliding"'))
-    with pytest.raises(UrdfError, match="MuJoCo"):
+    with pytest.raises(UrdfError, match="mjcf: "):
         extract_dh(path)
 
 

@@ -10,7 +10,7 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.conversions.apart import expand_xacro, is_xacro
+from dh2urdf.conversions.apart import read_apart
 from dh2urdf.conversions.bare_urdf import bare_model
 from dh2urdf.conversions.kinematic_tree import (
     MOVING,
@@ -24,7 +24,7 @@ from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError, VerificationError
 
-__all__ = ["Description", "description_bytes", "mended_urdf", "read_description"]
+__all__ = ["Description", "description_bytes", "is_xacro", "mended_urdf", "read_description"]
 
 
 class Description(NamedTuple):
@@ -68,7 +68,15 @@ def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return source.encode(errors="replace"), "URDF text"
     data = read_bytes(source, ROBOT_BYTES, UrdfError)
-    return (expand_xacro(Path(source)) if is_xacro(source) else data), shown(source)
+    if is_xacro(source):
+        with read_apart("xacro", Path(source)) as folder:
+            data = read_bytes(folder / "text", ROBOT_BYTES, UrdfError)
+    return data, shown(source)
+
+
+def is_xacro(path: str | os.PathLike[str]) -> bool:
+    """True by the name of a file."""
+    return Path(path).suffix.lower() == ".xacro"
 
 
 def read_description(

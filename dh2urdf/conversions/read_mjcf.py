@@ -11,7 +11,7 @@ import pinocchio as pin
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, LINKS
-from dh2urdf.conversions.apart import mjcf_apart
+from dh2urdf.conversions.apart import read_apart
 from dh2urdf.conversions.inertia import Inertial
 from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
 from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
@@ -49,12 +49,12 @@ def read_mjcf(path: Path) -> tuple[KinematicTree, dict[str, int], pin.Model]:
     ------
     MissingExtraError, UrdfError
     """
-    with mjcf_apart(path) as (compiled, read):
+    with read_apart("mjcf", path) as folder:
         import mujoco
 
-        bodies = _Bodies(mujoco.MjModel.from_binary_path(compiled), shown(path))
+        bodies = _Bodies(mujoco.MjModel.from_binary_path(str(folder / "mjb")), shown(path))
         model = pin.Model()
-        model.loadFromBinary(read)
+        model.loadFromBinary(str(folder / "pin"))
     return bodies.tree(), bodies.addresses, model
 
 
