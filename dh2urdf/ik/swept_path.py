@@ -56,8 +56,8 @@ class SweptPath(PathFinder):
         from dh2urdf.kernels.path_states import onward
 
         samples = self.batch.solutions(pose).q
-        count = len(last.q) + len(samples)
-        q, cost, parent = np.empty((count, self.chain.n)), np.empty(count), np.empty(count, int)
+        q = np.concatenate([last.q, samples])
+        cost, parent = np.empty(len(q)), np.empty(len(q), int)
         onward(
             *(*self.arm, self.Ts[pose], self.chain.size, self.jump, BREAK),
             *(last.q, last.cost, samples, q, cost, parent),
@@ -74,31 +74,26 @@ class SweptPath(PathFinder):
         Through its keys a path is no longer than through all poses, so that those whose keys are
         longer than the shortest path need no more.
         """
-        last, ends, trials = stages[-1], np.empty((0, self.chain.n)), []
-        poses, least = np.array([stage.pose for stage in stages]), np.inf
+        last, poses = stages[-1], np.array([stage.pose for stage in stages])
+        trials: list[tuple[float, Array, Array, Array]] = []
+        ends = np.empty((0, self.chain.n))
         for state in last.cheapest():
-            if np.any(np.abs(ends - last.q[state]).max(axis=1) < CELL):
+            if len(trials) == TRIALS or np.any(np.abs(ends - last.q[state]).max(axis=1) < CELL):
                 continue
             q = trace(stages, int(state))
             rows = self._keys(q)
             keys = q[rows]
-            length = self._shorten(poses[rows], keys, np.inf)
-            length += BREAK * np.round(last.cost[state] / BREAK)
+            breaks = BREAK * np.round(last.cost[state] / BREAK)
+            trials.append((self._shorten(poses[rows], keys, np.inf) + breaks, rows, keys, q))
             ends = np.concatenate([ends, [last.q[state], keys[-1]]])
-            trials.append((length, q, rows, keys))
-            if len(trials) == TRIALS:
-                break
-        best = np.empty(0)
-        for length, q, rows, keys in sorted(trials, key=lambda trial: round(trial[0], 6)):
-            if length > least - EQUAL * (least % BREAK):
-                break
-            filled = self._filled(poses, q, rows, keys)
-            for path in [q] if filled is None else [filled, q]:
+        best, least = np.empty(0), np.inf
+        for length, rows, keys, q in sorted(trials, key=lambda trial: round(trial[0], 6)):
+            for path in (self._filled(poses, rows, keys), q):
+                if least - EQUAL * (least % BREAK) < length:
+                    return best
                 whole = self._shorten(poses, path, self.jump)
                 if whole < least:
                     best, least = path, whole
-                if least < length + EQUAL * (length % BREAK):
-                    break
         return best
 
     def _keys(self, q: Array) -> Array:
@@ -112,15 +107,17 @@ class SweptPath(PathFinder):
         """Shorten a path (m, n) through some poses in place; its length."""
         from dh2urdf.kernels.shorten import shorten
 
+        if not np.isfinite(q).all():
+            return np.inf
         Ts = np.ascontiguousarray(self.Ts[poses])
         start = np.empty((0, self.chain.n)) if self.origin is None else self.origin[None]
         return float(shorten(*self.arm, Ts, self.chain.size, start, jump, BREAK, q))
 
-    def _filled(self, poses: Array, q: Array, rows: Array, keys: Array) -> Array | None:
-        """A path through all poses near the shortened keys of q (m, n); None where that breaks."""
+    def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
+        """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
         from dh2urdf.kernels.path_states import onward
 
-        every = np.arange(len(q))
+        every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])
         none, cost, parent = np.empty((0, self.chain.n)), np.empty(1), np.empty(1, int)
         for i in np.setdiff1d(every, rows):
@@ -128,6 +125,5 @@ class SweptPath(PathFinder):
                 *(*self.arm, self.Ts[poses[i]], self.chain.size, self.jump, BREAK),
                 *(path[i : i + 1].copy(), np.zeros(1), none, path[i : i + 1], cost, parent),
             )
-            if not np.isfinite(cost[0]):
-                return None
+            path[i] += 0.0 if np.isfinite(cost[0]) else np.nan
         return path

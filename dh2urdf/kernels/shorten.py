@@ -1,9 +1,10 @@
 """A joint path of a chain with one joint to spare, made shorter while every pose is kept.
 
-At each pose the solution q_i may move along its self-motion, ``q_i(x) = q_i + x t_i + x^2 k_i / 2``
-with unit tangent t and curvature k. The length ``sum |q_i - q_(i-1)|`` is a function of the x whose
-Hessian is tridiagonal, as each x is in two steps only: Newton's method costs a few operations a
-pose. Joints at a limit stop their pose (projected Newton, Bertsekas 1982).
+At each pose the solution q_i may move along its self-motion, by x_i along its unit tangent t_i. Of
+the length ``sum |q_i - q_(i-1)|`` as a function of the x the Hessian, but for the curvature of the
+self-motions, is positive and tridiagonal, as each x is in two steps only: a Newton step costs a few
+operations a pose. Limits, and a region of trust, bound each x; which bounds hold is found by the
+primal-dual active set method (Hintermueller, Ito and Kunisch 2002).
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import numpy as np
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, make_damped, restore
 from dh2urdf.kernels.path_states import step_length
-from dh2urdf.kernels.self_motion import HELD, LONGEST, _excess, _tangent
+from dh2urdf.kernels.self_motion import HELD, LONGEST, _excess, _part_inside, _tangent
 
 __all__ = ["shorten"]
 
@@ -28,23 +29,17 @@ ENOUGH = 1e-7
 KINK = 1e-7
 """Length [rad or m] below which a step counts as smooth: that of a repeated pose is zero."""
 
-FLAT = 1e-9
-"""Pivot, relative to its entry of the Hessian, that counts as zero."""
-
 LEAST = 1e-6
-"""Added to a Hessian [1/rad] that is not positive, so that it is."""
+"""Added to the Hessian [1/rad], so that it is positive on straight self-motions too."""
 
 NEAREST = 1e-6
 """Radius [rad or m] of the region of trust at which a path is left as it is."""
 
 PASSES = 30
-"""Rounds in which rows of a Newton step are set to their bounds; two or three are usual."""
+"""Rounds in which bounds are set and lifted; two or three are usual."""
 
 RETURNS = 10
 """Trials to move one pose without leaving its limits."""
-
-PROBE = 1e-3
-"""Step [rad or m] along a self-motion by which its curvature is measured."""
 
 
 @inner_kernel
@@ -59,32 +54,28 @@ def _length(start, q, jump, penalty):
 
 
 @inner_kernel
-def _add_step(a, b, ta, tb, ka, kb, g, diagonal, bent, beside, i):
+def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     """Add the step from a (row i - 1) to b (row i) to gradient and Hessian."""
-    length, along_a, along_b, across, bend_a, bend_b = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    length, along_a, along_b, across = KINK * KINK, 0.0, 0.0, 0.0
     for j in range(a.shape[0]):
         d = b[j] - a[j]
         length += d * d
         along_a += d * ta[j]
         along_b += d * tb[j]
         across += ta[j] * tb[j]
-        bend_a += d * ka[j]
-        bend_b += d * kb[j]
-    length = math.sqrt(length + KINK * KINK)
+    length = math.sqrt(length)
     along_a, along_b = along_a / length, along_b / length
     if i > 0:
         g[i - 1] -= along_a
         diagonal[i - 1] += (1.0 - along_a * along_a) / length
-        bent[i - 1] -= bend_a / length
         beside[i] = (along_a * along_b - across) / length
     g[i] += along_b
     diagonal[i] += (1.0 - along_b * along_b) / length
-    bent[i] += bend_b / length
 
 
 @inner_kernel
 def _solve(g, diagonal, beside, x, bound, pivot):
-    """Newton step x (m,), rows with a finite bound at it; False if the Hessian is not positive."""
+    """Newton step x (m,); where a bound is finite x is there."""
     m = g.shape[0]
     for i in range(m):
         if not math.isinf(bound[i]):
@@ -94,23 +85,18 @@ def _solve(g, diagonal, beside, x, bound, pivot):
         if i > 0:
             pivot[i] -= beside[i] * beside[i] / pivot[i - 1]
             x[i] -= beside[i] * (x[i - 1] if math.isinf(pivot[i - 1]) else x[i - 1] / pivot[i - 1])
-        if not pivot[i] > FLAT * diagonal[i]:
-            return False
     for i in range(m - 1, -1, -1):
         if math.isinf(bound[i]):
             x[i] = (x[i] - (beside[i + 1] * x[i + 1] if i + 1 < m else 0.0)) / pivot[i]
-    return True
 
 
 @inner_kernel
-def _newton(g, diagonal, beside, low, high, radius, x, work):
-    """Newton step x (m,) between bounds; what is beyond one is set to it, and the rest anew."""
+def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
+    """Newton step x (m,) between bounds: beyond one x is set to it, pushed off it is let go."""
     m = g.shape[0]
-    bound, pivot = work[0], work[1]
     bound[:] = math.inf
     for _ in range(PASSES):
-        if not _solve(g, diagonal, beside, x, bound, pivot):
-            return False
+        _solve(g, diagonal, beside, x, bound, pivot)
         settled = True
         for i in range(m):
             least, most = max(low[i], -radius), min(high[i], radius)
@@ -131,89 +117,28 @@ def _newton(g, diagonal, beside, low, high, radius, x, work):
             break
     for i in range(m):
         x[i] = min(max(x[i], low[i], -radius), high[i], radius)
-    return True
 
 
 @inner_kernel
-def _root(slope, half, gap):
-    """Least x >= 0 at which ``slope x + half x^2`` exceeds a gap."""
-    root = slope * slope + 4.0 * half * gap
-    if math.isinf(gap) or root < 0.0 or (slope <= 0.0 and half <= 0.0):
-        return math.inf
-    root = math.sqrt(root)
-    if slope >= 0.0:
-        return 2.0 * gap / max(slope + root, 1e-300)
-    return (root - slope) / (2.0 * half)
-
-
-@inner_kernel
-def _room(joints, q, tangent, bend, sign):
-    """How far q may move along its self-motion, one way or the other, inside the limits."""
-    room = LONGEST
-    for j in range(q.shape[0]):
-        slope, half = sign * tangent[j], 0.5 * bend[j]
-        upper, lower = max(joints[j, 2] - q[j], 0.0), max(q[j] - joints[j, 1], 0.0)
-        room = min(room, _root(slope, half, upper), _root(-slope, -half, lower))
-    return room
-
-
-@inner_kernel
-def _frames(links, joints, Ts, unit, q, tangent, bend, low, high, scratch, damped):
-    """Tangents and curvatures of the self-motions at q (m, n), how far each way is free."""
-    n = q.shape[1]
-    probe, work = scratch[0], scratch[1]
-    for i in range(q.shape[0]):
-        for j in range(n):
-            probe[j] = tangent[i, j] + 1e-3 * (1.0 + 0.1 * j)
-            bend[i, j] = 0.0
-        low[i], high[i] = 0.0, 0.0
-        if not _tangent(links, joints, POSE, Ts[i], unit, q[i], probe, tangent[i], damped):
-            for j in range(n):
-                tangent[i, j] = 0.0
-            continue
-        for j in range(n):
-            probe[j] = q[i, j] + PROBE * tangent[i, j]
-        if restore(links, joints, POSE, Ts[i], unit, probe, work, damped) <= HELD:
-            for j in range(n):
-                bend[i, j] = 2.0 * (probe[j] - q[i, j] - PROBE * tangent[i, j]) / PROBE**2
-        high[i] = _room(joints, q[i], tangent[i], bend[i], 1.0)
-        low[i] = -_room(joints, q[i], tangent[i], bend[i], -1.0)
-
-
-@inner_kernel
-def _move(links, joints, Ts, unit, q, tangent, bend, x, trial, scratch, damped):
+def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
     """Move each pose's q by x along its self-motion, less where a limit is in the way."""
-    n, work = q.shape[1], scratch[0]
     for i in range(q.shape[0]):
         way = x[i]
         for _ in range(RETURNS):
-            for j in range(n):
-                trial[i, j] = q[i, j] + way * tangent[i, j] + 0.5 * way * way * bend[i, j]
+            trial[i] = q[i] + way * tangent[i]
             if restore(links, joints, POSE, Ts[i], unit, trial[i], work, damped) > HELD:
                 way *= 0.5
                 continue
             worst, change = 0.0, 0.0
-            for j in range(n):
-                excess, slope = _excess(joints, trial[i], j), tangent[i, j] + way * bend[i, j]
+            for j in range(q.shape[1]):
+                excess = _excess(joints, trial[i], j)
                 if abs(excess) > worst:
-                    worst, change = abs(excess), excess / slope
+                    worst, change = abs(excess), excess / tangent[i, j]
             if worst == 0.0:
                 break
             way = way + change if abs(change) < 0.5 * abs(way) else 0.5 * way
         else:
             trial[i] = q[i]
-
-
-@inner_kernel
-def _model(start, q, tangent, bend, zero, g, diagonal, bent, beside):
-    """Gradient and Hessian of the length, the part of its diagonal that is due to curvature."""
-    g[:], diagonal[:], bent[:], beside[:] = 0.0, 0.0, 0.0, 0.0
-    h = g, diagonal, bent, beside
-    if start.shape[0] > 0:
-        _add_step(start[0], q[0], zero, tangent[0], zero, bend[0], *h, 0)
-    for i in range(1, q.shape[0]):
-        _add_step(q[i - 1], q[i], tangent[i - 1], tangent[i], bend[i - 1], bend[i], *h, i)
-    diagonal += bent
 
 
 @kernel
@@ -230,19 +155,27 @@ def shorten(links, joints, Ts, unit, start, jump, penalty, q):
         What a step costs in which a joint moves by more than ``jump`` [rad or m].
     """
     m, n = q.shape
-    damped, scratch, work = make_damped(n), np.zeros((3, n)), np.empty((9, m))
-    tangent, bend, trial = np.zeros((m, n)), np.zeros((m, n)), np.empty((m, n))
-    low, high, x = work[2], work[3], work[4]
-    g, diagonal, bent, beside = work[5], work[6], work[7], work[8]
+    damped, guess, work = make_damped(n), np.empty(n), np.empty(n)
+    tangent, trial, none = np.zeros((m, n)), np.empty((m, n)), np.zeros(n)
+    g, diagonal, beside, low, high, x, bound, pivot = np.empty((8, m))
     length, radius = _length(start, q, jump, penalty), LONGEST
     for _ in range(ROUNDS):
-        _frames(links, joints, Ts, unit, q, tangent, bend, low, high, scratch, damped)
-        _model(start, q, tangent, bend, scratch[2], g, diagonal, bent, beside)
-        if not _newton(g, diagonal, beside, low, high, radius, x, work):
-            diagonal += np.maximum(0.0, -bent) + LEAST
+        g[:], diagonal[:], beside[:] = 0.0, LEAST, 0.0
+        for i in range(m):
+            for j in range(n):
+                guess[j] = tangent[i, j] + 1e-3 * (1.0 + 0.1 * j)
+            if not _tangent(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
+                tangent[i] = 0.0
+            high[i] = _part_inside(joints, q[i], tangent[i], LONGEST)
+            low[i] = _part_inside(joints, q[i], tangent[i], -LONGEST)
+            if i > 0:
+                _add_step(q[i - 1], q[i], tangent[i - 1], tangent[i], g, diagonal, beside, i)
+            elif start.shape[0] > 0:
+                _add_step(start[0], q[0], none, tangent[0], g, diagonal, beside, 0)
         shorter = length
-        while radius > NEAREST and _newton(g, diagonal, beside, low, high, radius, x, work):
-            _move(links, joints, Ts, unit, q, tangent, bend, x, trial, scratch, damped)
+        while radius > NEAREST:
+            _newton(g, diagonal, beside, low, high, radius, x, bound, pivot)
+            _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped)
             shorter = _length(start, trial, jump, penalty)
             if shorter < length:
                 break
