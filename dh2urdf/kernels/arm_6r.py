@@ -25,7 +25,7 @@ _ARM = {
     "size": (),  # longest of the short links [m]
     "links": (7, 12),  # T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]
     "ends": (2, 4, 4),  # inverses of the first and the last of the short links
-    "turns": (2, 6),  # cosines and sines of the joints' zeros inside the solver
+    "turns": (3, 6),  # cosines and sines of the joints' zeros inside the solver, and the zeros
     "chain": (6, 12),  # short links in between, in parts of the size; then the target
     "lefts": (MOST + 1, 14, 27),  # left sides
 }
@@ -50,6 +50,7 @@ _WORK = {
     "casteljau": LANES,
     "roots": LANES,
     "slopes": LANES,  # at the roots
+    "doubles": LANES,  # roots to be tried again as double ones
     "spans": (2, SPANS + 1),  # spans of doubt, their number first
     "fresh": (2, SPANS + 1),  # those in a window
     "null": COLUMN,  # null vectors
@@ -68,10 +69,11 @@ _WORK = {
     "position": LANES,  # its length
     "angle": LANES,
     "before": LANES,  # the error before
+    "seeded": LANES,  # the error of the seeds
     "seen": LANES,  # solutions that a root led to
     "q": 6,
     "kept": LANES,  # determinants of the solutions' Jacobians
-    "first": 2,  # error of the first seeds, spans of doubt then
+    "first": 2,  # error of the seeds, spans of doubt in the first trial
 }
 
 ARM_6R = np.dtype(

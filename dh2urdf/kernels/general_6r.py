@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.arm_6r import ARM_6R, MOST
-from dh2urdf.kernels.general_6r_follow import follow, isolated
+from dh2urdf.kernels.general_6r_follow import accounted, follow, isolated
 from dh2urdf.kernels.general_6r_roots import (
     eliminate,
     find_roots,
@@ -131,7 +131,7 @@ def _place(arm: Arm, links: Array) -> None:
     short = _short_links(links)
     size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
     arm["links"], arm["size"], arm["ends"] = _flat(links), size, np.linalg.inv(short[[0, 6]])
-    arm["turns"] = np.cos(TURN), np.sin(TURN)
+    arm["turns"] = np.cos(TURN), np.sin(TURN), TURN
     arm["chain"][0, :5] = _flat(short[1:6])
     arm["chain"][0, :5, 3::4] /= size
 
@@ -188,10 +188,11 @@ def _solve_pose(T, out_q, out_residual, arm):
             found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
             if trial == 0:
                 first[0], first[1] = seeded, spans[0, 0]
-        clear = retried == 0 and spans[1, 0] == 0.0 and seeded < COARSE
-        sure = clear if before == 0 else found == before
+        whole = retried == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
+        clear = spans[1, 0] == 0.0 and (whole or (before > 0 and trial >= trials))
+        sure = seeded < COARSE if before == 0 else found == before
         fits = found % 2 == 0 and found >= simple and found + trial > 0
-        if sure and fits and isolated(found, arm["kept"]):
+        if clear and sure and fits and isolated(found, arm["kept"]):
             break
     return found
 

@@ -20,7 +20,9 @@ from dh2urdf.kernels.loop_angles import left_frames, other_joints
 from dh2urdf.kernels.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.resultant import resultants, split_pairs, two_joints
 
-__all__ = ["follow", "isolated"]
+__all__ = ["accounted", "follow", "isolated"]
+
+TWO_PI = 2.0 * math.pi
 
 TOLERANCE = 1e-9
 """Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
@@ -47,22 +49,20 @@ SINGULAR = 1e-6
 MEMBERS = 8
 """Most singular solutions kept."""
 
+AT_ROOT = 1e-4
+"""Angle [rad] between a root and the hidden joint's value at a solution of it: double roots are
+known to 1e-8 at best, to the root of that where four solutions nearly meet."""
+
 
 @vector_kernel
-def _seeds(e, count, copies, arm):
+def _seeds(e, roots, count, copies, arm):
     """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
 
     Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
     """
     loop, right, basis, factors = arm["loop"], arm["right"], arm["basis"], arm["factors"]
     W, b, second, frames = arm["W"], arm["null"], arm["second"], arm["frames"]
-    turns, roots, hidden, fourth, fifth = (
-        arm["turns"],
-        arm["roots"],
-        arm["hidden"],
-        arm["fourth"],
-        arm["fifth"],
-    )
+    turns, hidden, fourth, fifth = arm["turns"], arm["hidden"], arm["fourth"], arm["fifth"]
     c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
     shift, reverse = arm["choices"][e, 0], arm["choices"][e, 1]
     lanes = count * copies
@@ -99,21 +99,16 @@ def _seeds(e, count, copies, arm):
 def _polish(lanes, damped, arm):
     """Newton on the exact chain until every lane has converged or has ceased to.
 
-    Leaves the determinant of the Jacobian, in parts of the arm's size cubed, in ``determinant``.
-
-    Returns
-    -------
-    float
-        The largest error of the seeds.
+    Leaves the errors of the seeds, lengths in parts of the arm's size, in ``seeded``, and the
+    determinant of the Jacobian, in parts of the size cubed, in ``determinant``.
     """
     target, A, J, V, beta = arm["target"], arm["A"], arm["W"], arm["V"], arm["beta"]
     cosines, sines, frames = arm["cosines"], arm["sines"], arm["frames"]
-    links, size, scale = arm["links"], arm["size"], arm["determinant"]
+    links, size, scale, seeded = arm["links"], arm["size"], arm["determinant"], arm["seeded"]
     error, position, angle, before = arm["error"], arm["position"], arm["angle"], arm["before"]
     n = (lanes + 7) // 8 * 8
     goal = CONVERGED * max(size, 1.0)
     weight = 1.0 / size
-    seeded = 0.0
     for k in range(lanes):
         before[k] = math.inf
     for step in range(MOST_STEPS + 1):
@@ -123,7 +118,7 @@ def _polish(lanes, damped, arm):
         for k in range(lanes):
             now = max(position[k], angle[k])
             if step == 0:
-                seeded = max(seeded, position[k] * weight, angle[k])
+                seeded[k] = max(position[k] * weight, angle[k])
             if now <= goal:
                 for i in range(6):
                     error[i * LANES + k] = 0.0
@@ -138,7 +133,6 @@ def _polish(lanes, damped, arm):
     for k in range(lanes):
         product = abs(scale[k])
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
-    return seeded
 
 
 @vector_kernel
@@ -192,39 +186,72 @@ def _place(k, found, out_q, out_residual, arm):
     return max(found, place + 1), place
 
 
+@vector_kernel
+def _at_root(e, root, q, arm):
+    """Whether the hidden joint of elimination e has the value of a root at a solution q (6,)."""
+    shift, turns = arm["choices"][e, 0], arm["turns"]
+    reverse = arm["choices"][e, 1] != 0
+    joint = (9 - shift) % 6 if reverse else (2 + shift) % 6
+    value = q[joint] - turns[2, joint]
+    gap = (value + root if reverse else value - root) / TWO_PI
+    return abs(gap - math.floor(gap + 0.5)) < AT_ROOT / TWO_PI
+
+
 @inlined
 def follow(e, count, found, out_q, out_residual, arm):
     """Append the solutions that a list of roots leads to.
 
-    A double root, a root that leads nowhere and one that leads where another went are taken for
-    two solutions with the same value of the hidden joint, and tried again as such.
+    A double root, and one that leads nowhere, to another value of the hidden joint or where another
+    root went, are taken for two solutions with the same value of it, and tried again as such.
 
     Returns
     -------
     int, int, float
         The number of solutions, how many roots had to be tried again, and the largest error of
-        the first seeds.
+        the seeds that stood: roots with more than two solutions, or none, have no exact ones.
     """
-    roots, slopes, seen = arm["roots"], arm["slopes"], arm["seen"]
-    again, seeded = np.int64(0), 0.0
+    roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
+    again, worst = np.int64(0), 0.0
     for copies in range(1, 3):
-        _seeds(e, count, copies, arm)
-        error = _polish(count * copies, copies - 1, arm)
-        seeded = error if copies == 1 else seeded
+        lanes = _seeds(e, roots if copies == 1 else doubles, count, copies, arm)
+        _polish(lanes, copies - 1, arm)
         for f in range(LANES):
             seen[f] = 0.0
-        for lane in range(count * copies):
+        for lane in range(lanes):
             found, place = _place(lane, found, out_q, out_residual, arm)
-            if copies == 1:
-                if place < 0 or seen[place] > 0.0 or slopes[lane] == 0.0:
-                    roots[again] = roots[lane]
-                    again += 1
-                if place >= 0:
-                    seen[place] = 1.0
+            led = place >= 0 and seen[place] == 0.0 and slopes[lane] > 0.0
+            if copies == 2 or (led and _at_root(e, roots[lane], out_q[place], arm)):
+                worst = max(worst, arm["seeded"][lane])
+            else:
+                doubles[again] = roots[lane]
+                again += 1
+            if place >= 0:
+                seen[place] = 1.0
         count = min(again, LANES // 2)
         if count == 0:
             break
-    return found, again, seeded
+    return found, again, worst
+
+
+@vector_kernel
+def accounted(e, count, found, out_q, arm):
+    """Whether every root has as many solutions with its value as it has multiplicity.
+
+    Those that did not have to be tried again do. A complex pair next to the real axis counts as a
+    double root only where it has a solution.
+    """
+    roots, slopes = arm["roots"], arm["slopes"]
+    for r in range(count):
+        here, there = 0, 0
+        for t in range(count):
+            if abs(roots[t] - roots[r]) < AT_ROOT:
+                here += 1 if slopes[t] > 0.0 else 2
+        for f in range(found):
+            if _at_root(e, roots[r], out_q[f], arm):
+                there += 1
+        if there < here and (there > 0 or slopes[r] > 0.0):
+            return False
+    return True
 
 
 @vector_kernel

@@ -24,6 +24,10 @@ __all__ = ["resultants", "split_pairs", "two_joints"]
 
 SQRT2 = math.sqrt(2.0)
 HALF = 3 * LANES
+LOWER = np.array([[0, 1, 2, 0], [0, 1, 3, 4]])
+HIGHER = np.array([[3, 4, 5, 0], [1, 2, 4, 5]])
+LOWER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0, 1.0 / SQRT2, 1.0, 1.0 / SQRT2]])
+HIGHER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0 / SQRT2, 1.0, 1.0 / SQRT2, 1.0]])
 
 
 @vector_kernel
@@ -99,29 +103,51 @@ def two_joints(b, n, x, y):
         y[0, k], y[1, k] = c * h, s * h
 
 
+@vector_kernel
+def _pencil(b, second, k, columns, rows):
+    """Matrix of which the combinations c of two vectors with ``N2 c = x N1 c`` are eigenvectors.
+
+    ``(N1^T N1)^-1 N1^T N2``, where N1 and N2 are lane k of entries of b and ``second`` that belong
+    to neighbouring powers of x, or of y.
+
+    Returns
+    -------
+    float, float, float, float, float
+        The matrix, and how far apart its eigenvalues are: squared sine of the angle between them.
+    """
+    g00, g01, g11, h00, h01, h10, h11 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(rows):
+        low, high = LOWER[columns, i] * LANES + k, HIGHER[columns, i] * LANES + k
+        f, g = LOWER_SCALE[columns, i], HIGHER_SCALE[columns, i]
+        p0, p1, q0, q1 = f * b[low], f * second[low], g * b[high], g * second[high]
+        g00 += p0 * p0
+        g01 += p0 * p1
+        g11 += p1 * p1
+        h00 += p0 * q0
+        h01 += p0 * q1
+        h10 += p1 * q0
+        h11 += p1 * q1
+    d = g00 * g11 - g01 * g01 + 1e-300
+    a00, a01 = (g11 * h00 - g01 * h10) / d, (g11 * h01 - g01 * h11) / d
+    a10, a11 = (g00 * h10 - g01 * h00) / d, (g00 * h11 - g01 * h01) / d
+    gap = (a00 - a11) * (a00 - a11) + 4.0 * a01 * a10
+    cosine = 1.0 - (a00 * a11 - a01 * a10)
+    return a00, a01, a10, a11, gap / (cosine * cosine + (a00 + a11) * (a00 + a11))
+
+
 @inlined
 def split_pairs(b, second, n):
     """Two rank-one vectors ``(v, x v)`` from a plane of null vectors, in lanes 2k and 2k + 1.
 
-    Lanes 2k and 2k + 1 hold the same plane, spanned by b and ``second``. Of its vectors
-    ``(N1 c, N2 c)`` those with ``N2 c = x N1 c`` are wanted: c is an eigenvector of the 2 x 2
-    matrix ``(N1^T N1)^-1 N1^T N2``. A complex pair gives its real part twice. b is overwritten.
+    Lanes 2k and 2k + 1 hold the same plane, spanned by b and ``second``. The two differ in x or
+    in y, or in both: taken apart by the one in which they differ more. A complex pair gives its
+    real part twice. b is overwritten.
     """
     for k in range(n):
-        g00, g01, g11, h00, h01, h10, h11 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(3):
-            p0, p1 = b[i * LANES + k], second[i * LANES + k]
-            q0, q1 = b[(i + 3) * LANES + k], second[(i + 3) * LANES + k]
-            g00 += p0 * p0
-            g01 += p0 * p1
-            g11 += p1 * p1
-            h00 += p0 * q0
-            h01 += p0 * q1
-            h10 += p1 * q0
-            h11 += p1 * q1
-        d = g00 * g11 - g01 * g01 + 1e-300
-        a00, a01 = (g11 * h00 - g01 * h10) / d, (g11 * h01 - g01 * h11) / d
-        a10, a11 = (g00 * h10 - g01 * h00) / d, (g00 * h11 - g01 * h01) / d
+        a00, a01, a10, a11, apart = _pencil(b, second, k, 0, 3)
+        d00, d01, d10, d11, apart_y = _pencil(b, second, k, 1, 4)
+        if apart_y > apart:
+            a00, a01, a10, a11 = d00, d01, d10, d11
         half = 0.5 * (a00 - a11)
         root = math.sqrt(max(half * half + a01 * a10, 0.0))
         x = 0.5 * (a00 + a11) + (root if k % 2 == 0 else -root)
