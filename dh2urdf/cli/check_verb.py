@@ -23,6 +23,7 @@ from dh2urdf.checks import (
     ask_all,
     check_urdf,
 )
+from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json, note
 from dh2urdf.cli.progress import track
 from dh2urdf.conversions.description import description_bytes, is_xacro, mended_urdf
@@ -46,7 +47,7 @@ def check_(
     base: str | None = None,
     tip: str | None = None,
     force: bool = False,
-    json: bool = False,
+    json: Json = False,
 ) -> int:
     """Say what the consumers of a URDF would say of it, and how to mend it.
 
@@ -70,8 +71,6 @@ def check_(
         the longest chain.
     force
         Replace a file that this package did not write.
-    json
-        One JSON object instead of text.
     """
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")

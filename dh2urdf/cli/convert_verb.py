@@ -9,7 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import whole
+from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
 from dh2urdf.dh import DHTable
@@ -30,7 +30,7 @@ def convert_(
     dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
     digits: Annotated[int | None, whole(0, 17)] = None,
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
-    json: bool = False,
+    json: Json = False,
 ) -> int:
     """Turn DH tables into URDF files that Pinocchio has checked, or into tables of other formats.
 
@@ -60,8 +60,6 @@ def convert_(
         Round all numbers to so many decimals (IKFast); default: every digit.
     balance_inertia
         Make inertia tensors that no body could have acceptable to every consumer.
-    json
-        One JSON object instead of text.
     """
     options = UrdfOptions(
         dh_frames=dh_frames, collision=collision, digits=digits, balance_inertia=balance_inertia

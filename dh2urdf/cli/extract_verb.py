@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.cli.options import real
+from dh2urdf.cli.options import Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, note, stdin
 from dh2urdf.dh_io.files import read_text
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
@@ -43,12 +43,12 @@ def extract_(
     explain: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     format: Format | None = None,
-    force: bool = False,
+    force: Force = False,
     x_axis: Literal["auto", "away"] = "auto",
     compact: Annotated[bool, Parameter(negative="--no-compact")] = True,
     flip: tuple[str, ...] = (),
     embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
-    json: bool = False,
+    json: Json = False,
 ) -> int:
     """Find the DH table of a URDF, xacro or MJCF, or of joint axes, by frame assignment.
 
@@ -74,8 +74,6 @@ def extract_(
     format
         Format of the output; rtb is Python for robotics-toolbox-python, matlab is for Corke's
         toolbox, matlab-rst for the Robotics System Toolbox.
-    force
-        Replace a file that dh2urdf did not write.
     x_axis
         away: every x points away from the axis before it, a >= 0, as in the notes.
     compact
@@ -84,8 +82,6 @@ def extract_(
         Joint whose z is to point against its positive direction; repeat for several.
     embedded
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
-    json
-        One JSON object instead of text.
     """
     found = extract_dh(
         _stdin() if source == "-" else source,

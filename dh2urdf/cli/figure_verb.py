@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.bounds import DPI
-from dh2urdf.cli.options import Values, read_numbers, real
+from dh2urdf.cli.options import (
+    Arm,
+    Deg,
+    Dpi,
+    Force,
+    Json,
+    Link,
+    PicturePath,
+    Values,
+    read_numbers,
+)
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 from dh2urdf.dh_io import Kind, Units
 
@@ -18,35 +26,29 @@ __all__ = ["figure_"]
 
 
 def figure_(
-    robot: str,
+    robot: Arm,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    output: PicturePath,
     q: Values = None,
-    deg: bool = False,
+    deg: Deg = False,
     style: Literal["bodies", "schematic"] = "bodies",
     branches: bool = False,
     frames: Annotated[bool, Parameter(negative="--no-frames")] = True,
     table: Annotated[bool, Parameter(negative="--no-table")] = True,
     view: Values = None,
-    base: str | None = None,
-    tip: str | None = None,
-    dpi: Annotated[float, real(*DPI)] = 180.0,
-    force: bool = False,
-    json: bool = False,
+    base: Link = None,
+    tip: Link = None,
+    dpi: Dpi = 180.0,
+    force: Force = False,
+    json: Json = False,
 ) -> int:
     """Draw an arm with its DH frames and its table.
 
     Parameters
     ----------
-    robot
-        A table file, the name of a table that ships, or a URDF.
-    output
-        The picture to write: .png, .svg or .pdf.
     q
         Configuration: --q=0,-pi/2,90deg or --q 0 -90 90 --deg; default zero.
-    deg
-        Bare angles are degrees.
     style
         Solid bodies, or the lines, cylinders and boxes of textbooks.
     branches
@@ -57,14 +59,6 @@ def figure_(
         Draw the DH table beside the arm.
     view
         Azimuth and elevation of the eye in degrees; default: one that shows the arm.
-    base, tip
-        Links of a URDF to draw between.
-    dpi
-        Resolution of a PNG.
-    force
-        Replace a file that dh2urdf did not write.
-    json
-        One JSON object instead of text.
     """
     from dh2urdf.figures import figure, save_picture
     from dh2urdf.figures.save import check_target

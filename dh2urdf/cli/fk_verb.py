@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.cli.options import Values
+from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, note, parse_configuration, robot_of
 from dh2urdf.grids import number
 from dh2urdf.transforms import matrix_to_rpy
@@ -13,31 +13,25 @@ __all__ = ["fk_"]
 
 
 def fk_(
-    robot: str,
+    robot: Arm,
     /,
     *values: str,
     q: Values = None,
     deg: bool = False,
-    base: str | None = None,
-    tip: str | None = None,
-    json: bool = False,
+    base: Link = None,
+    tip: Link = None,
+    json: Json = False,
 ) -> int:
     """Place the tip: forward kinematics of a table or a URDF.
 
     Parameters
     ----------
-    robot
-        A table file, the name of a table that ships, or a URDF.
     values
         Joint values: radians (degrees with --deg) and metres; 90deg, 120mm, -pi/2 also do.
     q
         The same as an option: --q=0,-pi/2,90deg.
     deg
         Bare angles are degrees, and the orientation is shown in degrees.
-    base, tip
-        Links of a URDF to measure between.
-    json
-        One JSON object instead of text.
     """
     arm = robot_of(robot, base, tip)
     config = parse_configuration([*values, *(q or [])], arm, deg=deg)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from dh2urdf.cli.ik_poses import Poses, pose_of, poses_of_csv
-from dh2urdf.cli.options import Values
+from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
@@ -31,7 +31,7 @@ SHOWN = 5
 
 
 def ik_(
-    robot: str,
+    robot: Arm,
     /,
     *,
     xyz: Values = None,
@@ -45,16 +45,14 @@ def ik_(
     within_limits: bool = False,
     nearest: bool = False,
     deg: bool = False,
-    base: str | None = None,
-    tip: str | None = None,
-    json: bool = False,
+    base: Link = None,
+    tip: Link = None,
+    json: Json = False,
 ) -> int:
     """Find every configuration that reaches a pose, each measured by Pinocchio.
 
     Parameters
     ----------
-    robot
-        A table file, the name of a table that ships, or a URDF.
     xyz
         Position of the tip in the base: metres; 400mm also does.
     rpy
@@ -79,10 +77,6 @@ def ik_(
         Take the nearest rotation where that of a matrix is rounded, and tell how far it was.
     deg
         Bare angles are degrees, and angles are shown in degrees.
-    base, tip
-        Links of a URDF to measure between.
-    json
-        One JSON object instead of text.
     """
     logging.getLogger("dh2urdf").addHandler(logging.StreamHandler(sys.stderr))
     arm = robot_of(robot, base, tip)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json
 from dh2urdf.grids import grid_text
 from dh2urdf.robots import list_tables, load_table
@@ -9,14 +10,8 @@ from dh2urdf.robots import list_tables, load_table
 __all__ = ["list_"]
 
 
-def list_(*, json: bool = False) -> int:
-    """List the tables that ship with the package.
-
-    Parameters
-    ----------
-    json
-        One JSON object instead of text.
-    """
+def list_(*, json: Json = False) -> int:
+    """List the tables that ship with the package."""
     tables = [load_table(name) for name in list_tables()]
     if json:
         emit_json(

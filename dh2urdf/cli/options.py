@@ -13,7 +13,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from dh2urdf.bounds import ANGLE, LENGTH, NUMBER
+from dh2urdf.bounds import ANGLE, DPI, LENGTH, NUMBER
 from dh2urdf.dh_io import FORMATS, Kind, Units, parse_cell
 from dh2urdf.dh_io.units import SI
 from dh2urdf.dh_io.values import FUNCTIONS
@@ -22,6 +22,13 @@ from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
 
 __all__ = [
     "LARGEST",
+    "Arm",
+    "Deg",
+    "Dpi",
+    "Force",
+    "Json",
+    "Link",
+    "PicturePath",
     "Values",
     "check_together",
     "marked",
@@ -41,6 +48,15 @@ _VALUE = re.compile(
 
 Values = Annotated[list[str] | None, Parameter(consume_multiple=(1, None))]
 """Numbers after one option, parted by spaces or commas, read by :func:`read_numbers`."""
+
+Arm = Annotated[str, Parameter(help="A table file, the name of a table that ships, or a URDF.")]
+Link = Annotated[str | None, Parameter(help="Link of a URDF where the chain begins or ends.")]
+Deg = Annotated[bool, Parameter(help="Bare angles are degrees.")]
+Json = Annotated[bool, Parameter(help="One JSON object instead of text.")]
+Force = Annotated[bool, Parameter(help="Replace a file that dh2urdf did not write.")]
+PicturePath = Annotated[
+    Path, Parameter(name=["--output", "-o"], help="The picture to write: .png, .svg or .pdf.")
+]
 
 LARGEST = {Kind.LENGTH: LENGTH, Kind.ANGLE: ANGLE, Kind.NUMBER: NUMBER}
 
@@ -136,6 +152,8 @@ def whole(low: int, high: int) -> Parameter:
 
     return Parameter(converter=read)
 
+
+Dpi = Annotated[float, real(*DPI), Parameter(help="Resolution of a PNG.")]
 
 _TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
 

@@ -18,26 +18,10 @@ PATIENCE = 0.5
 
 def track(items: Sequence[T], what: str) -> Iterator[T]:
     """Yield the items, with a bar on stderr where that is a terminal and the work is long."""
-    if not sys.stderr.isatty():
-        yield from items
-        return
-    start = time.monotonic()
-    for k, item in enumerate(items):
-        if time.monotonic() - start > PATIENCE:
-            yield from _with_bar(items, k, what)
-            return
-        yield item
-
-
-def _with_bar(items: Sequence[T], done: int, what: str) -> Iterator[T]:
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=len(items), completed=done)
-        for item in items[done:]:
+    with bar(what, len(items)) as report:
+        for done, item in enumerate(items, 1):
             yield item
-            progress.advance(task)
+            report(done, len(items))
 
 
 @contextmanager

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.cli.options import Values
+from dh2urdf.cli.options import Deg, Json, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import NoSolverError
@@ -21,10 +21,10 @@ def show_(
     /,
     *values: str,
     q: Values = None,
-    deg: bool = False,
+    deg: Deg = False,
     symbolic: bool = False,
     format: str = "text",
-    json: bool = False,
+    json: Json = False,
 ) -> int:
     """Print a table, each of its transforms, their product, and its solver.
 
@@ -36,14 +36,10 @@ def show_(
         Joint values for the transforms; default: all zero.
     q
         The same as an option: --q=0,-pi/2,90deg.
-    deg
-        Bare angles are degrees.
     symbolic
         The transforms in symbols too (extra symbolic).
     format
         Of the table alone: text, markdown, csv, latex, html.
-    json
-        One JSON object instead of text.
     """
     arm = Robot.from_dh(table_of(table))
     dh = arm.table

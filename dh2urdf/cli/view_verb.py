@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import Values, whole
+from dh2urdf.cli.options import Deg, Link, Values, whole
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 
 __all__ = ["view_"]
@@ -17,9 +17,9 @@ def view_(
     /,
     *,
     q: Values = None,
-    deg: bool = False,
-    base: str | None = None,
-    tip: str | None = None,
+    deg: Deg = False,
+    base: Link = None,
+    tip: Link = None,
     host: str = "127.0.0.1",
     port: Annotated[int | None, whole(0, 65_535)] = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
@@ -34,10 +34,6 @@ def view_(
         joint to build on.
     q
         Configuration to start from: --q=0,-pi/2,90deg.
-    deg
-        Bare angles are degrees.
-    base, tip
-        Links of a URDF to show the chain between.
     host
         Address to listen on; the default is reached from this machine only.
     port

@@ -2,29 +2,35 @@
 
 from __future__ import annotations
 
-import sys
-import time
-from pathlib import Path
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from dh2urdf.bounds import DPI, LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.cli.options import Values, read_numbers, real, whole
+from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
+from dh2urdf.cli.options import (
+    Arm,
+    Dpi,
+    Force,
+    Json,
+    Link,
+    PicturePath,
+    Values,
+    read_numbers,
+    real,
+    whole,
+)
 from dh2urdf.cli.output import emit, emit_json, robot_of
+from dh2urdf.cli.progress import bar
 from dh2urdf.dh_io import Kind, Units
 
 __all__ = ["workspace_"]
 
-PATIENCE = 0.5
-"""Seconds before the progress shows."""
-
 
 def workspace_(
-    robot: str,
+    robot: Arm,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    output: PicturePath,
     plane: Literal["xz", "yz", "xy"] | None = None,
     at: Annotated[float | None, real(-LENGTH, LENGTH, Kind.LENGTH)] = None,
     rpy: Values = None,
@@ -32,11 +38,11 @@ def workspace_(
     points: Annotated[int | None, whole(*POINTS)] = None,
     orientations: Annotated[int | None, whole(1, ORIENTATIONS)] = None,
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
-    base: str | None = None,
-    tip: str | None = None,
-    dpi: Annotated[float, real(*DPI)] = 180.0,
-    force: bool = False,
-    json: bool = False,
+    base: Link = None,
+    tip: Link = None,
+    dpi: Dpi = 180.0,
+    force: Force = False,
+    json: Json = False,
 ) -> int:
     """Draw what an arm can reach.
 
@@ -45,10 +51,6 @@ def workspace_(
 
     Parameters
     ----------
-    robot
-        A table file, the name of a table that ships, or a URDF.
-    output
-        The picture to write: .png, .svg or .pdf.
     plane
         Plane of the section in the base; default: that of a planar arm, else xz.
     at
@@ -63,14 +65,6 @@ def workspace_(
         Orientations tried at each point; default: 150.
     limits
         Keep the joint limits.
-    base, tip
-        Links of a URDF to measure between.
-    dpi
-        Resolution of a PNG.
-    force
-        Replace a file that dh2urdf did not write.
-    json
-        One JSON object instead of text.
     """
     from dh2urdf.figures import save_picture, workspace_figure
     from dh2urdf.figures.save import check_target
@@ -79,38 +73,20 @@ def workspace_(
     arm = robot_of(robot, base, tip)
     units = Units("m", "deg" if deg else "rad")
     turned = read_numbers(rpy, "--rpy", (3,), Kind.ANGLE, units) if rpy else None
-    bar = _Bar()
-    picture = workspace_figure(
-        arm,
-        plane=plane or "",
-        at=at,
-        rpy=turned,
-        points=points,
-        orientations=orientations,
-        within_limits=limits,
-        progress=bar.show,
-    )
-    bar.clear()
+    with bar("mapping", 1) as report:
+        picture = workspace_figure(
+            arm,
+            plane=plane or "",
+            at=at,
+            rpy=turned,
+            points=points,
+            orientations=orientations,
+            within_limits=limits,
+            progress=lambda _, done, total: report(done, total),
+        )
     path = save_picture(picture, output, dpi=dpi, force=force)
     if json:
         emit_json("workspace", path=path, within_limits=limits)
     else:
         emit(str(path))
     return 0
-
-
-class _Bar:
-    """How far it has come, on one line of a terminal."""
-
-    def __init__(self) -> None:
-        self.start, self.on = time.monotonic(), False
-
-    def show(self, what: str, done: int, total: int) -> None:
-        if sys.stderr.isatty() and time.monotonic() - self.start > PATIENCE:
-            self.on = True
-            sys.stderr.write(f"\r{what}: {100 * done // max(total, 1):3d} %")
-            sys.stderr.flush()
-
-    def clear(self) -> None:
-        if self.on:
-            sys.stderr.write("\r\033[K")
