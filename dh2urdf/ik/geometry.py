@@ -14,8 +14,10 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.tolerances import EXACT, FORM_ERROR, REGULAR, SNAP
-from dh2urdf.transforms import Array, inverse, pose_error, rot_z, trans
+from dh2urdf.ik.redundancy import spare_joints
+from dh2urdf.ik.solver import Task
+from dh2urdf.ik.tolerances import EXACT, FORM_ERROR, SNAP
+from dh2urdf.transforms import Array, inverse, pose_error
 
 __all__ = ["AxisLines", "DHForm", "moves_freely"]
 
@@ -106,7 +108,7 @@ class AxisLines:
             return None
         planes = [np.eye(3) - np.outer(a, a) for a in self.axes[i : i + 3]]
         right = sum(P @ p for P, p in zip(planes, points[i : i + 3], strict=True))
-        centre: Array = np.linalg.solve(np.sum(planes, axis=0), right)
+        centre: Array = np.linalg.lstsq(np.sum(planes, axis=0), right, rcond=1e-15)[0]
         gaps = [
             np.linalg.norm(P @ (centre - p)) for P, p in zip(planes, points[i : i + 3], strict=True)
         ]
@@ -282,13 +284,5 @@ def _frame(x: Array, z: Array, origin: Array) -> Array:
 
 
 def moves_freely(chain: SerialChain) -> bool:
-    """Whether the Jacobian of a chain of six joints is regular somewhere."""
-    for q in np.random.default_rng(0).uniform(-3.0, 3.0, (4, chain.n)):
-        T, columns, tip = chain.links[0], [], chain.fk(q)[:3, 3]
-        for qi, slides, link in zip(q, chain.prismatic, chain.links[1:], strict=True):
-            z, arm = T[:3, 2], (tip - T[:3, 3]) / chain.size
-            columns.append(np.r_[z, np.zeros(3)] if slides else np.r_[np.cross(z, arm), z])
-            T = T @ (trans(0.0, 0.0, qi) if slides else rot_z(qi)) @ link
-        if np.linalg.svd(np.array(columns), compute_uv=False)[-1] > REGULAR:
-            return True
-    return False
+    """Whether the tool of a chain of six joints can move in every direction somewhere."""
+    return not spare_joints(chain, Task.POSE)

@@ -19,7 +19,7 @@ from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.short_position import axis_frames
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
-from dh2urdf.ik.tolerances import SNAP
+from dh2urdf.ik.tolerances import NOMINAL, SNAP
 from dh2urdf.transforms import Array, check_pose, inverse
 
 __all__ = [
@@ -158,7 +158,7 @@ class PlanarArm(SolverBase):
         """Say what keeps the notes' planar arm from covering a chain; None if nothing does."""
         if chain.prismatic.any() or chain.n not in (2, 3):
             return "it needs two or three revolute joints"
-        if np.abs(np.cross(chain.axes[0], chain.axes)).max() > SNAP:
+        if np.abs(np.cross(chain.axes[0], chain.axes)).max() > NOMINAL:
             return "the axes are not parallel"
         if task is Task.POSITION_AXIS or (task is Task.POSITION and chain.n == 3):
             return f"it does not solve for {task.value} with {chain.n} joints"

@@ -21,7 +21,7 @@ from dh2urdf.ik.limits import near_ranges
 from dh2urdf.ik.numeric import NumericProblem
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solver import IntArray, SolverBase, Task
-from dh2urdf.ik.tolerances import FAMILY_RANK
+from dh2urdf.ik.tolerances import FAMILY_RANK, SPARE_RANK
 from dh2urdf.transforms import Array
 
 __all__ = ["RedundantChain", "spare_joints"]
@@ -55,7 +55,7 @@ def spare_joints(chain: SerialChain, task: Task) -> int:
     if task is not Task.POSITION:
         J[:, :3] /= chain.size
     sigma = np.linalg.svd(J, compute_uv=False)
-    return chain.n - int((sigma > FAMILY_RANK * sigma[:, :1]).sum(axis=1).max())
+    return chain.n - int((sigma > SPARE_RANK * sigma[:, :1]).sum(axis=1).max())
 
 
 class RedundantChain(SolverBase):

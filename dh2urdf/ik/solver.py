@@ -256,13 +256,16 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
     NoSolverError
         No family covers it; the message lists each with what stood in its way.
     """
+    from dh2urdf.ik.searched import SearchedSolver, hardly_moves
+
     task = Task(task)
     others: list[tuple[str, str]] = []
     for row in SOLVERS:
         family = row.load()
         obstacle = family.obstacle(chain, task)
         if obstacle is None:
-            return family(chain, task, tuple(others))
+            solver = family(chain, task, tuple(others))
+            return SearchedSolver(solver) if hardly_moves(chain, task) else solver
         others.append((row.name, obstacle))
     listing = "\n".join(
         f"  {row.name} ({row.needs}): {obstacle}"

@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.geometry import AxisLines, DHForm
+from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
 from dh2urdf.ik.limits import plain_ranges
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
 from dh2urdf.ik.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
@@ -53,6 +53,8 @@ class SphericalWrist(SolverBase):
             return "axes 4, 5 and 6 do not meet in one point"
         if not _places_wrist(DHForm(lines)):
             return "joints 1, 2 and 3 cannot move the wrist centre in all directions"
+        if not moves_freely(chain):
+            return "the arm cannot move its tool in all six directions"
         return None
 
     def details(self) -> str:

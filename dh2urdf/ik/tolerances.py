@@ -15,6 +15,8 @@ __all__ += [
     "SLACK",
     "SLACK_OF_NEAR",
     "SNAP",
+    "SPARE_RANK",
+    "WEAK_RANK",
 ]
 
 ACCEPT = 1e-9
@@ -34,6 +36,13 @@ LIMIT_SLACK = 1e-12
 FAMILY_RANK = 1e-6
 """Singular value of the Jacobian of the free joints, relative to the largest, that counts as
 zero. A family's representative satisfies the equations to 1e-9, its tangent to the root."""
+
+SPARE_RANK = 3e-10
+"""The same of a joint that is to spare everywhere: through half a turn the tool stays within
+``ACCEPT``. Where a twist moves it by more, a solver for the joint finds what it does."""
+
+WEAK_RANK = 1e-4
+"""The same below which closed forms may lose to rounding what a pose says of the joints."""
 
 FAMILY_STEP = 0.1
 """Joint motion [rad or m] between samples along a singular family: a circle in 63 steps."""

@@ -1,0 +1,79 @@
+"""Arms that hardly move in some direction, as where a twist is a millionth: search what is lost.
+
+The pose then says little of a combination of joints, and equations that are solved one after the
+other lose what it says to rounding.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.families import task_jacobian
+from dh2urdf.ik.held import new_outputs
+from dh2urdf.ik.redundancy import TRIALS, random_configurations
+from dh2urdf.ik.shortfall import nearly_reaching
+from dh2urdf.ik.solutions import branch_words_of
+from dh2urdf.ik.solver import IntArray, Solver, Task
+from dh2urdf.ik.tolerances import SLACK, SPARE_RANK, WEAK_RANK
+from dh2urdf.transforms import Array
+
+__all__ = ["SearchedSolver", "hardly_moves"]
+
+MOST_JOINTS = 6
+
+
+def hardly_moves(chain: SerialChain, task: Task) -> bool:
+    """Whether the tool moves little in one direction everywhere, but more than within rounding."""
+    if task is not Task.POSE or not 1 < chain.n <= MOST_JOINTS:
+        return False
+    J = task_jacobian(chain, task, random_configurations(chain, TRIALS))
+    J[:, :3] /= chain.size
+    sigma = np.linalg.svd(J, compute_uv=False)
+    least = float((sigma[:, -1] / sigma[:, 0]).max())
+    return SPARE_RANK < least < WEAK_RANK
+
+
+class SearchedSolver:
+    """A solver whose lost poses are searched for from many starts."""
+
+    def __init__(self, inner: Solver) -> None:
+        self.inner, self.chain, self.kmax, self.name = inner, inner.chain, inner.kmax, inner.name
+        self.branch_words = branch_words_of(inner)
+
+    def explain(self) -> str:
+        """Name the solver, and that it is helped."""
+        return (
+            f"{self.inner.explain()}\nsome joints hardly move the tool together; a pose that is "
+            "not found is searched for from many starts"
+        )
+
+    def solve_batch(
+        self,
+        Ts: Array,
+        within_limits: bool,
+        q_out: Array,
+        residual_out: Array,
+        count_out: IntArray,
+        branch_out: IntArray,
+        free_out: IntArray,
+    ) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
+        from dh2urdf.kernels.finish import finish_batch
+
+        outputs: tuple[Any, ...] = q_out, residual_out, count_out, branch_out, free_out
+        self.inner.solve_batch(Ts, within_limits, *outputs)
+        for i in np.flatnonzero(count_out == 0):
+            q, error = nearly_reaching(self.chain, Ts[i], Task.POSE)
+            q = q[np.abs(error).max(axis=1) <= SLACK]
+            found: tuple[Any, ...] = new_outputs(1, max(len(q), self.kmax), self.chain.n)
+            found[0][0, : len(q)], found[2][0] = q, len(q)
+            finish_batch(*self.chain.tables, Ts[i : i + 1], within_limits, *found)
+            count_out[i] = min(int(found[2][0]), self.kmax)
+            for k in (0, 1, 3, 4):
+                outputs[k][i] = found[k][0, : self.kmax]
+
+    def __str__(self) -> str:
+        return self.name
