@@ -17,7 +17,7 @@ from dh2urdf.ik.redundancy import TRIALS, random_configurations
 from dh2urdf.ik.shortfall import nearly_reaching
 from dh2urdf.ik.solutions import branch_words_of
 from dh2urdf.ik.solver import IntArray, Solver, Task
-from dh2urdf.ik.tolerances import SLACK, SPARE_RANK, WEAK_RANK
+from dh2urdf.ik.tolerances import NO_RANK, SLACK, WEAK_RANK
 from dh2urdf.transforms import Array
 
 __all__ = ["SearchedSolver", "hardly_moves"]
@@ -32,8 +32,8 @@ def hardly_moves(chain: SerialChain, task: Task) -> bool:
     J = task_jacobian(chain, task, random_configurations(chain, TRIALS))
     J[:, :3] /= chain.size
     sigma = np.linalg.svd(J, compute_uv=False)
-    least = float((sigma[:, -1] / sigma[:, 0]).max())
-    return SPARE_RANK < least < WEAK_RANK
+    least = (sigma / sigma[:, :1]).max(axis=0)
+    return bool(((least > NO_RANK) & (least < WEAK_RANK)).any())
 
 
 class SearchedSolver:

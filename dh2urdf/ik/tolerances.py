@@ -9,6 +9,7 @@ __all__ += [
     "NEARLY_SINGULAR",
     "NOISE_MOTION",
     "NOMINAL",
+    "NO_RANK",
     "PATH_JUMP",
     "REGULAR",
     "SHARP",
@@ -43,6 +44,9 @@ SPARE_RANK = 3e-10
 
 WEAK_RANK = 1e-4
 """The same below which closed forms may lose to rounding what a pose says of the joints."""
+
+NO_RANK = 1e-13
+"""The same that is rounding."""
 
 FAMILY_STEP = 0.1
 """Joint motion [rad or m] between samples along a singular family: a circle in 63 steps."""
