@@ -6,7 +6,7 @@ import math
 
 from dh2urdf.kernels.compiled import inner_kernel
 
-__all__ = ["after_joint", "after_link", "wrist_in_three"]
+__all__ = ["after_joint", "after_link", "wrist_circle", "wrist_in_three"]
 
 
 @inner_kernel
@@ -33,3 +33,22 @@ def wrist_in_three(form):
     else:
         z += form[2, 3]
     return x, y, z
+
+
+@inner_kernel
+def wrist_circle(form, steps):
+    """The circle of the wrist centre about axis 3: its centre, and what cos q3 and sin q3 carry.
+
+    Seen after ``steps`` of: link 2, joint 2 (as far as it does not move), link 1.
+    """
+    x, y, z = wrist_in_three(form)
+    centre, cosine, sine = (0.0, 0.0, z), (x, y, 0.0), (-y, x, 0.0)
+    centre = after_link(form, 1, *centre, 1.0)
+    cosine, sine = after_link(form, 1, *cosine, 0.0), after_link(form, 1, *sine, 0.0)
+    if steps > 1:
+        centre = after_joint(form, 1, *centre, 1.0)
+        cosine, sine = after_joint(form, 1, *cosine, 0.0), after_joint(form, 1, *sine, 0.0)
+    if steps > 2:
+        centre = after_link(form, 0, *centre, 1.0)
+        cosine, sine = after_link(form, 0, *cosine, 0.0), after_link(form, 0, *sine, 0.0)
+    return centre, cosine, sine

@@ -15,22 +15,24 @@ from dh2urdf.kernels.blocks import (
     COS,
     DIRTY,
     INSIDE,
-    MASK,
     RESIDUAL,
     SIN,
     VALID,
     VALUES,
+    at,
 )
 from dh2urdf.kernels.certify import CLUSTER, TWO_PI
 from dh2urdf.kernels.compiled import block_kernel, helper_kernel
 from dh2urdf.kernels.trig import arctangent
 
-__all__ = ["HALF_TURN", "MIRRORS", "NEGATED", "OWN", "emit", "settle"]
+__all__ = ["HALF_TURN", "MIRRORS", "NEGATED", "OWN", "emit", "settle", "write"]
 
 ROUND = 1.5 * 2.0**52
 """Added to a number and taken away again, it rounds it to an integer."""
 
 PER_TURN = 1.0 / TWO_PI
+
+IN_ORDER = np.arange(6)
 
 OWN, HALF_TURN, NEGATED = range(3)
 """How the angle of a row is found: from its cosine and sine; half a turn from that of another row;
@@ -52,8 +54,8 @@ def _values(form, joints, table, within_limits, n, S):
         j, source, kind = joint_of[r], mirror_of[r, 0], mirror_of[r, 1]
         sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
         middle = _middle(lower, upper)
-        sine, cosine = BLOCK * (SIN + source) & MASK, BLOCK * (COS + source) & MASK
-        target, other = BLOCK * (VALUES + r) & MASK, BLOCK * (VALUES + source) & MASK
+        sine, cosine = at(SIN + source), at(COS + source)
+        target, other = at(VALUES + r), at(VALUES + source)
         if kind == HALF_TURN:
             for i in range(n):
                 value = S[other + i]
@@ -70,7 +72,7 @@ def _values(form, joints, table, within_limits, n, S):
                 turns = (S[target + i] - middle) * PER_TURN
                 S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
         if within_limits and _limited(lower, upper):
-            flag = BLOCK * (INSIDE + r) & MASK
+            flag = at(INSIDE + r)
             for i in range(n):
                 room = min(S[target + i] - lower, upper - S[target + i])
                 S[flag + i] = 1.0 if room >= 0.0 else 0.0
@@ -109,22 +111,38 @@ def settle(form, joints, table, within_limits, n, S):
         if not _limited(joints[j, 1], joints[j, 2]):
             continue
         for k in range(8):
-            flag, valid = BLOCK * (INSIDE + row_of[k, j]) & MASK, BLOCK * (VALID + k) & MASK
+            flag, valid = at(INSIDE + row_of[k, j]), at(VALID + k)
             for i in range(n):
                 S[valid + i] *= S[flag + i]
 
 
 @block_kernel
 def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
-    """Write the solutions of all clean lanes; the others get a count of -1."""
+    """Write the solutions of all clean lanes, branches named by number; the others get -1 as count.
+
+    See :func:`settle`.
+    """
     settle(form, joints, table, within_limits, n, S)
-    row_of = table[1]
+    write(IN_ORDER, table[1], True, first, n, S, (q, residual, count, branch, free))
+
+
+@block_kernel
+def write(place, row_of, named, first, n, S, out):
+    """Write the solutions of all clean lanes, joint j to column ``place[j]``; how many are clean.
+
+    The others get a count of -1. A solution that does not exist is written over by the next one.
+    """
+    q, residual, count, branch, free = out
+    clean = 0
     for i in range(n):
         found, row = 0, first + i
         for k in range(8):
             for j in range(6):
-                q[row, found, j] = S[(BLOCK * (VALUES + row_of[k, j]) & MASK) + i]
+                q[row, found, place[j]] = S[at(VALUES + row_of[k, j]) + i]
             residual[row, found] = S[BLOCK * (RESIDUAL + k) + i]
-            branch[row, found], free[row, found] = k, 0
+            branch[row, found], free[row, found] = k if named else -1, 0
             found += 1 if S[BLOCK * (VALID + k) + i] > 0.0 else 0
-        count[row] = found if S[BLOCK * DIRTY + i] == 0.0 else -1
+        rough = S[BLOCK * DIRTY + i] != 0.0
+        count[row] = -1 if rough else found
+        clean += 0 if rough else 1
+    return clean

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.compiled import block_kernel
+from dh2urdf.kernels.compiled import block_kernel, lane_kernel
 from dh2urdf.kernels.polish import POLISH
 
 __all__ = [
@@ -30,7 +30,8 @@ __all__ = [
     "VALID",
     "VALUES",
 ]
-__all__ += ["WORK", "copy_residual", "load_poses", "measure"]
+__all__ += ["WORK", "at", "column", "copy_residual", "dot", "load_poses", "measure"]
+__all__ += ["planar_arm", "turned_and_tilted"]
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -56,6 +57,67 @@ ROWS = WORK + 64
 """Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 40 angles, their
 joint values, whether these are inside their limits, and for eight solutions whether they exist
 and their residual; the rest belongs to the family."""
+
+
+@lane_kernel
+def at(k):
+    """Where row k starts."""
+    return BLOCK * k & MASK
+
+
+@lane_kernel
+def column(S, start, step):
+    """Three entries of S, ``step`` apart."""
+    return S[start], S[start + step], S[start + 2 * step]
+
+
+@lane_kernel
+def dot(v, w):
+    """Scalar product."""
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
+
+
+@lane_kernel
+def turned_and_tilted(c, s, ca, sa, x, y, z):
+    """The axes x, y, z of a frame after ``Rot_z Rot_x(alpha)``, by cosines and sines."""
+    x0, x1, x2 = x
+    y0, y1, y2 = y
+    z0, z1, z2 = z
+    x = c * x0 + s * y0, c * x1 + s * y1, c * x2 + s * y2
+    y0, y1, y2 = c * y0 - s * x0, c * y1 - s * x1, c * y2 - s * x2
+    y = ca * y0 + sa * z0, ca * y1 + sa * z1, ca * y2 + sa * z2
+    return x, y, (ca * z0 - sa * y0, ca * z1 - sa * y1, ca * z2 - sa * y2)
+
+
+@lane_kernel
+def stepped(p, a, x, d, z):
+    """``p + a x + d z``."""
+    return p[0] + a * x[0] + d * z[0], p[1] + a * x[1] + d * z[1], p[2] + a * x[2] + d * z[2]
+
+
+@lane_kernel
+def planar_arm(upper, fore, side, x, y, slack):
+    """Both joints of a planar RR arm (lecture notes 8.2), the second with the sign ``side``.
+
+    Returns
+    -------
+    c2, s2, c3, s3 : float
+    exists, dirty : bool
+        Whether (x, y) is within reach; whether it is near a rim or near the first axis.
+    """
+    scale = 2.0 * upper * fore
+    square = x * x + y * y
+    outer = (upper + fore) * (upper + fore) - square
+    inner = square - (upper - fore) * (upper - fore)
+    product = outer * inner
+    c3 = 0.5 * (inner - outer) / scale
+    s3 = side * math.sqrt(max(product, 0.0)) / abs(scale)
+    along, across = upper + fore * c3, fore * s3
+    inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
+    c2, s2 = (x * along + y * across) * inverse, (y * along - x * across) * inverse
+    size = square + abs(scale)
+    touching = -slack * size * size < product < MERGED * size * size
+    return c2, s2, c3, s3, product > 0.0, touching or square < MERGED * size
 
 
 @block_kernel
@@ -91,99 +153,27 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     a4, ca4, sa4, d4 = form[3, 0], form[3, 1], form[3, 2], form[3, 3]
     a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
     u, v, w = tool[0, 3], tool[1, 3], tool[2, 3]
-    t1, t2, t3 = BLOCK * (COS + t1) & MASK, BLOCK * (COS + t2) & MASK, BLOCK * (COS + t3) & MASK
-    t4, t5, t6 = BLOCK * (COS + t4) & MASK, BLOCK * (COS + t5) & MASK, BLOCK * (COS + t6) & MASK
-    valid, result = BLOCK * (VALID + solution) & MASK, BLOCK * (RESIDUAL + solution) & MASK
+    t1, t2, t3 = at(COS + t1), at(COS + t2), at(COS + t3)
+    t4, t5, t6 = at(COS + t4), at(COS + t5), at(COS + t6)
+    valid, result = at(VALID + solution), at(RESIDUAL + solution)
     for i in range(n):
         c, s = S[t1 + i], S[TURN + t1 + i]
-        x0, x1, x2 = c, s, 0.0
-        y0, y1, y2 = -ca1 * s, ca1 * c, sa1
-        z0, z1, z2 = sa1 * s, -sa1 * c, ca1
-        p0, p1, p2 = a1 * c + d2 * z0, a1 * s + d2 * z1, d2 * z2
-        c, s = S[t2 + i], S[TURN + t2 + i]
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 + s * y0,
-            c * x1 + s * y1,
-            c * x2 + s * y2,
-            c * y0 - s * x0,
-            c * y1 - s * x1,
-            c * y2 - s * x2,
-        )
-        y0, y1, y2, z0, z1, z2 = (
-            ca2 * y0 + sa2 * z0,
-            ca2 * y1 + sa2 * z1,
-            ca2 * y2 + sa2 * z2,
-            ca2 * z0 - sa2 * y0,
-            ca2 * z1 - sa2 * y1,
-            ca2 * z2 - sa2 * y2,
-        )
-        p0, p1, p2 = p0 + a2 * x0 + d3 * z0, p1 + a2 * x1 + d3 * z1, p2 + a2 * x2 + d3 * z2
-        c, s = S[t3 + i], S[TURN + t3 + i]
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 + s * y0,
-            c * x1 + s * y1,
-            c * x2 + s * y2,
-            c * y0 - s * x0,
-            c * y1 - s * x1,
-            c * y2 - s * x2,
-        )
-        y0, y1, y2, z0, z1, z2 = (
-            ca3 * y0 + sa3 * z0,
-            ca3 * y1 + sa3 * z1,
-            ca3 * y2 + sa3 * z2,
-            ca3 * z0 - sa3 * y0,
-            ca3 * z1 - sa3 * y1,
-            ca3 * z2 - sa3 * y2,
-        )
-        p0, p1, p2 = p0 + a3 * x0 + d4 * z0, p1 + a3 * x1 + d4 * z1, p2 + a3 * x2 + d4 * z2
-        c, s = S[t4 + i], S[TURN + t4 + i]
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 + s * y0,
-            c * x1 + s * y1,
-            c * x2 + s * y2,
-            c * y0 - s * x0,
-            c * y1 - s * x1,
-            c * y2 - s * x2,
-        )
-        y0, y1, y2, z0, z1, z2 = (
-            ca4 * y0 + sa4 * z0,
-            ca4 * y1 + sa4 * z1,
-            ca4 * y2 + sa4 * z2,
-            ca4 * z0 - sa4 * y0,
-            ca4 * z1 - sa4 * y1,
-            ca4 * z2 - sa4 * y2,
-        )
-        p0, p1, p2 = p0 + a4 * x0 + d5 * z0, p1 + a4 * x1 + d5 * z1, p2 + a4 * x2 + d5 * z2
-        c, s = S[t5 + i], S[TURN + t5 + i]
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 + s * y0,
-            c * x1 + s * y1,
-            c * x2 + s * y2,
-            c * y0 - s * x0,
-            c * y1 - s * x1,
-            c * y2 - s * x2,
-        )
-        y0, y1, y2, z0, z1, z2 = (
-            ca5 * y0 + sa5 * z0,
-            ca5 * y1 + sa5 * z1,
-            ca5 * y2 + sa5 * z2,
-            ca5 * z0 - sa5 * y0,
-            ca5 * z1 - sa5 * y1,
-            ca5 * z2 - sa5 * y2,
-        )
-        p0, p1, p2 = p0 + a5 * x0, p1 + a5 * x1, p2 + a5 * x2
+        x, y, z = (c, s, 0.0), (-ca1 * s, ca1 * c, sa1), (sa1 * s, -sa1 * c, ca1)
+        p = a1 * c + d2 * z[0], a1 * s + d2 * z[1], d2 * z[2]
+        x, y, z = turned_and_tilted(S[t2 + i], S[TURN + t2 + i], ca2, sa2, x, y, z)
+        p = stepped(p, a2, x, d3, z)
+        x, y, z = turned_and_tilted(S[t3 + i], S[TURN + t3 + i], ca3, sa3, x, y, z)
+        p = stepped(p, a3, x, d4, z)
+        x, y, z = turned_and_tilted(S[t4 + i], S[TURN + t4 + i], ca4, sa4, x, y, z)
+        p = stepped(p, a4, x, d5, z)
+        x, y, z = turned_and_tilted(S[t5 + i], S[TURN + t5 + i], ca5, sa5, x, y, z)
+        p0, p1, p2 = p[0] + a5 * x[0], p[1] + a5 * x[1], p[2] + a5 * x[2]
         c, s = S[t6 + i], S[TURN + t6 + i]
-        x0, x1, x2, y0, y1, y2 = (
-            c * x0 + s * y0,
-            c * x1 + s * y1,
-            c * x2 + s * y2,
-            c * y0 - s * x0,
-            c * y1 - s * x1,
-            c * y2 - s * x2,
-        )
+        x0, x1, x2 = c * x[0] + s * y[0], c * x[1] + s * y[1], c * x[2] + s * y[2]
+        y0, y1, y2 = c * y[0] - s * x[0], c * y[1] - s * x[1], c * y[2] - s * x[2]
         x0, x1, x2 = x0 - S[i], x1 - S[BLOCK * 3 + i], x2 - S[BLOCK * 6 + i]
         y0, y1, y2 = y0 - S[BLOCK + i], y1 - S[BLOCK * 4 + i], y2 - S[BLOCK * 7 + i]
-        z0, z1, z2 = z0 - S[BLOCK * 2 + i], z1 - S[BLOCK * 5 + i], z2 - S[BLOCK * 8 + i]
+        z0, z1, z2 = z[0] - S[BLOCK * 2 + i], z[1] - S[BLOCK * 5 + i], z[2] - S[BLOCK * 8 + i]
         p0 += u * x0 + v * y0 + w * z0 - S[BLOCK * 9 + i]
         p1 += u * x1 + v * y1 + w * z1 - S[BLOCK * 10 + i]
         p2 += u * x2 + v * y2 + w * z2 - S[BLOCK * 11 + i]
@@ -199,6 +189,6 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
 @block_kernel
 def copy_residual(source, target, n, S):
     """Another solution has the same residual."""
-    source, target = BLOCK * (RESIDUAL + source) & MASK, BLOCK * (RESIDUAL + target) & MASK
+    source, target = at(RESIDUAL + source), at(RESIDUAL + target)
     for i in range(n):
         S[target + i] = S[source + i]

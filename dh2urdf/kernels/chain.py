@@ -18,62 +18,45 @@ __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_b
 
 
 @helper_kernel
+def _slid(a, b, c, d, q):
+    """One row of ``R Trans_z(q)``."""
+    return a, b, c, d + c * q
+
+
+@helper_kernel
+def _turned(a, b, c, d, cosine, sine):
+    """One row of ``R Rot_z``."""
+    return a * cosine + b * sine, b * cosine - a * sine, c, d
+
+
+@helper_kernel
 def _times_joint(r, slides, q):
     """``R Z(q)`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
-    r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
+    a0, b0, c0, d0, a1, b1, c1, d1, a2, b2, c2, d2 = r
     if slides:
-        return (
-            r00,
-            r01,
-            r02,
-            r03 + r02 * q,
-            r10,
-            r11,
-            r12,
-            r13 + r12 * q,
-            r20,
-            r21,
-            r22,
-            r23 + r22 * q,
-        )
+        return _slid(a0, b0, c0, d0, q) + _slid(a1, b1, c1, d1, q) + _slid(a2, b2, c2, d2, q)
     c, s = math.cos(q), math.sin(q)
+    first, second = _turned(a0, b0, c0, d0, c, s), _turned(a1, b1, c1, d1, c, s)
+    return first + second + _turned(a2, b2, c2, d2, c, s)
+
+
+@helper_kernel
+def _row_times_link(a, b, c, d, link):
+    """One row of ``R link``."""
     return (
-        r00 * c + r01 * s,
-        r01 * c - r00 * s,
-        r02,
-        r03,
-        r10 * c + r11 * s,
-        r11 * c - r10 * s,
-        r12,
-        r13,
-        r20 * c + r21 * s,
-        r21 * c - r20 * s,
-        r22,
-        r23,
+        a * link[0, 0] + b * link[1, 0] + c * link[2, 0],
+        a * link[0, 1] + b * link[1, 1] + c * link[2, 1],
+        a * link[0, 2] + b * link[1, 2] + c * link[2, 2],
+        a * link[0, 3] + b * link[1, 3] + c * link[2, 3] + d,
     )
 
 
 @helper_kernel
 def _times_link(r, link):
     """``R link`` of a pose held in twelve scalars."""
-    r00, r01, r02, r03, r10, r11, r12, r13, r20, r21, r22, r23 = r
-    a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
-    a10, a11, a12, a13 = link[1, 0], link[1, 1], link[1, 2], link[1, 3]
-    a20, a21, a22, a23 = link[2, 0], link[2, 1], link[2, 2], link[2, 3]
-    return (
-        r00 * a00 + r01 * a10 + r02 * a20,
-        r00 * a01 + r01 * a11 + r02 * a21,
-        r00 * a02 + r01 * a12 + r02 * a22,
-        r00 * a03 + r01 * a13 + r02 * a23 + r03,
-        r10 * a00 + r11 * a10 + r12 * a20,
-        r10 * a01 + r11 * a11 + r12 * a21,
-        r10 * a02 + r11 * a12 + r12 * a22,
-        r10 * a03 + r11 * a13 + r12 * a23 + r13,
-        r20 * a00 + r21 * a10 + r22 * a20,
-        r20 * a01 + r21 * a11 + r22 * a21,
-        r20 * a02 + r21 * a12 + r22 * a22,
-        r20 * a03 + r21 * a13 + r22 * a23 + r23,
-    )
+    first = _row_times_link(r[0], r[1], r[2], r[3], link)
+    second = _row_times_link(r[4], r[5], r[6], r[7], link)
+    return first + second + _row_times_link(r[8], r[9], r[10], r[11], link)
 
 
 @helper_kernel
@@ -83,22 +66,15 @@ def _joint_times_link(r, slides, q, link):
 
 
 @helper_kernel
+def _load_row(link, i):
+    """The four scalars of a row of a pose."""
+    return link[i, 0], link[i, 1], link[i, 2], link[i, 3]
+
+
+@helper_kernel
 def _load(link):
     """The twelve scalars of a pose."""
-    return (
-        link[0, 0],
-        link[0, 1],
-        link[0, 2],
-        link[0, 3],
-        link[1, 0],
-        link[1, 1],
-        link[1, 2],
-        link[1, 3],
-        link[2, 0],
-        link[2, 1],
-        link[2, 2],
-        link[2, 3],
-    )
+    return _load_row(link, 0) + _load_row(link, 1) + _load_row(link, 2)
 
 
 @helper_kernel

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from numba import njit
 
+from dh2urdf.kernels.compiled import UNCACHED, VECTOR, lane_kernel
+
 __all__ = ["BLOCK", "LARGEST", "ROWS", "cosine_sine", "fits", "lanes_fk", "sincos_lanes"]
 
 BLOCK = 64
@@ -30,12 +32,11 @@ C4, C5, C6 = -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.1359647
 """Least maximum polynomials of sine and cosine on +-pi/4, published with fdlibm's k_sin, k_cos."""
 
 
-def _lane_kernel(function):
-    """Compile with fused multiply-add and without a test of every division."""
-    return njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
+_lane_kernel = njit(cache=True, **UNCACHED, **VECTOR)
+"""Compiles with fused multiply-add and without a test of every division."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+@lane_kernel
 def cosine_sine(x):
     """Cosine and sine of an angle up to ``LARGEST`` without branches, within 2e-16.
 

@@ -6,44 +6,32 @@ raises. Compiled code is cached, and the interpreter lock is not held.
 
 from __future__ import annotations
 
+from typing import Any
+
 from numba import njit
 
-__all__ = ["block_kernel", "helper_kernel", "inlined_kernel", "inner_kernel", "kernel"]
+__all__ = ["UNCACHED", "VECTOR", "block_kernel", "helper_kernel", "inlined_kernel", "inner_kernel"]
+__all__ += ["kernel", "lane_kernel"]
 
-kernel = njit(cache=True, nogil=True, error_model="numpy", no_cfunc_wrapper=True)
+UNCACHED: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+INNER = {**UNCACHED, "cache": True, "no_cpython_wrapper": True}
+VECTOR = {"fastmath": {"contract"}}
+
+kernel = njit(cache=True, **UNCACHED)
 """For functions that Python calls; not C, whose entry would be compiled too."""
 
-inner_kernel = njit(
-    cache=True, nogil=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
-)
+inner_kernel = njit(**INNER)
 """For functions that only kernels call: without the entry from Python, half the compile time."""
 
-inlined_kernel = njit(
-    inline="always",
-    nogil=True,
-    error_model="numpy",
-    no_cpython_wrapper=True,
-    no_cfunc_wrapper=True,
-)
+inlined_kernel = njit(inline="always", no_cpython_wrapper=True, **UNCACHED)
 """For large functions with one caller: as functions, they and all that they call would go through
 the optimiser once more. Takes no starred arguments."""
 
-block_kernel = njit(
-    cache=True,
-    nogil=True,
-    error_model="numpy",
-    fastmath={"contract"},
-    no_cpython_wrapper=True,
-    no_cfunc_wrapper=True,
-)
+block_kernel = njit(**INNER, **VECTOR)
 """For inner functions that are to become vector code, with fused multiply-add."""
 
-helper_kernel = njit(
-    cache=True,
-    nogil=True,
-    error_model="numpy",
-    forceinline=True,
-    no_cpython_wrapper=True,
-    no_cfunc_wrapper=True,
-)
+helper_kernel = njit(forceinline=True, **INNER)
 """For a few lines that many kernels share: always inlined, by LLVM, not statement by statement."""
+
+lane_kernel = njit(forceinline=True, **INNER, **VECTOR)
+"""The same for vector code: a few lines of a lane that many block kernels share."""

@@ -24,11 +24,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import ACCEPT, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.circle_pair import circle_pair
+from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.damped import POSE, make_damped, restore
 from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
 from dh2urdf.kernels.position_arm import (
@@ -38,16 +38,16 @@ from dh2urdf.kernels.position_arm import (
     _elbow_on_axis,
     tool_to_wrist,
 )
-from dh2urdf.kernels.reverse import invert_pose
+from dh2urdf.kernels.reverse import invert_pose, reverse_joints
 from dh2urdf.kernels.spherical_wrist import append_wrist
 
-__all__ = ["make_scratch", "points_on_curves", "solve_held_pose", "solve_held_wrist"]
+__all__ = ["points_on_curves", "solve_held_wrist", "solve_rough"]
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 24, 26
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def make_scratch():
     """Arrays that one pose is worked out in."""
     return (
@@ -65,7 +65,7 @@ def make_scratch():
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def oriented_pose(frames, which, value, T, scratch):
     """The target of the oriented chain, into ``scratch[1]``; S0, S1, S2 into ``scratch[2]``."""
     poses, D, S = scratch[0], scratch[1], scratch[2]
@@ -86,7 +86,7 @@ def oriented_pose(frames, which, value, T, scratch):
             _store(_load(frames[LINK + i]), S[i])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _place_wrist(form, D, S, slack, scratch):
     """Joints 1, 2, 3 that put the wrist centre where D has it: rows of ``arm``; how many.
 
@@ -135,7 +135,7 @@ def _place_wrist(form, D, S, slack, scratch):
     return max(count, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _orientation_left(D, S, values, R):
     """``R_36 = S2^T Z3^T S1^T Z2^T S0^T Z1^T R_06``, to R (3, 3)."""
     for j in range(3):
@@ -152,7 +152,7 @@ def _orientation_left(D, S, values, R):
         R[0, j], R[1, j], R[2, j] = x, y, z
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def held_candidates(form, frames, which, slack, value, T, q, branch, free, scratch):
     """Candidates of one pose, q (8, 6) in the chain's order without the held joint; how many."""
     oriented_pose(frames, which, value, T, scratch)
@@ -164,16 +164,11 @@ def held_candidates(form, frames, which, slack, value, T, q, branch, free, scrat
         found = append_wrist(form, arm[k], R, slack, q, branch, free, found)
     if which[REVERSED] != 0:
         for k in range(found):
-            for j in range(3):
-                q[k, j], q[k, 5 - j] = q[k, 5 - j], q[k, j]
-            mask = 0
-            for j in range(6):
-                mask |= (free[k] >> j & 1) << (5 - j)
-            free[k] = mask
+            free[k] = reverse_joints(q[k], free[k])
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def solve_held_pose(
     frames, which, form, joints, slack, value, T, within_limits, q, residual, branch, free, scratch
 ):
@@ -191,29 +186,28 @@ def solve_held_pose(
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
+def solve_rough(constants, values, Ts, within_limits, first, last, out):
+    """Solve those of the poses ``first`` to ``last - 1`` whose count is negative."""
+    q, residual, count, branch, free = out
+    scratch = make_scratch()
+    for i in range(first, last):
+        if count[i] < 0:
+            rows = q[i], residual[i], branch[i], free[i]
+            count[i] = solve_held_pose(*constants, values[i], Ts[i], within_limits, *rows, scratch)
+
+
+@kernel
 def solve_held_wrist(
     frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
 ):
     """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7)."""
-    scratch = make_scratch()
-    for i in range(Ts.shape[0]):
-        out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_held_pose(
-            frames,
-            which,
-            form,
-            joints,
-            slack,
-            values[i],
-            Ts[i],
-            within_limits,
-            *out,
-            scratch,
-        )
+    count[:] = -1
+    constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
+    solve_rough(constants, values, Ts, within_limits, 0, Ts.shape[0], out)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, count):
     """Solutions of one pose T (4, 4) on its curves near the held values (m,); q (m, 8, 7).
 

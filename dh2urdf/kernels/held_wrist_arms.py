@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, COS, DIRTY, MASK, MERGED, TURN, VALID
+from dh2urdf.kernels.blocks import BLOCK, COS, DIRTY, MASK, MERGED, TURN, VALID, at
 from dh2urdf.kernels.compiled import block_kernel
 from dh2urdf.kernels.held_wrist_load import LOADED, UPPER
 
@@ -37,7 +37,7 @@ def place_elbows(S2, reach, slack, n, S):
     wx, wy = S2[0, 2] * reach + S2[0, 3], S2[1, 2] * reach + S2[1, 3]
     wz = S2[2, 2] * reach + S2[2, 3]
     ww = wx * wx + wy * wy + wz * wz
-    M = BLOCK * UPPER & MASK
+    M = at(UPPER)
     for i in range(n):
         px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
         tx, ty, tz = S[M + BLOCK * 9 + i], S[M + BLOCK * 10 + i], S[M + BLOCK * 11 + i]
@@ -66,7 +66,7 @@ def place_elbows(S2, reach, slack, n, S):
 @block_kernel
 def _carry(wx, wy, wz, moves, elbow, row, n, S):
     """``S1 Z3 w`` to three rows from ``FORE + row`` on, for a direction w, or a point: it moves."""
-    turn, target, M = BLOCK * (T3 + elbow) & MASK, BLOCK * (FORE + row) & MASK, BLOCK * UPPER & MASK
+    turn, target, M = at(T3 + elbow), at(FORE + row), at(UPPER)
     for i in range(n):
         c, s = S[turn + i], S[TURN + turn + i]
         x, y, t = c * wx - s * wy, s * wx + c * wy, M + BLOCK * 9 + i
@@ -89,7 +89,7 @@ def place_shoulders(S0, slack, n, S):
     xx, xy, xz = S0[0, 0], S0[1, 0], S0[2, 0]
     yx, yy, yz = S0[0, 1], S0[1, 1], S0[2, 1]
     for elbow in range(2):
-        e, point = BLOCK * 2 * elbow & MASK, BLOCK * (FORE + 12 * elbow + 9) & MASK
+        e, point = BLOCK * 2 * elbow & MASK, at(FORE + 12 * elbow + 9)
         for i in range(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             ux, uy, uz = S[point + i], S[point + BLOCK + i], S[point + BLOCK * 2 + i]

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, MASK, WORK, load_poses
+from dh2urdf.kernels.blocks import BLOCK, MASK, WORK, at, load_poses
 from dh2urdf.kernels.chain_lanes import LARGEST, cosine_sine
 from dh2urdf.kernels.compiled import block_kernel, inner_kernel
 from dh2urdf.kernels.held_wrist import ENDS, FACTORS, ORIENTED, REVERSED, SIDES, SLIDES, VARIES
@@ -90,7 +90,7 @@ def _held_joint(slides, values, first, n, S):
 def _links_and_levers(frames, n, S):
     """S1 and lever of every lane: ``a cos v + b sin v + d slide + t`` in each of their rows."""
     for k in range(15):
-        factors, row = frames[FACTORS + k // 4, k % 4], BLOCK * (UPPER + k) & MASK
+        factors, row = frames[FACTORS + k // 4, k % 4], at(UPPER + k)
         a, b, d, t = factors[0], factors[1], factors[2], factors[3]
         for i in range(n):
             turned = a * S[BLOCK * HELD_COS + i] + b * S[BLOCK * HELD_SIN + i]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, CLEAR, DIRTY, MASK, RESIDUAL, TURN, VALID
+from dh2urdf.kernels.blocks import BLOCK, CLEAR, DIRTY, MASK, RESIDUAL, TURN, VALID, at, column, dot
 from dh2urdf.kernels.compiled import block_kernel
 from dh2urdf.kernels.held_wrist_arms import FORE, FREE_ROW, T1, T2, T4
 from dh2urdf.kernels.held_wrist_load import LEVER
@@ -36,7 +36,7 @@ def finish_arm(form, S0, seen_from_tool, arm, n, S):
         target = BLOCK * place + (TURN if j > 2 else 0) & MASK
         for i in range(n):
             S[target + i] = S[source + i]
-    valid, result = BLOCK * (VALID + arm) & MASK, BLOCK * (RESIDUAL + arm) & MASK
+    valid, result = at(VALID + arm), at(RESIDUAL + arm)
     for i in range(n):
         error, exists = S[WRIST + BLOCK * 6 + i], S[valid + i] > 0.0
         careful = S[WRIST + BLOCK * 4 + i] < CLEAR or not error <= POLISH
@@ -49,9 +49,9 @@ def _reach(S0, arm, n, S):
     """``A = Z1 S0 Z2 S1 Z3 S2`` of one arm of every lane."""
     u00, u10, u20, u01, u11, u21 = S0[0, 0], S0[1, 0], S0[2, 0], S0[0, 1], S0[1, 1], S0[2, 1]
     u02, u12, u22 = S0[0, 2], S0[1, 2], S0[2, 2]
-    t1, t2 = BLOCK * (T1 + arm) & MASK, BLOCK * (T2 + arm) & MASK
+    t1, t2 = at(T1 + arm), at(T2 + arm)
     for j in range(4):
-        fore, target = BLOCK * (FORE + 12 * (arm >> 1) + 3 * j) & MASK, ARM + BLOCK * 3 * j & MASK
+        fore, target = at(FORE + 12 * (arm >> 1) + 3 * j), ARM + BLOCK * 3 * j & MASK
         for i in range(n):
             x, y, z = S[fore + i], S[fore + BLOCK + i], S[fore + BLOCK * 2 + i]
             c, s = S[t2 + i], S[t2 + TURN + i]
@@ -70,25 +70,20 @@ def _reach(S0, arm, n, S):
 def _wrist(sa4, sa5, n, S):
     """ZYZ angles of ``A^T R`` with a positive sine of joint 5."""
     for i in range(n):
-        u0, u1, u2 = S[ARM + i], S[ARM + BLOCK + i], S[ARM + BLOCK * 2 + i]
-        v0, v1, v2 = S[ARM + BLOCK * 3 + i], S[ARM + BLOCK * 4 + i], S[ARM + BLOCK * 5 + i]
-        w0, w1, w2 = S[ARM + BLOCK * 6 + i], S[ARM + BLOCK * 7 + i], S[ARM + BLOCK * 8 + i]
-        z0, z1, z2 = S[BLOCK * 2 + i], S[BLOCK * 5 + i], S[BLOCK * 8 + i]
-        x, y, z = (
-            u0 * z0 + u1 * z1 + u2 * z2,
-            v0 * z0 + v1 * z1 + v2 * z2,
-            w0 * z0 + w1 * z1 + w2 * z2,
-        )
+        u, v = column(S, ARM + i, BLOCK), column(S, ARM + BLOCK * 3 + i, BLOCK)
+        w, z6 = column(S, ARM + BLOCK * 6 + i, BLOCK), column(S, BLOCK * 2 + i, BLOCK * 3)
+        x, y, z = dot(u, z6), dot(v, z6), dot(w, z6)
         s5, c5 = math.sqrt(x * x + y * y), -sa4 * sa5 * z
         inverse = sa5 / max(s5, 1e-30)
         c4, s4 = x * inverse, y * inverse
         a, b, d = c5 * c4, c5 * s4, s5 * sa4
-        x, y, z = a * u0 + b * v0 + d * w0, a * u1 + b * v1 + d * w1, a * u2 + b * v2 + d * w2
+        x = a * u[0] + b * v[0] + d * w[0]
+        y = a * u[1] + b * v[1] + d * w[1]
+        z = a * u[2] + b * v[2] + d * w[2]
         S[WRIST + i], S[WRIST + BLOCK * 3 + i] = c4, s4
         S[WRIST + BLOCK + i], S[WRIST + BLOCK * 4 + i] = c5, s5
-        S[WRIST + BLOCK * 2 + i] = x * S[i] + y * S[BLOCK * 3 + i] + z * S[BLOCK * 6 + i]
-        sine = x * S[BLOCK + i] + y * S[BLOCK * 4 + i] + z * S[BLOCK * 7 + i]
-        S[WRIST + BLOCK * 5 + i] = -sine
+        S[WRIST + BLOCK * 2 + i] = dot((x, y, z), column(S, i, BLOCK * 3))
+        S[WRIST + BLOCK * 5 + i] = -dot((x, y, z), column(S, BLOCK + i, BLOCK * 3))
 
 
 @block_kernel
@@ -100,9 +95,9 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
     of ``|R - R_target|_F = 2 sqrt(2) sin(angle / 2)``.
     """
     for i in range(n):
-        x0, x1, x2 = S[ARM + i], S[ARM + BLOCK + i], S[ARM + BLOCK * 2 + i]
-        y0, y1, y2 = S[ARM + BLOCK * 3 + i], S[ARM + BLOCK * 4 + i], S[ARM + BLOCK * 5 + i]
-        z0, z1, z2 = S[ARM + BLOCK * 6 + i], S[ARM + BLOCK * 7 + i], S[ARM + BLOCK * 8 + i]
+        x0, x1, x2 = column(S, ARM + i, BLOCK)
+        y0, y1, y2 = column(S, ARM + BLOCK * 3 + i, BLOCK)
+        z0, z1, z2 = column(S, ARM + BLOCK * 6 + i, BLOCK)
         c, s = S[WRIST + i], S[WRIST + BLOCK * 3 + i]
         x0, y0, z0 = c * x0 + s * y0, sa4 * z0, sa4 * (s * x0 - c * y0)
         x1, y1, z1 = c * x1 + s * y1, sa4 * z1, sa4 * (s * x1 - c * y1)

@@ -19,6 +19,8 @@ import math
 
 from numba import njit
 
+from dh2urdf.kernels.compiled import UNCACHED, VECTOR
+
 __all__ = [
     "COLUMN",
     "LANES",
@@ -38,23 +40,14 @@ TINY = 1e-300
 PIVOT = 1e-60
 SWEEPS = 2
 
-OPTIONS = {"nogil": True, "fastmath": {"contract"}, "error_model": "numpy"}
-INNER = {**OPTIONS, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+vector_kernel = njit(no_cpython_wrapper=True, **UNCACHED, **VECTOR)
+"""For kernels to call: with fused multiply-add and without a test of every division."""
 
+entry_kernel = njit(cache=True, **UNCACHED, **VECTOR)
+"""Likewise, for Python to call: its machine code is kept with all that it calls."""
 
-def vector_kernel(function):
-    """Compile with fused multiply-add and without a test of every division, for kernels to call."""
-    return njit(**INNER)(function)
-
-
-def entry_kernel(function):
-    """Compile likewise, for Python to call, and keep the machine code with all that it calls."""
-    return njit(cache=True, no_cfunc_wrapper=True, **OPTIONS)(function)
-
-
-def inlined(function):
-    """Compile as a part of its callers: for functions with one caller, which saves much time."""
-    return njit(inline="always", **INNER)(function)
+inlined = njit(inline="always", no_cpython_wrapper=True, **UNCACHED, **VECTOR)
+"""Likewise, as a part of its callers: for functions with one caller, which saves much time."""
 
 
 @vector_kernel

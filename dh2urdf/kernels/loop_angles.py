@@ -33,22 +33,18 @@ def rotation(a):
 
 
 @vector_kernel
+def rotation_back(a):
+    """The inverse of that rotation."""
+    return a[0], a[4], a[8], a[1], a[5], a[9], a[2], a[6], a[10]
+
+
+@vector_kernel
 def _apply(r, x, y, z):
     """``R v``."""
     return (
         r[0] * x + r[1] * y + r[2] * z,
         r[3] * x + r[4] * y + r[5] * z,
         r[6] * x + r[7] * y + r[8] * z,
-    )
-
-
-@vector_kernel
-def _apply_back(r, x, y, z):
-    """``R^T v``."""
-    return (
-        r[0] * x + r[3] * y + r[6] * z,
-        r[1] * x + r[4] * y + r[7] * z,
-        r[2] * x + r[5] * y + r[8] * z,
     )
 
 
@@ -146,12 +142,12 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
 def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = X^T L``, X the right side's and L the left's rotation."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]
-    first, second = rotation(loop[0]), rotation(loop[1])
+    first, second = rotation_back(loop[0]), rotation_back(loop[1])
     for k in range(n):
         x, y, z = _turn_back(cosines[k], sines[k], x0, y0, z0)
-        x, y, z = _apply_back(first, x, y, z)
+        x, y, z = _apply(first, x, y, z)
         x, y, z = _turn_back(cosines[LANES + k], sines[LANES + k], x, y, z)
-        x, y, z = _apply_back(second, x, y, z)
+        x, y, z = _apply(second, x, y, z)
         c = x * frames[k] + y * frames[LANES + k] + z * frames[2 * LANES + k]
         s = x * frames[3 * LANES + k] + y * frames[4 * LANES + k] + z * frames[5 * LANES + k]
         h = 1.0 / (math.sqrt(c * c + s * s) + 1e-300)

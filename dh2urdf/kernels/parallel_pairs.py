@@ -91,8 +91,7 @@ def _pairs_behind_one(form, D, slack, pair):
                 gap = max(gap, abs(found[k, e] - pair[j, e]))
             apart = min(apart, gap)
         if apart > PARTED and pairs < pair.shape[0]:
-            for e in range(4):
-                pair[pairs, e] = found[k, e]
+            pair[pairs, :4] = found[k]
             pairs += 1
     return pairs
 

@@ -13,6 +13,7 @@ from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import work_array
 from dh2urdf.kernels.position_task import finish_position
+from dh2urdf.kernels.short_position import applied
 from dh2urdf.kernels.trig import elbow_angle
 
 __all__ = ["planar_rr", "solve_planar"]
@@ -105,12 +106,8 @@ def solve_planar(
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
         T = Ts[i]
-        px = T[0, 0] * form[5] + T[0, 1] * form[6] + T[0, 2] * form[7] + T[0, 3]
-        py = T[1, 0] * form[5] + T[1, 1] * form[6] + T[1, 2] * form[7] + T[1, 3]
-        pz = T[2, 0] * form[5] + T[2, 1] * form[6] + T[2, 2] * form[7] + T[2, 3]
         F = plane[0]
-        x = F[0, 0] * px + F[0, 1] * py + F[0, 2] * pz + F[0, 3]
-        y = F[1, 0] * px + F[1, 1] * py + F[1, 2] * pz + F[1, 3]
+        x, y, _ = applied(F, applied(T, (form[5], form[6], form[7])))
         rows, no_direction = planar_rr(l1, l2, x, y, SLACK, rest, pairs)
         for k in range(rows):
             t1, t2 = pairs[k, 0], pairs[k, 1]
@@ -121,24 +118,11 @@ def solve_planar(
             branch[i, k] = ELBOW_UP if k == 0 else ELBOW_DOWN
             if no_direction:
                 free[i, k] = 0b101 if n == 3 else 0b01
+        out = q[i], residual[i], branch[i], free[i]
         if pose:
-            count[i] = finish_pose(
-                links, joints, T, within_limits, q[i], residual[i], branch[i], free[i], rows, work
-            )
+            count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)
         else:
-            count[i] = finish_position(
-                links,
-                joints,
-                T,
-                within_limits,
-                q[i],
-                residual[i],
-                branch[i],
-                free[i],
-                rows,
-                trial,
-                work,
-            )
+            count[i] = finish_position(links, joints, T, within_limits, *out, rows, trial, work)
 
 
 @inner_kernel

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.arm_links import after_joint, after_link, wrist_in_three
+from dh2urdf.kernels.arm_links import after_joint, after_link, wrist_circle, wrist_in_three
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
 from dh2urdf.kernels.trig import linear_trig
@@ -85,16 +85,7 @@ def slide_turn_slide(form, px, py, pz, slack, arm):
 @inner_kernel
 def slide_slide_turn(form, px, py, pz, slack, arm):
     """PPR: p off the plane of the slides, subproblem 4 in q3."""
-    wx, wy, wz = wrist_in_three(form)
-    kx, ky, kz = after_link(form, 1, 0.0, 0.0, wz, 1.0)
-    kx, ky, kz = after_joint(form, 1, kx, ky, kz, 1.0)
-    kx, ky, kz = after_link(form, 0, kx, ky, kz, 1.0)
-    cx, cy, cz = after_link(form, 1, wx, wy, 0.0, 0.0)
-    cx, cy, cz = after_joint(form, 1, cx, cy, cz, 0.0)
-    cx, cy, cz = after_link(form, 0, cx, cy, cz, 0.0)
-    sx, sy, sz = after_link(form, 1, -wy, wx, 0.0, 0.0)
-    sx, sy, sz = after_joint(form, 1, sx, sy, sz, 0.0)
-    sx, sy, sz = after_link(form, 0, sx, sy, sz, 0.0)
+    (kx, ky, kz), (cx, cy, cz), (sx, sy, sz) = wrist_circle(form, 3)
     ax, ay, az = after_link(form, 0, 0.0, 0.0, 1.0, 0.0)
     count, c, s, e, f = linear_trig(
         -ay * cx + ax * cy, -ay * sx + ax * sy, -ay * (px - kx) + ax * (py - ky), slack

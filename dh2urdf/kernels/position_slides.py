@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.arm_links import after_joint, after_link, wrist_in_three
+from dh2urdf.kernels.arm_links import after_link, wrist_circle, wrist_in_three
 from dh2urdf.kernels.certify import ACCEPT
 from dh2urdf.kernels.compiled import inner_kernel
 from dh2urdf.kernels.position_arm import (
@@ -68,6 +68,15 @@ def place_wrist_sliding(form, px, py, pz, slack, arm):
 def _between(vx, vy, x, y):
     """Angle from (vx, vy) to (x, y): subproblem 1 about z."""
     return math.atan2(vx * y - vy * x, vx * x + vy * y)
+
+
+@inner_kernel
+def _across(oblique, known, square, x, slack):
+    """How many y there are, and one: the known one, or both with ``x^2 + y^2 = square``."""
+    if oblique:
+        return 1, known
+    y = root_of_gap(square - x * x, square + x * x, slack)
+    return (0 if y < 0.0 else (2 if y > 0.0 else 1)), y
 
 
 @inner_kernel
@@ -143,13 +152,7 @@ def _turn_turn_slide(form, px, py, pz, slack, arm):
 def _turn_slide_turn(form, px, py, pz, slack, arm):
     """RPR: height over frame 0 and distance from axis 1, in d2 and q3."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
-    wx, wy, wz = wrist_in_three(form)
-    kx, ky, kz = after_link(form, 1, 0.0, 0.0, wz, 1.0)
-    kx, ky, kz = after_joint(form, 1, kx, ky, kz, 1.0)
-    cx, cy, cz = after_link(form, 1, wx, wy, 0.0, 0.0)
-    cx, cy, cz = after_joint(form, 1, cx, cy, cz, 0.0)
-    sx, sy, sz = after_link(form, 1, -wy, wx, 0.0, 0.0)
-    sx, sy, sz = after_joint(form, 1, sx, sy, sz, 0.0)
+    (kx, ky, kz), (cx, cy, cz), (sx, sy, sz) = wrist_circle(form, 2)
     square = px * px + py * py
     series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
     oblique = abs(ca1) > OBLIQUE
@@ -166,14 +169,7 @@ def _turn_slide_turn(form, px, py, pz, slack, arm):
         c, s = cosines[k], sines[k]
         x, y, z = kx + c * cx + s * sx, ky + c * cy + s * sy, kz + c * cz + s * sz
         x += a1
-        if oblique:
-            found, depth = 1, (pz - sa1 * y) / ca1
-        else:
-            depth2 = square - x * x
-            depth = root_of_gap(depth2, square + x * x, slack)
-            if depth < 0.0:
-                continue
-            found = 2 if depth > 0.0 else 1
+        found, depth = _across(oblique, (pz - sa1 * y) / ca1, square, x, slack)
         for _ in range(found):
             ux, uy = x, ca1 * y - sa1 * depth
             arm[rows, 0], arm[rows, 1] = _between(ux, uy, px, py), depth - z
@@ -189,10 +185,7 @@ def _turn_slide_turn(form, px, py, pz, slack, arm):
 def _slide_turn_turn(form, px, py, pz, slack, arm):
     """PRR: p across the slide, in q2 and q3."""
     ca1, sa1 = form[0, 1], form[0, 2]
-    wx, wy, wz = wrist_in_three(form)
-    kx, ky, kz = after_link(form, 1, 0.0, 0.0, wz, 1.0)
-    cx, cy, cz = after_link(form, 1, wx, wy, 0.0, 0.0)
-    sx, sy, sz = after_link(form, 1, -wy, wx, 0.0, 0.0)
+    (kx, ky, kz), (cx, cy, cz), (sx, sy, sz) = wrist_circle(form, 1)
     kz += form[1, 3]
     x = px - form[0, 0]
     series, cosines, sines = np.zeros(5), np.empty(4), np.empty(4)
@@ -211,14 +204,7 @@ def _slide_turn_turn(form, px, py, pz, slack, arm):
         c, s = cosines[k], sines[k]
         vx, vy, vz = kx + c * cx + s * sx, ky + c * cy + s * sy, kz + c * cz + s * sz
         square = vx * vx + vy * vy
-        if oblique:
-            found, y = 1, (py + sa1 * vz) / ca1
-        else:
-            y2 = square - x * x
-            y = root_of_gap(y2, square + x * x, slack)
-            if y < 0.0:
-                continue
-            found = 2 if y > 0.0 else 1
+        found, y = _across(oblique, (py + sa1 * vz) / ca1, square, x, slack)
         for _ in range(found):
             arm[rows, 0] = pz - sa1 * y - ca1 * vz
             arm[rows, 1], arm[rows, 2] = _between(vx, vy, x, y), math.atan2(s, c)

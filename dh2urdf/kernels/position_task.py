@@ -104,20 +104,13 @@ def _free_joints(links, joints, T, q, trial, work):
 
 
 @inner_kernel
-def _gap(joints, i, a, b):
-    """Difference of two values of joint i, without full turns."""
-    gap = b - a
-    if joints[i, 0] == 0.0:
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
-    return gap
-
-
-@inner_kernel
 def _one(links, joints, T, q, p, accuracy, middle):
     """Whether two solutions are one, see :mod:`dh2urdf.kernels.merging`."""
     largest = 0.0
     for i in range(q.shape[0]):
-        gap = _gap(joints, i, q[i], p[i])
+        gap = p[i] - q[i]
+        if joints[i, 0] == 0.0:
+            gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
         largest = max(largest, abs(gap))
         middle[i] = q[i] + 0.5 * gap
     if largest > NEAR:

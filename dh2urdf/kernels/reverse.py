@@ -7,7 +7,7 @@ import numpy as np
 from dh2urdf.kernels.certify import finish_pose
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 
-__all__ = ["invert_pose", "invert_poses", "turn_back"]
+__all__ = ["invert_pose", "invert_poses", "reverse_joints", "turn_back"]
 
 
 @inner_kernel
@@ -30,6 +30,17 @@ def invert_poses(Ts, out):
         invert_pose(Ts[i], out[i])
 
 
+@inner_kernel
+def reverse_joints(q, free):
+    """Reverse the joints of a configuration q (n,) in place; the mask of its free ones, too."""
+    n, mask = q.shape[0], 0
+    for j in range(n // 2):
+        q[j], q[n - 1 - j] = q[n - 1 - j], q[j]
+    for j in range(n):
+        mask |= (free >> j & 1) << (n - 1 - j)
+    return mask
+
+
 @kernel
 def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
@@ -41,13 +52,7 @@ def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free
     for i in range(Ts.shape[0]):
         found = count[i]
         for k in range(found):
-            for j in range(n // 2):
-                q[i, k, j], q[i, k, n - 1 - j] = q[i, k, n - 1 - j], q[i, k, j]
-            mask = 0
-            for j in range(n):
-                if free[i, k] & (1 << j):
-                    mask |= 1 << (n - 1 - j)
-            free[i, k] = mask
+            free[i, k] = reverse_joints(q[i, k], free[i, k])
             residual[i, k] = -1.0
         count[i] = finish_pose(
             links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work

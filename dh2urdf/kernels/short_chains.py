@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ANYWHERE, finish_pose
+from dh2urdf.kernels.certify import ANYWHERE, copy_rows, finish_pose
 from dh2urdf.kernels.chain import _joint_times_link, _load, _store
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
@@ -20,11 +20,13 @@ from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
 from dh2urdf.kernels.merging import merge_solutions
 from dh2urdf.kernels.short_candidates import add_candidates
 from dh2urdf.kernels.short_loop import (
+    SAMPLES,
     determinant_series,
     factor,
     loop_columns,
     loop_matrix,
     null_basis,
+    vanishes,
 )
 from dh2urdf.kernels.trig import trig_roots
 
@@ -97,11 +99,8 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
         )
         return count, nullity > shape[7]
     series = roots[0]
-    noise = determinant_series(columns, used, scratch[0:8], order, series)
-    largest = 0.0
-    for m in range(5):
-        largest = max(largest, abs(series[m]))
-    doubt = largest <= max(ZERO, 100.0 * noise)
+    determinant_series(columns, used, scratch[0:8], order, series)
+    doubt = vanishes(series, ZERO)
     if doubt:
         slides = joints[x, 0] != 0.0
         y = 2.0 * math.atan(0.5 * rest[x] / unit) if slides else rest[x]
@@ -158,12 +157,11 @@ def solve_short_chains(
     """
     n = joints.shape[0]
     work = work_array(n)
-    loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, 5))
+    loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, SAMPLES))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
-    many_q, many_residual = np.empty((FEW, n)), np.empty(FEW)
-    many_branch, many_free = np.empty(FEW, np.int64), np.empty(FEW, np.int64)
-    many = many_q, many_residual, many_branch, many_free
+    many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
+    many_q, many_residual, many_branch, many_free = many
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -186,13 +184,4 @@ def solve_short_chains(
         found = one_of_each_family(joints, rest, *many, found)
         if within_limits:
             found = finish_pose(links, joints, T, within_limits, *many, found, work)
-        found = min(found, q.shape[1])
-        for k in range(found):
-            for j in range(n):
-                q[i, k, j] = many_q[k, j]
-            residual[i, k], branch[i, k], free[i, k] = (
-                many_residual[k],
-                many_branch[k],
-                many_free[k],
-            )
-        count[i] = found
+        count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

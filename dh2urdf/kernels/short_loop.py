@@ -23,7 +23,8 @@ import numpy as np
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.dual_quaternions import dual_product, dual_times_joint
 
-__all__ = ["SAMPLES", "determinant_series", "factor", "loop_columns", "loop_matrix", "null_basis"]
+__all__ = ["SAMPLES", "add_sample", "determinant_series", "factor", "loop_columns", "loop_matrix"]
+__all__ += ["null_basis", "vanishes"]
 
 SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""
@@ -188,23 +189,27 @@ def null_basis(M, size, order, nullity, basis):
 
 @inner_kernel
 def determinant_series(columns, used, M, order, series):
-    """``det M`` along x: coefficients of 1, cos y, sin y, cos 2y, sin 2y to series (5,).
+    """``det M`` along x: coefficients of 1, cos y, sin y, ..., cos 3y, sin 3y to series (7,).
 
     ``(u : v) = (cos y/2 : sin y/2)``, so that y is the angle of a turning joint.
-
-    Returns
-    -------
-    float
-        Noise: the size of the third harmonic, which a quartic does not have.
     """
-    for m in range(5):
-        series[m] = 0.0
-    third_cos, third_sin = 0.0, 0.0
+    series[:] = 0.0
     for k in range(SAMPLES):
         loop_matrix(columns, used, SAMPLE_HALF[0, k], SAMPLE_HALF[1, k], M)
-        f = factor(M, 8, order)
-        for m in range(5):
-            series[m] += f * SAMPLE_TABLE[m, k]
-        third_cos += f * SAMPLE_TABLE[5, k]
-        third_sin += f * SAMPLE_TABLE[6, k]
-    return abs(third_cos) + abs(third_sin)
+        add_sample(series, factor(M, 8, order), k)
+
+
+@inner_kernel
+def add_sample(series, value, k):
+    """Add what sample k contributes to the coefficients (7,) of a function of an angle."""
+    for m in range(SAMPLES):
+        series[m] += value * SAMPLE_TABLE[m, k]
+
+
+@inner_kernel
+def vanishes(series, zero):
+    """Whether a quartic is 0 but for rounding: the size of its third harmonic, which it has not."""
+    largest = 0.0
+    for m in range(5):
+        largest = max(largest, abs(series[m]))
+    return largest <= max(zero, 100.0 * (abs(series[5]) + abs(series[6])))

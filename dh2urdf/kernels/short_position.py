@@ -17,13 +17,14 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.certify import copy_rows
 from dh2urdf.kernels.compiled import inner_kernel, kernel
 from dh2urdf.kernels.families import work_array
 from dh2urdf.kernels.position_task import finish_position
-from dh2urdf.kernels.short_loop import SAMPLE_ANGLE, SAMPLE_TABLE, SAMPLES
+from dh2urdf.kernels.short_loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 from dh2urdf.kernels.trig import trig_roots
 
-__all__ = ["solve_short_positions"]
+__all__ = ["applied", "solve_short_positions"]
 
 FEW = 24
 """Room for the candidates of a point."""
@@ -42,25 +43,31 @@ STEEP = 0.1
 
 
 @inner_kernel
-def _applied(A, v, out):
-    """Write the point ``A v`` to out (3,)."""
-    x, y, z = v[0], v[1], v[2]
-    for i in range(3):
-        out[i] = A[i, 0] * x + A[i, 1] * y + A[i, 2] * z + A[i, 3]
+def applied(A, v):
+    """The point ``A v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z + A[0, 3],
+        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z + A[1, 3],
+        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z + A[2, 3],
+    )
 
 
 @inner_kernel
-def _applied_inverse(A, v, out):
-    """Write the point ``A^-1 v`` to out (3,)."""
+def _applied_inverse(A, v):
+    """The point ``A^-1 v``."""
     x, y, z = v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]
-    for i in range(3):
-        out[i] = A[0, i] * x + A[1, i] * y + A[2, i] * z
+    return (
+        A[0, 0] * x + A[1, 0] * y + A[2, 0] * z,
+        A[0, 1] * x + A[1, 1] * y + A[2, 1] * z,
+        A[0, 2] * x + A[1, 2] * y + A[2, 2] * z,
+    )
 
 
 @inner_kernel
-def _square(v):
-    """Squared length of a vector."""
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+def _dot(v, w):
+    """Scalar product."""
+    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 
 
 @inner_kernel
@@ -73,12 +80,23 @@ def _turn(v, w, rest):
 
 
 @inner_kernel
-def _condition(slides, A, p, v, work):
+def _line(slides, A, p, v):
+    """Line ``w + t direction`` that one slide t moves a point along, and where the turn has it.
+
+    Joint 2 slides: v moves, seen from axis 1, about which it has to come to p. Joint 1 slides: p
+    moves back, seen from axis 2, about which v has to come to it.
+    """
+    if slides[1]:
+        return applied(A, v), (A[0, 2], A[1, 2], A[2, 2]), p
+    return _applied_inverse(A, p), (-A[2, 0], -A[2, 1], -A[2, 2]), v
+
+
+@inner_kernel
+def _condition(slides, A, p, v):
     """F(v): zero where joints 1 and 2 can bring v to p."""
-    w = work[0]
     if not slides[0] and not slides[1]:
         a, c, s = A[0, 3], A[2, 2], A[2, 1]
-        first = _square(p) - a * a - _square(v)
+        first = _dot(p, p) - a * a - _dot(v, v)
         second = p[2] - c * v[2]
         both = 2.0 * a * s
         return (
@@ -87,19 +105,12 @@ def _condition(slides, A, p, v, work):
             - both * both * (v[0] * v[0] + v[1] * v[1])
         )
     if slides[0] and slides[1]:
-        _applied(A, v, w)
+        w = applied(A, v)
         return A[0, 2] * (p[1] - w[1]) - A[1, 2] * (p[0] - w[0])
-    if slides[1]:
-        _applied(A, v, w)
-        steep = A[2, 2]
-        rise = p[2] - w[2]
-        along = w[0] * A[0, 2] + w[1] * A[1, 2] + w[2] * A[2, 2]
-        return steep * steep * (_square(w) - _square(p)) + 2.0 * steep * rise * along + rise * rise
-    _applied_inverse(A, p, w)
-    steep = -A[2, 2]
-    rise = v[2] - w[2]
-    along = -(w[0] * A[2, 0] + w[1] * A[2, 1] + w[2] * A[2, 2])
-    return steep * steep * (_square(w) - _square(v)) + 2.0 * steep * rise * along + rise * rise
+    w, direction, target = _line(slides, A, p, v)
+    steep, rise, along = direction[2], target[2] - w[2], _dot(w, direction)
+    lengths = _dot(w, w) - _dot(target, target)
+    return steep * steep * lengths + 2.0 * steep * rise * along + rise * rise
 
 
 @inner_kernel
@@ -109,30 +120,27 @@ def _slide_values(w, direction, square, height, unit):
     The height gives t where the direction is steep, else the length, with the height as check.
     Returns the count and two values.
     """
-    dx, dy, dz = direction
-    rise = height - w[2]
+    dz, rise = direction[2], height - w[2]
     if abs(dz) >= STEEP:
         return 1, rise / dz, 0.0
-    half = w[0] * dx + w[1] * dy + w[2] * dz
-    discriminant = half * half - (_square(w) - square)
+    half = _dot(w, direction)
+    discriminant = half * half - (_dot(w, w) - square)
     if discriminant < -SLACK * unit * unit:
         return 0, 0.0, 0.0
     root = math.sqrt(max(discriminant, 0.0))
     first, second = -half - root, -half + root
     good_first = abs(rise - first * dz) <= WRONG * unit
     good_second = abs(rise - second * dz) <= WRONG * unit
-    if good_first and good_second:
-        return 2, first, second
     if good_first:
-        return 1, first, 0.0
-    return (1, second, 0.0) if good_second else (0, 0.0, 0.0)
+        return (2 if good_second else 1), first, second
+    return (1 if good_second else 0), second, 0.0
 
 
 @inner_kernel
-def _two_turns(A, p, v, rest, unit, work, out):
+def _two_turns(A, p, v, rest, unit, out):
     """Values of two turning joints that bring v to p, to out (2, 2); how many."""
     a, c, s = A[0, 3], A[2, 2], A[2, 1]
-    first = _square(p) - a * a - _square(v)
+    first = _dot(p, p) - a * a - _dot(v, v)
     second = p[2] - c * v[2]
     radius2 = v[0] * v[0] + v[1] * v[1]
     scale = unit * unit
@@ -151,94 +159,62 @@ def _two_turns(A, p, v, rest, unit, work, out):
             continue
         real, imaginary = v[0] * x + v[1] * y, v[0] * y - v[1] * x
         q2 = rest[1] if radius2 < TINY * TINY * scale else math.atan2(imaginary, real)
-        w = work[0]
-        w[0] = v[0] * math.cos(q2) - v[1] * math.sin(q2)
-        w[1] = v[0] * math.sin(q2) + v[1] * math.cos(q2)
-        w[2] = v[2]
-        _applied(A, w, w)
+        c2, s2 = math.cos(q2), math.sin(q2)
+        w = applied(A, (v[0] * c2 - v[1] * s2, v[0] * s2 + v[1] * c2, v[2]))
         out[rows, 0], out[rows, 1] = _turn(w, p, rest[0]), q2
         rows += 1
     return rows
 
 
 @inner_kernel
-def _pair(slides, A, p, v, rest, unit, work, out):
+def _pair(slides, A, p, v, rest, unit, out):
     """Values of joints 1 and 2 that bring v to p, to out (2, 2); how many."""
     if not slides[0] and not slides[1]:
-        return _two_turns(A, p, v, rest, unit, work, out)
-    w = work[1]
+        return _two_turns(A, p, v, rest, unit, out)
     if slides[0] and slides[1]:
-        _applied(A, v, w)
+        w = applied(A, v)
         x, y, z = p[0] - w[0], p[1] - w[1], p[2] - w[2]
         flat = A[0, 2] * A[0, 2] + A[1, 2] * A[1, 2]
         out[0, 1] = (x * A[0, 2] + y * A[1, 2]) / flat
         out[0, 0] = z - out[0, 1] * A[2, 2]
         return 1
-    if slides[1]:
-        _applied(A, v, w)
-        direction = (A[0, 2], A[1, 2], A[2, 2])
-        count, t1, t2 = _slide_values(w, direction, _square(p), p[2], unit)
-        for k in range(count):
-            t = t1 if k == 0 else t2
-            u = work[2]
-            for i in range(3):
-                u[i] = w[i] + t * A[i, 2]
-            out[k, 0], out[k, 1] = _turn(u, p, rest[0]), t
-        return count
-    _applied_inverse(A, p, w)
-    direction = (-A[2, 0], -A[2, 1], -A[2, 2])
-    count, t1, t2 = _slide_values(w, direction, _square(v), v[2], unit)
+    w, direction, target = _line(slides, A, p, v)
+    count, t1, t2 = _slide_values(w, direction, _dot(target, target), target[2], unit)
     for k in range(count):
         t = t1 if k == 0 else t2
-        u = work[2]
-        for i in range(3):
-            u[i] = w[i] - t * A[2, i]
-        out[k, 0], out[k, 1] = t, _turn(v, u, rest[1])
+        u = w[0] + t * direction[0], w[1] + t * direction[1], w[2] + t * direction[2]
+        if slides[1]:
+            out[k, 0], out[k, 1] = _turn(u, p, rest[0]), t
+        else:
+            out[k, 0], out[k, 1] = t, _turn(v, u, rest[1])
     return count
 
 
 @inner_kernel
-def _third(slides, B, tip, cosine, sine, v):
-    """The point as joint 2 sees it, ``v = B Z_3 tip`` at (cos, sin); a slide is ``sin / cos``."""
-    v[0], v[1], v[2] = tip[0], tip[1], tip[2]
+def _third(slides, B, tip, cosine, sine):
+    """The point as joint 2 sees it, ``B Z_3 tip`` at (cos, sin); a slide is ``sin / cos``."""
+    x, y, z = tip
     if slides:
-        v[2] += sine / cosine
-    else:
-        v[0], v[1] = cosine * tip[0] - sine * tip[1], sine * tip[0] + cosine * tip[1]
-    _applied(B, v, v)
+        return applied(B, (x, y, z + sine / cosine))
+    return applied(B, (cosine * x - sine * y, sine * x + cosine * y, z))
 
 
 @inner_kernel
-def _third_joint(slides, frames, tip, p, rest, unit, series, roots, work):
+def _third_joint(slides, frames, tip, p, rest, unit, roots):
     """Values of joint 3, as cosine and sine in rows 1 and 2 of roots; how many."""
-    v = work[3]
-    noise_cos, noise_sin = 0.0, 0.0
-    for m in range(5):
-        series[m] = 0.0
+    series = roots[0]
+    series[:] = 0.0
     for k in range(SAMPLES):
         half = 0.5 * SAMPLE_ANGLE[k]
         c, s, weight = math.cos(SAMPLE_ANGLE[k]), math.sin(SAMPLE_ANGLE[k]), 1.0
         if slides[2]:
             c, s = math.cos(half), unit * math.sin(half)
             weight = c * c * c * c
-        _third(slides[2], frames[2], tip, c, s, v)
-        f = weight * _condition(slides, frames[1], p, v, work)
-        for m in range(5):
-            series[m] += f * SAMPLE_TABLE[m, k]
-        noise_cos += f * SAMPLE_TABLE[5, k]
-        noise_sin += f * SAMPLE_TABLE[6, k]
-    largest = 0.0
-    for m in range(5):
-        largest = max(largest, abs(series[m]))
-    if largest <= 100.0 * (abs(noise_cos) + abs(noise_sin)):
-        roots[1, 0], roots[2, 0] = (
-            (1.0, rest[2])
-            if slides[2]
-            else (
-                math.cos(rest[2]),
-                math.sin(rest[2]),
-            )
-        )
+        v = _third(slides[2], frames[2], tip, c, s)
+        add_sample(series, weight * _condition(slides, frames[1], p, v), k)
+    if vanishes(series, 0.0):
+        roots[1, 0] = 1.0 if slides[2] else math.cos(rest[2])
+        roots[2, 0] = rest[2] if slides[2] else math.sin(rest[2])
         return 1
     count = trig_roots(series, 2, roots[1], roots[2])
     if slides[2]:
@@ -249,30 +225,24 @@ def _third_joint(slides, frames, tip, p, rest, unit, series, roots, work):
 
 
 @inner_kernel
-def _candidates(slides, frames, tip, T, rest, unit, roots, work, pairs, q):
+def _candidates(slides, frames, tip, T, rest, unit, roots, pairs, q):
     """Candidate configurations of one point, to q (FEW, n); how many."""
     n = q.shape[1]
-    p, v = work[4], work[3]
-    v[0], v[1], v[2] = T[0, 3], T[1, 3], T[2, 3]
-    _applied(frames[0], v, p)
+    p = applied(frames[0], (T[0, 3], T[1, 3], T[2, 3]))
     if n == 1:
         q[0, 0] = p[2] - tip[2] if slides[0] else _turn(tip, p, rest[0])
         return 1
-    found = 1
-    if n == 3:
-        found = _third_joint(slides, frames, tip, p, rest, unit, roots[0], roots, work)
+    found = _third_joint(slides, frames, tip, p, rest, unit, roots) if n == 3 else 1
     count = 0
     for k in range(found):
-        value = 0.0
+        value, v = 0.0, tip
         if n == 3:
             c, s = roots[1, k], roots[2, k]
             if slides[2] and abs(c) < 1e-9:
                 continue
-            _third(slides[2], frames[2], tip, c, s, v)
+            v = _third(slides[2], frames[2], tip, c, s)
             value = s / c if slides[2] else math.atan2(s, c)
-        else:
-            v[0], v[1], v[2] = tip[0], tip[1], tip[2]
-        rows = _pair(slides, frames[1], p, v, rest, unit, work, pairs)
+        rows = _pair(slides, frames[1], p, v, rest, unit, pairs)
         for row in range(rows):
             q[count, 0], q[count, 1] = pairs[row, 0], pairs[row, 1]
             if n == 3:
@@ -303,29 +273,11 @@ def solve_short_positions(
     work = work_array(n)
     slides = joints[:, 0] != 0.0
     rest, unit = rest_unit[:n], rest_unit[n]
-    roots, scratch, pairs, trial = np.empty((3, 5)), np.empty((5, 3)), np.empty((2, 2)), np.empty(n)
-    many_q, many_residual = np.empty((FEW, n)), np.empty(FEW)
-    many_branch, many_free = np.full(FEW, -1, np.int64), np.zeros(FEW, np.int64)
+    point = tip[0], tip[1], tip[2]
+    roots, pairs, trial = np.empty((3, SAMPLES)), np.empty((2, 2)), np.empty(n)
+    many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.zeros(FEW, np.int64)
     for i in range(Ts.shape[0]):
         T = Ts[i]
-        found = _candidates(slides, frames, tip, T, rest, unit, roots, scratch, pairs, many_q)
-        found = finish_position(
-            links,
-            joints,
-            T,
-            within_limits,
-            many_q,
-            many_residual,
-            many_branch,
-            many_free,
-            found,
-            trial,
-            work,
-        )
-        found = min(found, q.shape[1])
-        for k in range(found):
-            for j in range(n):
-                q[i, k, j] = many_q[k, j]
-            residual[i, k] = many_residual[k]
-            branch[i, k], free[i, k] = many_branch[k], many_free[k]
-        count[i] = found
+        found = _candidates(slides, frames, point, T, rest, unit, roots, pairs, many[0])
+        found = finish_position(links, joints, T, within_limits, *many, found, trial, work)
+        count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certify import (
     ACCEPT,
@@ -22,13 +21,13 @@ from dh2urdf.kernels.certify import (
     principal,
     same,
 )
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel, kernel
 from dh2urdf.kernels.polish import polish
 from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.position_slides import place_wrist_sliding
 from dh2urdf.kernels.trig import root_of_gap
 
-__all__ = ["add_wrist", "append_wrist", "finish_wrists", "make_scratch", "middle_angle"]
+__all__ = ["add_wrist", "append_wrist", "make_scratch", "middle_angle", "solve_pose"]
 __all__ += ["solve_sliding_arm", "solve_turning_arm"]
 
 MEETING = 1e-5
@@ -79,7 +78,7 @@ def middle_angle(form, x, y, z, slack):
     return (1 if sine == 0.0 else 2), cosine / length, sine / length
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@inlined_kernel
 def _above(z, level, square):
     """``z - level`` for the z of a unit vector with ``x^2 + y^2 = square``; exact near +-1."""
     if abs(level - 1.0) < 1e-12:
@@ -229,6 +228,24 @@ def make_scratch():
     return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
 
 
+@inlined_kernel
+def solve_pose(place, arm, T, within_limits, out, scratch):
+    """All solutions of one pose in ``out``, positions by the function ``place``; their count.
+
+    Position solutions are parted, merged if they meet, and parted again.
+    """
+    links, joints, form, ends, slack = arm
+    D, rows = scratch[0], scratch[2]
+    tool_to_wrist(ends, T, D)
+    x, y, z, merged = D[0, 3], D[1, 3], D[2, 3], 0
+    found = place(form, x, y, z, -slack, rows)
+    if roots_meet(joints, rows, found):
+        found = place(form, x, y, z, slack, rows)
+        merged = add_merged(links, joints, form, found, slack, T, scratch)
+        found = place(form, x, y, z, -slack, rows)
+    return finish_wrists(links, joints, form, found, merged, slack, T, within_limits, out, scratch)
+
+
 @kernel
 def solve_turning_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
@@ -239,20 +256,10 @@ def solve_turning_arm(
     ``form`` and ``ends`` of its Denavit-Hartenberg form. Outputs: q (m, 8, 6), residual,
     branch and free (m, 8), count (m,).
     """
-    scratch = make_scratch()
-    D, arm = scratch[0], scratch[2]
+    arm, scratch = (links, joints, form, ends, slack), make_scratch()
     for i in range(Ts.shape[0]):
-        tool_to_wrist(ends, Ts[i], D)
-        x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
-        rows = place_wrist(form, x, y, z, -slack, arm)
-        if roots_meet(joints, arm, rows):
-            rows = place_wrist(form, x, y, z, slack, arm)
-            found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
-            rows = place_wrist(form, x, y, z, -slack, arm)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = finish_wrists(
-            links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
-        )
+        count[i] = solve_pose(place_wrist, arm, Ts[i], within_limits, out, scratch)
 
 
 @kernel
@@ -260,17 +267,7 @@ def solve_sliding_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`solve_turning_arm` where some of the first three joints slide."""
-    scratch = make_scratch()
-    D, arm = scratch[0], scratch[2]
+    arm, scratch = (links, joints, form, ends, slack), make_scratch()
     for i in range(Ts.shape[0]):
-        tool_to_wrist(ends, Ts[i], D)
-        x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
-        rows = place_wrist_sliding(form, x, y, z, -slack, arm)
-        if roots_meet(joints, arm, rows):
-            rows = place_wrist_sliding(form, x, y, z, slack, arm)
-            found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
-            rows = place_wrist_sliding(form, x, y, z, -slack, arm)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = finish_wrists(
-            links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
-        )
+        count[i] = solve_pose(place_wrist_sliding, arm, Ts[i], within_limits, out, scratch)

@@ -20,19 +20,22 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
-    MASK,
     MERGED,
     ROWS,
     SIN,
     VALID,
     WORK,
+    at,
+    column,
     copy_residual,
     load_poses,
     measure,
+    planar_arm,
+    turned_and_tilted,
 )
 from dh2urdf.kernels.compiled import block_kernel, kernel
-from dh2urdf.kernels.position_arm import place_wrist_in_plane, tool_to_wrist
-from dh2urdf.kernels.spherical_wrist import add_merged, finish_wrists, make_scratch, roots_meet
+from dh2urdf.kernels.position_arm import place_wrist_in_plane
+from dh2urdf.kernels.spherical_wrist import make_scratch, solve_pose
 
 __all__ = ["solve_common_wrist"]
 
@@ -56,8 +59,8 @@ def _shoulders(form, slack, n, S):
     scale = a1 * a1 + form[1, 0] * form[1, 0] + form[2, 0] * form[2, 0] + form[3, 3] * form[3, 3]
     for shoulder in range(2):
         side = 1.0 - 2.0 * shoulder
-        rows, valid = BLOCK * (PLANE + 11 * shoulder) & MASK, BLOCK * (VALID + shoulder) & MASK
-        cosine, sine = BLOCK * (COS + shoulder) & MASK, BLOCK * (SIN + shoulder) & MASK
+        rows, valid = at(PLANE + 11 * shoulder), at(VALID + shoulder)
+        cosine, sine = at(COS + shoulder), at(SIN + shoulder)
         for i in range(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             y = (pz - ca1 * lateral) / sa1
@@ -91,32 +94,18 @@ def _elbows(form, slack, n, S):
     wx, wy = form[2, 0], -form[2, 2] * form[3, 3]
     fore = math.sqrt(wx * wx + wy * wy)
     lean_c, lean_s = wx / fore, wy / fore
-    scale = 2.0 * upper * fore
     for arm in range(4):
         shoulder, elbow = arm & 1, arm >> 1
-        rows, valid = BLOCK * (PLANE + 11 * shoulder) & MASK, BLOCK * (VALID + shoulder) & MASK
-        cosine, sine = BLOCK * (COS + arm) & MASK, BLOCK * (SIN + arm) & MASK
-        result = BLOCK * (VALID + 4 + arm) & MASK
+        rows, valid, result = at(PLANE + 11 * shoulder), at(VALID + shoulder), at(VALID + 4 + arm)
+        cosine, sine = at(COS + arm), at(SIN + arm)
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
         for i in range(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
-            square = x * x + y * y
-            outer = (upper + fore) * (upper + fore) - square
-            inner = square - (upper - fore) * (upper - fore)
-            product = outer * inner
-            c3 = 0.5 * (inner - outer) / scale
-            s3 = side * math.sqrt(max(product, 0.0)) / abs(scale)
-            along, across = upper + fore * c3, fore * s3
-            inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
-            S[cosine + BLOCK * 2 + i] = (x * along + y * across) * inverse
-            S[sine + BLOCK * 2 + i] = (y * along - x * across) * inverse
+            c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, side, x, y, slack)
+            S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i] = c2, s2
             S[cosine + BLOCK * 6 + i] = c3 * lean_c + s3 * lean_s
             S[sine + BLOCK * 6 + i] = s3 * lean_c - c3 * lean_s
-            exists = S[valid + i] if product > 0.0 else 0.0
-            S[result + i] = exists
-            size = square + abs(scale)
-            touching = -slack * size * size < product < MERGED * size * size
-            dirty = touching or square < MERGED * size
+            S[result + i] = S[valid + i] if reached else 0.0
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
@@ -125,31 +114,16 @@ def _wrists(form, n, S):
     """ZYZ angles of what is left of the rotation, for all four arms and both wrists."""
     ca3, sa3, sa4, sa5 = form[2, 1], form[2, 2], form[3, 2], form[4, 2]
     for arm in range(4):
-        rows, valid = BLOCK * (PLANE + 11 * (arm & 1)) & MASK, BLOCK * (VALID + arm) & MASK
-        cosine, sine = BLOCK * (COS + arm) & MASK, BLOCK * (SIN + arm) & MASK
+        rows, valid = at(PLANE + 11 * (arm & 1)), at(VALID + arm)
+        cosine, sine = at(COS + arm), at(SIN + arm)
         for i in range(n):
             c2, s2 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
             c3, s3 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
             c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
-            x0, x1, x2 = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i], S[rows + BLOCK * 4 + i]
-            y0, y1, y2 = S[rows + BLOCK * 5 + i], S[rows + BLOCK * 6 + i], S[rows + BLOCK * 7 + i]
-            z0, z1, z2 = S[rows + BLOCK * 8 + i], S[rows + BLOCK * 9 + i], S[rows + BLOCK * 10 + i]
-            x0, x1, x2, y0, y1, y2 = (
-                c * x0 + s * y0,
-                c * x1 + s * y1,
-                c * x2 + s * y2,
-                c * y0 - s * x0,
-                c * y1 - s * x1,
-                c * y2 - s * x2,
-            )
-            y0, y1, y2, z0, z1, z2 = (
-                ca3 * y0 + sa3 * z0,
-                ca3 * y1 + sa3 * z1,
-                ca3 * y2 + sa3 * z2,
-                ca3 * z0 - sa3 * y0,
-                ca3 * z1 - sa3 * y1,
-                ca3 * z2 - sa3 * y2,
-            )
+            x = column(S, rows + BLOCK * 2 + i, BLOCK)
+            y = column(S, rows + BLOCK * 5 + i, BLOCK)
+            z = column(S, rows + BLOCK * 8 + i, BLOCK)
+            (x0, x1, x2), (y0, y1, y2), (z0, z1, z2) = turned_and_tilted(c, s, ca3, sa3, x, y, z)
             s5 = math.sqrt(x2 * x2 + y2 * y2)
             c5 = -z2 * sa4 * sa5
             inverse = sa5 / max(s5, 1e-30)
@@ -185,16 +159,8 @@ def solve_common_wrist(
         emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
         for i in range(first, first + n):
             if count[i] < 0:
-                scratch = make_scratch()
-                D, arm = scratch[0], scratch[2]
-                tool_to_wrist(ends, Ts[i], D)
-                x, y, z, found = D[0, 3], D[1, 3], D[2, 3], 0
-                rows = place_wrist_in_plane(form, x, y, z, -slack, arm)
-                if roots_meet(joints, arm, rows):
-                    rows = place_wrist_in_plane(form, x, y, z, slack, arm)
-                    found = add_merged(links, joints, form, rows, slack, Ts[i], scratch)
-                    rows = place_wrist_in_plane(form, x, y, z, -slack, arm)
                 out = q[i], residual[i], branch[i], free[i]
-                count[i] = finish_wrists(
-                    links, joints, form, rows, found, slack, Ts[i], within_limits, out, scratch
+                arm = links, joints, form, ends, slack
+                count[i] = solve_pose(
+                    place_wrist_in_plane, arm, Ts[i], within_limits, out, make_scratch()
                 )

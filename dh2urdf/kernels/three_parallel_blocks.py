@@ -17,15 +17,16 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
-    MASK,
     MERGED,
     ROWS,
     SIN,
     TURN,
     VALID,
     WORK,
+    at,
     load_poses,
     measure,
+    planar_arm,
 )
 from dh2urdf.kernels.compiled import block_kernel, kernel
 from dh2urdf.kernels.parallel_pairs import pairs_of_meeting
@@ -58,8 +59,7 @@ def _shoulders(form, slack, n, S):
     constant = form[1, 3] + form[2, 3] + form[3, 3]
     for shoulder in range(2):
         side = (1.0 if sa1 < 0.0 else -1.0) * (1.0 - 2.0 * shoulder)
-        cosine, sine = BLOCK * (COS + shoulder) & MASK, BLOCK * (SIN + shoulder) & MASK
-        valid = BLOCK * (VALID + shoulder) & MASK
+        cosine, sine, valid = at(COS + shoulder), at(SIN + shoulder), at(VALID + shoulder)
         for i in range(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
@@ -95,8 +95,8 @@ def _planes(form, n, S):
     a4, sa5, d5 = form[3, 0], form[4, 2], form[4, 3]
     for pair in range(4):
         shoulder = pair & 1
-        rows, first = BLOCK * (PLANE + 4 * pair) & MASK, BLOCK * (COS + shoulder) & MASK
-        cosine, sine = BLOCK * (COS + pair) & MASK, BLOCK * (SIN + pair) & MASK
+        rows, first = at(PLANE + 4 * pair), at(COS + shoulder)
+        cosine, sine = at(COS + pair), at(SIN + pair)
         for i in range(n):
             c1, s1 = S[first + i], S[first + TURN + i]
             c5, s5 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
@@ -123,36 +123,23 @@ def _planes(form, n, S):
 def _elbows(form, slack, n, S):
     """Joints 2, 3 and 4 of all eight arms: planar RRR (lecture notes 8.2)."""
     upper, fore = form[1, 0], form[2, 0]
-    scale = 2.0 * upper * fore
     for k in range(7, -1, -1):
         shoulder, elbow, pair = k & 1, k >> 1 & 1, (k & 1) + 2 * (k >> 2)
-        rows, valid = BLOCK * (PLANE + 4 * pair) & MASK, BLOCK * (VALID + shoulder) & MASK
-        cosine, sine = BLOCK * (COS + k) & MASK, BLOCK * (SIN + k) & MASK
-        result = BLOCK * (VALID + k) & MASK
+        rows, valid, result = at(PLANE + 4 * pair), at(VALID + shoulder), at(VALID + k)
+        cosine, sine = at(COS + k), at(SIN + k)
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
         for i in range(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
             hx, hy = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i]
-            square = x * x + y * y
-            outer = (upper + fore) * (upper + fore) - square
-            inner = square - (upper - fore) * (upper - fore)
-            product = outer * inner
-            c3 = 0.5 * (inner - outer) / scale
-            s3 = side * math.sqrt(max(product, 0.0)) / abs(scale)
-            along, across = upper + fore * c3, fore * s3
-            inverse = 1.0 / math.sqrt(max(square * (along * along + across * across), 1e-60))
-            c2, s2 = (x * along + y * across) * inverse, (y * along - x * across) * inverse
+            c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, side, x, y, slack)
             c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
             S[cosine + BLOCK * 10 + i], S[sine + BLOCK * 10 + i] = c2, s2
             S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c3, s3
             S[cosine + BLOCK * 26 + i] = hx * c + hy * s
             S[sine + BLOCK * 26 + i] = hy * c - hx * s
             exists = S[valid + i]
-            size = square + abs(scale)
-            touching = -slack * size * size < product < MERGED * size * size
-            dirty = touching or square < MERGED * size
             S[BLOCK * DIRTY + i] += exists if dirty else 0.0
-            S[result + i] = exists if product > 0.0 else 0.0
+            S[result + i] = exists if reached else 0.0
 
 
 @kernel

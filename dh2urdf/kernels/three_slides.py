@@ -104,27 +104,26 @@ def _candidates(links, joints, T, q, turning, scratch):
     """
     count = _turning_links(links, joints, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
-    if count == 0:
-        return _slides(links, joints, T, q[0], scratch[18:26])
-    _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
+    found = 1
+    if count > 0:
+        _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
     if count == 1:
         q[0, turning[0]] = math.atan2(B[1, 0], B[0, 0])
-        return _slides(links, joints, T, q[0], scratch[18:26])
-    if count == 2:
+    elif count == 2:
         q[0, turning[0]], q[0, turning[1]] = _outer(scratch[4:8], B)
-        return _slides(links, joints, T, q[0], scratch[18:26])
-    first, second = scratch[4:8], scratch[8:12]
-    found, c1, s1, c2, s2 = linear_trig(
-        first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2],
-        first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2],
-        B[2, 2] - first[2, 2] * second[2, 2],
-        SLACK,
-    )
-    for k in range(found):
-        c, s = (c1, s1) if k == 0 else (c2, s2)
-        _turned(first, c, s, second, M)
-        q[k, turning[1]] = math.atan2(s, c)
-        q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
+    elif count == 3:
+        first, second = scratch[4:8], scratch[8:12]
+        found, c1, s1, c2, s2 = linear_trig(
+            first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2],
+            first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2],
+            B[2, 2] - first[2, 2] * second[2, 2],
+            SLACK,
+        )
+        for k in range(found):
+            c, s = (c1, s1) if k == 0 else (c2, s2)
+            _turned(first, c, s, second, M)
+            q[k, turning[1]] = math.atan2(s, c)
+            q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
         _slides(links, joints, T, q[k], scratch[18:26])
     return max(found, 0)
@@ -132,7 +131,7 @@ def _candidates(links, joints, T, q, turning, scratch):
 
 @inner_kernel
 def _slides(links, joints, T, q, columns):
-    """Solve for the slides of q (n,) with its turning joints known; 1.
+    """Solve for the slides of q (n,) with its turning joints known.
 
     Where the slides lie in a plane they move as little as possible.
     """
@@ -158,7 +157,6 @@ def _slides(links, joints, T, q, columns):
             c = columns[3] if k == 2 else columns[2]
             q[i] = _volume(a, b, c) / volume
             k += 1
-    return 1
 
 
 @inner_kernel
