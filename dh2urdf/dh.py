@@ -8,7 +8,6 @@ A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joi
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from itertools import islice
 from typing import Any
@@ -16,53 +15,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.bounds import JOINTS, LENGTH, NUMBER, ROWS
+from dh2urdf.bounds import JOINTS, LENGTH, ROWS
 from dh2urdf.dh_motions import DHConvention, convention_of, dh_factors, dh_transform
+from dh2urdf.dh_print import table_csv, table_html, table_latex, table_markdown, table_text
 from dh2urdf.dh_row import DHRow, JointType, Origin
-from dh2urdf.doors import choice, found, instance, real_array, text
+from dh2urdf.doors import finite_array, found, instance, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
 
 __all__ = ["DHConvention", "DHRow", "DHTable", "JointType", "Origin", "dh_factors", "dh_transform"]
 
 PARAMETERS = "theta d a alpha"
-COLUMNS = (*PARAMETERS.split(), "lower", "upper", "sign")
 LETTERS = {kind.value[0].upper(): kind for kind in JointType}
 
 
-def _few(values: Any, what: str) -> tuple[Any, ...]:
-    """At most so many values as a table has rows.
-
-    Raises
-    ------
-    TableError
-    """
-    try:
-        out = tuple(islice(values, ROWS + 1))
-    except TypeError:
-        raise TableError(f"{what}: expected a list, got {found(values)}") from None
-    if len(out) > ROWS:
-        raise TableError(f"{what}: more than {ROWS}; a table has at most {JOINTS} joints")
-    return out
-
-
 def _rows(values: Any) -> tuple[DHRow, ...]:
-    rows = _few(values, "rows")
+    """A bounded number of rows."""
+    try:
+        rows = tuple(islice(values, ROWS + 1))
+    except TypeError:
+        rows = (values,)
+    if len(rows) > ROWS:
+        raise TableError(f"rows: more than {ROWS}; a table has at most {JOINTS} joints")
     for row in rows:
         if not isinstance(row, DHRow):
             raise TableError(
                 f"rows: expected DHRow objects, got {found(row)}; of numbers "
-                'DHTable.from_array(rows, convention=..., columns="theta d a alpha") makes a table'
+                f'DHTable.from_array(rows, convention=..., columns="{PARAMETERS}") makes a table'
             )
     return rows
-
-
-def _columns(columns: Any) -> list[str]:
-    given = columns.replace(",", " ").split() if isinstance(columns, str) else columns
-    keys = [choice(key, "columns", COLUMNS, TableError) for key in _few(given, "columns")]
-    if len(set(keys)) != len(keys) or not set(COLUMNS[:4]) <= set(keys):
-        raise TableError(f"columns: found {' '.join(keys)!r}; expected {PARAMETERS}, each once")
-    return keys
 
 
 @dataclass(frozen=True)
@@ -123,19 +104,18 @@ class DHTable:
         cls,
         rows: ArrayLike,
         convention: DHConvention | str,
-        columns: str | Iterable[str] = PARAMETERS,
-        joint_types: str | Iterable[str] | None = None,
+        columns: str = PARAMETERS,
+        joint_types: str | None = None,
         name: str = "robot",
     ) -> DHTable:
         """A table from an array, a row a joint, in [rad] and [m].
 
         Parameters
         ----------
-        rows : array_like, shape (n, columns)
+        rows : array_like, shape (n, 4)
         convention : DHConvention
         columns : str
-            What the columns hold: theta, d, a and alpha in any order, and lower, upper and sign
-            where they are given.
+            What the columns hold: theta, d, a and alpha in any order.
         joint_types : str, optional
             A letter a row: ``"RRP"``, R revolute, P prismatic, F fixed. All revolute by default.
         name : str
@@ -144,25 +124,25 @@ class DHTable:
         ------
         TableError
         """
-        keys = _columns(columns)
-        expected = f"an array of shape (n, {len(keys)}): {' '.join(keys)}"
+        keys = text(columns, "columns", TableError).replace(",", " ").split()
+        if sorted(keys) != sorted(PARAMETERS.split()):
+            raise TableError(f"columns: expected {PARAMETERS} in any order, got {columns!r}")
+        expected = f"an array of shape (n, 4), n at most {ROWS}"
         array = real_array(rows, "rows", expected, TableError)
-        if array.ndim != 2 or array.shape[1] != len(keys) or len(array) > ROWS:
-            what = f"expected {expected}, n at most {ROWS}, got shape {array.shape}"
-            raise TableError(f"rows: {what}")
-        types = _few("R" * len(array) if joint_types is None else joint_types, "joint_types")
-        if len(types) != len(array):
-            raise TableError(f"joint_types: {len(types)} for {len(array)} rows")
-        out, problems = [], []
-        for at, (row, kind) in enumerate(zip(array.tolist(), types, strict=True)):
-            fields = dict(zip(keys, row, strict=True))
-            try:
-                out.append(DHRow(joint_type=LETTERS.get(str(kind), kind), **fields))
-            except TableError as error:
-                problems += [f"rows[{at}].{problem}" for problem in error.problems]
-        if problems:
-            raise TableError(problems)
-        return cls(tuple(out), convention_of(convention, TableError), name=name)
+        if array.ndim != 2 or array.shape[1] != 4 or len(array) > ROWS:
+            raise TableError(f"rows: expected {expected}, got shape {array.shape}")
+        kinds = (
+            "R" * len(array)
+            if joint_types is None
+            else text(joint_types, "joint_types", TableError)
+        )
+        if len(kinds) != len(array):
+            raise TableError(f"joint_types: expected {len(array)} letters, got {found(kinds)}")
+        made = (
+            DHRow(**dict(zip(keys, row, strict=True)), joint_type=LETTERS.get(kind, kind))  # type: ignore[arg-type]
+            for row, kind in zip(array.tolist(), kinds, strict=True)
+        )
+        return cls(tuple(made), convention_of(convention, TableError), name=name)
 
     @property
     def joints(self) -> tuple[DHRow, ...]:
@@ -228,41 +208,19 @@ class DHTable:
         """The same table under another name."""
         return replace(self, name=name)
 
-    def to_markdown(self) -> str:
-        """The table as a Markdown pipe table, angles in degrees."""
-        from dh2urdf.dh_print import table_markdown
+    to_markdown = table_markdown
+    to_csv = table_csv
+    to_latex = table_latex
+    _repr_html_ = table_html
 
-        return table_markdown(self)
+    def __str__(self) -> str:
+        return table_text(self)
 
-    def to_csv(self) -> str:
-        """The table as comma-separated values as shown, angles in degrees."""
-        from dh2urdf.dh_print import table_csv
-
-        return table_csv(self)
-
-    def to_latex(self) -> str:
-        """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
-        from dh2urdf.dh_print import table_latex
-
-        return table_latex(self)
-
-    def _config(self, q: ArrayLike) -> Array:
-        expected = f"{self.n} numbers, one a joint, up to {NUMBER:g}"
-        config = real_array(q, "q", expected, ConfigurationError)
+    def _config(self, q: ArrayLike) -> list[float]:
+        config = finite_array(q, "q", f"{self.n} numbers", ConfigurationError)
         if config.shape != (self.n,):
             raise ConfigurationError(
                 f"q: expected shape ({self.n},) for {self.n} joints, got {config.shape}"
             )
-        if not np.all(np.abs(config) <= NUMBER):
-            raise ConfigurationError(f"q: expected {expected}, got {found(q)}")
-        return config
-
-    def __str__(self) -> str:
-        from dh2urdf.dh_print import table_text
-
-        return table_text(self)
-
-    def _repr_html_(self) -> str:
-        from dh2urdf.dh_print import table_html
-
-        return table_html(self)
+        values: list[float] = config.tolist()
+        return values

@@ -104,7 +104,7 @@ def table_text(table: DHTable) -> str:
 
 
 def table_markdown(table: DHTable) -> str:
-    """The table as a Markdown pipe table."""
+    """The table as a Markdown pipe table, angles in degrees."""
     keys, header, rows = table_grid(table)
     at = keys.index("name")
     cells = [[markdown(c) if k == at else c for k, c in enumerate(row)] for row in rows]
@@ -118,7 +118,7 @@ def table_html(table: DHTable) -> str:
 
 
 def table_csv(table: DHTable) -> str:
-    """The cells as shown, comma-separated."""
+    """The table as comma-separated values as shown, angles in degrees."""
     _, header, rows = table_grid(table)
     return grids.grid_csv(header, rows)
 
@@ -136,7 +136,7 @@ LATEX = {
 
 
 def table_latex(table: DHTable) -> str:
-    """The table as a LaTeX ``tabular`` (package booktabs)."""
+    """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
     keys, _, rows = table_grid(table)
     cells = [[_latex_cell(key, text) for key, text in zip(keys, row, strict=True)] for row in rows]
     return grids.grid_latex([LATEX[key] for key in keys], cells)

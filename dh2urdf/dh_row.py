@@ -196,7 +196,7 @@ _JOINT_ONLY = ("lower", "upper", "velocity", "effort", "damping", "friction", "m
 def _bound(row: DHRow | Origin, key: str) -> tuple[float, str]:
     """Largest value of a field, and its unit for messages."""
     if key in ("lower", "upper"):
-        key = "d" if getattr(row, "joint_type", "") == JointType.PRISMATIC else "theta"
+        key = "d" if getattr(row, "joint_type", "") is JointType.PRISMATIC else "theta"
     if key in ("d", "a", "com", "xyz"):
         return LENGTH, "m"
     if key == "sign":

@@ -164,13 +164,7 @@ def integer(
 
 
 def text(value: object, what: str, error: type[Dh2UrdfError] = ArgumentError) -> str:
-    """A text that a file can hold: bounded, and no half of a character.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """A text that a file can hold: bounded, and no half of a character; or the error."""
     if not isinstance(value, str):
         raise error(f"{what}: expected a text, got {found(value)}")
     if len(value) > TEXT_CHARACTERS:

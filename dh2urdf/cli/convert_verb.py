@@ -12,7 +12,6 @@ from cyclopts import Parameter
 from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, note, read_source
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions
-from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import Dh2UrdfError, VerificationError
@@ -99,35 +98,30 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
 
 
 def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, object]:
+    """Text of the target's kind, checked, and written unless it is for stdout."""
     from dh2urdf.conversions.write_urdf import verified_urdf, write_urdf
 
     table, warnings = read_source(source)
-    result: dict[str, object] = {"source": source, "path": target}
+    result: dict[str, object] = {"source": source, "path": target, "max_error": 0.0}
     suffix = target.suffix.lower()
     if str(target) == "-":
-        text, max_error, more = verified_urdf(table, options)
-        return result | {"text": text, "max_error": max_error, "warnings": [*warnings, *more]}
-    if suffix in FORMATS:
-        _write_table(table, target, FORMATS[suffix], force)
-        return result | {"max_error": 0.0, "warnings": list(warnings)}
-    if suffix not in (".urdf", ".xml") and (os.path.isfile(target) or not os.path.exists(target)):
+        result["text"], result["max_error"], more = verified_urdf(table, options)
+        warnings += more
+    elif suffix in FORMATS:
+        text = table_to_text(table, FORMATS[suffix])
+        if parse_table(text, FORMATS[suffix]).table != table:
+            raise VerificationError(f"{shown(target)}: the text reads back as another table")
+        if not force:
+            refuse_foreign(target)
+        atomic_write(target, text)
+    elif suffix in (".urdf", ".xml") or (os.path.exists(target) and not os.path.isfile(target)):
+        report = write_urdf(table, target, options=options, force=force)
+        result["max_error"] = report.max_error
+        warnings += report.warnings
+    else:
         known = ", ".join([".urdf", *FORMATS])
         raise Dh2UrdfError(f"{shown(target)}: the suffix decides what convert writes: {known}")
-    report = write_urdf(table, target, options=options, force=force)
-    return result | {
-        "max_error": report.max_error,
-        "warnings": [*warnings, *report.warnings],
-    }
-
-
-def _write_table(table: DHTable, target: Path, format: str, force: bool) -> None:
-    """Write the table itself, after reading its text back."""
-    text = table_to_text(table, format)
-    if parse_table(text, format).table != table:
-        raise VerificationError(f"{shown(target)}: the text reads back as another table")
-    if not force:
-        refuse_foreign(target)
-    atomic_write(target, text)
+    return result | {"warnings": list(warnings)}
 
 
 def _show_one(result: dict[str, object], *, json: bool) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+from json import loads
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -153,8 +155,6 @@ def _text(found: Extraction, format: str) -> str:
 
 
 def _show_json(found: Extraction) -> None:
-    from json import loads
-
     from dh2urdf.dh_io import table_to_text
 
     emit_json(
@@ -164,21 +164,7 @@ def _show_json(found: Extraction) -> None:
         max_error=found.max_error,
         configurations=found.configurations,
         table=loads(table_to_text(found.table, "json")),
-        steps=[
-            {
-                "frame": step.frame,
-                "joint": step.joint,
-                "case": step.case,
-                "origin": step.origin,
-                "x": step.x,
-                "z": step.z,
-                "text": step.text,
-            }
-            for step in found.steps
-        ],
-        changes=[
-            {"where": c.where, "before": c.before, "after": c.after, "cost": c.cost}
-            for c in found.changes
-        ],
+        steps=[asdict(step) for step in found.steps],
+        changes=[asdict(change) for change in found.changes],
         warnings=found.warnings,
     )

@@ -78,35 +78,26 @@ def verify_urdf_text(
         for T in (placed, expected):
             T[:, :3, 3] /= size
         relative = max(relative, pose_error(placed, expected))
-    explained = 0.0 if digits is None else math.sqrt(3) * 10.0**-digits * (table.n + 2)
-    if not relative <= LARGEST_ERROR + explained * (1.0 + 0.5 * table.length) / size:
+    allowed, hint = LARGEST_ERROR, ""
+    if digits is not None:
+        share = math.sqrt(3) * 10.0**-digits * (table.n + 2) * (1.0 + 0.5 * table.length) / size
+        allowed, hint = min(allowed + share, COARSE), f" with {digits} decimals; give more digits"
+    if not relative <= allowed:
         raise VerificationError(
-            f"{table.name}: the written file differs from the DH product by {largest:.3g} "
-            f"(relative to {size:.3g} m of arm allowed {LARGEST_ERROR:.0e})"
-        )
-    if relative > COARSE:
-        raise VerificationError(
-            f"{table.name}: rounded to {digits} decimals the file differs from the DH product by "
-            f"{largest:.2g} m or rad, over a hundredth of the arm's {size:.3g} m or of a radian; "
-            "give more digits"
+            f"{table.name}: the written file differs from the DH product by {largest:.3g} m or "
+            f"rad, {relative:.2g} of the arm (allowed {allowed:.0e}){hint}"
         )
     return largest
 
 
 def _check_limits(model: pin.Model, order: list[int], table: DHTable, slack: float) -> None:
-    """Compare the limits that Pinocchio reads with the table's.
-
-    Raises
-    ------
-    VerificationError
-    """
+    """Compare the limits that Pinocchio reads with the table's."""
     for name, row, i in zip(table.joint_names, table.joints, order, strict=True):
-        wanted = np.array(default_limits(row, table))
-        read = np.array([model.lowerPositionLimit[i], model.upperPositionLimit[i]])
-        off = np.abs(read - wanted) > slack + 1e-15 * np.abs(wanted)
-        if off.any() or read[0] > read[1] or (read[0] == read[1] and wanted[0] < wanted[1]):
-            low, high = read
+        low, high = wanted = default_limits(row, table)
+        read = model.lowerPositionLimit[i], model.upperPositionLimit[i]
+        close = np.allclose(read, wanted, rtol=1e-15, atol=slack)
+        if not close or read[0] > read[1] or (read[0] == read[1] and low < high):
             raise VerificationError(
-                f"{table.name}: {name} has the limits {low:g} to {high:g} in the written file, "
-                f"{wanted[0]:g} to {wanted[1]:g} in the table"
+                f"{table.name}: {name} has the limits {read[0]:g} to {read[1]:g} in the written "
+                f"file, {low:g} to {high:g} in the table"
             )

@@ -69,12 +69,7 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
 
 
 def refuse_foreign(path: Path, *marks: str) -> None:
-    """Refuse to write over a file that does not open with one of the marks of this package.
-
-    Raises
-    ------
-    OutputExistsError
-    """
+    """Refuse to write over a file that does not open with one of the marks of this package."""
     if not os.path.isfile(path):
         return
     try:

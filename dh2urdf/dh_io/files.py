@@ -99,12 +99,7 @@ def read_text(
 
 
 def path_of(path: object, what: str = "path", expected: str = "a path") -> Path:
-    """A path of text, bytes or any object that stands for one.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """A path of text, bytes or any object that stands for one; an error for anything else."""
     try:
         return Path(os.fsdecode(path))  # type: ignore[arg-type]
     except TypeError:

@@ -18,13 +18,7 @@ _NUMBER = re.compile(r"[-+]?(\.inf|\.nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGN
 
 
 def yaml_values(text: str, filename: str) -> Any:
-    """Dictionaries, lists, numbers and texts of a YAML or JSON text; None where it is ``null``.
-
-    Raises
-    ------
-    TableFileError
-        Not YAML, an alias or tag, too deep, too many values, a key given twice.
-    """
+    """Dictionaries, lists, numbers and texts of a YAML or JSON text, or a TableFileError."""
     report = Report.of_text(filename, text)
     values = _values(read_yaml(text, report), report)
     report.raise_faults()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -69,13 +67,8 @@ def mix(colour: str, share: float, other: str = "#ffffff") -> str:
 
 def plain(text: str) -> str:
     """A text of a user as it is drawn: no formula, and only what the font has."""
-    signs = "".join(c if ord(c) in _drawn() else "\N{WHITE SQUARE}" for c in one_line(text))
-    return signs.replace("$", r"\$")
-
-
-@lru_cache(maxsize=1)
-def _drawn() -> Collection[int]:
-    """Characters of the font."""
     from matplotlib.font_manager import findfont, get_font
 
-    return frozenset(get_font(findfont(RC["font.sans-serif"][0])).get_charmap())
+    drawn = get_font(findfont(RC["font.sans-serif"][0])).get_charmap()
+    signs = "".join(c if ord(c) in drawn else "\N{WHITE SQUARE}" for c in one_line(text))
+    return signs.replace("$", r"\$")
