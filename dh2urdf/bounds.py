@@ -22,7 +22,6 @@ __all__ = [
     "NODES",
     "NUMBER",
     "ORIENTATIONS",
-    "PATH_BYTES",
     "POINTS",
     "POSES_BYTES",
     "ROBOT_BYTES",
@@ -72,9 +71,6 @@ ROBOT_BYTES = 10_000_000
 
 POSES_BYTES = 100_000_000
 """A file of poses: a million rows."""
-
-PATH_BYTES = 255
-"""A file's name, as the common file systems have it."""
 
 DEPTH = 16
 """Brackets within brackets of a table file, which needs four."""

@@ -8,7 +8,7 @@ A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joi
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
 
@@ -203,10 +203,6 @@ class DHTable:
                 break
             T = T @ row.transform(0.0, self.convention)
         return T
-
-    def renamed(self, name: str) -> DHTable:
-        """The same table under another name."""
-        return replace(self, name=name)
 
     to_markdown = table_markdown
     to_csv = table_csv

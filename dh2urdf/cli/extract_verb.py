@@ -12,6 +12,7 @@ from cyclopts import Parameter
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.cli.options import Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, note, stdin
+from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
@@ -21,17 +22,7 @@ __all__ = ["extract_"]
 
 Format = Literal["yaml", "toml", "json", "csv", "markdown", "latex", "rtb", "matlab", "matlab-rst"]
 
-SUFFIXES = {
-    ".yaml": "yaml",
-    ".yml": "yaml",
-    ".toml": "toml",
-    ".json": "json",
-    ".csv": "csv",
-    ".md": "markdown",
-    ".tex": "latex",
-    ".py": "rtb",
-    ".m": "matlab",
-}
+SUFFIXES = FORMATS | {".tex": "latex", ".py": "rtb", ".m": "matlab"}
 
 
 def extract_(
@@ -131,8 +122,6 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
     if output is None or to_stdout:
         emit(text)
         return
-    from dh2urdf.dh_io import atomic_write, refuse_foreign
-
     if not force:
         refuse_foreign(output, SIGNATURE)
     atomic_write(output, text)
@@ -144,7 +133,6 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
 
 def _text(found: Extraction, format: str) -> str:
     from dh2urdf.conversions.constructors import CONSTRUCTORS
-    from dh2urdf.dh_io import table_to_text
     from dh2urdf.dh_print import table_latex
 
     if format in CONSTRUCTORS:
@@ -155,8 +143,6 @@ def _text(found: Extraction, format: str) -> str:
 
 
 def _show_json(found: Extraction) -> None:
-    from dh2urdf.dh_io import table_to_text
-
     emit_json(
         "extract",
         base=found.base,

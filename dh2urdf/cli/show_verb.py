@@ -7,6 +7,7 @@ import numpy as np
 from dh2urdf.cli.options import Deg, Json, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
+from dh2urdf.doors import choice
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
 from dh2urdf.quoting import one_line
@@ -77,17 +78,13 @@ def show_(
 
 
 def _formatted(dh: DHTable, format: str) -> str:
-    from dh2urdf.exceptions import Dh2UrdfError
-
     writers = {
         "markdown": dh.to_markdown,
         "csv": dh.to_csv,
         "latex": dh.to_latex,
         "html": dh._repr_html_,
     }
-    if format not in writers:
-        raise Dh2UrdfError(f"--format: {format!r}; allowed: text, {', '.join(writers)}")
-    return writers[format]()
+    return writers[choice(format, "--format", ("text", *writers))]()
 
 
 def _solver(arm: Robot) -> tuple[str, str]:
