@@ -1,5 +1,6 @@
 """Hostile robot descriptions at every door: an answer, or one message in time."""
 
+import atexit
 import copy
 import os
 import random
@@ -26,10 +27,21 @@ TEXTS = [
     *("0x10", "1_0", "1,0", "${1}", "9" * 400, "\u0661", "0 0", "0 0 0", "0 0 1", "1 1e308 0"),
     *("nan 0 1", "1e-200 0 0", "1e308 1e308 1e308", "0 0 1 1", "\ud7ff", "\uffe9", "a\nb", "<"),
     *("revolute", "fixed", "prismatic", "continuous", "floating", "planar", "spherical", "hinge"),
-    *("link_1", "base_link", "tool0", "joint_1", "x" * 3000, "\u202e"),
+    *(
+        "link_1",
+        "base_link",
+        "tool0",
+        "joint_1",
+        "x" * 3000,
+        "\u202e",
+        "http://[",
+        "package://",
+        "file:///dev/zero",
+    ),
 ]
 
 FOLDER = tempfile.TemporaryDirectory()
+atexit.register(FOLDER.cleanup)
 
 FILES = sorted(Path(__file__).parents[1].glob("urdf/*.urdf"))
 KEPT = [etree.parse(str(path)).getroot() for path in FILES[:: max(1, len(FILES) // 8)]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from urllib.parse import unquote, urlparse
+from urllib.parse import unquote
 
 import numpy as np
 
@@ -39,7 +39,7 @@ def locate(filename: str, urdf: Path) -> Path | None:
         candidates = [Path(unquote(rest))]
     else:
         candidates = [folders[0] / filename]
-    return next((path for path in candidates if path.is_file()), None)
+    return next((path for path in candidates if os.path.isfile(path)), None)
 
 
 def is_remote(filename: str) -> bool:
@@ -48,15 +48,13 @@ def is_remote(filename: str) -> bool:
 
 
 def _split(filename: str) -> tuple[str, str]:
-    parts = urlparse(filename)
-    if not re.match(r"[a-z]+://", filename):
-        return "", filename
-    return parts.scheme, filename.partition("://")[2]
+    scheme, mark, rest = filename.partition("://")
+    return (scheme, rest) if mark and re.fullmatch("[a-z]+", scheme) else ("", filename)
 
 
 def stl_extent(path: Path) -> float | None:
     """Longest side [file's unit] of the box around an STL mesh; None for any other file."""
-    if path.suffix.lower() != ".stl" or not 84 <= path.stat().st_size <= LARGEST:
+    if path.suffix.lower() != ".stl" or path.stat().st_size > LARGEST:
         return None
     data = read_bytes(path, LARGEST, UrdfError)
     count = int.from_bytes(data[80:84], "little")
@@ -68,6 +66,6 @@ def stl_extent(path: Path) -> float | None:
             points = np.array(found, float).reshape(-1, 3)
         except ValueError:
             return None
-    if not len(points):
+    if not len(points) or not np.isfinite(points).all():
         return None
-    return float(np.ptp(points, axis=0).max())
+    return float(np.ptp(points.astype(float), axis=0).max())
