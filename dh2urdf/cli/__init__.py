@@ -94,7 +94,7 @@ def _run(tokens: list[str]) -> int:
         command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)
     except CycloptsError as error:
         message = str(error).replace(MARK, "").replace("Unknown option: ", "unknown option ")
-        raise Dh2UrdfError(f"{message} See --help.") from None
+        raise Dh2UrdfError(message) from None
     given = {name: plain(value) for name, value in bound.arguments.items()}
     check_together(command.__name__.rstrip("_"), given)
     bound.arguments.update(given)
