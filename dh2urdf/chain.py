@@ -21,6 +21,7 @@ import numpy as np
 
 from dh2urdf.bounds import LENGTH
 from dh2urdf.dh import JointType
+from dh2urdf.doors import instance, real_array
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.transforms import Array, inverse
 
@@ -62,16 +63,17 @@ class SerialChain:
     unit: float = 1.0
 
     def __post_init__(self) -> None:
-        n = len(self.joint_types)
+        for key, kind in (("links", "4 x 4 matrices"), ("lower", "numbers"), ("upper", "numbers")):
+            array = np.array(real_array(getattr(self, key), key, kind), order="C")
+            array.flags.writeable = False
+            object.__setattr__(self, key, array)
+        n = len(instance(self.joint_types, "joint_types", tuple))
+        instance(self.names, "names", tuple)
         sizes = (self.links.shape, len(self.names), self.lower.shape, self.upper.shape)
         if sizes != ((n + 1, 4, 4), n, (n,), (n,)):
             raise Dh2UrdfError(f"a chain of {n} joints cannot have parts of sizes {sizes}")
         if not (np.abs(self.links) * self.unit <= FARTHEST).all():
             raise UrdfError(f"a chain with numbers that are none, or beyond {FARTHEST:.0e} m")
-        for key in ("links", "lower", "upper"):
-            array = np.array(getattr(self, key), float, order="C")
-            array.flags.writeable = False
-            object.__setattr__(self, key, array)
 
     __getstate__ = settled_state
 

@@ -33,7 +33,7 @@ def _rows(values: Any) -> tuple[DHRow, ...]:
     """A bounded number of rows."""
     try:
         rows = tuple(islice(values, ROWS + 1))
-    except TypeError:
+    except Exception:  # as of any object that is gone through
         rows = (values,)
     if len(rows) > ROWS:
         raise TableError(f"rows: more than {ROWS}; a table has at most {JOINTS} joints")

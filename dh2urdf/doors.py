@@ -13,7 +13,7 @@ import numpy as np
 from numpy import ndarray
 from numpy.typing import NDArray
 
-from dh2urdf.bounds import TEXT_CHARACTERS
+from dh2urdf.bounds import NUMBER, TEXT_CHARACTERS
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "generator",
     "instance",
     "integer",
+    "items",
     "number",
     "real_array",
     "text",
@@ -85,9 +86,11 @@ def finite_array(
     what: str,
     expected: str,
     error: type[Dh2UrdfError] = ArgumentError,
-    shape: tuple[int, ...] | None = None,
+    shape: tuple[Any, ...] | None = None,
 ) -> Array:
     """:func:`real_array` without NaN and infinity.
+
+    With a ``shape``, of which ``...`` stands for any axes before the others, numbers square.
 
     Raises
     ------
@@ -95,12 +98,17 @@ def finite_array(
         Or ``error``, with the index of the first entry that is not finite.
     """
     array = real_array(values, what, expected, error)
-    if shape is not None and array.shape != shape:
+    fits = shape is None or array.shape == shape
+    if shape is not None and shape[:1] == (...,):
+        fits = array.shape[1 - len(shape) :] == shape[1:]
+    if not fits:
         raise error(f"{what}: expected {expected}, got {found(values)}")
-    finite = np.isfinite(array)
+    finite = np.isfinite(array) if shape is None else np.abs(array) <= NUMBER
     if not finite.all():
-        index = ", ".join(map(str, np.argwhere(~finite)[0]))
-        raise error(f"{what}{index and f'[{index}]'}: expected {expected}, got NaN or infinity")
+        first = np.argwhere(~finite)[0].tolist()
+        entry, index = array[tuple(first)], str(first) if first else ""
+        got = f"{entry:g}" if np.isfinite(entry) else "NaN or infinity"
+        raise error(f"{what}{index}: expected {expected}, got {got}")
     return array
 
 
@@ -131,7 +139,7 @@ def number(
     ArgumentError
         Or ``error``.
     """
-    if type(value) is float and low <= value <= high:
+    if isinstance(value, float) and low <= value <= high:
         return value
     expected = f"a number from {low:g} to {high:g}{' ' * bool(unit)}{unit}"
     array = real_array(value, what, expected, error)
@@ -158,7 +166,7 @@ def integer(
         whole = operator.index(cast("Any", value))
         if not isinstance(value, (bool, np.bool_)) and low <= whole <= high:
             return whole
-    except TypeError:
+    except Exception:  # an object's own conversion may fail in any way
         pass
     raise error(f"{what}: expected a whole number from {low} to {high}, got {found(value)}")
 
@@ -201,6 +209,19 @@ def instance(value: object, what: str, kind: Any, error: type[Dh2UrdfError] = Ar
     raise error(f"{what}: expected a {kind.__name__}, got {found(value)}")
 
 
+def items(values: Any, what: str) -> list[Any]:
+    """What may be gone through, as a list.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    try:
+        return list(values)
+    except Exception:  # an object's own iterator may fail in any way
+        raise ArgumentError(f"{what}: expected a list, got {found(values)}") from None
+
+
 def generator(rng: Any, what: str = "rng") -> np.random.Generator:
     """A generator of random numbers, or the one of a seed.
 
@@ -210,7 +231,7 @@ def generator(rng: Any, what: str = "rng") -> np.random.Generator:
     """
     try:
         return np.random.default_rng(rng)
-    except (TypeError, ValueError, OverflowError):
+    except Exception:  # as above
         raise ArgumentError(
             f"{what}: expected a numpy.random.Generator or a whole number from 0, got {found(rng)}"
         ) from None

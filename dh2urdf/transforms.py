@@ -13,7 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.doors import real_array
+from dh2urdf.bounds import NUMBER
+from dh2urdf.doors import finite_array, number, real_array
 from dh2urdf.exceptions import PoseError
 
 __all__ = [
@@ -55,10 +56,46 @@ ZYZ_SINGULAR = 1e-9
 """``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""
 
 
+def _real(value: object, what: str) -> float:
+    """An angle or a length of any size that squares."""
+    return number(value, what, -NUMBER, NUMBER)
+
+
+def _cos_sin(angle: float, what: str = "angle") -> tuple[float, float]:
+    """Cosine and sine of an angle [rad]."""
+    checked = _real(angle, what)
+    return math.cos(checked), math.sin(checked)
+
+
+def _three(values: object, what: str) -> tuple[float, float, float]:
+    """Three numbers; a list of floats is read without making an array."""
+    if isinstance(values, (list, tuple)) and len(values) == 3:
+        x, y, z = (_real(v, what) for v in values)
+        return x, y, z
+    x, y, z = finite_array(values, what, "3 numbers", shape=(3,)).tolist()
+    return x, y, z
+
+
+def _matrices(values: object, what: str, *sizes: int) -> Array:
+    """Finite matrices (..., k, k) of one of some sizes."""
+    expected = " or ".join(f"(..., {k}, {k})" for k in sizes)
+    given = real_array(getattr(values, "homogeneous", values), what, expected, PoseError)
+    k = sizes[-1] if given.shape[-2:] == (sizes[-1], sizes[-1]) else sizes[0]
+    return finite_array(given, what, f"numbers of shape {expected}", PoseError, (..., k, k))
+
+
+def _matrix(values: object) -> Array:
+    """One finite matrix, (3, 3) or (4, 4)."""
+    R = _matrices(values, "R", 3, 4)
+    if R.ndim != 2:
+        raise PoseError(f"R: expected shape (3, 3) or (4, 4), got {R.shape}")
+    return R
+
+
 def rotation(axis: ArrayLike, angle: float) -> Array:
     """Rotation about a unit axis by an angle (Rodrigues), shape (3, 3)."""
-    x, y, z = np.asarray(axis, float)
-    c, s = math.cos(angle), math.sin(angle)
+    x, y, z = _three(axis, "axis")
+    c, s = _cos_sin(angle)
     v = 1.0 - c
     return np.array(
         [
@@ -71,32 +108,32 @@ def rotation(axis: ArrayLike, angle: float) -> Array:
 
 def rot_x(angle: float) -> Array:
     """``Rot_x(angle)`` as a (4, 4) homogeneous matrix."""
-    c, s = math.cos(angle), math.sin(angle)
+    c, s = _cos_sin(angle)
     return np.array([[1.0, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
 
 
 def rot_y(angle: float) -> Array:
     """``Rot_y(angle)`` as a (4, 4) homogeneous matrix."""
-    c, s = math.cos(angle), math.sin(angle)
+    c, s = _cos_sin(angle)
     return np.array([[c, 0, s, 0], [0, 1.0, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]])
 
 
 def rot_z(angle: float) -> Array:
     """``Rot_z(angle)`` as a (4, 4) homogeneous matrix."""
-    c, s = math.cos(angle), math.sin(angle)
+    c, s = _cos_sin(angle)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1]])
 
 
 def trans(x: float, y: float, z: float) -> Array:
     """``Trans(x, y, z)`` as a (4, 4) homogeneous matrix, lengths in [m]."""
     T = np.eye(4)
-    T[:3, 3] = x, y, z
+    T[:3, 3] = _real(x, "x"), _real(y, "y"), _real(z, "z")
     return T
 
 
 def planar_rotation(theta: float) -> Array:
     """Homogeneous transform of the plane that turns by theta [rad], shape (3, 3)."""
-    c, s = math.cos(theta), math.sin(theta)
+    c, s = _cos_sin(theta, "theta")
     return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1.0]])
 
 
@@ -107,20 +144,12 @@ def planar_translation(x: float, y: float = 0.0) -> Array:
     ``planar_rotation(q1) @ planar_translation(l1) @ planar_rotation(q2) @
     planar_translation(l2)``.
     """
-    return np.array([[1.0, 0, x], [0, 1.0, y], [0, 0, 1.0]])
+    return np.array([[1.0, 0, _real(x, "x")], [0, 1.0, _real(y, "y")], [0, 0, 1.0]])
 
 
 def rpy_to_matrix(rpy: Sequence[float]) -> Array:
     """Rotation of URDF's roll, pitch, yaw [rad]: ``Rz(yaw) Ry(pitch) Rx(roll)``, shape (3, 3)."""
-    r, p, y = (float(v) for v in rpy)
-    cr, sr, cp, sp, cy, sy = (
-        math.cos(r),
-        math.sin(r),
-        math.cos(p),
-        math.sin(p),
-        math.cos(y),
-        math.sin(y),
-    )
+    (cr, sr), (cp, sp), (cy, sy) = (_cos_sin(v, "rpy") for v in _three(rpy, "rpy"))
     return np.array(
         [
             [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -140,7 +169,7 @@ def matrix_to_rpy(R: ArrayLike) -> tuple[float, float, float]:
     ----------
     R : array_like, shape (3, 3) or (4, 4)
     """
-    m = np.asarray(R, float)
+    m = _matrix(R)
     cos_pitch = math.hypot(m[0, 0], m[1, 0])
     yaw = math.atan2(m[1, 0], m[0, 0]) if cos_pitch > 1e-15 else 0.0
     cy, sy = math.cos(yaw), math.sin(yaw)
@@ -151,7 +180,8 @@ def matrix_to_rpy(R: ArrayLike) -> tuple[float, float, float]:
 
 def quaternion_to_matrix(q: Array) -> Array:
     """Rotations of unit quaternions (x, y, z, w), shape (..., 4) to (..., 3, 3)."""
-    x, y, z, w = np.moveaxis(q, -1, 0)
+    numbers = finite_array(q, "q", "4 numbers on the last axis", shape=(..., 4))
+    x, y, z, w = np.moveaxis(numbers, -1, 0)
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -164,13 +194,13 @@ def origin_matrix(xyz: Sequence[float], rpy: Sequence[float]) -> Array:
     """Pose of a URDF ``<origin xyz rpy>``, shape (4, 4)."""
     T = np.eye(4)
     T[:3, :3] = rpy_to_matrix(rpy)
-    T[:3, 3] = xyz
+    T[:3, 3] = _three(xyz, "xyz")
     return T
 
 
 def inverse(T: ArrayLike) -> Array:
     """Inverse of rigid poses, shape (..., 4, 4): ``T_b_a`` from ``T_a_b``."""
-    m = np.asarray(T, float)
+    m = _matrices(T, "T", 4)
     out = np.zeros_like(m)
     Rt = np.swapaxes(m[..., :3, :3], -1, -2)
     out[..., :3, :3] = Rt
@@ -185,7 +215,7 @@ def rotation_angle(R: ArrayLike) -> Array:
     ``atan2(|vee(R - R^T)| / 2, (tr R - 1) / 2)`` keeps full precision near 0, where the
     arc cosine of the trace loses half the digits.
     """
-    m = np.asarray(R, float)
+    m = _matrices(R, "R", 3, 4)
     v = np.stack(
         [
             m[..., 2, 1] - m[..., 1, 2],
@@ -205,10 +235,17 @@ def pose_error(T: ArrayLike, T_ref: ArrayLike) -> float:
     The larger of position difference [m] and angle between the orientations [rad], taken
     over the whole stack; the project's residual.
     """
-    a, b = np.asarray(T, float), np.asarray(T_ref, float)
+    a, b = _matrices(T, "T", 4), _matrices(T_ref, "T_ref", 4)
+    if not _fit(a.shape[:-2], b.shape[:-2]):
+        raise PoseError(f"T_ref: shape {b.shape} does not go with T of shape {a.shape}")
     position = np.linalg.norm(a[..., :3, 3] - b[..., :3, 3], axis=-1)
     angle = rotation_angle(np.swapaxes(b[..., :3, :3], -1, -2) @ a[..., :3, :3])
     return float(max(position.max(initial=0.0), angle.max(initial=0.0)))
+
+
+def _fit(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
+    """Whether two shapes broadcast."""
+    return all(i == j or 1 in (i, j) for i, j in zip(a[::-1], b[::-1], strict=False))
 
 
 def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
@@ -328,7 +365,7 @@ def matrix_to_zyz(R: ArrayLike) -> tuple[tuple[float, float, float], ...]:
         ``phi + psi`` (theta = 0) or ``phi - psi`` (theta = pi) is determined, and the
         representative has ``phi = 0``.
     """
-    m = np.asarray(R, float)
+    m = _matrix(R)
     sin_theta = math.hypot(m[0, 2], m[1, 2])
     theta = math.atan2(sin_theta, m[2, 2])
     if sin_theta <= ZYZ_SINGULAR:

@@ -5,10 +5,13 @@ any other exception, and any warning, fails the test by itself.
 """
 
 import time
+from fractions import Fraction
 from functools import wraps
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from dh2urdf.exceptions import Dh2UrdfError
 
@@ -48,3 +51,40 @@ def outcome(call, *args, **kwargs):
         return error
     finally:
         assert time.monotonic() - start < SECONDS
+
+
+SHAPES = [(), (0,), (1,), (2,), (3,), (6,), (7,), (3, 3), (4, 4), (0, 4, 4), (2, 4, 4), (2, 6)]
+
+
+class Unspeakable:
+    """An object whose every answer is an exception."""
+
+    def __repr__(self):
+        raise RuntimeError("no repr")
+
+    __bool__ = __len__ = __iter__ = __eq__ = __float__ = __index__ = __array__ = __repr__
+    __hash__ = object.__hash__
+
+
+ANYTHING = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.integers(-3, 9),
+    st.floats(),
+    st.floats(-3, 3),
+    st.complex_numbers(),
+    st.text(max_size=8),
+    st.binary(max_size=8),
+    st.decimals(),
+    st.fractions(),
+    st.lists(st.one_of(st.floats(), st.none(), st.text(max_size=3), st.integers()), max_size=7),
+    st.dictionaries(st.text(max_size=3), st.floats(), max_size=2),
+    st.sampled_from([10**400, -(10**400), Fraction(10**400), 10**30, 1e300, np.inf, np.nan]),
+    st.sampled_from([object(), np.ma.masked, np.datetime64("now"), ..., Unspeakable()]),
+    st.sampled_from(["nan", "inf", "x" * 5000, "\ud800", "\0", "../..", "1", "True"]),
+    st.builds(np.zeros, st.sampled_from(SHAPES), st.sampled_from(["f8", ">f8", "i4", "c16", "O"])),
+    st.builds(np.full, st.sampled_from(SHAPES), st.sampled_from([np.nan, 1e300, 1.0, -1e9])),
+    st.builds(np.ma.masked_all, st.sampled_from(SHAPES)),
+)
+"""Values of every kind that a caller might mistake for what an argument takes."""

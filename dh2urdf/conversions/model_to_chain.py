@@ -13,6 +13,7 @@ from dh2urdf.bounds import ANGLE, JOINTS, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.naming import listed, no_such
 from dh2urdf.dh import JointType
+from dh2urdf.doors import instance, text
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array
 
@@ -68,6 +69,7 @@ def frame_id(model: pin.Model, name: str) -> int:
     NameNotFoundError
         No such frame; the message lists the links.
     """
+    instance(model, "model", pin.Model), text(name, "base or tip")
     for kind in (pin.FrameType.BODY, pin.FrameType.FIXED_JOINT, pin.FrameType.OP_FRAME):
         if model.existFrame(name, kind):
             return int(model.getFrameId(name, kind))

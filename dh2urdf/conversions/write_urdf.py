@@ -10,6 +10,7 @@ from dh2urdf.conversions.dh_to_urdf import MARK, UrdfOptions, urdf_text_and_warn
 from dh2urdf.dh_io import TableLike, as_table, atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.xml import embedded_table
+from dh2urdf.doors import instance
 
 __all__ = ["ConversionReport", "embedded_table", "urdf_text", "verified_urdf", "write_urdf"]
 
@@ -36,7 +37,12 @@ class ConversionReport:
 
 def urdf_text(table: TableLike, options: UrdfOptions | None = None) -> str:
     """The URDF of a table as text, not yet checked; :func:`write_urdf` checks what it writes."""
-    return urdf_text_and_warnings(as_table(table), options or UrdfOptions())[0]
+    return urdf_text_and_warnings(as_table(table), _chosen(options))[0]
+
+
+def _chosen(options: UrdfOptions | None) -> UrdfOptions:
+    """Options that were given, or the usual ones."""
+    return UrdfOptions() if options is None else instance(options, "options", UrdfOptions)
 
 
 def verified_urdf(
@@ -52,7 +58,7 @@ def verified_urdf(
     """
     from dh2urdf.conversions.verify import verify_urdf_text
 
-    table, chosen = as_table(table), options or UrdfOptions()
+    table, chosen = as_table(table), _chosen(options)
     text, warnings = urdf_text_and_warnings(table, chosen)
     return text, verify_urdf_text(text, table, digits=chosen.digits), warnings
 

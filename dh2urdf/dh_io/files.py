@@ -43,6 +43,8 @@ def read_bytes(
         Or ``error``: nothing there, no permission, a folder, a pipe or device, or too large.
     """
     if not isinstance(source, str | os.PathLike):
+        if not hasattr(source, "read"):
+            raise error(f"path: expected a path, got {found(source)}")
         return _bounded(source, limit, "<stdin>", error)
     name = shown(source)
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
@@ -108,6 +110,6 @@ def path_of(path: object, what: str = "path", expected: str = "a path") -> Path:
 
 def shown(path: str | os.PathLike[str]) -> str:
     """A path as messages show it: in one line of characters that print, not over 300 of them."""
-    text = os.fspath(path)
+    text = os.fsdecode(path)
     text = text if len(text) <= 300 else f"{text[:100]}...{text[-150:]}"
     return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)

@@ -13,6 +13,7 @@ from dh2urdf.conversions.bodies import Body, draw_bodies, link_frames
 from dh2urdf.conversions.chain_to_dh import chain_to_dh
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.dh import DHTable, JointType
+from dh2urdf.doors import finite_array, instance
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
@@ -61,6 +62,7 @@ def drawn_arm(table: DHTable) -> DrawnArm:
 
 def table_of(robot: Robot) -> DHTable:
     """The robot's own table, or the one that frame assignment finds for its chain."""
+    instance(robot, "robot", Robot)
     if robot.table is not None:
         return robot.table
     return chain_to_dh(robot.chain, name=robot.model.name).table
@@ -70,14 +72,8 @@ def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:
     """The configuration asked for, checked, or zero brought within the limits, shape (n,)."""
     if q is None:
         return np.clip(np.zeros(robot.n), robot.lower, robot.upper)
-    try:
-        config = np.asarray(q, float)
-    except (TypeError, ValueError):
-        config = np.empty(0)
-    if config.shape != (robot.n,) or not np.isfinite(config).all():
-        names = ", ".join(robot.joint_names)
-        raise ConfigurationError(f"q: expected {robot.n} finite numbers ({names}), got {q!r:.80}")
-    return config
+    expected = f"{robot.n} finite numbers ({', '.join(robot.joint_names)})"
+    return finite_array(q, "q", expected, ConfigurationError, (robot.n,))
 
 
 def slides(table: DHTable) -> tuple[bool, ...]:

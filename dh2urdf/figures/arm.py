@@ -8,9 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.doors import finite_array
+from dh2urdf.doors import choice, finite_array, flag, items, text
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
-from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
 from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
@@ -81,10 +80,12 @@ def figure(
     -------
     matplotlib.figure.Figure
     """
-    if style not in ("bodies", "schematic"):
-        raise ConfigurationError(f"style: 'bodies' or 'schematic', not {style!r}")
+    choice(style, "style", ("bodies", "schematic"))
+    frames, table = flag(frames, "frames"), flag(table, "table")
+    ghosts = items(ghosts, "ghosts")
+    names = [text(name, "ghost_names") for name in items(ghost_names, "ghost_names")]
     with mpl.rc_context(RC):
-        return _ArmPicture(robot, q, style, ghosts, ghost_names, frames, table, view).draw()
+        return _ArmPicture(robot, q, style, ghosts, names, frames, table, view).draw()
 
 
 class _ArmPicture:

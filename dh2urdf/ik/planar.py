@@ -8,14 +8,15 @@ same kernels on arms with two or three parallel axes (:class:`PlanarArm`).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
-from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.doors import number
+from dh2urdf.exceptions import PoseError
 from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.short_position import axis_frames
 from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
@@ -39,6 +40,7 @@ def planar_reach(l1: float, l2: float) -> tuple[float, float]:
 
     ``(l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2`` is the workspace.
     """
+    l1, l2 = _numbers(l1=l1, l2=l2)
     return abs(l1 - l2), l1 + l2
 
 
@@ -67,9 +69,8 @@ def planar_rr_ik(l1: float, l2: float, x: float, y: float) -> Array:
     """
     from dh2urdf.kernels.planar import planar_rr
 
-    _check_lengths((l1, l2), (x, y))
     out = np.empty((2, 2))
-    count, _ = planar_rr(float(l1), float(l2), float(x), float(y), RIM, 0.0, out)
+    count, _ = planar_rr(*_numbers(l1=l1, l2=l2, x=x, y=y), RIM, 0.0, out)
     return _principal(out[:count])
 
 
@@ -93,7 +94,7 @@ def planar_rrr_ik(l1: float, l2: float, l3: float, x: float, y: float, phi: floa
     array, shape (k, 3)
         As for :func:`planar_rr_ik`.
     """
-    _check_lengths((l1, l2, l3), (x, y, phi))
+    l1, l2, l3, x, y, phi = _numbers(l1=l1, l2=l2, l3=l3, x=x, y=y, phi=phi)
     upper = planar_rr_ik(l1, l2, x - l3 * math.cos(phi), y - l3 * math.sin(phi))
     return _principal(np.column_stack([upper, phi - upper.sum(axis=1)]))
 
@@ -108,7 +109,7 @@ def wrist_centre(T: ArrayLike, d6: float) -> Array:
     d6 : float
         Distance of frame 6 from the wrist centre along its z [m].
     """
-    pose = check_pose(T)
+    pose, d6 = check_pose(T), number(d6, "d6", -LENGTH, LENGTH)
     centre: Array = pose[..., :3, 3] - d6 * pose[..., :3, 2]
     return centre
 
@@ -206,15 +207,14 @@ class PlanarArm(SolverBase):
         )
 
 
-def _check_lengths(lengths: Sequence[float], others: Sequence[float]) -> None:
-    """Raise for negative lengths and for anything that is not a finite number."""
-    for value in (*lengths, *others):
-        if not isinstance(value, (int, float, np.number)) or not math.isfinite(value):
-            raise PoseError(f"expected finite numbers, got {value!r}")
-    if min(lengths) < 0.0:
-        raise ConfigurationError(
-            f"link lengths must not be negative: {', '.join(map(str, lengths))}"
-        )
+def _numbers(**given: float) -> list[float]:
+    """Finite lengths and angles; link lengths are not negative."""
+    return [
+        number(value, key, 0.0, LENGTH)
+        if key.startswith("l")
+        else number(value, key, -LENGTH, LENGTH, PoseError)
+        for key, value in given.items()
+    ]
 
 
 def _principal(q: Array) -> Array:

@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from dh2urdf.bounds import ORIENTATIONS, SAMPLES
+from dh2urdf.doors import finite_array, flag, instance, integer
 from dh2urdf.ik.swept import SweptJoint, sample_values
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
@@ -40,9 +42,10 @@ def branch_counts(
     NoSolverError
     """
     task = task_of(robot)
+    turn = finite_array(R, "R", "numbers of shape (3, 3)", shape=(3, 3))
     counts = [
         robot.ik_batch(part, within_limits=within_limits, task=task.name).count
-        for part in _parts(grid, R[None], progress)
+        for part in _parts(grid, turn[None], progress)
     ]
     return np.concatenate(counts).reshape(len(grid.v), len(grid.u))
 
@@ -74,10 +77,13 @@ def dexterity(
     NoSolverError
     """
     task = task_of(robot)
-    turns = orientations(robot, task, count)
+    turns = orientations(robot, task, integer(count, "count", 1, ORIENTATIONS))
     tries: list[dict[int | str, float] | None] = [None]
-    if held:
-        tries = [{k: float(v)} for k, values in held.items() for v in values]
+    if held is not None:
+        rows = instance(held, "held", dict).items()
+        tries = [
+            {k: v} for k, vs in rows for v in finite_array(vs, "held", "numbers").flat
+        ] or tries
     reached = []
     for part in _parts(grid, turns, progress):
         hit = np.zeros(len(part), np.bool_)
@@ -96,21 +102,25 @@ def held_values(
     robot: Robot, count: int = HELD, *, within_limits: bool = True
 ) -> dict[int, Array] | None:
     """The joint to spare of an arm of seven, and values over its range; None without one."""
-    solver = robot.solver
+    solver = instance(robot, "robot", Robot).solver
+    count = integer(count, "count", 1, SAMPLES)
     if not isinstance(solver, SweptJoint):
         return None
-    values = sample_values(robot.chain, solver.joint, count, within_limits)
+    inside = flag(within_limits, "within_limits")
+    values = sample_values(robot.chain, solver.joint, count, inside)
     return {solver.joint: values}
 
 
 def _parts(grid: Section, turns: Array, progress: Progress | None) -> Iterator[Array]:
     """Poses in chunks, each point turned in all ways (k, 3, 3), telling how far it has come."""
-    points, each = grid.points.reshape(-1, 3), len(turns)
+    if progress is not None:
+        instance(progress, "progress", Callable)
+    points, each = instance(grid, "grid", Section).points.reshape(-1, 3), len(turns)
     step = max(1, CHUNK // each)
     for start in range(0, len(points), step):
         part = points[start : start + step, None]
         Ts = np.tile(np.eye(4), (len(part), each, 1, 1))
         Ts[..., :3, :3], Ts[..., :3, 3] = turns, part
         yield Ts.reshape(-1, 4, 4)
-        if progress:
+        if progress is not None:
             progress((start + len(part)) * each, len(points) * each)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dh2urdf.doors import instance
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
 from dh2urdf.workspace.task import PARALLEL
@@ -74,7 +75,7 @@ class PlanarArm:
 
 def planar_arm(robot: Robot) -> PlanarArm | None:
     """The robot as a planar RR arm; None where it is another."""
-    chain = robot.chain
+    chain = instance(robot, "robot", Robot).chain
     if chain.n != 2 or robot.n != 2 or chain.prismatic.any():
         return None
     z = chain.axes

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.bounds import LENGTH, POINTS
+from dh2urdf.doors import choice, instance, integer, number
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.task import common_axis
@@ -79,10 +80,9 @@ def section(robot: Robot, plane: str = "", at: float | None = None, count: int =
     count : int
         Points along the longer side.
     """
-    if plane and plane not in PLANES:
-        raise ConfigurationError(f"plane: {plane!r}; allowed: {', '.join(PLANES)}")
-    if count < 2:
-        raise ConfigurationError(f"points along a side: at least 2, not {count}")
+    choice(plane, "plane", ("", *PLANES))
+    count = integer(count, "points along a side", *POINTS)
+    at = None if at is None else number(at, "at", -LENGTH, LENGTH)
     if not plane:
         axis, flat = common_axis(robot)
         across = axis is not None and (flat or robot.n == 4)
@@ -110,7 +110,7 @@ def reach_ball(robot: Robot) -> tuple[Array, float]:
     Each joint moves the rest of the arm about or along its axis; the centre is the point of
     axis 1 nearest to the second axis and the radius sums the steps between the joints.
     """
-    chain = robot.chain
+    chain = instance(robot, "robot", Robot).chain
     points = chain.points
     centre = points[0]
     if chain.n > 1:

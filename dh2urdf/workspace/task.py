@@ -7,7 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from dh2urdf.bounds import ORIENTATIONS
 from dh2urdf.conversions.bodies import frame_along
+from dh2urdf.doors import instance, integer
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z
 
@@ -66,7 +68,7 @@ def common_axis(robot: Robot) -> tuple[int | None, bool]:
 
     None where they turn about different directions, or about none of the base's axes.
     """
-    chain = robot.chain
+    chain = instance(robot, "robot", Robot).chain
     turning, sliding = chain.axes[~chain.prismatic], chain.axes[chain.prismatic]
     if not len(turning):
         return None, False
@@ -82,7 +84,7 @@ def uniform_rotations(count: int) -> Array:
     Super-Fibonacci spirals (Alexa, "Super-Fibonacci spirals: fast, low-discrepancy sampling of
     SO(3)", CVPR 2022, algorithm 1).
     """
-    s = np.arange(count) + 0.5
+    s = np.arange(integer(count, "count", 1, ORIENTATIONS)) + 0.5
     t, d = s / count, 2 * np.pi * s
     r, big = np.sqrt(t), np.sqrt(1 - t)
     alpha, beta = d / math.sqrt(2.0), d / 1.533751168755204288118041
