@@ -16,7 +16,7 @@ __all__ = ["find_path"]
 SAMPLES = 64
 """Values of the swept joint at every pose."""
 
-CELL = 0.1
+CELL = 0.2
 """Joint distance [rad or m] below which two states of a pose, or two ends, are as good as one: what
 lies between is found when the path is made shorter."""
 
@@ -65,7 +65,7 @@ class SweptPath(PathFinder):
         order = np.argsort(cost, kind="stable")[: np.isfinite(cost).sum()]
         cells = np.round(q[order] / CELL) @ 97.0 ** np.arange(self.chain.n)
         _, first = np.unique(cells, return_index=True)
-        keep = order[np.sort(first)[: MOST_STATES // 2]]
+        keep = order[np.sort(first)[:MOST_STATES]]
         return Stage(pose, q[keep], cost[keep], parent[keep])
 
     def best(self, stages: list[Stage]) -> Array:
