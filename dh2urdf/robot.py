@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from dh2urdf.chain import settled_state
 from dh2urdf.conversions.carried_frames import carried_dh_frames, carried_joint_frames
 from dh2urdf.conversions.coupling import couple
-from dh2urdf.conversions.description import read_description
+from dh2urdf.conversions.description import TEXT, read_description
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
 from dh2urdf.conversions.kinematic_tree import Mimic
@@ -151,7 +151,8 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         coupled = robot._coupling.warnings if robot._coupling else ()
         if strict and coupled:
             raise UrdfError("\n".join(coupled))
-        robot.source, robot.warnings = Path(path), (*found.mends, *coupled)
+        robot.source = None if found.tree.where == TEXT else Path(path)
+        robot.warnings = (*found.mends, *coupled)
         return robot
 
     def fk(self, q: ArrayLike) -> Array:

@@ -403,3 +403,31 @@ def test_nothing_of_urdfdom_reaches_stderr(tmp_path, capfd):
         outcome(Robot.from_urdf, path)
         outcome(extract_dh, path)
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("end", [5, ["l1"], b"l1", "\ud800", "\0", "", "x" * 10**5, True, 1.5])
+def test_ends_that_are_no_links_are_one_message(end, tmp_path):
+    """Of a file, a text and a model; by base and by tip."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(chain_text(4, 3))
+    for source in (path, path.read_text(), pin.buildModelFromXML(chain_text(4, 3))):
+        for ends in ((end, None), (None, end)):
+            if end == "" and not isinstance(source, (str, Path)):
+                continue  # a model's own default
+            assert isinstance(outcome(extract_dh, source, *ends), Dh2UrdfError)
+    assert isinstance(outcome(Robot.from_urdf, path, None, end), Dh2UrdfError)
+
+
+@pytest.mark.parametrize(
+    "source", [5, None, b"arm.urdf", 1.5, ["arm.urdf"], MJCF, "<mujoco/>", "<"]
+)
+def test_what_is_no_path_is_one_message(source):
+    """Numbers, nothing, bytes, lists, and an MJCF as text."""
+    for door in (Robot.from_urdf, extract_dh, check_urdf):
+        assert isinstance(outcome(door, source), Dh2UrdfError)
+
+
+def test_a_text_of_a_urdf_is_a_robot():
+    """It has no source to draw meshes from."""
+    robot = Robot.from_urdf(chain_text(4, 3))
+    assert (robot.n, robot.source) == (3, None)

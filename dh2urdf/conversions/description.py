@@ -15,16 +15,21 @@ from dh2urdf.conversions.bare_urdf import bare_model
 from dh2urdf.conversions.kinematic_tree import (
     MOVING,
     KinematicTree,
-    Step,
     choose_ends,
     find_path,
 )
+from dh2urdf.conversions.naming import link_name
 from dh2urdf.conversions.read_urdf import read_urdf
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
+from dh2urdf.doors import found
 from dh2urdf.exceptions import UrdfError, VerificationError
 
 __all__ = ["Description", "description_bytes", "is_xacro", "mended_urdf", "read_description"]
+
+
+TEXT = "URDF text"
+"""How messages name a text that is no path."""
 
 
 class Description(NamedTuple):
@@ -45,7 +50,6 @@ class Description(NamedTuple):
     tree: KinematicTree
     base: str
     tip: str
-    steps: list[Step]
     root: etree._Element
     model: pin.Model
     addresses: dict[str, int]
@@ -66,7 +70,9 @@ def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
     UrdfError, MissingExtraError
     """
     if isinstance(source, str) and source.lstrip().startswith("<"):
-        return source.encode(errors="replace"), "URDF text"
+        return source.encode(errors="replace"), TEXT
+    if not isinstance(source, str | os.PathLike):
+        raise UrdfError(f"expected a path, got {found(source)}")
     data = read_bytes(source, ROBOT_BYTES, UrdfError)
     if is_xacro(source):
         with read_apart("xacro", Path(source)) as folder:
@@ -93,9 +99,10 @@ def read_description(
         The message names the element and its line.
     NameNotFoundError, MissingExtraError
     """
+    base, tip = link_name(base, "base"), link_name(tip, "tip")
     data, where = description_bytes(source)
     root = parse_xml(data, where)
-    if root.tag == "mujoco":
+    if root.tag == "mujoco" and where != TEXT:
         return _from_mjcf(root, Path(source), base, tip)
     tree = read_urdf(root, where, base, tip)
     ends = choose_ends(tree, base, tip)
@@ -111,7 +118,7 @@ def read_description(
         raise UrdfError("\n".join(mends[:20]) + more)
     chain = {step.joint.name for step in steps if step.joint.kind in MOVING}
     model = bare_model(tree, root, chain)
-    return Description(tree, *ends, steps, root, model, {}, tuple(mends))
+    return Description(tree, *ends, root, model, {}, tuple(mends))
 
 
 def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | None) -> Description:
@@ -126,7 +133,7 @@ def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | No
             f"{joint.where}: a {joint.kind} joint before the arm; choose a base behind it, such "
             f"as {joint.child!r}"
         )
-    return Description(tree, *ends, steps, root, model, addresses, ())
+    return Description(tree, *ends, root, model, addresses, ())
 
 
 def mended_urdf(
@@ -141,11 +148,11 @@ def mended_urdf(
     VerificationError
         Read back, the text is not the same robot.
     """
-    found = read_description(source, base, tip)
-    text = etree.tostring(found.root.getroottree(), encoding="unicode")
-    again = read_description(text, found.base, found.tip, strict=True).model
-    again.lowerPositionLimit = found.model.lowerPositionLimit  # none is written as wide ones
-    again.upperPositionLimit = found.model.upperPositionLimit
-    if again != found.model:
-        raise VerificationError(f"{found.tree.where}: the mended file is not read as it was meant")
-    return text, found.mends
+    given = read_description(source, base, tip)
+    text = etree.tostring(given.root.getroottree(), encoding="unicode")
+    again = read_description(text, given.base, given.tip, strict=True).model
+    again.lowerPositionLimit = given.model.lowerPositionLimit  # none is written as wide ones
+    again.upperPositionLimit = given.model.upperPositionLimit
+    if again != given.model:
+        raise VerificationError(f"{given.tree.where}: the mended file is not read as it was meant")
+    return text, given.mends

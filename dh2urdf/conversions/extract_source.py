@@ -15,6 +15,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.description import read_description
 from dh2urdf.conversions.model_source import model_source
 from dh2urdf.conversions.model_to_chain import frame_id
+from dh2urdf.conversions.naming import link_name
 from dh2urdf.conversions.read_axes import SUFFIXES as AXES_SUFFIXES
 from dh2urdf.conversions.read_axes import read_axes
 from dh2urdf.conversions.referee import (
@@ -86,7 +87,7 @@ def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
 
 
 def _from_model(model: pin.Model, base: str | None, tip: str | None) -> Source:
-    found, path = model_source(model, base, tip)
+    found, path = model_source(model, link_name(base, "base"), link_name(tip, "tip"))
     return Source(found, model_referee(model, path.base, path.tip, found.chain.names))
 
 

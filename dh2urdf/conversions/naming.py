@@ -7,8 +7,9 @@ from collections.abc import Iterable
 
 from dh2urdf.dh_io.files import shown
 from dh2urdf.doors import found
+from dh2urdf.exceptions import ArgumentError
 
-__all__ = ["listed", "no_such"]
+__all__ = ["link_name", "listed", "no_such"]
 
 
 def listed(names: Iterable[str]) -> str:
@@ -26,3 +27,15 @@ def no_such(name: object, names: Iterable[str], owner: str) -> str:
     hint = f"; did you mean {shown(near[close[0]])!r}?" if close else ""
     said = repr(shown(name)) if isinstance(name, str) else found(name)
     return f"{said}; {owner} has {listed(everyone)}{hint}"
+
+
+def link_name(name: object, what: str) -> str | None:
+    """The name of an end of the chain, in characters that a file can have.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if name is None or isinstance(name, str):
+        return None if name is None else name.encode(errors="replace").decode()
+    raise ArgumentError(f"{what}: expected the name of a link, got {found(name)}")
