@@ -76,7 +76,7 @@ def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
 
 
 def _check_names(table: DHTable) -> None:
-    reserved = {"tool0_fixed", "base_link_inertia_fixed"}
+    reserved = {"tool0_fixed", "base_link_inertia_fixed", "universe"}
     reserved |= {f"dh_{i}_fixed" for i in range(table.n + 1)}
     problems = [
         f"name: {name!r} holds a character that XML forbids"
@@ -84,7 +84,7 @@ def _check_names(table: DHTable) -> None:
         if XML_FORBIDDEN.search(name)
     ]
     problems += [
-        f"name: {name!r} is taken by a fixed joint of the written file"
+        f"name: {name!r} is taken by another joint of the file, or by Pinocchio"
         for name in table.joint_names
         if name in reserved
     ]
