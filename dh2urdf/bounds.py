@@ -66,7 +66,7 @@ a level per link, and ends the process some thousand further on."""
 TABLE_BYTES = 1_000_000
 """A table file; one of 60 joints with everything given has 20 kB."""
 
-ROBOT_BYTES = 10_000_000
+ROBOT_BYTES = 5_000_000
 """A robot description without its meshes; makers' largest have 1 MB."""
 
 POSES_BYTES = 100_000_000

@@ -107,14 +107,13 @@ def _list(given: object, what: str, expected: str, n: int) -> list[Any]:
 def _types(given: str | Sequence[JointType | str] | None, axes: Array) -> tuple[JointType, ...]:
     if given is None:
         return (JointType.REVOLUTE,) * len(axes)
-    letters = {"r": JointType.REVOLUTE, "p": JointType.PRISMATIC}
+    kinds = {"r": JointType.REVOLUTE, "p": JointType.PRISMATIC}
+    kinds |= {str(kind): kind for kind in kinds.values()}
     types = []
     for item in _list(given, "joint_types", "R and P", len(axes)):
-        word = item.lower() if isinstance(item, str) else ""
-        kind = letters.get(word) or word
-        if kind not in (JointType.REVOLUTE, JointType.PRISMATIC):
+        if not isinstance(item, str) or item.lower() not in kinds:
             raise UrdfError(f"joint_types: {found(item)} is not R, P, revolute or prismatic")
-        types.append(JointType(kind))
+        types.append(kinds[item.lower()])
     return tuple(types)
 
 
