@@ -181,7 +181,11 @@ def properties():
         def check(bad):
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
-                outcome(call, **{**plain, bad[0]: bad[1]})
+                given = {**plain, bad[0]: bad[1]}
+                try:
+                    outcome(call, **given)
+                except AssertionError:  # kernels compile, once per installation
+                    outcome(call, **given)
 
         return check
 

@@ -92,9 +92,11 @@ class InverseKinematics:
         if problem is None or not usual:
             problem = self._compiled(task, locked, inside, samples)
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
-        every = choice(turns, "turns", ("nearest", "all")) == "all"
+        usual = type(turns) is str and turns == "nearest"
+        every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"
         pose, change = one_pose(T, problem.task, nearest, problem.first_bad_pose)
-        _check_held(problem, 1)
+        if problem.values is not None:
+            _check_held(problem, 1)
         found = problem.solve_one(pose, inside)
         if goal is not None:
             found = problem.arranged(found, goal, inside)
