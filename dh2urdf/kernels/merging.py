@@ -6,14 +6,18 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import TWO_PI, move
+from dh2urdf.kernels.certify import ROUNDING, TWO_PI, move
 from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
-from dh2urdf.kernels.polish import POLISH, polish, pose_residual
+from dh2urdf.kernels.polish import polish, pose_residual
 
 __all__ = ["merge_solutions"]
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
+
+FLAT = 4.0 * ROUNDING
+"""Residual [m and rad] of the middle between two exact solutions that are one: at an elbow of 0.1 m
+two that are 6e-7 rad apart, a third of what is asked for."""
 
 
 @inlined_kernel
@@ -60,7 +64,7 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
     for k in range(count):
         twin = -1
         for j in range(kept):
-            accuracy = max(POLISH, residual[j], residual[k])
+            accuracy = max(FLAT, residual[j], residual[k])
             if _one(links, joints, T, q[j], q[k], accuracy, scratch[0], scratch[1], work):
                 twin = j
                 break
