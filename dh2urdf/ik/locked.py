@@ -75,12 +75,11 @@ def _check_limits(
     chain: SerialChain, key: int | str, joint: int, values: Held, within_limits: bool
 ) -> None:
     """Refuse values outside the limits of their joint, or beyond the bounds of any joint."""
-    upper = LENGTH if chain.prismatic[joint] else ANGLE
-    lower = -upper
-    if within_limits:
-        lower, upper = max(lower, chain.lower[joint]), min(upper, chain.upper[joint])
-    if isinstance(values, float) and lower <= values <= upper:
+    lower, upper = (chain.lower[joint], chain.upper[joint]) if within_limits else (-LENGTH, LENGTH)
+    if isinstance(values, float) and lower <= values <= upper and abs(values) <= ANGLE:
         return
+    bound = LENGTH if chain.prismatic[joint] else ANGLE
+    lower, upper = max(lower, -bound), min(upper, bound)
     every = np.atleast_1d(values)
     outside = (every < lower) | (every > upper)
     if outside.any():
