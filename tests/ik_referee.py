@@ -16,6 +16,7 @@ import dh2urdf
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
 from dh2urdf.dh import JointType
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.solver import select_solver
 
 HALF = math.pi / 2
@@ -158,8 +159,7 @@ def solve(chain, Ts, within_limits=False, solver=None):
         np.zeros((m, k), np.int64),
         np.zeros((m, k), np.int64),
     )
-    q, residual, count, branch, free = found
-    solver.solve_batch(Ts, within_limits, q, residual, count, branch, free)
+    solver.solve_batch(Ts, within_limits, Outputs(*found))
     return found
 
 

@@ -13,6 +13,7 @@ from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.outputs import Outputs
 
 __all__ = ["KEYS", "QUICK", "run"]
 
@@ -59,32 +60,20 @@ def _block(call: Callable[[], object], units: int) -> Block:
     return block
 
 
-def _outputs(m: int, kmax: int, n: int) -> tuple[NDArray[np.generic], ...]:
-    """Arrays as ``Solver.solve_batch`` fills them."""
-    codes = np.zeros((2, m, kmax), np.int64)
-    return (
-        np.empty((m, kmax, n)),
-        np.empty((m, kmax)),
-        np.empty(m, np.int64),
-        codes[0],
-        codes[1],
-    )
-
-
 def _inverse_parts(arm: Arm) -> Parts:
     robot = Robot.from_dh(arm.table)
     _, T = arm.draw(MANY)
     solver = robot.solver
-    one, many = (_outputs(m, solver.kmax, arm.n) for m in (1, MANY))
+    one, many = (Outputs.of(m, solver.kmax, arm.n) for m in (1, MANY))
     single = T[:1].copy()
     arrays = [single] * 5 + list(one)
     row = sum(a.nbytes for a in one) // 8
     return {
         "robot.ik": (lambda: robot.ik(T[0], within_limits=False), 1),
-        "solver, one pose": (lambda: solver.solve_batch(single, False, *one), 1),
+        "solver, one pose": (lambda: solver.solve_batch(single, False, one), 1),
         "entry into an empty kernel": (lambda: _empty(*arrays, False), 1),
-        "arrays of the answer": (lambda: _outputs(1, solver.kmax, arm.n), 1),
-        "solver, a pose of many": (lambda: solver.solve_batch(T, False, *many), MANY),
+        "arrays of the answer": (lambda: Outputs.of(1, solver.kmax, arm.n), 1),
+        "solver, a pose of many": (lambda: solver.solve_batch(T, False, many), MANY),
         "filling fresh memory of its answer": (lambda: np.full((FRESH, row), 1.0), FRESH),
     }
 
@@ -96,11 +85,11 @@ def _held_parts(arm: Arm) -> Parts:
     solver = robot.solver_for(locked=arm.locked)
     assert isinstance(solver, HeldSolver)
     values = np.full((MANY, 1), arm.held[1] if arm.held else 0.0)
-    one, many = (_outputs(m, solver.kmax, arm.n) for m in (1, MANY))
+    one, many = (Outputs.of(m, solver.kmax, arm.n) for m in (1, MANY))
     return {
         "robot.ik": (lambda: robot.ik(T[0], within_limits=False, locked=arm.locked), 1),
-        "solver, one pose": (lambda: solver.solve_held(T[:1], values[:1], False, *one), 1),
-        "solver, a pose of many": (lambda: solver.solve_held(T, values, False, *many), MANY),
+        "solver, one pose": (lambda: solver.solve_held(T[:1], values[:1], False, one), 1),
+        "solver, a pose of many": (lambda: solver.solve_held(T, values, False, many), MANY),
     }
 
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.solutions import IKSolutions, IntArray
+from dh2urdf.ik.outputs import IntArray
+from dh2urdf.ik.solutions import IKSolutions
 
 if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem

@@ -10,7 +10,8 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, moves_freely
 from dh2urdf.ik.notice import notice_if_slow
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.solver import SolverBase, Task
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -68,21 +69,12 @@ class General6R(SolverBase):
         rng = np.random.default_rng(0)
         q = rng.uniform(-np.pi, np.pi, (TRIALS, 6))
         poses = np.stack([self.chain.fk(row) for row in q])
-        found, residual = np.zeros((TRIALS, self.kmax, 6)), np.empty((TRIALS, self.kmax))
-        count = np.zeros(TRIALS, np.int64)
-        self._solve(poses, found, residual, count)
-        gap = np.abs(np.remainder(found - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)
-        gap[np.arange(self.kmax) >= count[:, None]] = np.inf
+        out = Outputs.of(TRIALS, self.kmax, 6)
+        out.q[:] = 0.0
+        self.solve_unfinished(poses, out)
+        gap = np.abs(np.remainder(out.q - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)
+        gap[np.arange(self.kmax) >= out.counts[:, None]] = np.inf
         return bool((gap.min(axis=1) < SAME).all())
-
-    def _solve(self, Ts: Array, q: Array, residual: Array, count: IntArray) -> None:
-        """Run the kernel on a copy of the plan that no other thread has."""
-        try:
-            arm = self._idle.pop()
-        except IndexError:
-            arm = self.plan.copy()
-        self._kernel(arm, Ts, q, residual, count)
-        self._idle.append(arm)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -95,9 +87,14 @@ class General6R(SolverBase):
             return "the arm cannot move its tool in all six directions"
         return None
 
-    def solve_unfinished(self, Ts: Array, q_out: Array, count_out: IntArray) -> None:
-        """Candidates of poses Ts (m, 4, 4), limits or not: q (m, 16, 6) and count (m,)."""
-        self._solve(Ts, q_out, np.empty(q_out.shape[:2]), count_out)
+    def solve_unfinished(self, Ts: Array, out: Outputs) -> None:
+        """Candidates of poses Ts (m, 4, 4), limits or not: q and counts."""
+        try:  # a copy of the plan that no other thread has
+            arm = self._idle.pop()
+        except IndexError:
+            arm = self.plan.copy()
+        self._kernel(arm, Ts, out.q, out.residual, out.counts)
+        self._idle.append(arm)
 
     def details(self) -> str:
         """Name the axes and the method."""
@@ -106,17 +103,7 @@ class General6R(SolverBase):
             f"1993), then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
         )
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) in two jitted calls."""
-        outputs = (q_out, residual_out, count_out)
-        self._solve(Ts, *outputs)
-        self._finish(self.links, self.joints, Ts, within_limits, *outputs, branch_out, free_out)
+        self.solve_unfinished(Ts, out)
+        self._finish(self.links, self.joints, Ts, within_limits, *out)

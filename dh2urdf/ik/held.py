@@ -8,24 +8,13 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.solutions import branch_words_of
-from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
+from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.transforms import Array
 
-__all__ = ["HeldJoints", "new_outputs"]
-
-
-def new_outputs(m: int, kmax: int, n: int) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
-    """Arrays for the solutions of m poses: q, residual, count, branch, free."""
-    codes = np.zeros((2, m, kmax), np.int64)
-    return (
-        np.empty((m, kmax, n)),
-        np.empty((m, kmax)),
-        np.zeros(m, np.int64),
-        codes[0],
-        codes[1],
-    )
+__all__ = ["HeldJoints"]
 
 
 class HeldJoints:
@@ -67,31 +56,22 @@ class HeldJoints:
         held = ", ".join(f"{self.chain.names[i]} at {v:g}" for i, v in self.held.items())
         return f"held: {held}\n{self.inner.explain()}"
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve for the moving joints and write the held values between them.
 
         The outputs may have other numbers of rows than this solver has solutions: at another
         held value another solver may cover the chain.
         """
-        q, residual, count, branch, free = new_outputs(len(Ts), self.kmax, len(self.moving))
-        self.inner.solve_batch(Ts, within_limits, q, residual, count, branch, free)
-        k = min(self.kmax, q_out.shape[1])
-        count_out[:] = np.minimum(count, k)
-        q_out[:, :k, self.moving], residual_out[:, :k] = q[:, :k], residual[:, :k]
+        found = Outputs.of(len(Ts), self.kmax, len(self.moving))
+        self.inner.solve_batch(Ts, within_limits, found)
+        k = min(self.kmax, out.q.shape[1])
+        out.counts[:] = np.minimum(found.counts, k)
+        out.q[:, :k, self.moving], out.residual[:, :k] = found.q[:, :k], found.residual[:, :k]
         for i, value in self.held.items():
-            q_out[:, :, i] = value
-        branch_out[:, :k], free_out[:] = branch[:, :k], 0
+            out.q[:, :, i] = value
+        out.branch[:, :k], out.free[:] = found.branch[:, :k], 0
         for bit, i in enumerate(self.moving):
-            free_out[:, :k] |= (free[:, :k] >> bit & 1) << int(i)
+            out.free[:, :k] |= (found.free[:, :k] >> bit & 1) << int(i)
 
     def __str__(self) -> str:
         return self.name

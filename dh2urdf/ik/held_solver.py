@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain, settled_state
-from dh2urdf.ik.solver import IntArray
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.transforms import Array
 
 __all__ = ["HeldSolver"]
@@ -33,17 +33,7 @@ class HeldSolver:
         """Say how the joints that move are solved for."""
         raise NotImplementedError
 
-    def solve_held(
-        self,
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held values (m, h) [rad] or [m].
 
         Outputs as in :class:`dh2urdf.ik.solver.Solver`, with all joints of the chain.
@@ -56,12 +46,9 @@ class HeldSolver:
         Limits do not count here.
         """
         m, n = len(values), self.chain.n
-        q, count = np.empty((m, self.kmax, n)), np.zeros(m, np.int64)
-        codes = np.zeros((2, m, self.kmax), np.int64)
-        residual, Ts = np.empty((m, self.kmax)), np.repeat(T[None], m, axis=0)
-        held = np.ascontiguousarray(values[:, None])
-        self.solve_held(Ts, held, False, q, residual, count, codes[0], codes[1])
-        points: Array = q[np.arange(self.kmax) < count[:, None]]
+        out, Ts = Outputs.of(m, self.kmax, n), np.repeat(T[None], m, axis=0)
+        self.solve_held(Ts, np.ascontiguousarray(values[:, None]), False, out)
+        points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
         return points
 
     def explain(self) -> str:

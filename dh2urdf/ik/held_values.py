@@ -6,11 +6,12 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.general_6r import General6R
-from dh2urdf.ik.held import HeldJoints, new_outputs
+from dh2urdf.ik.held import HeldJoints
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_wrist import TRIAL_VALUE, HeldWrist
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.part_chains import hold, without_end
-from dh2urdf.ik.solver import IntArray, Solver, Task, select_solver
+from dh2urdf.ik.solver import Solver, Task, select_solver
 from dh2urdf.transforms import Array
 
 __all__ = ["select_held"]
@@ -33,26 +34,16 @@ class HeldEnd(HeldSolver):
         """Say how the joints that move are solved for."""
         return self.inner.explain()
 
-    def solve_held(
-        self,
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Move the poses, solve for the rest, put the held joint in its place."""
         from dh2urdf.kernels.held_joint import held_poses, insert_held_batch
 
         joint = self.held[0]
         poses = np.empty_like(Ts)
         held_poses(self.links, self.slides, joint, values[:, 0], Ts, poses)
-        q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(free_out)
-        self.inner.solve_batch(poses, within_limits, q, residual_out, count_out, branch_out, free)
-        insert_held_batch(joint, values[:, 0], q, free, q_out, count_out, free_out)
+        q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(out.free)
+        self.inner.solve_batch(poses, within_limits, out._replace(q=q, free=free))
+        insert_held_batch(joint, values[:, 0], q, free, out.q, out.counts, out.free)
 
 
 class HeldOneByOne(HeldSolver):
@@ -82,29 +73,18 @@ class HeldOneByOne(HeldSolver):
             self._kept.pop(oldest, None)
         return solver
 
-    def solve_held(
-        self,
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the poses of one set of values after the other."""
-        outputs = q_out, residual_out, count_out, branch_out, free_out
         order = np.lexsort(values.T)
         breaks = np.flatnonzero(np.any(np.diff(values[order], axis=0), axis=1)) + 1
         for rows in np.split(order, breaks):
             if not len(rows):
                 continue
             solver = self.at(tuple(values[rows[0]].tolist()))
-            found = new_outputs(len(rows), self.kmax, self.chain.n)
-            solver.solve_batch(np.ascontiguousarray(Ts[rows]), within_limits, *found)
-            for out, part in zip(outputs, found, strict=True):
-                out[rows] = part
+            found = Outputs.of(len(rows), self.kmax, self.chain.n)
+            solver.solve_batch(np.ascontiguousarray(Ts[rows]), within_limits, found)
+            for whole, part in zip(out, found, strict=True):
+                whole[rows] = part
 
 
 class HeldGeneral(HeldOneByOne):

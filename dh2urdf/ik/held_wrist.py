@@ -12,8 +12,8 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.limits import plain_ranges
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.part_chains import hold, without_end
-from dh2urdf.ik.solver import IntArray
 from dh2urdf.ik.spherical_wrist import SphericalWrist
 from dh2urdf.ik.tolerances import SLACK, SNAP
 from dh2urdf.transforms import Array, inverse, rot_z, trans
@@ -172,17 +172,7 @@ class HeldWrist(HeldSolver):
         seen = "seen from the tool, " if self.which[2] else ""
         return f"{self.name}: {seen}{self.form.lines.describe()}"
 
-    def solve_held(
-        self,
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one jitted call."""
         self.kernel(
             self.frames,
@@ -193,11 +183,7 @@ class HeldWrist(HeldSolver):
             values.ravel(),
             Ts,
             within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
+            *out,
         )
 
     def points_on_curves(self, T: Array, values: Array) -> Array:

@@ -11,7 +11,8 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.general_6r import General6R
 from dh2urdf.ik.geometry import AxisLines
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.outputs import IntArray, Outputs
+from dh2urdf.ik.solver import SolverBase, Task
 from dh2urdf.ik.spherical_wrist import SphericalWrist
 from dh2urdf.ik.three_parallel import ThreeParallel
 from dh2urdf.ik.tolerances import NEAR, NEARLY_SINGULAR, NOISE_MOTION, SLACK, SLACK_OF_NEAR
@@ -82,16 +83,7 @@ class NearFamily(SolverBase):
             f"branches, {self.general.explain()}"
         )
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
         from dh2urdf.kernels.finish import finish_batch
         from dh2urdf.kernels.near_family import solve_near_parallel, solve_near_wrist
@@ -99,43 +91,38 @@ class NearFamily(SolverBase):
 
         wrist = isinstance(self.nominal, SphericalWrist)
         links, joints = self.nominal.links, self.nominal.joints
-        outputs = (q_out, residual_out, count_out, branch_out, free_out)
         poses = Ts
         if self.reversed:
             poses = np.empty_like(Ts)
             invert_poses(Ts, poses)
         solve = solve_near_wrist if wrist else solve_near_parallel
         form = self.nominal.form
-        solve(links, joints, form.rows, form.ends, self.slack, self.trust, poses, *outputs)
+        solve(links, joints, form.rows, form.ends, self.slack, self.trust, poses, *out)
         if self.reversed:
-            q_out[:] = q_out[:, :, ::-1].copy()
-        rows = np.flatnonzero(count_out < 0)
-        wide = self._in_doubt(rows, Ts[rows], q_out, count_out, within_limits)
-        count_out[rows] = 0
-        finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
-        for out, found in zip(outputs, wide, strict=True):
-            out[rows] = found[:, : self.kmax] if found.ndim > 1 else np.minimum(found, self.kmax)
+            out.q[:] = out.q[:, :, ::-1].copy()
+        rows = np.flatnonzero(out.counts < 0)
+        wide = self._in_doubt(rows, Ts[rows], out, within_limits)
+        out.counts[rows] = 0
+        finish_batch(self.links, self.joints, Ts, within_limits, *out)
+        for whole, part in zip(out, wide, strict=True):
+            whole[rows] = part[:, : self.kmax] if part.ndim > 1 else np.minimum(part, self.kmax)
 
-    def _in_doubt(
-        self, rows: IntArray, Ts: Array, q: Array, count: IntArray, within_limits: bool
-    ) -> tuple[Array, Array, IntArray, IntArray, IntArray]:
-        """Solve poses in doubt, Ts (d, 4, 4), from q and count of these rows: wider outputs."""
+    def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
+        """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
         from dh2urdf.kernels.beside import search_beside
         from dh2urdf.kernels.finish import finish_batch
         from dh2urdf.kernels.near_family import add_candidates
 
-        shape = len(rows), WIDTH
-        found, counts = np.empty((len(rows), self.kmax, 6)), np.zeros(len(rows), np.int64)
-        wide = np.empty((*shape, 6)), np.empty(shape), counts, np.zeros(shape, np.int64)
-        outputs = (*wide, np.zeros(shape, np.int64))
+        wide = Outputs.of(len(rows), WIDTH, 6)
         if len(rows):
-            self.general.solve_unfinished(Ts, found, counts)
-            wide[0][:, : self.kmax] = found
-            add_candidates(rows, q, count, wide[0], counts)
-            finish_batch(self.links, self.joints, Ts, False, *outputs)
-            search_beside(self.links, self.joints, Ts, wide[0], counts)
-            finish_batch(self.links, self.joints, Ts, within_limits, *outputs)
-        return outputs
+            found = Outputs.of(len(rows), self.kmax, 6)
+            self.general.solve_unfinished(Ts, found)
+            wide.q[:, : self.kmax], wide.counts[:] = found.q, found.counts
+            add_candidates(rows, out.q, out.counts, wide.q, wide.counts)
+            finish_batch(self.links, self.joints, Ts, False, *wide)
+            search_beside(self.links, self.joints, Ts, wide.q, wide.counts)
+            finish_batch(self.links, self.joints, Ts, within_limits, *wide)
+        return wide
 
 
 @lru_cache(maxsize=4)

@@ -17,9 +17,10 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.short_position import axis_frames
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
 from dh2urdf.ik.tolerances import NOMINAL, SNAP
 from dh2urdf.transforms import Array, check_pose, inverse
 
@@ -180,16 +181,7 @@ class PlanarArm(SolverBase):
             f"{what} reaches an annulus from {inner:.4g} to {outer:.4g} m"
         )
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
         self._kernel(
             self.links,
@@ -199,11 +191,7 @@ class PlanarArm(SolverBase):
             self.task is Task.POSE,
             Ts,
             within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
+            *out,
         )
 
 

@@ -16,6 +16,7 @@ from dh2urdf.ik import limits
 from dh2urdf.ik.batch import IKBatch
 from dh2urdf.ik.families import Family, slide_to_seed, task_error
 from dh2urdf.ik.held_solver import HeldSolver
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.part_chains import hold
 from dh2urdf.ik.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.solutions import (
@@ -92,12 +93,12 @@ class Problem:
         """All solutions of one checked pose Ts (1, 4, 4)."""
         q, residual = np.empty(self._shape), np.empty(self._rows)
         branch, free = np.zeros(self._rows, INTEGER), np.zeros(self._rows, INTEGER)
-        count = np.empty(1, INTEGER)
+        out = Outputs(q, residual, np.empty(1, INTEGER), branch, free)
         if self.values is None:
-            self._solve(Ts, within_limits, q, residual, count, branch, free)
+            self._solve(Ts, within_limits, out)
         else:
-            self._solve_held(Ts, within_limits, q, residual, count, branch, free)
-        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, count.item())
+            self._solve_held(Ts, within_limits, out)
+        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, out.counts.item())
         if any(free.tolist()[0]):
             return self._families_inside(found, within_limits)
         return found
@@ -107,16 +108,7 @@ class Problem:
     ) -> IKBatch:
         """All solutions of checked poses Ts (m, 4, 4), in chunks on a pool of threads."""
         m, (_, kmax, n) = len(Ts), self._shape
-        batch = IKBatch(
-            self,
-            Ts,
-            np.empty((m, kmax, n)),
-            np.empty((m, kmax)),
-            np.zeros(m, np.int64),
-            np.zeros((m, kmax), np.int64),
-            np.zeros((m, kmax), np.int64),
-            np.zeros(m),
-        )
+        batch = IKBatch(self, Ts, *Outputs.of(m, kmax, n), np.zeros(m))
         workers = max(1, threads if threads is not None else os.cpu_count() or 1)
         step = max(SMALL, min(CHUNK, -(-m // workers)))
         chunks = [slice(i, i + step) for i in range(0, m, step)]
@@ -127,38 +119,32 @@ class Problem:
         _run(work, chunks, workers, progress, m)
         return batch
 
-    def _solve_held(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        *arrays: Any,
-        rows: slice = ALL,
-    ) -> None:
+    def _solve_held(self, Ts: Array, within_limits: bool, out: Outputs, rows: slice = ALL) -> None:
         """Solve poses Ts (m, 4, 4) at the held values of these rows of the whole batch."""
         assert isinstance(self.solver, HeldSolver)
         assert self.values is not None
         values = self.values if len(self.values) == 1 else self.values[rows]
         if len(values) < len(Ts):
             values = np.repeat(values, len(Ts), axis=0)
-        self.solver.solve_held(Ts, values, within_limits, *arrays)
+        self.solver.solve_held(Ts, values, within_limits, out)
 
     def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
         """Fill the arrays of a part of a batch; the number of its poses."""
         from dh2urdf.kernels.poses import pad_solutions
 
-        arrays = (part.q, part.residual, part.count, part.branch_code, part.free_mask)
+        out = Outputs(part.q, part.residual, part.count, part.branch_code, part.free_mask)
         if self.values is None:
-            self._solve(part.targets, within_limits, *arrays)
+            self._solve(part.targets, within_limits, out)
         else:
-            self._solve_held(part.targets, within_limits, *arrays, rows=rows)
-        singular = pad_solutions(*arrays, np.nan)
+            self._solve_held(part.targets, within_limits, out, rows)
+        singular = pad_solutions(*out, np.nan)
         for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular else ():
             found = self._families_inside(part.solutions(int(i)), within_limits)
             k = len(found)
             part.count[i] = k
             part.q[i, :k], part.residual[i, :k] = found.q, found.residual
             part.branch_code[i, :k], part.free_mask[i, :k] = found.codes
-            pad_solutions(*(a[i : i + 1] for a in arrays), np.nan)
+            pad_solutions(*out.rows(slice(i, i + 1)), np.nan)
         return len(part)
 
     def _families_inside(self, found: IKSolutions, within_limits: bool) -> IKSolutions:

@@ -19,8 +19,9 @@ from dh2urdf.ik.families import task_jacobian
 from dh2urdf.ik.held import HeldJoints
 from dh2urdf.ik.limits import near_ranges
 from dh2urdf.ik.numeric import NumericProblem
+from dh2urdf.ik.outputs import IntArray, Outputs
 from dh2urdf.ik.part_chains import hold
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.solver import SolverBase, Task
 from dh2urdf.ik.tolerances import FAMILY_RANK, SPARE_RANK
 from dh2urdf.transforms import Array
 
@@ -113,37 +114,26 @@ class RedundantChain(SolverBase):
             self._solvers[values] = HeldJoints(self.chain, held, self.task)
         return self._solvers[values]
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
-        count_out[:] = 0
+        out.counts[:] = 0
         for values in self.values:
-            open_ = np.flatnonzero(count_out == 0)
+            open_ = np.flatnonzero(out.counts == 0)
             if not len(open_):
                 break
-            q, residual, count = q_out[open_], residual_out[open_], count_out[open_]
-            branch, free = branch_out[open_], free_out[open_]
-            solver = self._solver(values)
-            solver.solve_batch(Ts[open_], within_limits, q, residual, count, branch, free)
-            q_out[open_], residual_out[open_], count_out[open_] = q, residual, count
-        for i in () if self.alone else np.flatnonzero(count_out == 0):
-            found = self._numeric.solve(
+            found = out.rows(open_)
+            self._solver(values).solve_batch(Ts[open_], within_limits, found)
+            out.q[open_], out.residual[open_], out.counts[open_] = found[:3]
+        for i in () if self.alone else np.flatnonzero(out.counts == 0):
+            some = self._numeric.solve(
                 Ts[i], within_limits=within_limits, task=self.task, starts=STARTS
             )
-            count_out[i] = len(found)
-            q_out[i, : len(found)], residual_out[i, : len(found)] = found.q, found.residual
-        used = np.arange(self.kmax) < count_out[:, None]
-        free_out[:] = 0
-        free_out[used] = self.idle | _moving_joints(self.chain, self.task, q_out[used])
-        branch_out[:] = -1
+            k = out.counts[i] = len(some)
+            out.q[i, :k], out.residual[i, :k] = some.q, some.residual
+        used = np.arange(self.kmax) < out.counts[:, None]
+        out.free[:] = 0
+        out.free[used] = self.idle | _moving_joints(self.chain, self.task, out.q[used])
+        out.branch[:] = -1
 
 
 def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:

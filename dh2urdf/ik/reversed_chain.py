@@ -11,7 +11,8 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.solver import SolverBase, Task
 from dh2urdf.ik.spherical_wrist import SphericalWrist
 from dh2urdf.ik.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
@@ -44,25 +45,15 @@ class ReversedSolver(SolverBase):
         """Name the axes as the reversed chain has them."""
         return f"the arm seen from its tool, joint 1 the last: {self.inner.details()}"
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the inverse poses, and turn the solutions back."""
         from dh2urdf.kernels.reverse import invert_poses, turn_back
 
         inverse_poses = np.empty_like(Ts)
         invert_poses(Ts, inverse_poses)
-        outputs = (q_out, residual_out, count_out, branch_out, free_out)
-        self.inner.solve_batch(inverse_poses, False, *outputs)
-        branch_out[:] = -1
-        turn_back(self.links, self.joints, Ts, within_limits, *outputs)
+        self.inner.solve_batch(inverse_poses, False, out)
+        out.branch[:] = -1
+        turn_back(self.links, self.joints, Ts, within_limits, *out)
 
 
 class SphericalShoulder(ReversedSolver):

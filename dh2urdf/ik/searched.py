@@ -6,17 +6,15 @@ other lose what it says to rounding.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.held import new_outputs
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.redundancy import TRIALS, random_configurations
 from dh2urdf.ik.shortfall import nearly_reaching
 from dh2urdf.ik.solutions import branch_words_of
-from dh2urdf.ik.solver import IntArray, Solver, Task
+from dh2urdf.ik.solver import Solver, Task
 from dh2urdf.ik.tolerances import NO_RANK, SLACK, WEAK_RANK
 from dh2urdf.transforms import Array
 
@@ -50,30 +48,20 @@ class SearchedSolver:
             "not found is searched for from many starts"
         )
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
         from dh2urdf.kernels.finish import finish_batch
 
-        outputs: tuple[Any, ...] = q_out, residual_out, count_out, branch_out, free_out
-        self.inner.solve_batch(Ts, within_limits, *outputs)
-        for i in np.flatnonzero(count_out == 0):
+        self.inner.solve_batch(Ts, within_limits, out)
+        for i in np.flatnonzero(out.counts == 0):
             q, error = nearly_reaching(self.chain, Ts[i], Task.POSE)
             q = q[np.abs(error).max(axis=1) <= SLACK]
-            found: tuple[Any, ...] = new_outputs(1, max(len(q), self.kmax), self.chain.n)
-            found[0][0, : len(q)], found[2][0] = q, len(q)
+            found = Outputs.of(1, max(len(q), self.kmax), self.chain.n)
+            found.q[0, : len(q)], found.counts[0] = q, len(q)
             finish_batch(*self.chain.tables, Ts[i : i + 1], within_limits, *found)
-            count_out[i] = min(int(found[2][0]), self.kmax)
-            for k in (0, 1, 3, 4):
-                outputs[k][i] = found[k][0, : self.kmax]
+            np.minimum(found.counts, self.kmax, out=found.counts)
+            for whole, part in zip(out, found, strict=True):
+                whole[i] = part[0, : self.kmax] if part.ndim > 1 else part[0]
 
     def __str__(self) -> str:
         return self.name

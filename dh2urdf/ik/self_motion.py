@@ -12,7 +12,7 @@ import numpy as np
 from dh2urdf.bounds import SAMPLES
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik import limits
-from dh2urdf.ik.held import new_outputs
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.swept import SweptJoint, sample_values
 from dh2urdf.ik.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
 from dh2urdf.transforms import Array
@@ -55,9 +55,9 @@ def few_members(
     """
     chain = solver.chain
     values = sample_values(chain, solver.joint, GRID, within_limits)
-    outputs = new_outputs(1, GRID * solver.held.kmax, chain.n)
-    solver.solve_at(values, np.array(T[None]), within_limits, *outputs)
-    q = outputs[0][0, : outputs[2][0]]
+    outputs = Outputs.of(1, GRID * solver.held.kmax, chain.n)
+    solver.solve_at(values, np.array(T[None]), within_limits, outputs)
+    q = outputs.q[0, : outputs.counts[0]]
     if not len(q) and within_limits:
         q = inside_members(solver, T, limits.middle(chain), most, FEW)
     elif not len(q):
@@ -233,11 +233,10 @@ def _grid(solver: SweptJoint, within_limits: bool) -> Array:
 def _reached(solver: SweptJoint, T: Array, values: Array, within_limits: bool) -> Array:
     """Whether the pose has a sharp solution at each of the values (s,), bool shape (s,)."""
     m = len(values)
-    _, residual, count, _, _ = outputs = new_outputs(m, solver.held.kmax, solver.chain.n)
-    Ts = np.repeat(T[None], m, axis=0)
-    solver.held.solve_held(Ts, np.ascontiguousarray(values[:, None]), within_limits, *outputs)
-    residual[np.arange(solver.held.kmax) >= count[:, None]] = np.inf
-    sharp: Array = residual.min(axis=1) <= SHARP * max(1.0, solver.chain.size)
+    out, Ts = Outputs.of(m, solver.held.kmax, solver.chain.n), np.repeat(T[None], m, axis=0)
+    solver.held.solve_held(Ts, np.ascontiguousarray(values[:, None]), within_limits, out)
+    out.residual[np.arange(solver.held.kmax) >= out.counts[:, None]] = np.inf
+    sharp: Array = out.residual.min(axis=1) <= SHARP * max(1.0, solver.chain.size)
     return sharp
 
 

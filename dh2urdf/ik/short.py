@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.outputs import IntArray, Outputs
 from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]
@@ -145,16 +146,7 @@ class ShortChain(SolverBase):
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
         return _Quality(blind, nullity, -gap)
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
         self._kernel(
             self.links,
@@ -165,11 +157,7 @@ class ShortChain(SolverBase):
             self.rest_unit,
             Ts,
             within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
+            *out,
         )
 
 

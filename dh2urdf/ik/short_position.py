@@ -8,8 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortPosition", "axis_frames"]
@@ -58,30 +59,10 @@ class ShortPosition(SolverBase):
             return f"{kinds}; the distance and the height over an axis"
         return f"{kinds}; joint 3 from Pieper's quartic, joints 1 and 2 from distance and height"
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
         self._kernel(
-            self.links,
-            self.joints,
-            self.frames,
-            self.tip,
-            self.rest_unit,
-            Ts,
-            within_limits,
-            q_out,
-            residual_out,
-            count_out,
-            branch_out,
-            free_out,
+            self.links, self.joints, self.frames, self.tip, self.rest_unit, Ts, within_limits, *out
         )
 
 

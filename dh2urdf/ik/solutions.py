@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from dh2urdf.transforms import Array
 
     Arrays = tuple[Array, Array, "IntArray", "IntArray"]
+from dh2urdf.ik.outputs import IntArray
 
 __all__ = ["IKSolutions", "IntArray", "branch_name", "branch_words_of", "joints_of_mask"]
 
@@ -47,9 +48,6 @@ def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
 def joints_of_mask(mask: int) -> tuple[int, ...]:
     """Indices of the joints whose bits are set."""
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
-
-
-IntArray = NDArray[np.int64]
 
 
 class IKSolutions:

@@ -13,11 +13,9 @@ from enum import StrEnum
 from importlib import import_module
 from typing import ClassVar, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.exceptions import NoSolverError
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.transforms import Array
 
 __all__ = [
@@ -30,7 +28,6 @@ __all__ = [
     "select_solver",
 ]
 
-IntArray = NDArray[np.int64]
 
 BatchKernel = Callable[..., None]
 """A jitted function: constants, poses, ``within_limits``, then the five output arrays."""
@@ -65,16 +62,7 @@ class Solver(Protocol):
     def explain(self) -> str:
         """Name the class, its axes and subproblems, and why better solvers did not apply."""
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), C-contiguous, in one call without the interpreter lock.
 
         Parameters
@@ -82,15 +70,9 @@ class Solver(Protocol):
         Ts : array, shape (m, 4, 4)
         within_limits : bool
             Leave out what no full turn brings into the limits.
-        q_out : array, shape (m, kmax, n)
-            Solutions in the first ``count_out[i]`` rows; the others may hold anything.
-        residual_out : array, shape (m, kmax)
-        count_out : int64 array, shape (m,)
-        branch_out : int64 array, shape (m, kmax)
-            Bit 0 shoulder (0 left, 1 right), bit 1 elbow (0 up, 1 down), bit 2 wrist (0 no flip,
-            1 flip); -1 where the family has no such names.
-        free_out : int64 array, shape (m, kmax)
-            Bit i set where joint i moves along a singular family through this solution.
+        out : Outputs
+            Bits of the branch: 0 shoulder (0 left, 1 right), 1 elbow (0 up, 1 down), 2 wrist (0 no
+            flip, 1 flip).
         """
 
 
@@ -138,16 +120,7 @@ class SolverBase:
         """Say what keeps the family from covering the chain for the task; None: it covers it."""
         raise NotImplementedError
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
         raise NotImplementedError
 

@@ -9,7 +9,8 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
 from dh2urdf.ik.limits import plain_ranges
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
 from dh2urdf.ik.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
@@ -97,19 +98,9 @@ class SphericalWrist(SolverBase):
         fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_wrist if fast else solve_turning_arm  # type: ignore[no-any-return]
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) in one jitted call."""
-        outputs = q_out, residual_out, count_out, branch_out, free_out
-        self.kernel(*self.constants, Ts, within_limits, *outputs)
+        self.kernel(*self.constants, Ts, within_limits, *out)
 
 
 def _places_wrist(form: DHForm) -> bool:

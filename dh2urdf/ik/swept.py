@@ -10,12 +10,12 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.held import new_outputs
 from dh2urdf.ik.held_solver import HeldSolver
 from dh2urdf.ik.held_values import select_held
 from dh2urdf.ik.held_wrist import HeldWrist
 from dh2urdf.ik.limits import near_ranges
-from dh2urdf.ik.solver import IntArray, SolverBase, Task
+from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.solver import SolverBase, Task
 from dh2urdf.transforms import Array
 
 __all__ = ["SAMPLES", "SweptJoint", "sample_values"]
@@ -107,69 +107,38 @@ class SweptJoint(SolverBase):
         name = self.chain.names[self.joint]
         return f"{name} at {self.samples} values ({self.reason}); {self.held.explain()}"
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) at every value of the swept joint.
 
         Where none of them reaches a pose, curves between the values are looked for.
         """
         values = sample_values(self.chain, self.joint, self.samples, within_limits)
-        self.solve_at(
-            values, Ts, within_limits, q_out, residual_out, count_out, branch_out, free_out
-        )
-        missed = np.flatnonzero(count_out == 0)
+        self.solve_at(values, Ts, within_limits, out)
+        missed = np.flatnonzero(out.counts == 0)
         if len(missed):
             from dh2urdf.ik.self_motion import few_members
 
             for i in missed:
                 q, residual = few_members(self, Ts[i], within_limits, self.kmax)
-                k = count_out[i] = len(q)
-                q_out[i, :k], residual_out[i, :k] = q, residual
-                branch_out[i, :k], free_out[i, :k] = -1, 0
+                k = out.counts[i] = len(q)
+                out.q[i, :k], out.residual[i, :k] = q, residual
+                out.branch[i, :k], out.free[i, :k] = -1, 0
 
-    def solve_at(
-        self,
-        values: Array,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
         from dh2urdf.kernels.sweep import gather_samples, spread_samples
 
         samples = len(values)
         step = max(1, min(len(Ts), BLOCK // samples))
         poses, held = np.empty((step * samples, 4, 4)), np.empty((step * samples, 1))
-        found = new_outputs(step * samples, self.held.kmax, self.chain.n)
+        found = Outputs.of(step * samples, self.held.kmax, self.chain.n)
         for first in range(0, len(Ts), step):
             last = min(first + step, len(Ts))
             used = (last - first) * samples
             spread_samples(Ts, values, first, last, poses, held)
-            some = tuple(a[:used] for a in found)
-            self.held.solve_held(poses[:used], held[:used], within_limits, *some)  # type: ignore[arg-type]
-            gather_samples(
-                some,
-                first,
-                last,
-                samples,
-                q_out,
-                residual_out,
-                count_out,
-                branch_out,
-                free_out,
-            )
+            some = found.rows(slice(used))
+            self.held.solve_held(poses[:used], held[:used], within_limits, some)
+            gather_samples(some, first, last, samples, *out)
 
 
 @lru_cache(maxsize=4)

@@ -7,8 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, IntArray, SolverBase, Task
+from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeSlides"]
@@ -57,16 +58,6 @@ class ThreeSlides(SolverBase):
             "the slides from three linear equations"
         )
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        outputs = q_out, residual_out, count_out, branch_out, free_out
-        self._kernel(self.links, self.joints, self.rest, Ts, within_limits, *outputs)
+        self._kernel(self.links, self.joints, self.rest, Ts, within_limits, *out)

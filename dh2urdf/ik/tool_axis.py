@@ -12,9 +12,10 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
+from dh2urdf.ik.outputs import Outputs
 from dh2urdf.ik.redundancy import spare_joints
 from dh2urdf.ik.solutions import branch_words_of
-from dh2urdf.ik.solver import IntArray, Solver, SolverBase, Task, select_solver
+from dh2urdf.ik.solver import Solver, SolverBase, Task, select_solver
 from dh2urdf.transforms import Array
 
 __all__ = ["ToolAxis", "with_tool_joint"]
@@ -65,19 +66,10 @@ class ToolAxis(SolverBase):
         """Name the solver of the longer chain."""
         return f"with a virtual joint about the tool's z: {self.inner}"
 
-    def solve_batch(
-        self,
-        Ts: Array,
-        within_limits: bool,
-        q_out: Array,
-        residual_out: Array,
-        count_out: IntArray,
-        branch_out: IntArray,
-        free_out: IntArray,
-    ) -> None:
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays; the virtual joint is left out."""
         n = self.chain.n
         q = np.empty((len(Ts), self.kmax, n + 1))
-        self.inner.solve_batch(Ts, within_limits, q, residual_out, count_out, branch_out, free_out)
-        q_out[:] = q[:, :, :n]
-        free_out &= (1 << n) - 1
+        self.inner.solve_batch(Ts, within_limits, out._replace(q=q))
+        out.q[:] = q[:, :, :n]
+        out.free[:] &= (1 << n) - 1
