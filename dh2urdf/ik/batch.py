@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.outputs import IntArray
+from dh2urdf.ik.outputs import IntArray, Outputs
 from dh2urdf.ik.solutions import IKSolutions
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class IKBatch:
 
     def solutions(self, i: int) -> IKSolutions:
         """The solutions of pose i of a plain row of poses."""
-        arrays = self.q, self.residual, self.branch_code, self.free_mask
+        arrays = Outputs(self.q, self.residual, self.count, self.branch_code, self.free_mask)
         found = IKSolutions(self.problem, self.targets, arrays, i, int(self.count[i]))
         found.pose_change = float(self.pose_change[i])
         return found

@@ -43,6 +43,8 @@ ALL = slice(None)
 
 INTEGER = np.dtype(np.int64)
 
+_record = tuple.__new__  # of Outputs; its own constructor costs a twentieth of a single call
+
 SMALL = 256
 """Poses below which a thread costs more than it saves."""
 
@@ -91,14 +93,14 @@ class Problem:
 
     def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
         """All solutions of one checked pose Ts (1, 4, 4)."""
-        q, residual = np.empty(self._shape), np.empty(self._rows)
-        branch, free = np.zeros(self._rows, INTEGER), np.zeros(self._rows, INTEGER)
-        out = Outputs(q, residual, np.empty(1, INTEGER), branch, free)
+        rows, free = self._rows, np.zeros(self._rows, INTEGER)
+        counts, branch = np.empty(1, INTEGER), np.zeros(rows, INTEGER)
+        out = _record(Outputs, (np.empty(self._shape), np.empty(rows), counts, branch, free))
         if self.values is None:
             self._solve(Ts, within_limits, out)
         else:
             self._solve_held(Ts, within_limits, out)
-        found = IKSolutions(self, Ts, (q, residual, branch, free), 0, out.counts.item())
+        found = IKSolutions(self, Ts, out, 0, counts.item())
         if any(free.tolist()[0]):
             return self._families_inside(found, within_limits)
         return found

@@ -11,13 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.doors import finite_array
 from dh2urdf.exceptions import ConfigurationError, NoSolutionError
+from dh2urdf.ik.outputs import IntArray, Outputs
 
 if TYPE_CHECKING:
     from dh2urdf.ik.problem import Problem
     from dh2urdf.transforms import Array
-
-    Arrays = tuple[Array, Array, "IntArray", "IntArray"]
-from dh2urdf.ik.outputs import IntArray
 
 __all__ = ["IKSolutions", "IntArray", "branch_name", "branch_words_of", "joints_of_mask"]
 
@@ -72,7 +70,7 @@ class IKSolutions:
     __slots__ = ("_arrays", "_index", "_problem", "_targets", "count", "pose_change")
 
     def __init__(
-        self, problem: Problem, targets: Array, arrays: Arrays, index: int, count: int
+        self, problem: Problem, targets: Array, arrays: Outputs, index: int, count: int
     ) -> None:
         self._problem, self._targets, self._arrays = problem, targets, arrays
         self._index, self.count, self.pose_change = index, count, 0.0
@@ -80,12 +78,12 @@ class IKSolutions:
     @property
     def q(self) -> Array:
         """Configurations, shape (k, n), read-only."""
-        return _read_only(self._arrays[0][self._index, : self.count])
+        return _read_only(self._arrays.q[self._index, : self.count])
 
     @property
     def residual(self) -> Array:
         """Residual of each solution [m and rad], shape (k,), read-only."""
-        return _read_only(self._arrays[1][self._index, : self.count])
+        return _read_only(self._arrays.residual[self._index, : self.count])
 
     @property
     def branch(self) -> tuple[str, ...]:
@@ -107,7 +105,7 @@ class IKSolutions:
     @property
     def codes(self) -> tuple[IntArray, IntArray]:
         """Branch codes and masks of free joints, two arrays of shape (k,)."""
-        _, _, branch, free = self._arrays
+        _, _, _, branch, free = self._arrays
         return branch[self._index, : self.count], free[self._index, : self.count]
 
     def nearest(self, q: ArrayLike) -> Array:
@@ -176,8 +174,9 @@ class IKSolutions:
         free: IntArray,
     ) -> IKSolutions:
         """Solutions of one target (4, 4) from arrays with a row for each."""
-        arrays = q[None], residual[None], branch[None], free[None]
-        return cls(problem, target[None], arrays, 0, len(q))
+        counts = np.array([len(q)])
+        out = Outputs(q[None], residual[None], counts, branch[None], free[None])
+        return cls(problem, target[None], out, 0, len(q))
 
     def __repr__(self) -> str:
         if not self:
