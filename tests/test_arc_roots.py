@@ -43,6 +43,22 @@ def roots_around(samples, q, slopes):
     return count, noise, largest
 
 
+class Strict(np.ndarray):
+    """An array that is not read from its end."""
+
+    def __getitem__(self, index):
+        assert min(index if isinstance(index, tuple) else (index,)) >= 0
+        return super().__getitem__(index)
+
+
+def test_arcs_are_read_from_no_negative_index():
+    """The arc before the first one is the last one, by its own index."""
+    arrays = (np.zeros(24), np.zeros((TERMS, 24)), np.zeros((24, 24)))
+    samples = product(CIRCLE, np.linspace(-3, 3, 16))
+    getattr(circle_arcs, "py_func", circle_arcs)(samples, *(a.view(Strict) for a in arrays))
+    assert arrays[2][0, 0] == arrays[2][TERMS - 1, 23] != 0.0
+
+
 @njit
 def nodes_of(middle, half_tan):
     """Cosines and sines of a window's nodes."""

@@ -154,7 +154,7 @@ def circle_arcs(samples, series, turned, arcs):
             for k in range(LANES):
                 arcs[i, k] += w * turned[m, k]
     for k in range(LANES):
-        arcs[0, k] = arcs[TERMS - 1, k - 1]
+        arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
     return noise, largest
 
 
