@@ -128,57 +128,73 @@ class NumericProblem:
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
         from dh2urdf.kernels.arrange import measure_all
-        from dh2urdf.kernels.numeric import find_solutions
 
         wanted = Task(choice(task, "task", tuple(Task)))
         given, change = one_pose(T, wanted, nearest)
         starts = integer(starts, "starts", 1, STARTS)
         solutions = min(starts, integer(solutions, "solutions", 1, STARTS))
         target, inside = given[0], flag(within_limits, "within_limits")
-        chain, n = in_own_unit(self.chain), len(self.lower)
+        inner, scale = self._in_own_unit()
+        pose = lengths_in(target, inner.chain.unit / self.chain.unit)
+        first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale
+        q, tried = inner._search(pose, wanted, first, inside, solutions, starts, generator(rng))
+        q, residual, one = q * scale, np.empty(len(q)), np.array([len(q)])
+        joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
+        poses = target[None], joints[None], one, residual[None]
+        measure_all(*self.chain.tables, wanted.number, *poses)
+        return NumericSolutions(q, residual, target, tried, self.slides, change)
+
+    def _in_own_unit(self) -> tuple[NumericProblem, Array]:
+        """The problem with lengths in its chain's own unit, and that unit of each value, (n,)."""
+        chain = in_own_unit(self.chain)
         unit = chain.unit / self.chain.unit
-        scale, joint_scale = (np.where(s, unit, 1.0) for s in (self.slides, chain.prismatic))
-        ends = self.lower / scale, self.upper / scale
-        bounds = np.column_stack([self.slides, *ends]).astype(float)
+        scale, joints = (np.where(s, unit, 1.0) for s in (self.slides, chain.prismatic))
+        coupling, offset = self.coupling * scale / joints[:, None], self.offset / joints
+        bounds = self.lower / scale, self.upper / scale
+        return NumericProblem(chain, coupling, offset, self.slides, *bounds), scale
+
+    def _search(
+        self,
+        T: Array,
+        task: Task,
+        seed: Array | None,
+        inside: bool,
+        solutions: int,
+        starts: int,
+        rng: np.random.Generator,
+    ) -> tuple[Array, int]:
+        """Configurations (k, n) that reach a pose, nearest to a seed first; starts that it took."""
+        from dh2urdf.kernels.numeric import find_solutions
+
+        n = len(self.lower)
+        bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)
         if not inside:
             bounds[:, 1], bounds[:, 2] = -np.inf, np.inf
-        first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale
         q, residual = np.empty((solutions, n)), np.empty(solutions)
         count, tried = find_solutions(
-            *chain.tables,
-            np.ascontiguousarray(self.coupling * scale / joint_scale[:, None], dtype=float),
-            np.ascontiguousarray(self.offset / joint_scale, dtype=float),
+            *self.chain.tables,
+            np.ascontiguousarray(self.coupling, dtype=float),
+            np.ascontiguousarray(self.offset, dtype=float),
             bounds,
-            wanted.number,
-            lengths_in(target, unit),
-            chain.size,
-            self._starts(starts, first, bounds, ends, chain.size, generator(rng)),
+            task.number,
+            T,
+            self.chain.size,
+            self._starts(starts, seed, bounds, rng),
             q,
             residual,
         )
-        order = np.arange(count)
-        if first is not None:
-            order = np.argsort(np.linalg.norm(q[:count] - first, axis=1), kind="stable")
-        q, residual, one = q[order] * scale, residual[order], np.array([count])
-        joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
-        measure_all(
-            *self.chain.tables, wanted.number, target[None], joints[None], one, residual[None]
-        )
-        return NumericSolutions(q, residual, target, tried, self.slides, change)
+        if seed is None:
+            return q[:count], tried
+        order = np.argsort(np.linalg.norm(q[:count] - seed, axis=1), kind="stable")
+        return q[order], tried
 
     def _starts(
-        self,
-        starts: int,
-        seed: Array | None,
-        bounds: Array,
-        ends: tuple[Array, Array],
-        size: float,
-        rng: np.random.Generator,
+        self, starts: int, seed: Array | None, bounds: Array, rng: np.random.Generator
     ) -> Array:
         """The seed or the middle of the limits, then anywhere inside them, shape (starts, n)."""
-        far, (lower, upper) = np.where(self.slides, size, np.pi), ends
-        low = np.where(np.isfinite(lower), lower, np.minimum(-far, upper - far))
-        high = np.where(np.isfinite(upper), upper, np.maximum(far, low + far))
+        far = np.where(self.slides, self.chain.size, np.pi)
+        low = np.where(np.isfinite(self.lower), self.lower, np.minimum(-far, self.upper - far))
+        high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
         out = rng.uniform(low, high, (starts, len(low)))
         out[0] = 0.5 * (low + high) if seed is None else seed
         inside: Array = np.clip(out, bounds[:, 1], bounds[:, 2])

@@ -25,15 +25,7 @@ __all__ = ["ScaledProblem"]
 
 
 class ScaledProblem(Problem):
-    """A problem in metres, solved by one in the unit of its chain.
-
-    Parameters
-    ----------
-    chain : SerialChain
-        The chain in metres.
-    inner : Problem
-        The problem of the same chain in its own unit.
-    """
+    """A problem of a chain in metres, solved by the inner one of the chain in its own unit."""
 
     def __init__(self, chain: SerialChain, inner: Problem) -> None:
         super().__init__(chain, inner.solver, inner.task, inner.referee)
@@ -92,16 +84,10 @@ class ScaledProblem(Problem):
 
     def _inside(self, found: IKSolutions) -> IKSolutions:
         """Solutions as the inner problem has them."""
-        return IKSolutions.of(
-            self.inner,
-            lengths_in(found.T, self.unit),
-            found.q / self.scale,
-            found.residual,
-            *found.codes,
-        )
+        T, q = lengths_in(found.T, self.unit), found.q / self.scale
+        return IKSolutions.of(self.inner, T, q, found.residual, *found.codes)
 
     def _outside(self, found: IKSolutions, T: Array) -> IKSolutions:
         """Solutions of the inner problem in metres, measured there."""
-        q, residual = found.q * self.scale, np.empty(len(found))
-        self.measured(T[None], q[None], np.array([len(q)]), residual[None])
-        return IKSolutions.of(self, T, q, residual, *found.codes)
+        in_metres = IKSolutions.of(self, T, found.q, found.residual, *found.codes)
+        return self._at(in_metres, found.q * self.scale)
