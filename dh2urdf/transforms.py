@@ -216,14 +216,7 @@ def rotation_angle(R: ArrayLike) -> Array:
     arc cosine of the trace loses half the digits.
     """
     m = _matrices(R, "R", 3, 4)
-    v = np.stack(
-        [
-            m[..., 2, 1] - m[..., 1, 2],
-            m[..., 0, 2] - m[..., 2, 0],
-            m[..., 1, 0] - m[..., 0, 1],
-        ],
-        axis=-1,
-    )
+    v = (m - np.swapaxes(m, -1, -2))[..., [2, 0, 1], [1, 2, 0]]
     trace = m[..., 0, 0] + m[..., 1, 1] + m[..., 2, 2]
     angle: Array = np.arctan2(0.5 * np.linalg.norm(v, axis=-1), 0.5 * (trace - 1.0))
     return angle
@@ -236,16 +229,13 @@ def pose_error(T: ArrayLike, T_ref: ArrayLike) -> float:
     over the whole stack; the project's residual.
     """
     a, b = _matrices(T, "T", 4), _matrices(T_ref, "T_ref", 4)
-    if not _fit(a.shape[:-2], b.shape[:-2]):
-        raise PoseError(f"T_ref: shape {b.shape} does not go with T of shape {a.shape}")
+    try:
+        np.broadcast_shapes(a.shape, b.shape)
+    except ValueError:
+        raise PoseError(f"T_ref: shape {b.shape} does not go with T of shape {a.shape}") from None
     position = np.linalg.norm(a[..., :3, 3] - b[..., :3, 3], axis=-1)
     angle = rotation_angle(np.swapaxes(b[..., :3, :3], -1, -2) @ a[..., :3, :3])
     return float(max(position.max(initial=0.0), angle.max(initial=0.0)))
-
-
-def _fit(a: tuple[int, ...], b: tuple[int, ...]) -> bool:
-    """Whether two shapes broadcast."""
-    return all(i == j or 1 in (i, j) for i, j in zip(a[::-1], b[::-1], strict=False))
 
 
 def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
@@ -265,27 +255,24 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
         other than (0, 0, 0, 1). The message names the index of the first bad pose.
     """
     m = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
-    if m.ndim < 2 or m.shape[-2:] != (4, 4):
+    if m.shape[-2:] != (4, 4):
         raise PoseError(f"{what}: expected shape (4, 4) or (..., 4, 4), got {m.shape}")
+    R = m[..., :3, :3]
     with np.errstate(all="ignore"):
-        R, far = m[..., :3, :3], ~np.isfinite(m).all(axis=(-2, -1))
         off = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-2, -1))
-        determinant = _determinant(R)
-    if far.any():
-        raise PoseError(f"{what}{_where(far)}: NaN or infinity")
-    if (off > ORTHONORMAL_TOLERANCE).any():
-        worst = float(off[off > ORTHONORMAL_TOLERANCE].max())
-        raise PoseError(
-            f"{what}{_where(off > ORTHONORMAL_TOLERANCE)}: rotation part is not orthonormal, "
-            f"R^T R differs from 1 by {worst:.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e}); {NEAREST}"
-        )
-    if (determinant < 0).any():
-        raise PoseError(
-            f"{what}{_where(determinant < 0)}: rotation part is a reflection (determinant -1)"
-        )
-    last = np.abs(m[..., 3, :] - np.array([0.0, 0, 0, 1])).max(axis=-1)
-    if (last > 1e-12).any():
-        raise PoseError(f"{what}{_where(last > 1e-12)}: last row must be 0 0 0 1")
+        worst = f"{off.max(initial=0.0):.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e}); {NEAREST}"
+        faults = {
+            "NaN or infinity": ~np.isfinite(m).all(axis=(-2, -1)),
+            f"rotation part is not orthonormal, R^T R differs from 1 by {worst}": ~(
+                off <= ORTHONORMAL_TOLERANCE
+            ),
+            "rotation part is a reflection (determinant -1)": _determinant(R) < 0,
+            "last row must be 0 0 0 1": (np.abs(m[..., 3, :] - np.eye(4)[3]) > 1e-12).any(axis=-1),
+        }
+    for fault, bad in faults.items():
+        if bad.any():
+            first = np.argwhere(bad)[0].tolist()
+            raise PoseError(f"{what}{first or ''}: {fault}")
     return m
 
 
@@ -312,16 +299,16 @@ def nearest_rotation(T: ArrayLike, *, what: str = "pose") -> tuple[Array, Array]
     PoseError
         Also where no rotation is within 0.05, and for a reflection.
     """
-    given = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
-    m = given
-    if given.ndim > 1 and given.shape[-2:] == (3, 3):
+    m = given = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
+    if given.shape[-2:] == (3, 3):
         m = np.zeros((*given.shape[:-2], 4, 4))
         m[..., :3, :3], m[..., 3, 3] = given, 1.0
-    if m.ndim < 2 or m.shape[-2:] != (4, 4):
+    if m.shape[-2:] != (4, 4):
         raise PoseError(f"{what}: expected shape (..., 4, 4) or (..., 3, 3), got {m.shape}")
     m, change = rounded_off(m)
     check_pose(m, what=what)
-    return (m if m.shape == given.shape else m[..., :3, :3]), change
+    k = given.shape[-1]
+    return m[..., :k, :k], change
 
 
 def rounded_off(m: Array) -> tuple[Array, Array]:
@@ -339,14 +326,6 @@ def rounded_off(m: Array) -> tuple[Array, Array]:
 def _determinant(R: Array) -> Array:
     """Determinant of matrices (..., 3, 3); no decomposition, which has warnings to give."""
     return np.sum(R[..., 0] * np.cross(R[..., 1], R[..., 2]), axis=-1)  # type: ignore[no-any-return]
-
-
-def _where(bad: np.bool_ | NDArray[np.bool_]) -> str:
-    """Index of the first bad pose of a stack, as a suffix of its name."""
-    if bad.ndim == 0:
-        return ""
-    first = np.argwhere(bad)[0]
-    return f"[{', '.join(str(i) for i in first)}]"
 
 
 def zyz_to_matrix(phi: float, theta: float, psi: float) -> Array:
@@ -371,9 +350,5 @@ def matrix_to_zyz(R: ArrayLike) -> tuple[tuple[float, float, float], ...]:
     if sin_theta <= ZYZ_SINGULAR:
         return ((0.0, 0.0 if m[2, 2] > 0 else math.pi, math.atan2(m[1, 0], m[1, 1])),)
     phi, psi = math.atan2(m[1, 2], m[0, 2]), math.atan2(m[2, 1], -m[2, 0])
-    return (phi, theta, psi), (_turn(phi), -theta, _turn(psi))
-
-
-def _turn(angle: float) -> float:
-    """The angle half a turn away, in (-pi, pi]."""
-    return angle - math.pi if angle > 0 else angle + math.pi
+    turned, back = (v - math.pi if v > 0 else v + math.pi for v in (phi, psi))
+    return (phi, theta, psi), (turned, -theta, back)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from json import JSONDecodeError, JSONDecoder
+from typing import TypeVar
 
 from dh2urdf.dh_io.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
@@ -13,7 +15,10 @@ _SPACE = re.compile(r"[ \t\n\r]*")
 _NUMBER = re.compile(r"-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][-+]?\d+)?")
 _WORD = re.compile(r"-?\w+")
 _DECODER = JSONDecoder()
-_LITERALS = {"null": "", "true": "true", "false": "false"}
+_LITERALS = {"null": "", **{w: w for w in ("true", "false", "NaN", "Infinity", "-Infinity")}}
+"""The last three are refused by the cell, which knows its own name."""
+
+Entry = TypeVar("Entry")
 
 
 def read_json(text: str, report: Report) -> Node:
@@ -50,9 +55,9 @@ class _Reader:
         character, mark = self.peek(), self.mark()
         self.report.count(mark, depth)
         if character == "{":
-            return Keys(tuple(self.pairs(depth)), mark)
+            return Keys(self.inside("}", self.pair, depth + 1), mark)
         if character == "[":
-            return Items(tuple(self.items(depth)), mark)
+            return Items(self.inside("]", self.node, depth + 1), mark)
         if character == '"':
             return Scalar(self.string(), mark, quoted=True)
         return Scalar(self.literal(character), mark)
@@ -60,9 +65,6 @@ class _Reader:
     def literal(self, character: str) -> str:
         """Number as typed, or true, false, null."""
         match = _WORD.match(self.text, self.at)
-        if match and match[0] in ("NaN", "Infinity", "-Infinity"):
-            self.at = match.end()
-            return match[0]  # refused by the cell, which knows its own name
         if match and match[0] in _LITERALS:
             self.at = match.end()
             return _LITERALS[match[0]]
@@ -83,25 +85,16 @@ class _Reader:
             return ""
         return str(text)
 
-    def items(self, depth: int) -> list[Node]:
-        out: list[Node] = []
+    def inside(self, end: str, entry: Callable[[int], Entry], depth: int) -> tuple[Entry, ...]:
+        """Entries from a bracket to the one that closes it."""
+        out: list[Entry] = []
         self.at += 1
-        if self.peek() != "]":
-            out.append(self.node(depth + 1))
-            while self.separator("]"):
-                out.append(self.node(depth + 1))
+        more = self.peek() != end
+        while more:
+            out.append(entry(depth))
+            more = self.separator(end)
         self.at += 1
-        return out
-
-    def pairs(self, depth: int) -> list[tuple[Scalar, Node]]:
-        out: list[tuple[Scalar, Node]] = []
-        self.at += 1
-        if self.peek() != "}":
-            out.append(self.pair(depth))
-            while self.separator("}"):
-                out.append(self.pair(depth))
-        self.at += 1
-        return out
+        return tuple(out)
 
     def pair(self, depth: int) -> tuple[Scalar, Node]:
         if self.peek() != '"':
@@ -111,7 +104,7 @@ class _Reader:
         if self.peek() != ":":
             self.stop("a colon is expected after a key")
         self.at += 1
-        return key, self.node(depth + 1)
+        return key, self.node(depth)
 
     def separator(self, end: str) -> bool:
         """Step over a comma; False before the closing bracket."""

@@ -81,13 +81,7 @@ class _Builder:
         for event in self.events:
             if isinstance(event, ev.DocumentStartEvent) and root is not None:
                 self.report.stop(_mark(event), "a second document; a file holds one table")
-            if not isinstance(
-                event,
-                ev.StreamStartEvent
-                | ev.StreamEndEvent
-                | ev.DocumentStartEvent
-                | ev.DocumentEndEvent,
-            ):
+            if isinstance(event, ev.NodeEvent):
                 root = self.node(event, 0)
         return root if root is not None else Scalar("")
 
@@ -107,27 +101,19 @@ class _Builder:
             empty = not quoted and event.value in _NULLS
             return Scalar("" if empty else event.value, mark, quoted=quoted)
         if isinstance(event, ev.SequenceStartEvent):
-            return self.sequence(mark, depth)
-        return self.mapping(mark, depth)
+            return Items(tuple(self.inside(ev.SequenceEndEvent, depth)), mark)
+        keys = self.inside(ev.MappingEndEvent, depth)
+        return Keys(tuple((self.key(key), next(keys)) for key in keys), mark)
 
-    def sequence(self, mark: Mark, depth: int) -> Items:
-        from ruamel.yaml.events import SequenceEndEvent
+    def inside(self, end: type, depth: int) -> Iterator[Node]:
+        """Nodes up to the end of a sequence or mapping."""
+        while not isinstance(event := next(self.events), end):
+            yield self.node(event, depth + 1)
 
-        values = []
-        while not isinstance(event := next(self.events), SequenceEndEvent):
-            values.append(self.node(event, depth + 1))
-        return Items(tuple(values), mark)
-
-    def mapping(self, mark: Mark, depth: int) -> Keys:
-        from ruamel.yaml.events import MappingEndEvent
-
-        pairs = []
-        while not isinstance(event := next(self.events), MappingEndEvent):
-            key = self.node(event, depth + 1)
-            if not isinstance(key, Scalar):
-                self.report.stop(key.mark, "a key has to be a word")
-            pairs.append((key, self.node(next(self.events), depth + 1)))
-        return Keys(tuple(pairs), mark)
+    def key(self, node: Node) -> Scalar:
+        if not isinstance(node, Scalar):
+            self.report.stop(node.mark, "a key has to be a word")
+        return node
 
 
 def _mark(event: Any) -> Mark:

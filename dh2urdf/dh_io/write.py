@@ -148,6 +148,10 @@ def _is_plain_line(text: str) -> bool:
     return bool(plain) and markdown(text) == text
 
 
+def _yaml_line(text: str) -> str:
+    return text if _is_plain_line(text) else _escaped(text)
+
+
 def _json_word(text: str) -> str:
     return json.dumps(text, ensure_ascii=not text.isprintable())
 
@@ -172,45 +176,38 @@ def _inline(fields: Sequence[Field], equals: str, key: Quote, widths: Widths | N
 
 def _widths(rows: list[list[Field]]) -> Widths:
     """Widest cell of each key, so that columns show."""
-    widths: Widths = {}
-    for row in rows:
-        for key, text in row:
-            if isinstance(text, str):
-                widths[key] = max(widths.get(key, 0), len(text))
-    return widths
+    cells = sorted((len(text), key) for row in rows for key, text in row if isinstance(text, str))
+    return {key: width for width, key in cells}
+
+
+def _parts(
+    table: DHTable, units: Units, equals: str, key: Quote, line: Quote, word: Quote
+) -> tuple[list[str], list[str]]:
+    """Lines of the table's own keys, and of its rows, as a language puts keys and words."""
+    head = [f"{key(k)}{equals}{line(text)}" for k, text in _words(table)]
+    pair: list[Field] = [("length", word(units.length)), ("angle", word(units.angle))]
+    steps = [("units", pair), *_origins(table, units)]
+    head += [f"{key(k)}{equals}{_inline(fields, equals, key)}" for k, fields in steps]
+    rows = [_row(row, units, word) for row in table.rows]
+    widths = _widths(rows)
+    return head, [_inline(row, equals, key, widths) for row in rows]
 
 
 def _yaml(table: DHTable, units: Units) -> str:
-    lines = [
-        f"{key}: {text if _is_plain_line(text) else _escaped(text)}" for key, text in _words(table)
-    ]
-    lines.append(f"units: {{length: {units.length}, angle: {units.angle}}}")
-    lines += [f"{key}: {_inline(fields, ': ', str)}" for key, fields in _origins(table, units)]
-    rows = [_row(row, units, _yaml_word) for row in table.rows]
-    widths = _widths(rows)
-    lines += ["joints:", *(f"  - {_inline(row, ': ', str, widths)}" for row in rows)]
-    return "\n".join(lines) + "\n"
+    head, rows = _parts(table, units, ": ", str, _yaml_line, _yaml_word)
+    return "\n".join([*head, "joints:", *(f"  - {row}" for row in rows)]) + "\n"
 
 
 def _toml(table: DHTable, units: Units) -> str:
-    lines = [f"{key} = {_escaped(text)}" for key, text in _words(table)]
-    lines.append(f'units = {{length = "{units.length}", angle = "{units.angle}"}}')
-    lines += [f"{key} = {_inline(fields, ' = ', str)}" for key, fields in _origins(table, units)]
-    rows = [_row(row, units, _escaped) for row in table.rows]
-    widths = _widths(rows)
-    lines += ["joints = [", *(f"  {_inline(row, ' = ', str, widths)}," for row in rows), "]"]
-    return "\n".join(lines) + "\n"
+    head, rows = _parts(table, units, " = ", str, _escaped, _escaped)
+    return "\n".join([*head, "joints = [", *(f"  {row}," for row in rows), "]"]) + "\n"
 
 
 def _json(table: DHTable, units: Units) -> str:
-    lines = [f'  "{key}": {_json_word(text)}' for key, text in _words(table)]
-    lines.append(f'  "units": {{"length": "{units.length}", "angle": "{units.angle}"}}')
-    for key, fields in _origins(table, units):
-        lines.append(f'  "{key}": {_inline(fields, ": ", _json_word)}')
-    rows = [_row(row, units, _json_word) for row in table.rows]
-    widths = _widths(rows)
-    body = ",\n".join(f"    {_inline(row, ': ', _json_word, widths)}" for row in rows)
-    return "{\n" + ",\n".join([*lines, f'  "joints": [\n{body}\n  ]']) + "\n}\n"
+    head, rows = _parts(table, units, ": ", _json_word, _json_word, _json_word)
+    body = ",\n".join(f"    {row}" for row in rows)
+    lines = [*(f"  {line}" for line in head), f'  "joints": [\n{body}\n  ]']
+    return "{\n" + ",\n".join(lines) + "\n}\n"
 
 
 def _lines(table: DHTable, units: Units) -> list[str]:
