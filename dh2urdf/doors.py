@@ -17,6 +17,7 @@ from dh2urdf.bounds import NUMBER, TEXT_CHARACTERS
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 
 __all__ = [
+    "Array",
     "choice",
     "finite_array",
     "flag",

@@ -19,13 +19,8 @@ from dh2urdf.dh_io.grid import INDEX, heading, metadata, separator, unit_words
 from dh2urdf.dh_io.units import UNIT_SIZES
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
-from dh2urdf.transforms import (
-    Array,
-    check_pose,
-    origin_matrix,
-    quaternion_to_matrix,
-    rounded_off,
-)
+from dh2urdf.poses import check_pose, rounded_off
+from dh2urdf.transforms import Array, origin_matrix, quaternion_to_matrix
 
 __all__ = ["Poses", "pose_of", "poses_of_csv"]
 

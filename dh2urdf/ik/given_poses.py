@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from dh2urdf.doors import flag, real_array
 from dh2urdf.exceptions import PoseError
 from dh2urdf.ik.solver import Task
-from dh2urdf.transforms import POSE, Array, check_pose, rounded_off
+from dh2urdf.poses import POSE, check_pose, rounded_off
+from dh2urdf.transforms import Array
 
 __all__ = ["many_poses", "one_pose"]
 
