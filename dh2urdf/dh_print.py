@@ -48,14 +48,9 @@ def table_grid(table: DHTable) -> tuple[list[str], list[str], list[list[str]]]:
         joint += row.is_joint
         name = one_line(table.joint_names[joint - 1]) if row.is_joint else ""
         rows.append(_cells(row, joint, name))
-    kept = [
-        k for k, key in enumerate(KEYS) if key not in {"limits", "step"} or any(r[k] for r in rows)
-    ]
-    return (
-        [KEYS[k] for k in kept],
-        [HEADER[k] for k in kept],
-        [[r[k] for k in kept] for r in rows],
-    )
+    kept = [k for k, key in enumerate(KEYS) if key in KEYS[:6] or any(r[k] for r in rows)]
+    keys, header, *cells = ([r[k] for k in kept] for r in (KEYS, HEADER, *rows))
+    return keys, header, cells
 
 
 def _cells(row: DHRow, i: int, name: str) -> list[str]:
@@ -90,10 +85,8 @@ def title(table: DHTable) -> str:
     lines = [
         f"{one_line(table.name)}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"
     ]
-    if not table.base.is_identity:
-        lines.append(f"base: {step(table.base)}")
-    if not table.tool.is_identity:
-        lines.append(f"tool: {step(table.tool)}")
+    steps = {"base": table.base, "tool": table.tool}
+    lines += [f"{key}: {step(origin)}" for key, origin in steps.items() if not origin.is_identity]
     return "\n".join(lines)
 
 

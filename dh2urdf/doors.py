@@ -1,6 +1,7 @@
 """The doors by which arguments come in: one for each kind, with one message for each fault.
 
-A message names the argument, what was found and what is allowed.
+A message names the argument, what was found and what is allowed. The error is an `ArgumentError`,
+or of the class that the caller gives.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ Array = NDArray[np.float64]
 
 FLOAT = np.dtype(np.float64)
 
-NO_NUMBERS = str, bytes, bool, complex, np.datetime64, np.timedelta64
+NO_NUMBERS: tuple[type, ...] = str, bytes, bool, complex, np.datetime64, np.timedelta64
+"""Objects that NumPy would read as numbers, besides None."""
 
 
 def found(value: object) -> str:
@@ -52,18 +54,8 @@ def real_array(
 ) -> Array:
     """Real numbers of any type, order and stride as native floats; a float array itself.
 
-    Parameters
-    ----------
-    values : array_like
-        Numbers; arrays of pandas, xarray and others by their array interface.
-    what, expected : str
-        Name of the argument and what it takes, for the message.
-    error : exception type
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``: no numbers, text, None, ragged, complex, masked entries.
+    ``values`` may be an array of pandas, xarray and others by their array interface, but no text,
+    None, ragged list, complex or masked entry; ``what`` and ``expected`` name it in the message.
     """
     if type(values) is ndarray and values.dtype is FLOAT:
         return values
@@ -73,7 +65,8 @@ def real_array(
             raise TypeError
         array = np.asarray(array)
         if array.dtype.kind == "O":
-            _only_numbers(array)
+            if any(isinstance(v, NO_NUMBERS) or not hasattr(v, "__float__") for v in array.flat):
+                raise TypeError
         elif array.dtype.kind not in "iuf":
             raise TypeError
         with np.errstate(over="ignore"):
@@ -89,14 +82,9 @@ def finite_array(
     error: type[Dh2UrdfError] = ArgumentError,
     shape: tuple[Any, ...] | None = None,
 ) -> Array:
-    """:func:`real_array` without NaN and infinity.
+    """:func:`real_array` without NaN and infinity; the message has the index of the first.
 
     With a ``shape``, of which ``...`` stands for any axes before the others, numbers square.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``, with the index of the first entry that is not finite.
     """
     array = real_array(values, what, expected, error)
     fits = shape is None or array.shape == shape
@@ -113,18 +101,6 @@ def finite_array(
     return array
 
 
-def _only_numbers(array: NDArray[Any]) -> None:
-    """Refuse objects that are no real numbers, which NumPy would read: texts, None, truths.
-
-    Raises
-    ------
-    TypeError
-    """
-    for entry in array.flat:
-        if isinstance(entry, NO_NUMBERS) or not hasattr(entry, "__float__"):
-            raise TypeError
-
-
 def number(
     value: object,
     what: str,
@@ -133,13 +109,7 @@ def number(
     error: type[Dh2UrdfError] = ArgumentError,
     unit: str = "",
 ) -> float:
-    """A finite real number between two bounds, included; the unit is for the message.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """A finite real number between two bounds, included; the unit is for the message."""
     if isinstance(value, float) and low <= value <= high:
         return value
     expected = f"a number from {low:g} to {high:g}{' ' * bool(unit)}{unit}"
@@ -156,13 +126,7 @@ def integer(
     high: int,
     error: type[Dh2UrdfError] = ArgumentError,
 ) -> int:
-    """A whole number between two bounds, included; no truth value.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """A whole number between two bounds, included; no truth value."""
     try:
         whole = operator.index(cast("Any", value))
         if not isinstance(value, (bool, np.bool_)) and low <= whole <= high:
@@ -184,12 +148,7 @@ def text(value: object, what: str, error: type[Dh2UrdfError] = ArgumentError) ->
 
 
 def flag(value: object, what: str) -> bool:
-    """True or False, of Python or NumPy; nothing that is merely true or false.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """True or False, of Python or NumPy; nothing that is merely true or false."""
     if value is True or value is False:
         return value
     if isinstance(value, np.bool_):
@@ -198,25 +157,14 @@ def flag(value: object, what: str) -> bool:
 
 
 def instance(value: object, what: str, kind: Any, error: type[Dh2UrdfError] = ArgumentError) -> Any:
-    """An object of some class.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """An object of some class."""
     if isinstance(value, kind):
         return value
     raise error(f"{what}: expected a {kind.__name__}, got {found(value)}")
 
 
 def items(values: Any, what: str) -> list[Any]:
-    """What may be gone through, as a list.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """What may be gone through, as a list."""
     try:
         return list(values)
     except Exception:  # an object's own iterator may fail in any way
@@ -224,12 +172,7 @@ def items(values: Any, what: str) -> list[Any]:
 
 
 def generator(rng: Any, what: str = "rng") -> np.random.Generator:
-    """A generator of random numbers, or the one of a seed.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """A generator of random numbers, or the one of a seed."""
     try:
         return np.random.default_rng(rng)
     except Exception:  # as above
@@ -244,13 +187,7 @@ def choice(
     allowed: Collection[str],
     error: type[Dh2UrdfError] = ArgumentError,
 ) -> str:
-    """One of some words.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """One of some words."""
     if isinstance(value, str) and value in allowed:
         return value
     words = " or ".join(repr(str(word)) for word in allowed)

@@ -63,14 +63,12 @@ def _to_modified(table: DHTable) -> DHTable:
         a, alpha = (0.0, 0.0) if moves else (row.a, row.alpha)
         if step is not None and not last:
             rows.append(DHRow(joint_type=JointType.FIXED, origin=Origin.from_matrix(T_new_old)))
-    row, step = groups[-1]
-    tail = _tail(row) if step is None else _tail(row) @ step
     return replace(
         table,
         convention=DHConvention.MODIFIED,
         rows=tuple(rows),
         base=table.base if table.rows[0].is_joint else Origin.from_matrix(base),
-        tool=_compose(tail, row if step is None else None, table.tool),
+        tool=_compose(T_new_old, row if step is None else None, table.tool),
     )
 
 

@@ -133,9 +133,8 @@ class Context:
         return self.units._replace(angle=cell.unit) if kind is Kind.ANGLE else self.units
 
     def _one(self, kind: Kind) -> str:
-        what = {Kind.ANGLE: "angle", Kind.LENGTH: "length", Kind.NUMBER: "number"}[kind]
         unit = f" [{self.units.of(kind)}]" if self.units.of(kind) else ""
-        return f"{what}{unit}: a number or an expression such as {_EXAMPLES[kind]}"
+        return f"{kind}{unit}: a number or an expression such as {_EXAMPLES[kind]}"
 
 
 _EXAMPLES = {
@@ -156,7 +155,7 @@ class Cells:
     """The cells of one mapping by their canonical keys; unknown and doubled keys are faults."""
 
     def __init__(self, node: Node, path: str, allowed: tuple[str, ...], report: Report) -> None:
-        self.mark: Mark = node.mark
+        self.mark, self.report = node.mark, report
         self.path, self.cells = path, dict[str, Node]()
         self.keys, self.meant = dict[str, Scalar](), set[str]()
         if not isinstance(node, Keys):
@@ -189,7 +188,7 @@ class Cells:
         """Cell of a key, None where there is none or it is empty."""
         return self.cells.get(key)
 
-    def refuse(self, error: TableError, report: Report) -> None:
+    def refuse(self, error: TableError) -> None:
         """Note what a row or a rigid step refuses at the cells that it names."""
         for problem in error.problems:
             key, _, message = problem.partition(": ")
@@ -197,17 +196,15 @@ class Cells:
             if cell is not None:
                 message = _NUMBER_MUST.sub("it ", message.partition(", got ")[0])
                 message = f"found {found(cell)}; {message}"
-            report.fault(self.mark_of(key), self.at(key), message)
+            self.report.fault(self.mark_of(key), self.at(key), message)
 
-    def origin(
-        self, xyz: tuple[float, ...] | None, rpy: tuple[float, ...] | None, report: Report
-    ) -> Origin:
+    def origin(self, xyz: tuple[float, ...] | None, rpy: tuple[float, ...] | None) -> Origin:
         """The rigid step of two cells, none (and a fault) where it is beyond all bounds."""
         none = (0.0, 0.0, 0.0)
         try:
             return Origin(xyz or none, rpy or none)  # type: ignore[arg-type]
         except TableError as error:
-            self.refuse(error, report)
+            self.refuse(error)
             return Origin()
 
     def is_missing(self, key: str) -> bool:

@@ -16,21 +16,7 @@ __all__ = ["check_document"]
 
 
 def check_document(root: Node, report: Report, name: str) -> DHTable:
-    """Turn a document into a table.
-
-    Parameters
-    ----------
-    root : Node
-    report : Report
-        Takes the faults and warnings.
-    name : str
-        Name of the table where the file gives none.
-
-    Raises
-    ------
-    TableFileError
-        All faults of the file.
-    """
+    """Turn a document into a table, named so where it gives no name, or into all its faults."""
     if isinstance(root, Scalar) and not root.text:
         report.stop(NOWHERE, "the file is empty")
     if not isinstance(root, Keys):
@@ -163,5 +149,4 @@ def _origin(cells: Cells, key: str, context: Context) -> Origin:
     return parts.origin(
         context.numbers(xyz, f"{key}.xyz", Kind.LENGTH, 3, "x, y, z") if xyz else None,
         context.numbers(rpy, f"{key}.rpy", Kind.ANGLE, 3, "roll, pitch, yaw") if rpy else None,
-        context.report,
     )

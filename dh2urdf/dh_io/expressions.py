@@ -86,23 +86,9 @@ def to_float(number: Decimal) -> float:
 
 
 def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool = False) -> Value:
-    """Value of a cell.
+    """Value of a cell of some kind; ``lookup`` gives that of a name, or an `ExpressionError`.
 
-    Parameters
-    ----------
-    text : str
-    kind : Kind
-        What the cell measures.
-    units : Units
-        Unit of bare numbers.
-    lookup : callable
-        Value of a name; raises `ExpressionError` for unknown ones.
-    free : bool
-        The value may be of any kind, and a bare number stays bare (``constants:``).
-
-    Raises
-    ------
-    ExpressionError
+    Where it is ``free`` it may be of any kind, and a bare number stays bare (``constants:``).
     """
     if len(text) > CELL_CHARACTERS:
         raise ExpressionError(f"the cell has {len(text)} characters; at most {CELL_CHARACTERS}")

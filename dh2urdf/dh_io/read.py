@@ -17,6 +17,7 @@ from dh2urdf.dh_io.read_csv import read_csv
 from dh2urdf.dh_io.read_json import read_json
 from dh2urdf.dh_io.read_markdown import read_markdown
 from dh2urdf.dh_io.read_toml import read_toml
+from dh2urdf.dh_io.read_yaml import read_yaml
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
 
@@ -35,6 +36,7 @@ FORMATS = {
 """Format of a file by its suffix."""
 
 _READERS: dict[str, Callable[[str, Report], Node]] = {
+    "yaml": read_yaml,
     "toml": read_toml,
     "json": read_json,
     "csv": read_csv,
@@ -104,16 +106,9 @@ def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
         How messages name the text; its stem is the table's name where the text gives none.
     """
     report = Report.of_text(filename, text)
-    table = check_document(_document(text, format, report), report, Path(filename).stem or "robot")
+    read = _READERS[choice(format, "format", _READERS, TableFileError)]
+    table = check_document(read(text, report), report, Path(filename).stem or "robot")
     return TableFile(table, report.warnings)
-
-
-def _document(text: str, format: str, report: Report) -> Node:
-    if choice(format, "format", tuple(dict.fromkeys(FORMATS.values())), TableFileError) == "yaml":
-        from dh2urdf.dh_io.read_yaml import read_yaml
-
-        return read_yaml(text, report)
-    return _READERS[format](text, report)
 
 
 def _near(path: Path) -> str:

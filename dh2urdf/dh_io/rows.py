@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from decimal import Decimal
-from typing import Any
+from typing import Any, TypeVar
 
 from dh2urdf.dh import DHRow, JointType, Origin
 from dh2urdf.dh_io.cells import Cells, Context, found
@@ -24,23 +25,13 @@ _VARIABLE = re.compile(
 _PARAMETERS = ("theta", "d", "a", "alpha")
 _ORIGIN = ("xyz", "rpy")
 
+Read = TypeVar("Read")
+
 
 def read_row(node: Node, path: str, joint: int, context: Context) -> DHRow:
-    """Read one row.
+    """Read one row, ``joints[3]``; if it moves it is joint 3, say, which allows ``theta3``.
 
-    Parameters
-    ----------
-    node : Node
-    path : str
-        ``joints[3]``
-    joint : int
-        Number of the joint, from 1, that this row is if it moves: 3 allows ``theta3``.
-    context : Context
-
-    Returns
-    -------
-    DHRow
-        Where a cell is at fault it holds a stand-in, so that the other cells are checked too.
+    Where a cell is at fault the row holds a stand-in, so that the other cells are checked too.
     """
     return _Row(Cells(node, path, ROW_KEYS, context.report), joint, context).read()
 
@@ -104,13 +95,8 @@ class _Row:
         return JointType.FIXED if fixed and "type" not in self.bad else JointType.REVOLUTE
 
     def parameter(self, key: str) -> Value | None:
-        cell = self.cells.get(key)
-        if cell is None:
-            return None
-        value = self.context.value(cell, self.cells.at(key), ROW_KINDS[key], self.lookup(key))
-        if value is None:
-            self.bad.add(key)
-        elif value.variable and abs(value.coefficient) != 1:
+        value = self.kept(key, self.context.value, ROW_KINDS[key], self.lookup(key))
+        if value is not None and value.variable and abs(value.coefficient) != 1:
             text = f"{value.variable} enters with the factor {value.coefficient.normalize()}"
             self.fault(key, f"{text}; only +1 and -1 are a DH row")
         return value
@@ -190,24 +176,22 @@ class _Row:
             if key != moving and self.cells.is_missing(key):
                 self.fault(key, "missing", f"write {key}: 0 if there is none")
 
-    def number(self, key: str, kind: Kind) -> float | None:
+    def kept(self, key: str, read: Callable[..., Read | None], *how: object) -> Read | None:
+        """What a cell is read as, None where there is none; one without a value is bad."""
         cell = self.cells.get(key)
         if cell is None:
             return None
-        value = self.context.number(cell, self.cells.at(key), kind)
+        value = read(cell, self.cells.at(key), *how)
         if value is None:
             self.bad.add(key)
         return value
 
+    def number(self, key: str, kind: Kind) -> float | None:
+        return self.kept(key, self.context.number, kind)
+
     def vector(self, key: str, names: str) -> tuple[float, ...] | None:
-        cell = self.cells.get(key)
-        if cell is None:
-            return None
         kind, size = ROW_KINDS.get(key, Kind.NUMBER), names.count(",") + 1
-        values = self.context.numbers(cell, self.cells.at(key), kind, size, names)
-        if values is None:
-            self.bad.add(key)
-        return values
+        return self.kept(key, self.context.numbers, kind, size, names)
 
     def inertia(
         self, mass: float | None, com: tuple[float, ...] | None
@@ -242,13 +226,12 @@ class _Row:
             )
             return None
         xyz, rpy = self.vector("xyz", "x, y, z"), self.vector("rpy", "roll, pitch, yaw")
-        return self.cells.origin(xyz, rpy, self.context.report)
+        return self.cells.origin(xyz, rpy)
 
     def check_limits(self, fields: dict[str, Any]) -> None:
         lower, upper = fields["lower"], fields["upper"]
         if lower is not None and upper is not None and lower > upper:
-            above = found(self.cells.cells["upper"])
-            self.fault("lower", f"it lies above upper ({above})")
+            self.fault("lower", f"it lies above upper ({found(self.cells.cells['upper'])})")
             fields["lower"] = None
 
     def build(self, fields: dict[str, Any]) -> DHRow:
@@ -259,7 +242,7 @@ class _Row:
             return DHRow(joint_type=self.type, **fields)
         except TableError as error:
             others = [p for p in error.problems if p.partition(":")[0] not in self.bad]
-            self.cells.refuse(TableError(others), self.context.report)
+            self.cells.refuse(TableError(others))
         return DHRow(joint_type=self.type)
 
 
@@ -268,16 +251,7 @@ def to_centre_of_mass(
 ) -> tuple[float, ...]:
     """Tensor about the centre of mass from the one about the frame's origin, axes unchanged.
 
-    Parallel axis theorem: ``I_com = I_origin - m (c.c 1 - c c^T)``.
-
-    Parameters
-    ----------
-    inertia : tuple
-        ixx, ixy, ixz, iyy, iyz, izz [kg m^2].
-    mass : float
-        [kg]
-    com : tuple
-        x, y, z [m].
+    Parallel axis theorem: ``I_com = I_origin - m (c.c 1 - c c^T)``, in [kg m^2], [kg] and [m].
     """
     x, y, z = com
     shift = (y * y + z * z, -x * y, -x * z, x * x + z * z, -y * z, x * x + y * y)

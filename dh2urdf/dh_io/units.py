@@ -72,10 +72,7 @@ def unit_name(text: str) -> str:
 
 def unit_kind(unit: str) -> Kind | None:
     """Kind that a unit measures, None where it is none."""
-    for kind, sizes in UNIT_SIZES.items():
-        if unit in sizes:
-            return kind
-    return None
+    return next((kind for kind, sizes in UNIT_SIZES.items() if unit in sizes), None)
 
 
 def to_si(number: Decimal, unit: str) -> Decimal:
@@ -88,14 +85,7 @@ def to_si(number: Decimal, unit: str) -> Decimal:
 
 
 def decimal_text(value: float, unit: str = "") -> str:
-    """Shortest decimal, in the unit, that reads back as exactly this float.
-
-    Parameters
-    ----------
-    value : float
-        In [m], [rad] or, with no unit, plain.
-    unit : str
-    """
+    """Shortest decimal, in the unit, that reads back as exactly this float in [m] or [rad]."""
     kind = unit_kind(unit)
     numerator, denominator = UNIT_SIZES[kind][unit] if kind else (ONE, ONE)
     if value == 0:
