@@ -131,11 +131,8 @@ class DHTable:
         array = real_array(rows, "rows", expected, TableError)
         if array.ndim != 2 or array.shape[1] != 4 or len(array) > ROWS:
             raise TableError(f"rows: expected {expected}, got shape {array.shape}")
-        kinds = (
-            "R" * len(array)
-            if joint_types is None
-            else text(joint_types, "joint_types", TableError)
-        )
+        letters = "R" * len(array) if joint_types is None else joint_types
+        kinds = text(letters, "joint_types", TableError)
         if len(kinds) != len(array):
             raise TableError(f"joint_types: expected {len(array)} letters, got {found(kinds)}")
         made = (
@@ -218,5 +215,4 @@ class DHTable:
             raise ConfigurationError(
                 f"q: expected shape ({self.n},) for {self.n} joints, got {config.shape}"
             )
-        values: list[float] = config.tolist()
-        return values
+        return config.tolist()  # type: ignore[no-any-return]

@@ -37,10 +37,7 @@ class Origin:
     rpy: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        problems: list[str] = []
-        for key in ("xyz", "rpy"):
-            problems += _vector(self, key, 3)
-        if problems:
+        if problems := [*_vector(self, "xyz", 3), *_vector(self, "rpy", 3)]:
             raise TableError(problems)
 
     @property
@@ -117,10 +114,8 @@ class DHRow:
     origin: Origin | None = None
 
     def __post_init__(self) -> None:
-        problems: list[str] = []
-        problems += _put(
-            self, "joint_type", lambda v: JointType(choice(v, "type", tuple(JointType)))
-        )
+        kinds = tuple(JointType)
+        problems = _put(self, "joint_type", lambda v: JointType(choice(v, "type", kinds)))
         problems += _put(self, "name", lambda v: text(v, "name"))
         for key in ("theta", "d", "a", "alpha", "sign"):
             problems += _scalar(self, key)

@@ -78,18 +78,12 @@ def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
 def _check_names(table: DHTable) -> None:
     reserved = {"tool0_fixed", "base_link_inertia_fixed", "universe"}
     reserved |= {f"dh_{i}_fixed" for i in range(table.n + 1)}
-    problems = [
-        f"name: {name!r} holds a character that XML forbids"
-        for name in (table.name, *table.joint_names)
-        if XML_FORBIDDEN.search(name)
-    ]
-    problems += [
-        f"name: {name!r} is taken by another joint of the file, or by Pinocchio"
-        for name in table.joint_names
-        if name in reserved
-    ]
+    forbidden, taken = "holds a character that XML forbids", "is taken by another joint of the file"
+    names = table.joint_names
+    problems = [(n, forbidden) for n in (table.name, *names) if XML_FORBIDDEN.search(n)]
+    problems += [(n, f"{taken}, or by Pinocchio") for n in names if n in reserved]
     if problems:
-        raise TableError(problems)
+        raise TableError([f"name: {name!r} {problem}" for name, problem in problems])
 
 
 class _Writer:
@@ -140,46 +134,35 @@ class _Writer:
     def _side_links(self) -> None:
         """What hangs beside the chain; behind it, as ikpy follows the first joint of a link."""
         self._link("base_link_inertia", self._drawn(0), self.bodies[0])
-        self._fixed_joint("base_link_inertia", "base_link", np.eye(4))
+        inertia = "base_link_inertia"
+        self._placed(f"{inertia}_fixed", "fixed", "base_link", inertia, np.eye(4))
         if self.options.dh_frames:
             for i, T_link_dh in enumerate(self.frames.dh):
                 self._massless_link(f"dh_{i}", f"link_{i}" if i else "base_link", T_link_dh)
 
     def _massless_link(self, name: str, parent: str, T: Array) -> None:
-        link = etree.SubElement(self.robot, "link", name=name)
-        self._inertial_element(link, Inertial(0.0, np.zeros(3), np.zeros((3, 3))))
-        self._fixed_joint(name, parent, T)
+        self._link(name, Inertial(0.0, np.zeros(3), np.zeros((3, 3))), [])
+        self._placed(f"{name}_fixed", "fixed", parent, name, T)
 
-    def _fixed_joint(self, child: str, parent: str, T: Array) -> None:
-        joint = etree.SubElement(self.robot, "joint", name=f"{child}_fixed", type="fixed")
+    def _placed(self, name: str, kind: str, parent: str, child: str, T: Array) -> etree._Element:
+        joint = etree.SubElement(self.robot, "joint", name=name, type=kind)
         self._origin(joint, T)
         etree.SubElement(joint, "parent", link=parent)
         etree.SubElement(joint, "child", link=child)
+        return joint
 
     def _joint(self, name: str, row: DHRow, parent: str, child: str, i: int) -> None:
-        joint = etree.SubElement(self.robot, "joint", name=name, type=str(row.joint_type))
-        self._origin(joint, self.frames.origins[i - 1])
-        etree.SubElement(joint, "parent", link=parent)
-        etree.SubElement(joint, "child", link=child)
+        T = self.frames.origins[i - 1]
+        joint = self._placed(name, str(row.joint_type), parent, child, T)
         etree.SubElement(joint, "axis", xyz="0 0 1" if row.sign > 0 else "0 0 -1")
         lower, upper = default_limits(row, self.table)
         effort = DEFAULT_EFFORT if row.effort is None else row.effort
         velocity = DEFAULT_VELOCITY if row.velocity is None else row.velocity
-        etree.SubElement(
-            joint,
-            "limit",
-            lower=self._number(lower),
-            upper=self._number(upper),
-            effort=self._number(effort),
-            velocity=self._number(velocity),
-        )
+        limits = {"lower": lower, "upper": upper, "effort": effort, "velocity": velocity}
+        losses = {"damping": row.damping or 0.0, "friction": row.friction or 0.0}
+        etree.SubElement(joint, "limit", {k: self._number(v) for k, v in limits.items()})
         if row.damping is not None or row.friction is not None:
-            etree.SubElement(
-                joint,
-                "dynamics",
-                damping=self._number(row.damping or 0.0),
-                friction=self._number(row.friction or 0.0),
-            )
+            etree.SubElement(joint, "dynamics", {k: self._number(v) for k, v in losses.items()})
 
     def _link(self, name: str, inertial: Inertial, bodies: list[Body]) -> None:
         link = etree.SubElement(self.robot, "link", name=name)
@@ -191,14 +174,10 @@ class _Writer:
     def _body(self, link: etree._Element, tag: str, body: Body) -> None:
         element = etree.SubElement(link, tag)
         self._origin(element, body.pose)
+        keys = {"box": ["size"], "sphere": ["radius"], "cylinder": ["radius", "length"]}[body.shape]
+        sizes = _whole(body.size).split(maxsplit=len(keys) - 1)
         geometry = etree.SubElement(element, "geometry")
-        if body.shape == "box":
-            etree.SubElement(geometry, "box", size=_whole(body.size))
-        elif body.shape == "sphere":
-            etree.SubElement(geometry, "sphere", radius=_whole(body.size))
-        else:
-            radius, length = _whole(body.size).split()
-            etree.SubElement(geometry, "cylinder", radius=radius, length=length)
+        etree.SubElement(geometry, body.shape, dict(zip(keys, sizes, strict=True)))
         if tag == "visual":
             etree.SubElement(element, "material", name=body.material)
 
@@ -214,9 +193,7 @@ class _Writer:
             return drawn
         T_link_dh = self.frames.dh[i]
         shape = drawn.scaled(row.mass).rounded()
-        com = shape.com
-        if row.com is not None:
-            com = (T_link_dh @ np.array([*row.com, 1.0]))[:3]
+        com = shape.com if row.com is None else (T_link_dh @ np.array([*row.com, 1.0]))[:3]
         if row.inertia is None:
             return Inertial(row.mass, com, shape.inertia)
         R = T_link_dh[:3, :3]
@@ -269,17 +246,13 @@ class _Writer:
         etree.SubElement(inertial, "mass", value=_whole([body.mass]))
         six = {
             f"i{'xyz'[r]}{'xyz'[c]}": _whole([body.inertia[r, c]])
-            for r in range(3)
-            for c in range(r, 3)
+            for r, c in zip(*np.triu_indices(3), strict=True)
         }
         etree.SubElement(inertial, "inertia", **six)
 
     def _origin(self, parent: etree._Element, T: Array) -> None:
-        rpy = self._numbers(matrix_to_rpy(T))
-        etree.SubElement(parent, "origin", xyz=self._numbers(T[:3, 3]), rpy=rpy)
-
-    def _numbers(self, values: Array | tuple[float, ...]) -> str:
-        return " ".join(self._number(v) for v in values)
+        xyz, rpy = (" ".join(map(self._number, v)) for v in (T[:3, 3], matrix_to_rpy(T)))
+        etree.SubElement(parent, "origin", xyz=xyz, rpy=rpy)
 
     def _number(self, value: float) -> str:
         number = float(value)

@@ -23,9 +23,8 @@ COARSE = 1e-2
 
 def _size(table: DHTable) -> float:
     """How far the arm reaches at most [m], its slides drawn out."""
-    travel = [
-        np.abs(default_limits(r, table)).max() for r in table.joints if r.joint_type == "prismatic"
-    ]
+    slides = (row for row in table.joints if row.joint_type is JointType.PRISMATIC)
+    travel = [np.abs(default_limits(row, table)).max() for row in slides]
     return math.hypot(*table.base.xyz) + table.length + float(sum(travel)) or 1.0
 
 

@@ -49,9 +49,8 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     try:
         data = content.encode() if isinstance(content, str) else content
     except UnicodeEncodeError as error:
-        raise OutputError(
-            f"{shown(where)}: cannot write {error.object[error.start]!r} as UTF-8"
-        ) from None
+        sign = error.object[error.start]
+        raise OutputError(f"{shown(where)}: cannot write {sign!r} as UTF-8") from None
     try:
         target = Path(os.path.realpath(where))
         mode = _mode(where)
@@ -98,19 +97,15 @@ def _replace(target: Path, data: bytes, mode: int | None) -> None:
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)
-        Path(temporary).chmod(stat.S_IMODE(mode) if mode is not None else 0o666 & ~_umask())
+        if mode is None:
+            os.umask(mask := os.umask(0o077))  # the system only tells it when it is set
+            mode = 0o666 & ~mask
+        Path(temporary).chmod(stat.S_IMODE(mode))
         Path(temporary).replace(target)
     except BaseException:
         with contextlib.suppress(OSError):
             Path(temporary).unlink()
         raise
-
-
-def _umask() -> int:
-    """Umask of the process; the system only tells it when it is set."""
-    mask = os.umask(0o077)
-    os.umask(mask)
-    return mask
 
 
 def _reason(error: OSError | ValueError) -> str:

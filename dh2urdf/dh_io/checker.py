@@ -64,11 +64,10 @@ def _warn(table: DHTable, context: Context) -> None:
 def _convention(cells: Cells, report: Report) -> DHConvention:
     cell = cells.get("convention")
     meaning = "standard (distal: Paul, Spong) or modified (proximal: Craig, Khalil)"
-    if cell is None and not cells.is_missing("convention"):
-        return DHConvention.STANDARD
     if cell is None:
         hint = "there is no default: the two look alike and describe different arms"
-        report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
+        if cells.is_missing("convention"):
+            report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
         return DHConvention.STANDARD
     word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
     if word not in CONVENTIONS:
@@ -81,15 +80,13 @@ def _units(cells: Cells, report: Report) -> Units:
     node = cells.get("units")
     allowed = {kind.value: ", ".join(UNIT_SIZES[kind]) for kind in (Kind.LENGTH, Kind.ANGLE)}
     meaning = f"length ({allowed['length']}) and angle ({allowed['angle']})"
-    if node is None and not cells.is_missing("units"):
-        return SI
-    if node is None:
-        hint = "for instance units: {length: mm, angle: deg}; there is no default"
-        report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
-        return SI
+    hint = "for instance units: {length: mm, angle: deg}"
     if not isinstance(node, Keys):
-        hint = "for instance units: {length: mm, angle: deg}"
-        report.fault(node.mark, "units", f"found {found(node)}; expected {meaning}", hint)
+        if node is not None:
+            report.fault(node.mark, "units", f"found {found(node)}; expected {meaning}", hint)
+        elif cells.is_missing("units"):
+            hint += "; there is no default"
+            report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
         return SI
     parts = Cells(node, "units", ("length", "angle"), report)
     units = SI
@@ -134,9 +131,8 @@ def _rows(cells: Cells, context: Context) -> list[DHRow]:
         seen[name] = path
         joint += 1
     if joint == 1:
-        report.fault(
-            node.mark, "joints", "no revolute or prismatic row; a table needs at least one"
-        )
+        message = "no revolute or prismatic row; a table needs at least one"
+        report.fault(node.mark, "joints", message)
     return rows
 
 

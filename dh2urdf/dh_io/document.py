@@ -84,11 +84,9 @@ class Report:
     """Faults and warnings of one file, collected so that all are told at once."""
 
     def __init__(self, filename: str, text: str = "") -> None:
-        self.filename = filename
-        self.lines = text.split("\n")
+        self.filename, self.lines, self._cells = filename, text.split("\n"), 0
         self._faults: list[tuple[Mark, str]] = []
         self._warnings: list[tuple[Mark, str]] = []
-        self._cells = 0
 
     @classmethod
     def of_text(cls, filename: str, text: str) -> Report:
@@ -117,11 +115,8 @@ class Report:
 
     def fault(self, mark: Mark, path: str, message: str, hint: str = "") -> None:
         """Note a fault of the cell ``path`` at ``mark``."""
-        text = f"{self._place(mark)}: {path}{': ' if path else ''}{message}"
-        text += self._snippet(mark)
-        if hint:
-            text += f"\n  hint: {hint}"
-        self._faults.append((mark, text))
+        text = f"{self._place(mark)}: {path}{': ' if path else ''}{message}{self._snippet(mark)}"
+        self._faults.append((mark, text + (f"\n  hint: {hint}" if hint else "")))
 
     def warn(self, mark: Mark, path: str, message: str) -> None:
         """Note something that is allowed and probably not meant."""
@@ -137,7 +132,7 @@ class Report:
         """Raise one error with all faults noted so far, in the file's order."""
         if not self._faults:
             return
-        texts = list(dict.fromkeys(text for _, text in sorted(self._faults, key=lambda f: f[0])))
+        texts = _in_order(self._faults)
         if len(texts) > MAX_SHOWN:
             more = len(texts) - MAX_SHOWN
             texts = [*texts[:MAX_SHOWN], f"{self.filename}: and {more} more"]
@@ -146,12 +141,10 @@ class Report:
     @property
     def warnings(self) -> tuple[str, ...]:
         """The warnings in the file's order."""
-        return tuple(dict.fromkeys(text for _, text in sorted(self._warnings, key=lambda w: w[0])))
+        return tuple(_in_order(self._warnings))
 
     def _place(self, mark: Mark) -> str:
-        if not mark.line:
-            return self.filename
-        return f"{self.filename}:{mark.line}:{mark.column}"
+        return f"{self.filename}:{mark.line}:{mark.column}" if mark.line else self.filename
 
     def _snippet(self, mark: Mark) -> str:
         """Line of the file and a caret under the column."""
@@ -163,3 +156,8 @@ class Report:
         number = f"{mark.line:>5}"
         caret = " " * (mark.column - 1 - start) + "^"
         return f"\n{number} | {shown}\n{' ' * len(number)} | {caret}"
+
+
+def _in_order(notes: list[tuple[Mark, str]]) -> list[str]:
+    """Texts in the order of their marks, each once."""
+    return list(dict.fromkeys(text for _, text in sorted(notes, key=lambda note: note[0])))

@@ -208,24 +208,17 @@ class _Parser:
             if not self.accept(")"):
                 raise ExpressionError("a bracket is not closed")
             return value
-        raise ExpressionError(
-            "the expression is not complete" if not text else f"unexpected {text!r}"
-        )
+        raise ExpressionError(f"unexpected {text!r}" if text else "the expression is not complete")
 
     def number(self, number: Decimal) -> Value:
         """Literal with the unit or the pi that follows it."""
         kind, text = self.peek()
-        if kind != "name":
-            return Value(number)
-        if text in PI_NAMES:
-            self.at += 1
-            return self.pi(number)
         unit = unit_name(text)
         measured = unit_kind(unit)
-        if measured is None:
+        if kind != "name" or (measured is None and text not in PI_NAMES):
             return Value(number)
         self.at += 1
-        return Value(to_si(number, unit), measured)
+        return Value(to_si(number, unit), measured) if measured else self.pi(number)
 
     def pi(self, factor: Decimal) -> Value:
         kind = Kind.ANGLE if self.kind is Kind.ANGLE else Kind.NUMBER
@@ -233,9 +226,8 @@ class _Parser:
 
     def function(self, name: str) -> Value:
         if name not in FUNCTIONS:
-            raise ExpressionError(
-                f"{name}() is not a function here", "one of " + ", ".join(FUNCTIONS)
-            )
+            known = ", ".join(FUNCTIONS)
+            raise ExpressionError(f"{name}() is not a function here", f"one of {known}")
         outer, trigonometric = self.kind, name in ("sin", "cos", "tan")
         self.kind = Kind.ANGLE if trigonometric else outer
         values = [self.sum()]
@@ -255,12 +247,8 @@ class _Parser:
             x, y = self.convert(x, kind), self.convert(y, kind)
         if x.variable and y.variable and x.variable != y.variable:
             raise ExpressionError("more than one joint variable")
-        return Value(
-            EXACT.add(x.number, y.number),
-            x.kind,
-            x.variable or y.variable,
-            EXACT.add(x.coefficient, y.coefficient),
-        )
+        number, coefficient = EXACT.add(x.number, y.number), EXACT.add(x.coefficient, y.coefficient)
+        return Value(number, x.kind, x.variable or y.variable, coefficient)
 
     def convert(self, value: Value, kind: Kind) -> Value:
         """Value as the kind asked for; bare numbers are in the file's unit."""

@@ -11,6 +11,7 @@ The header's order is free and its columns may carry units, ``d [mm]``, ``alpha 
 
 from __future__ import annotations
 
+import contextlib
 import json
 import re
 from typing import NamedTuple
@@ -118,7 +119,8 @@ def grid_document(grid: Grid, report: Report) -> Keys:
         for (key, unit), head, cell in zip(columns, grid.header, cells, strict=True):
             text = "" if cell.text in _EMPTY else cell.text
             if key == "name" and text.startswith('"'):
-                text = _unquote(text)
+                with contextlib.suppress(ValueError):
+                    text = str(json.loads(text))
             if key:
                 pairs.append((Scalar(key, head.mark), Scalar(text, cell.mark, unit)))
         present = {key for key, _ in columns}
@@ -126,16 +128,9 @@ def grid_document(grid: Grid, report: Report) -> Keys:
         if not fixed:
             pairs += [(Scalar(k), Scalar("0")) for k in _PARAMETERS if k not in present]
         rows.append(Keys(tuple(pairs), mark))
-    head_mark = grid.header[0].mark if grid.header else Mark()
-    pairs = [*_table_keys(grid, columns, report), (Scalar("joints", head_mark), Items(tuple(rows)))]
+    joints = Scalar("joints", grid.header[0].mark if grid.header else Mark())
+    pairs = [*_table_keys(grid, columns, report), (joints, Items(tuple(rows)))]
     return Keys(tuple(pairs), Mark(1, 1))
-
-
-def _unquote(text: str) -> str:
-    try:
-        return str(json.loads(text))
-    except ValueError:
-        return text
 
 
 def heading(text: str) -> tuple[str, str]:

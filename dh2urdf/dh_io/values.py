@@ -75,11 +75,8 @@ def over(x: Value, y: Value) -> Value:
         raise ExpressionError("a division is by a plain number only")
     if y.number == 0:
         raise ExpressionError("division by zero")
-    return replace(
-        x,
-        number=EXACT.divide(x.number, y.number),
-        coefficient=EXACT.divide(x.coefficient, y.number),
-    )
+    number, coefficient = (EXACT.divide(v, y.number) for v in (x.number, x.coefficient))
+    return replace(x, number=number, coefficient=coefficient)
 
 
 def power(x: Value, y: Value) -> Value:
@@ -97,9 +94,8 @@ def call(name: str, values: list[Value]) -> Value:
     """Value of a function; lengths and angles pass through where that makes sense."""
     wanted = 2 if name in ("atan2", "hypot") else 1
     if len(values) != wanted:
-        raise ExpressionError(
-            f"{name}() takes {wanted} value{'s' * (wanted > 1)}, got {len(values)}"
-        )
+        plural = "s" * (wanted > 1)
+        raise ExpressionError(f"{name}() takes {wanted} value{plural}, got {len(values)}")
     if any(v.variable for v in values):
         raise ExpressionError("a joint variable enters with the factor +1 or -1 only")
     first, kinds = values[0], {v.kind for v in values}
