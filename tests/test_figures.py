@@ -113,9 +113,8 @@ def test_what_is_painted_last_is_what_is_nearest(name):
         painted = np.full(len(rays), -1)
         for k in seen.order:
             painted[np.isfinite(fronts[k])] = k
-        for k, regions in seen.again:
-            rings = [Path(ring) for region in regions for ring in region.rings]
-            inside = sum(ring.contains_points(rays).astype(int) for ring in rings) % 2 == 1
+        for k, rings in seen.again:
+            inside = sum(Path(ring).contains_points(rays).astype(int) for ring in rings) % 2 == 1
             painted[inside & np.isfinite(fronts[k])] = k
         wrong = painted[hit] != np.argmax(fronts, axis=0)[hit]
         assert hit.sum() > 100

@@ -94,43 +94,40 @@ def check_(
         except Dh2UrdfError as error:
             failed.append({"path": file, "error": str(error)})
     if json:
-        emit_json("check", files=[_plain(*result) for result in results], failed=failed)
+        data = [
+            {
+                "path": file,
+                "findings": [{"severity": f.severity, **asdict(f)} for f in findings],
+                "consumers": [asdict(t) for t in said],
+            }
+            for file, findings, said in results
+        ]
+        emit_json("check", files=data, failed=failed)
     else:
         for result in results:
             _show(*result)
         for bad in failed:
             note(f"dh2urdf: {bad['error']}")
-    return 2 if failed else int(any(_is_bad(found, said) for _, found, said in results))
+    wrong = (
+        any(f.severity is not Severity.ADVICE for f in findings)
+        or any(t.verdict is Verdict.REFUSES for t in said)
+        for _, findings, said in results
+    )
+    return 2 if failed else int(any(wrong))
 
 
 @contextmanager
 def _on_disk(file: str) -> Iterator[Path]:
     """Path of a URDF; what comes by stdin, or of a xacro, is put into one."""
-    if file != "-" and not is_xacro(file):
+    stdin = file == "-"
+    if not stdin and not is_xacro(file):
         yield Path(file)
         return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{'stdin' if file == '-' else Path(file).stem}.urdf"
-        stdin = file == "-"
+        path = Path(folder) / f"{'stdin' if stdin else Path(file).stem}.urdf"
         data = read_bytes(sys.stdin.buffer, ROBOT_BYTES) if stdin else description_bytes(file)[0]
         path.write_bytes(data)
         yield path
-
-
-def _is_bad(findings: tuple[Finding, ...], said: tuple[Testimony, ...]) -> bool:
-    return any(f.severity is not Severity.ADVICE for f in findings) or any(
-        t.verdict is Verdict.REFUSES for t in said
-    )
-
-
-def _plain(
-    file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...]
-) -> dict[str, object]:
-    return {
-        "path": file,
-        "findings": [{"severity": f.severity, **asdict(f)} for f in findings],
-        "consumers": [asdict(t) for t in said],
-    }
 
 
 def _show(file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...]) -> None:
@@ -140,7 +137,8 @@ def _show(file: str, findings: tuple[Finding, ...], said: tuple[Testimony, ...])
     for group in alike.values():
         _show_group(file, group)
     counts = Counter(f.severity for f in findings)
-    summary = ", ".join(_counted(counts[s], s) for s in Severity if counts[s])
+    plural = {s: "s" if counts[s] > 1 and s is not Severity.ADVICE else "" for s in Severity}
+    summary = ", ".join(f"{counts[s]} {s}{plural[s]}" for s in Severity if counts[s])
     emit(f"{file}: {summary or 'nothing to mend'}")
     for testimony in said:
         name = f"{testimony.consumer} {testimony.version}".rstrip()
@@ -159,11 +157,6 @@ def _show_group(file: str, group: list[Finding]) -> None:
     for effect in group[0].effects:
         emit(f"    {_sentence(effect)}")
     emit(f"    mend: {group[0].mend}\n")
-
-
-def _counted(count: int, severity: Severity) -> str:
-    plural = "s" if count > 1 and severity is not Severity.ADVICE else ""
-    return f"{count} {severity}{plural}"
 
 
 def _sentence(effect: Effect) -> str:

@@ -72,19 +72,15 @@ def convert_(
     if output is not None and len(tables) > 1:
         raise Dh2UrdfError("convert: -o names one file; for several tables use --out-dir")
     if out_dir is not None:
-        _make(out_dir)
+        try:
+            out_dir.mkdir(parents=True, exist_ok=True)
+        except (OSError, ValueError) as error:
+            raise Dh2UrdfError(f"{shown(out_dir)}: {getattr(error, 'strerror', error)}") from None
     if len(tables) == 1:
         result = _convert(tables[0], _target(tables[0], output, out_dir), options, force)
         _show_one(result, json=json)
         return 0
     return _convert_many(tables, out_dir or Path(), options, force=force, json=json)
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except (OSError, ValueError) as error:
-        raise Dh2UrdfError(f"{shown(folder)}: {getattr(error, 'strerror', error)}") from None
 
 
 def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
@@ -133,8 +129,8 @@ def _show_one(result: dict[str, object], *, json: bool) -> None:
     if "text" in result:
         emit(str(result["text"]))
         note(_checked(result))
-        return
-    emit(f"{result['path']}  {_checked(result)}")
+    else:
+        emit(f"{result['path']}  {_checked(result)}")
 
 
 def _checked(result: dict[str, object]) -> str:

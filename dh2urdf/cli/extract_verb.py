@@ -111,6 +111,9 @@ def _stdin() -> str:
 
 def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
     """The table in its format, to a file or stdout."""
+    from dh2urdf.conversions.constructors import CONSTRUCTORS
+    from dh2urdf.dh_print import table_latex
+
     to_stdout = output is None or str(output) == "-"
     suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")
     chosen = format or SUFFIXES.get(suffix, "")
@@ -118,7 +121,12 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
         raise Dh2UrdfError(
             f"{output}: the suffix tells no format; use {', '.join(SUFFIXES)} or --format"
         )
-    text = _text(found, chosen)
+    if chosen in CONSTRUCTORS:
+        text = CONSTRUCTORS[chosen](found.table)
+    elif chosen == "latex":
+        text = f"% {one_line(found.table.source)}\n{table_latex(found.table)}\n"
+    else:
+        text = table_to_text(found.table, chosen)
     if output is None or to_stdout:
         emit(text)
         return
@@ -129,17 +137,6 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
         f"{output}: {found.base} to {found.tip}, largest FK difference {found.max_error:.2g} "
         f"m or rad (Pinocchio)"
     )
-
-
-def _text(found: Extraction, format: str) -> str:
-    from dh2urdf.conversions.constructors import CONSTRUCTORS
-    from dh2urdf.dh_print import table_latex
-
-    if format in CONSTRUCTORS:
-        return CONSTRUCTORS[format](found.table)
-    if format == "latex":
-        return f"% {one_line(found.table.source)}\n{table_latex(found.table)}\n"
-    return table_to_text(found.table, format)
 
 
 def _show_json(found: Extraction) -> None:

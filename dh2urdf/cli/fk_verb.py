@@ -4,9 +4,18 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.cli.options import Arm, Json, Link, Values
-from dh2urdf.cli.output import emit, emit_json, matrix_text, note, parse_configuration, robot_of
-from dh2urdf.grids import number
+from dh2urdf.cli.output import (
+    emit,
+    emit_json,
+    matrix_text,
+    note,
+    parse_configuration,
+    robot_of,
+    ten_digits,
+)
 from dh2urdf.transforms import matrix_to_rpy
 
 __all__ = ["fk_"]
@@ -37,11 +46,8 @@ def fk_(
     config = parse_configuration([*values, *(q or [])], arm, deg=deg)
     T = arm.fk(config)
     rpy = matrix_to_rpy(T)
-    outside = [
-        name
-        for name, v, low, high in zip(arm.joint_names, config, arm.lower, arm.upper, strict=True)
-        if not low <= v <= high
-    ]
+    over = np.flatnonzero((config < arm.lower) | (config > arm.upper))
+    outside = [arm.joint_names[k] for k in over]
     if json:
         emit_json(
             "fk",
@@ -58,12 +64,6 @@ def fk_(
         note(f"warning: outside the joint limits: {', '.join(outside)}")
     angles = [math.degrees(a) for a in rpy] if deg else list(rpy)
     emit(f"{arm.tip} in {arm.base}:\n{matrix_text(T)}")
-    emit(f"xyz [m]: {_row(T[:3, 3])}\nrpy [{'deg' if deg else 'rad'}]: {_row(angles)}")
+    emit(f"xyz [m]: {'  '.join(map(ten_digits, T[:3, 3]))}")
+    emit(f"rpy [{'deg' if deg else 'rad'}]: {'  '.join(map(ten_digits, angles))}")
     return 0
-
-
-def _row(values: object) -> str:
-    return "  ".join(
-        number(0.0 if abs(v) < 1e-15 else float(f"{v:.10g}"))
-        for v in values  # type: ignore[attr-defined]
-    )

@@ -97,7 +97,8 @@ def ik_(
         found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
     reason = _reason(arm, T, found, options)
     if json:
-        emit_json("ik", **_as_data(arm, found), solver=str(arm.solver_for(**_which(options))))
+        solver = arm.solver_for(locked=options["locked"], task=task)
+        emit_json("ik", **_as_data(arm, found), solver=str(solver))
     elif found:
         emit(_table(arm, found, deg=deg))
     if reason:
@@ -109,11 +110,6 @@ def _tell_change(change: float) -> None:
     """Say how far rotations were from the nearest ones."""
     if change:
         note(f"--nearest: the rotation was off by {change:.2g} rad")
-
-
-def _which(options: dict[str, Any]) -> dict[str, Any]:
-    """The options that choose a solver."""
-    return {key: options[key] for key in ("locked", "task")}
 
 
 def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float] | None:
@@ -168,7 +164,7 @@ def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
                 "residual": float(residual),
                 "branch": branch,
                 "free_joints": [arm.joint_names[i] for i in free],
-                "outside_limits": [arm.joint_names[i] for i in np.flatnonzero(over)],
+                "outside_limits": _names(arm, over),
             }
             for q, residual, branch, free, over in zip(
                 found.q, found.verify(), found.branch, found.free_joints, outside, strict=True
@@ -268,13 +264,14 @@ def _solved(
 def _lines(arm: Robot, pose: int, found: IKSolutions, over: Array, *, deg: bool) -> list[list[str]]:
     """One line a solution: pose, solution, joint values, residual, branch, outside limits."""
     q = found.q * np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
-    measured = zip(q.tolist(), found.verify(), found.branch, over, strict=True)
+    far = [" ".join(_names(arm, one)) for one in over]
+    measured = zip(q.tolist(), found.verify(), found.branch, far, strict=True)
     return [
-        [str(pose + 1), str(k + 1), *map(repr, row), f"{residual:.1e}", branch, _names(arm, far)]
-        for k, (row, residual, branch, far) in enumerate(measured)
+        [f"{pose + 1}", f"{k + 1}", *map(repr, row), f"{residual:.1e}", branch, names]
+        for k, (row, residual, branch, names) in enumerate(measured)
     ]
 
 
-def _names(arm: Robot, over: Array) -> str:
+def _names(arm: Robot, over: Array) -> list[str]:
     """The joints outside their limits."""
-    return " ".join(arm.joint_names[j] for j in np.flatnonzero(over))
+    return [arm.joint_names[j] for j in np.flatnonzero(over)]

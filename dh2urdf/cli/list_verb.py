@@ -28,14 +28,12 @@ def list_(*, json: Json = False) -> int:
             ],
         )
         return 0
-    rows = [[t.name, joint_letters(t.joints), str(t.convention), _short(t.source)] for t in tables]
+    rows = []
+    for t in tables:
+        letters = "".join(str(row.joint_type)[0].upper() for row in t.joints)
+        rows.append([t.name, letters, str(t.convention), _short(t.source)])
     emit(grid_text(["name", "joints", "convention", "source"], rows, left=(0, 1, 2, 3)))
     return 0
-
-
-def joint_letters(joints: tuple[object, ...]) -> str:
-    """``RRP``: one letter a joint."""
-    return "".join("P" if getattr(row, "joint_type", "") == "prismatic" else "R" for row in joints)
 
 
 def _short(source: str, width: int = 60) -> str:

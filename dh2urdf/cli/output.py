@@ -33,6 +33,7 @@ __all__ = [
     "robot_of",
     "stdin",
     "table_of",
+    "ten_digits",
 ]
 
 SCHEMA = 1
@@ -122,9 +123,14 @@ def parse_configuration(
     return np.array(read_numbers(values, what, (robot.n,), kinds, units, names=names, error=error))
 
 
+def ten_digits(value: float) -> str:
+    """A number for people, rounding noise below 1e-15 shown as 0."""
+    return number(0.0 if abs(value) < 1e-15 else float(f"{value:.10g}"))
+
+
 def matrix_text(T: Array, indent: str = "  ") -> str:
-    """A (4, 4) matrix in aligned columns, rounding noise below 1e-15 shown as 0."""
-    cells = [[number(0.0 if abs(v) < 1e-15 else float(f"{v:.10g}")) for v in row] for row in T]
+    """A (4, 4) matrix in aligned columns."""
+    cells = [list(map(ten_digits, row)) for row in T]
     widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
     return "\n".join(
         indent + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells

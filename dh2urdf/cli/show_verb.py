@@ -45,12 +45,22 @@ def show_(
     arm = Robot.from_dh(table_of(table))
     dh = arm.table
     assert dh is not None
-    if format != "text":
-        emit(_formatted(dh, format))
+    writers = {
+        "text": dh.__str__,
+        "markdown": dh.to_markdown,
+        "csv": dh.to_csv,
+        "latex": dh.to_latex,
+        "html": dh._repr_html_,
+    }
+    if choice(format, "--format", tuple(writers)) != "text":
+        emit(writers[format]())
         return 0
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
-    name, why = _solver(arm)
+    try:
+        name, why = str(arm.solver), arm.solver.explain()
+    except NoSolverError as error:
+        name, why = "none", str(error)
     if json:
         emit_json(
             "show",
@@ -75,24 +85,6 @@ def show_(
         _show_symbols(dh)
     emit(f"\ninverse kinematics: {name}\n{why}")
     return 0
-
-
-def _formatted(dh: DHTable, format: str) -> str:
-    writers = {
-        "markdown": dh.to_markdown,
-        "csv": dh.to_csv,
-        "latex": dh.to_latex,
-        "html": dh._repr_html_,
-    }
-    return writers[choice(format, "--format", ("text", *writers))]()
-
-
-def _solver(arm: Robot) -> tuple[str, str]:
-    """Short name of the solver and its explanation; why there is none otherwise."""
-    try:
-        return str(arm.solver), arm.solver.explain()
-    except NoSolverError as error:
-        return "none", str(error)
 
 
 def _show_transforms(dh: DHTable, config: Array) -> None:

@@ -36,16 +36,7 @@ class Measure:
 
 @dataclass(frozen=True, eq=False)
 class Arc:
-    """An angle of the row.
-
-    Parameters
-    ----------
-    key : str
-    centre, axis, start : array, shape (3,)
-        Of the turn, in base; ``start`` and ``axis`` are unit vectors.
-    value : float
-        Angle [rad].
-    """
+    """An angle [rad] of the row: its centre, and unit vectors along its axis and start, in base."""
 
     key: str
     centre: Array
@@ -64,20 +55,10 @@ class Arc:
 
 @dataclass(frozen=True, eq=False)
 class DHRowPicture:
-    """Row i of a table at a configuration, in base.
+    """Row i (from 1) of a table at a configuration: its frames (4, 4) in base and its matrix.
 
-    Parameters
-    ----------
-    i : int
-        Joint number, from 1.
-    T_prev, T_next : array, shape (4, 4)
-        Frames i - 1 and i; ``T_reached`` is where the four motions lead, before fixed steps.
-    T_prev_next : array, shape (4, 4)
-        The row's matrix.
-    theta, alpha : Arc
-    d, a : Measure
-    case : AxisCase
-        How z_{i-1} and z_i lie.
+    ``T_reached`` is where the four motions lead, before fixed steps; ``case`` how z_{i-1} and z_i
+    lie.
     """
 
     i: int
@@ -105,26 +86,17 @@ def row_picture(arm: DrawnArm, q: Array, i: int) -> DHRowPicture:
     x_next, z_next = T_reached[:3, 0], T_reached[:3, 2]
     if table.convention is DHConvention.STANDARD:
         foot = o_prev + d * z_prev
-        measures = Measure("d", np.stack([o_prev, foot]), d), _length("a", foot, o_reached, row.a)
-        arcs = (
-            Arc("theta", foot, z_prev, x_prev, theta),
-            Arc("alpha", o_reached, x_next, z_prev, row.alpha),
-        )
+        d_segment, a_segment = np.stack([o_prev, foot]), np.stack([foot, o_reached])
+        turn = Arc("theta", foot, z_prev, x_prev, theta)
+        twist = Arc("alpha", o_reached, x_next, z_prev, row.alpha)
     else:
         foot = o_prev + row.a * x_prev
-        measures = _length("d", foot, o_reached, d), Measure("a", np.stack([o_prev, foot]), row.a)
-        arcs = (
-            Arc("theta", o_reached, z_next, x_prev, theta),
-            Arc("alpha", foot, x_prev, z_prev, row.alpha),
-        )
+        a_segment, d_segment = np.stack([o_prev, foot]), np.stack([foot, o_reached])
+        turn = Arc("theta", o_reached, z_next, x_prev, theta)
+        twist = Arc("alpha", foot, x_prev, z_prev, row.alpha)
+    lengths = Measure("d", d_segment, d), Measure("a", a_segment, row.a)
     case = classify(T_prev_next, arm.size).case
-    return DHRowPicture(
-        i, T_prev, T_reached, T_next, T_prev_next, arcs[0], *measures, arcs[1], case
-    )
-
-
-def _length(key: str, start: Array, end: Array, value: float) -> Measure:
-    return Measure(key, np.stack([start, end]), value)
+    return DHRowPicture(i, T_prev, T_reached, T_next, T_prev_next, turn, *lengths, twist, case)
 
 
 def subscript(name: str, i: int | str) -> str:
@@ -167,23 +139,16 @@ def row_words(table: DHTable, picture: DHRowPicture) -> str:
     i, row = picture.i, table.joints[picture.i - 1]
     modified = table.convention is DHConvention.MODIFIED
     before, after = subscript("z", i - 1), subscript("z", i)
-    free_end = (i == 1) if modified else (i == table.n)
-    if free_end:
-        sentence = _end_words(i, modified)
+    if modified and i == 1:
+        words = "First frame: free (step 2), any frame 0 from which the four motions reach z₁."
+    elif not modified and i == table.n:
+        words = f"Last frame: free (step 4) as long as the four motions reach frame {i}."
     else:
-        x = subscript("x", i - 1 if modified else i)
-        sentence = _case_words(picture, before, after, x)
-    moves = _variable_words(row, i)
-    step = ""
+        words = _case_words(picture, before, after, subscript("x", length_index(table, i)))
+    words = f"{words} {_variable_words(row, i)}"
     if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
-        step = f" A fixed step leads from there to frame {i}."
-    return f"{sentence} {moves}{step}"
-
-
-def _end_words(i: int, modified: bool) -> str:
-    if modified:
-        return "First frame: free (step 2), any frame 0 from which the four motions reach z₁."
-    return f"Last frame: free (step 4) as long as the four motions reach frame {i}."
+        words += f" A fixed step leads from there to frame {i}."
+    return words
 
 
 def _case_words(picture: DHRowPicture, before: str, after: str, x: str) -> str:

@@ -23,17 +23,9 @@ Faces = NDArray[np.uint32]
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles of one colour.
+    """Triangles (f, 3) of one colour, their vertices (v, 3) [m] in the frame of the node.
 
-    Parameters
-    ----------
-    vertices : array, shape (v, 3)
-        In the frame of the node [m].
-    faces : array, shape (f, 3)
-    colour : tuple of 3 ints
-        0 to 255.
-    solids : tuple of int
-        Where the vertices of each solid end; empty for one.
+    ``solids`` tells where the vertices of each solid end, and is empty for one.
     """
 
     vertices: Array
@@ -58,8 +50,7 @@ class Node:
 
     def slim(self, share: float) -> Surface:
         """All of it as one surface, each part shrunk about its middle."""
-        shrunk = [s.shrunk(share) for s in self.surfaces]
-        return merged(shrunk)
+        return merged([s.shrunk(share) for s in self.surfaces])
 
 
 class Drawing(Protocol):
@@ -77,10 +68,9 @@ class TableDrawing:
 
     def __init__(self, arm: DrawnArm) -> None:
         self.arm = arm
-        names = ["base", *[f"link_{i}" for i in range(1, arm.table.n + 1)]]
         self.nodes = tuple(
-            Node(name, tuple(_by_material(bodies)))
-            for name, bodies in zip(names, arm.bodies, strict=True)
+            Node(f"link_{i}" if i else "base", tuple(_by_material(bodies)))
+            for i, bodies in enumerate(arm.bodies)
         )
 
     def poses(self, q: Array) -> Array:
@@ -124,18 +114,12 @@ def body_surface(body: Body, colour: tuple[int, int, int]) -> Surface:
 
 
 def _ball(radius: float) -> tuple[Array, NDArray[np.int64]]:
-    rings, around = AROUND // 2, AROUND
-    polar = np.linspace(0, np.pi, rings + 1)[:, None]
-    turn = np.linspace(0, 2 * np.pi, around + 1)[None, :]
-    grid = np.stack(
-        [
-            np.sin(polar) * np.cos(turn),
-            np.sin(polar) * np.sin(turn),
-            np.cos(polar) + 0 * turn,
-        ],
-        axis=-1,
+    polar, turn = np.meshgrid(
+        np.linspace(0, np.pi, AROUND // 2 + 1), np.linspace(0, 2 * np.pi, AROUND + 1), indexing="ij"
     )
-    return radius * grid.reshape(-1, 3), _strips(rings, around)
+    across = np.sin(polar)
+    grid = np.stack([across * np.cos(turn), across * np.sin(turn), np.cos(polar)], axis=-1)
+    return radius * grid.reshape(-1, 3), _strips(AROUND // 2, AROUND)
 
 
 def _strips(rows: int, columns: int) -> NDArray[np.int64]:

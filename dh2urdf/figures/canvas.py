@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
+from itertools import count
 from typing import Any
 
 import numpy as np
@@ -18,13 +19,7 @@ POINTS_PER_INCH = 72.0
 
 
 class Canvas:
-    """Axes over a whole figure whose unit is the point.
-
-    Parameters
-    ----------
-    width, height : float
-        Size [pt].
-    """
+    """Axes over a whole figure whose unit is the point."""
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = width, height
@@ -32,7 +27,7 @@ class Canvas:
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set(xlim=(0, width), ylim=(0, height))
         self.axes.set_axis_off()
-        self._level = 0.0
+        self._levels = count(1.0)
         self._clip: Any = None
 
     @contextmanager
@@ -109,15 +104,8 @@ class Canvas:
         """Draw a filled circle."""
         from matplotlib.patches import Circle
 
-        circle = Circle(
-            (float(at[0]), float(at[1])),
-            radius,
-            facecolor=colour,
-            edgecolor=edge,
-            linewidth=0.8,
-            zorder=self._next(),
-        )
-        self.axes.add_patch(circle)
+        style: Any = {"facecolor": colour, "edgecolor": edge, "linewidth": 0.8}
+        self.axes.add_patch(Circle((at[0], at[1]), radius, zorder=self._next(), **style))
 
     def axis_end(self, at: Array, colour: str, radius: float, *, toward_eye: bool) -> None:
         """Draw an axis seen end on: a dot in a circle towards the eye, a cross away from it."""
@@ -143,12 +131,7 @@ class Canvas:
         weight: str = "normal",
     ) -> None:
         """Write a text, over a white halo if asked; the text itself stays text in a file."""
-        style: dict[str, Any] = {
-            "fontsize": size,
-            "ha": align,
-            "va": vertical,
-            "fontweight": weight,
-        }
+        style: Any = {"fontsize": size, "ha": align, "va": vertical, "fontweight": weight}
         x, y = float(at[0]), float(at[1])
         if halo:
             from matplotlib.patheffects import Stroke
@@ -165,8 +148,7 @@ class Canvas:
 
     def _next(self) -> float:
         """A level above everything drawn so far: painted in the order of calls."""
-        self._level += 1.0
-        return self._level
+        return next(self._levels)
 
 
 @lru_cache(maxsize=4096)

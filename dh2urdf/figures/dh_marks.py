@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from dh2urdf.dh import DHConvention
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY
-from dh2urdf.drawing.row import DHRowPicture, length_index, row_picture
+from dh2urdf.drawing.row import length_index, row_picture
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.labels import Label, Line, place_labels
 from dh2urdf.figures.projection import View
@@ -49,18 +48,9 @@ class Arrow:
 
 
 class DHMarks:
-    """The marks of one arm at one configuration.
+    """The marks of one arm at q (n,); ``length`` is that of the x and z arrows [m].
 
-    Parameters
-    ----------
-    canvas, view, to
-        The sheet, the eye, and the way from the picture's metres to the sheet's points.
-    arm : DrawnArm
-    q : array, shape (n,)
-    length : float
-        Length of the x and z arrows [m].
-    outlines : list of arrays (m, 2)
-        Outlines of the bodies in the picture [m]; labels would rather not stand on them.
+    Labels would rather not stand on ``outlines`` of bodies in the picture, each (m, 2) [m].
     """
 
     def __init__(
@@ -115,7 +105,10 @@ class DHMarks:
         for row in self.rows:
             for measure, index in ((row.d, row.i), (row.a, length_index(self.arm.table, row.i))):
                 self._measure(measure.key, index, measure.segment)
-            self._step(row)
+            step = self._at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
+            if float(np.linalg.norm(step[1] - step[0])) > 1.5:
+                self.canvas.line(step, "#6b7280", 1.6, dashes=(1.5, 1.5))
+                self.lines.append(Line(step))
 
     def _measure(self, key: str, index: int, segment: Array) -> None:
         if float(np.linalg.norm(segment[1] - segment[0])) < SAME * self.arm.size:
@@ -129,19 +122,13 @@ class DHMarks:
         across = np.array([-way[1], way[0]])
         self._label(f"${key}_{{{index}}}$", points.mean(axis=0), across, QUANTITY[key], True)
 
-    def _step(self, row: DHRowPicture) -> None:
-        points = self._at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
-        if float(np.linalg.norm(points[1] - points[0])) > 1.5:
-            self.canvas.line(points, "#6b7280", 1.6, dashes=(1.5, 1.5))
-            self.lines.append(Line(points))
-
     def _arrows(self) -> None:
         """All axes, far ones first; y short and thin, without a name."""
-        arrows = list(self._merged("y")) + list(self._merged("xz"))
-        nearness = [float(self.view.depth(a.start + self.length * a.direction)) for a in arrows]
-        order = sorted(range(len(arrows)), key=lambda k: (arrows[k].letter != "y", nearness[k]))
-        for k in order:
-            self._arrow(arrows[k])
+        for letters in ("y", "xz"):
+            arrows = self._merged(letters)
+            arrows.sort(key=lambda a: float(self.view.depth(a.start + self.length * a.direction)))
+            for arrow in arrows:
+                self._arrow(arrow)
 
     def _arrow(self, arrow: Arrow) -> None:
         thin = arrow.letter == "y"
@@ -161,7 +148,7 @@ class DHMarks:
         if not thin:
             self._label(name, end, end - start, colour)
 
-    def _merged(self, letters: str) -> Iterable[Arrow]:
+    def _merged(self, letters: str) -> list[Arrow]:
         """Axes of all frames; those that coincide are one arrow with several names."""
         merged: list[Arrow] = []
         for i, frame in enumerate(self.frames):
@@ -186,11 +173,9 @@ class DHMarks:
     def _texts(self, bounds: Array) -> None:
         centres = place_labels(self.labels, self.lines, bounds)
         for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
-            gap = np.maximum(np.abs(centre - label.anchor) - label.size / 2, 0.0)
-            if float(np.hypot(*gap)) > LEADER:
-                edge = centre - np.clip(
-                    centre - label.anchor, -label.size / 2 - 1.0, label.size / 2 + 1.0
-                )
+            way, half = centre - label.anchor, label.size / 2
+            if float(np.hypot(*np.maximum(np.abs(way) - half, 0.0))) > LEADER:
+                edge = centre - np.clip(way, -half - 1.0, half + 1.0)
                 self.canvas.line(np.stack([edge, label.anchor]), mix(colour, 0.55), 0.7)
         for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
             self.canvas.label(centre, label.text, LABEL, colour)

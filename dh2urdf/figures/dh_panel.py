@@ -42,20 +42,19 @@ class DHPanel:
     ) -> None:
         self.table, self.key = table, key or []
         self.rounded = False
-        self.rows = [self._row(row, i) for i, row in self._numbered()]
+        numbers = np.cumsum([row.is_joint for row in table.rows]).tolist()
+        self.rows = [self._row(row, i) for row, i in zip(table.rows, numbers, strict=True)]
         self.header = self._header()
         self.title = f"{plain(table.name)}, {table.convention} DH"
-        self.notes = [*self._frame_notes(), *notes]
+        ends = {"frame 0 in base": table.base, "tool in the last frame": table.tool}
+        notes = [f"{k}: {step(T)}" for k, T in ends.items() if not T.is_identity] + notes
         if self.rounded:
-            self.notes.append("Long values are rounded to six digits here.")
+            notes.append("Long values are rounded to six digits here.")
         self.widths = [
-            max(
-                text_size(row[k].text, SIZE)[0] for row in [self.header, *self.rows] if len(row) > 1
-            )
-            + GAP
-            for k in range(len(KEYS))
+            GAP + max(text_size(cell.text, SIZE)[0] for cell in column)
+            for column in zip(self.header, *(r for r in self.rows if len(r) > 1), strict=True)
         ]
-        self.notes = [line for note in self.notes for line in wrapped(note, self.width, SIZE - 2)]
+        self.notes = [line for note in notes for line in wrapped(note, self.width, SIZE - 2)]
 
     @property
     def width(self) -> float:
@@ -100,13 +99,6 @@ class DHPanel:
                 size = SIZE + 1.5 if row is self.header else SIZE
                 canvas.text((x - 4, y), cell.text, size, cell.colour, align="right")
 
-    def _numbered(self) -> list[tuple[int, DHRow]]:
-        out, joint = [], 0
-        for row in self.table.rows:
-            joint += row.is_joint
-            out.append((joint, row))
-        return out
-
     def _header(self) -> list[Cell]:
         modified = self.table.convention is DHConvention.MODIFIED
         j = "{i-1}" if modified else "i"
@@ -134,32 +126,14 @@ class DHPanel:
         return cells
 
     def _degrees(self, angle: float) -> str:
-        text = degrees(angle)
-        if len(text) > WIDEST:
-            self.rounded, text = True, number(_six_digits(math.degrees(angle)))
-        return f"{text}°"
+        return f"{self._number(math.degrees(angle), degrees(angle))}°"
 
-    def _number(self, value: float) -> str:
-        text = number(value)
+    def _number(self, value: float, text: str = "") -> str:
+        """As it would be printed; if that is wide, six digits, at most seven decimals."""
+        text = text or number(value)
         if len(text) > WIDEST:
-            self.rounded, text = True, number(_six_digits(value))
+            self.rounded, text = True, number(round(float(f"{value:.6g}"), 7) + 0.0)
         return text
-
-    def _frame_notes(self) -> list[str]:
-        table = self.table
-        return [
-            f"{what}: {step(origin)}"
-            for what, origin in (
-                ("frame 0 in base", table.base),
-                ("tool in the last frame", table.tool),
-            )
-            if not origin.is_identity
-        ]
-
-
-def _six_digits(value: float) -> float:
-    """Six significant digits, at most seven decimals."""
-    return round(float(f"{value:.6g}"), 7) + 0.0
 
 
 def draw_key(canvas: Canvas, left: float, top: float, key: list[tuple[str, str]]) -> None:

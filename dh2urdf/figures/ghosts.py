@@ -37,33 +37,23 @@ class Ghost(NamedTuple):
 def group_ghosts(
     arm: DrawnArm, q: Array, ghosts: Sequence[Array], names: Sequence[str]
 ) -> list[Ghost]:
-    """Ghosts with their colours; those that differ in the wrist only are one.
+    """Ghosts with their colours, beside the arm at q (n,); those that look alike are one.
 
-    Parameters
-    ----------
-    arm : DrawnArm
-    q : array, shape (n,)
-        The arm itself.
-    ghosts : sequence of arrays (n,)
-    names : sequence of str
-        Of the ghosts; fewer are allowed.
+    There may be fewer names than ghosts.
     """
     places = [arm.table.frames(one)[:, :3, 3] for one in (q, *ghosts)]
     groups: list[list[int]] = [[0]]
     for k in range(1, len(places)):
         near = (g for g in groups if np.abs(places[g[0]] - places[k]).max() < ALIKE * arm.size)
-        group = next(near, None)
-        if group is None:
-            groups.append([k])
-        else:
-            group.append(k)
+        if (group := next(near, None)) is None:
+            groups.append(group := [])
+        group.append(k)
     padded = ["", *map(plain, names), *[""] * (len(ghosts) - len(names))]
     out = []
     for number, group in enumerate(groups):
         own = [padded[k] for k in group if padded[k]]
         if number == 0:
-            if own:
-                out.append(Ghost(q, INK, f"as drawn: {merged_name(own)}"))
+            out += [Ghost(q, INK, f"as drawn: {merged_name(own)}")] if own else []
             continue
         colour = BRANCH_COLOURS[(number - 1) % len(BRANCH_COLOURS)]
         out.append(Ghost(ghosts[group[0] - 1], colour, merged_name(own)))

@@ -26,19 +26,9 @@ SPACING = 1.5
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """A text that wants a place.
+    """A text that wants a place: its size (2,), what it names (2,) [pt].
 
-    Parameters
-    ----------
-    text : str
-    size : array, shape (2,)
-        Width and height [pt].
-    anchor : array, shape (2,)
-        What it names [pt].
-    toward : array, shape (2,)
-        Direction in which it would best stand; zero for none.
-    both_ways : bool
-        The opposite direction is as good.
+    It would best stand ``toward`` (2,), zero for anywhere, or also opposite with ``both_ways``.
     """
 
     text: str
@@ -57,15 +47,7 @@ class Line:
 
 
 def place_labels(labels: list[Label], lines: list[Line], bounds: Array) -> Array:
-    """Centres of the labels [pt], shape (m, 2).
-
-    Parameters
-    ----------
-    labels : list of Label
-    lines : list of Line
-    bounds : array, shape (2, 2)
-        Lower left and upper right corner of the panel [pt].
-    """
+    """Centres (m, 2) of the labels between two corners (2, 2) of a panel [pt]."""
     if not labels:
         return np.zeros((0, 2))
     samples, weights = _samples(lines)

@@ -8,8 +8,7 @@ ray is put into the solid's own frame.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids import Part, hull_points
 from dh2urdf.transforms import Array
 
-__all__ = ["Occlusion", "Region", "front_depth", "occlusion"]
+__all__ = ["Occlusion", "front_depth", "occlusion"]
 
 RASTER = 200
 """Rays along the longer side of the picture."""
@@ -27,27 +26,11 @@ WRONG = 4
 """Rays from which a part that was painted over is painted again."""
 
 
-@dataclass(frozen=True, eq=False)
-class Region:
-    """A polygon with holes: its rings (m, 2) [m], the outer one first."""
-
-    rings: tuple[Array, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Occlusion:
-    """How to paint parts.
-
-    Parameters
-    ----------
-    order : list of int
-        Indices of the parts, far ones first.
-    again : list of (int, list of Region)
-        Parts to paint once more, and where.
-    """
+class Occlusion(NamedTuple):
+    """Indices of the parts, far ones first; parts to paint once more, and where."""
 
     order: list[int]
-    again: list[tuple[int, list[Region]]]
+    again: list[tuple[int, list[Array]]]
 
 
 def occlusion(parts: list[Part], view: View) -> Occlusion:
@@ -84,8 +67,8 @@ def _order(parts: list[Part], view: View, fronts: Array) -> list[int]:
     return order
 
 
-def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Region]:
-    """Where part k is in front of all others.
+def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Array]:
+    """Where part k is in front of all others: rings (m, 2) [m], those of holes turned round.
 
     The border between two surfaces is the zero of their difference in depth, which is found
     between the rays; where one of them ends, its depth is carried on by one ray.
@@ -103,10 +86,8 @@ def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Region]:
         lead = np.where(np.isnan(lead), np.nansum(known, axis=0) / count, lead)
     contours: Any = contour_generator(x, y, lead, fill_type="OuterOffset")
     polygons, offsets = contours.filled(0.0, np.inf)
-    return [
-        Region(tuple(np.split(points, ends[1:-1])))
-        for points, ends in zip(polygons, offsets, strict=True)
-    ]
+    pairs = zip(polygons, offsets, strict=True)
+    return [ring for points, ends in pairs for ring in np.split(points, ends[1:-1])]
 
 
 def _neighbours(values: Array) -> Array:
@@ -138,21 +119,16 @@ def front_depth(body: Body, T: Array, view: View, rays: Array) -> Array:
     toward = R.T @ view.axes[2]
     starts = (rays @ view.axes[:2] - T[:3, 3]) @ R
     with np.errstate(divide="ignore", invalid="ignore"):
+        slabs = dict(enumerate(body.size)) if body.shape == "box" else {}
+        within = []
         if body.shape == "sphere":
-            near = _quadric(starts, toward, np.ones(3), body.size[0])[1]
+            within.append(_quadric(starts, toward, np.ones(3), body.size[0]))
         elif body.shape == "cylinder":
-            radius, length = body.size
-            low, high = _quadric(starts, toward, np.array([1.0, 1.0, 0.0]), radius)
-            caps = _slab(starts[:, 2], float(toward[2]), length / 2)
-            near = _overlap(low, high, *caps)
-        else:
-            slabs = [
-                _slab(starts[:, k], float(toward[k]), size / 2) for k, size in enumerate(body.size)
-            ]
-            low = np.max([s[0] for s in slabs], axis=0)
-            high = np.min([s[1] for s in slabs], axis=0)
-            near = np.where(high >= low, high, -np.inf)
-    return np.where(np.isnan(near), -np.inf, near)
+            within.append(_quadric(starts, toward, np.array([1.0, 1.0, 0.0]), body.size[0]))
+            slabs = {2: body.size[1]}
+        within += [_slab(starts[:, k], float(toward[k]), size / 2) for k, size in slabs.items()]
+        low, high = np.max([w[0] for w in within], axis=0), np.min([w[1] for w in within], axis=0)
+    return np.where(high >= low, high, -np.inf)
 
 
 def _quadric(starts: Array, toward: Array, mask: Array, radius: float) -> tuple[Array, Array]:
@@ -175,9 +151,3 @@ def _slab(start: Array, toward: float, half: float) -> tuple[Array, Array]:
         return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
     ends = np.sort(np.stack([(-half - start) / toward, (half - start) / toward]), axis=0)
     return ends[0], ends[1]
-
-
-def _overlap(low: Array, high: Array, low2: Array, high2: Array) -> Array:
-    """Upper end of the common part of two intervals, -inf where there is none."""
-    far, near = np.maximum(low, low2), np.minimum(high, high2)
-    return np.where(near >= far, near, -np.inf)

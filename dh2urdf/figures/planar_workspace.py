@@ -18,6 +18,8 @@ from dh2urdf.workspace import PlanarArm, caption
 __all__ = ["planar_picture"]
 
 Flags = NDArray[np.bool_]
+Shape = tuple[float, Array, str]
+"""Nearness to the eye, outline, colour."""
 
 SHEETS = (BRANCH_COLOURS[4], BRANCH_COLOURS[0])
 """Colours of the two branches: elbow angle positive, elbow angle negative."""
@@ -69,29 +71,23 @@ class _Surface:
         )
         axes.autoscale_view()
 
-    def _place(self, x: Array, y: Array, phi: Array) -> Array:
-        """Points of the box, phi stretched to its height, shape (..., 3)."""
-        return np.stack(np.broadcast_arrays(x, y, phi * self.high / math.pi), axis=-1)
-
     def _grid(self, phi: Array, bend: Array) -> tuple[Array, Flags]:
-        """Points, and whether the joints are inside their limits, for phi and elbow angle."""
+        """Points (..., 3), phi stretched to the box, and whether the joints keep their limits."""
         first, between, turn = self.arm.offset
         t1 = phi - turn - bend + first + between
         x, y = self.arm.forward(t1, bend)
         inside = self.arm.inside(t1, bend) | (not self.within)
-        return self._place(x, y, phi), inside
+        return np.stack(np.broadcast_arrays(x, y, phi * self.high / math.pi), axis=-1), inside
 
     def _sheets(self) -> None:
         """All facets of both sheets, and the two seams, painted from far to near."""
-        from matplotlib.collections import LineCollection, PolyCollection
-
         phi = np.linspace(-math.pi, math.pi, TURNS + 1)[:, None]
-        facets: list[tuple[float, Array, str]] = []
+        facets: list[Shape] = []
         for sign, colour in zip((1.0, -1.0), SHEETS, strict=True):
             half_turn = sign * np.linspace(0.0, math.pi, BENDS + 1)[None, :]
             points, inside = self._grid(*np.broadcast_arrays(phi, half_turn))
             facets += self._facets(points, inside, colour)
-        strokes: list[tuple[float, Array, str]] = []
+        strokes: list[Shape] = []
         fine = np.linspace(-math.pi, math.pi, 2 * TURNS + 1)
         for bend, colour in ((0.0, RIM), (math.pi, FOLDED)):
             points, inside = self._grid(fine, np.full_like(fine, bend))
@@ -102,41 +98,32 @@ class _Surface:
                     strokes.append((near, EYE.flat(pair), colour))
         facets.sort(key=lambda f: f[0])
         strokes.sort(key=lambda s: s[0])
-        self._paint(facets, strokes, PolyCollection, LineCollection)
+        self._paint(facets, strokes)
 
-    def _paint(self, facets: Any, strokes: Any, polygons: Any, lines: Any) -> None:
+    def _paint(self, facets: list[Shape], strokes: list[Shape]) -> None:
         """Runs of facets and strokes, interleaved by depth."""
-        level, at = 10.0, 0
-        for bound in [*np.linspace(facets[0][0], facets[-1][0], 60), math.inf]:
-            run = []
-            while at < len(facets) and facets[at][0] <= bound:
-                run.append(facets[at])
-                at += 1
-            if run:
-                self.axes.add_collection(
-                    polygons(
-                        [f[1] for f in run],
-                        facecolors=[f[2] for f in run],
-                        edgecolors=[mix(f[2], 0.72) for f in run],
-                        linewidths=0.35,
-                        zorder=level,
-                    )
-                )
-            seam = [s for s in strokes if s[0] <= bound]
-            strokes = [s for s in strokes if s[0] > bound]
-            if seam:
-                self.axes.add_collection(
-                    lines(
-                        [s[1] for s in seam],
-                        colors=[s[2] for s in seam],
-                        linewidths=2.2,
-                        capstyle="round",
-                        zorder=level + 0.5,
-                    )
-                )
-            level += 1.0
+        from matplotlib.collections import LineCollection, PolyCollection
 
-    def _facets(self, points: Array, inside: Flags, colour: str) -> list[tuple[float, Array, str]]:
+        after = -math.inf
+        bounds = [*np.linspace(facets[0][0], facets[-1][0], 60), math.inf]
+        for level, bound in enumerate(bounds, 10):
+            run, seam = ([s for s in all_ if after < s[0] <= bound] for all_ in (facets, strokes))
+            after = bound
+            if run:
+                _, outlines, tones = zip(*run, strict=True)
+                edges = [mix(tone, 0.72) for tone in tones]
+                faces = PolyCollection(
+                    outlines, facecolors=tones, edgecolors=edges, linewidths=0.35, zorder=level
+                )
+                self.axes.add_collection(faces)
+            if seam:
+                _, pairs, tones = zip(*seam, strict=True)
+                lines = LineCollection(
+                    pairs, colors=tones, linewidths=2.2, capstyle="round", zorder=level + 0.5
+                )
+                self.axes.add_collection(lines)
+
+    def _facets(self, points: Array, inside: Flags, colour: str) -> list[Shape]:
         """Quadrilaterals of a grid of points: depth, outline, shaded colour."""
         a, b, c, d = points[:-1, :-1], points[1:, :-1], points[1:, 1:], points[:-1, 1:]
         normal = np.cross(c - a, d - b)
@@ -160,16 +147,20 @@ class _Surface:
             self._line([(t, -r, -1.0), (t, r, -1.0), (t, r, 1.0)], FAINT, 0.4)
             self._line([(-r, t, -1.0), (r, t, -1.0)], FAINT, 0.4)
             self._line([(-r, t, -1.0), (-r, t, 1.0)], FAINT, 0.4)
-            self._tick((t, -r, -1.0), (0.0, -1.0), f"{t:g}".replace("-", "−"))
-            self._tick((r, t, -1.0), (1.0, -0.35), f"{t:g}".replace("-", "−"))
+            for corner, way in (((t, -r, -1.0), (0.0, -1.0)), ((r, t, -1.0), (1.0, -0.35))):
+                self._tick(corner, way, f"{t:g}".replace("-", "−"))
         for level, name in ((-1.0, r"$-\pi$"), (0.0, "0"), (1.0, r"$\pi$")):
             self._line([(-r, -r, level), (-r, r, level), (r, r, level)], FAINT, 0.4)
             self._tick((r, r, level), (1.0, 0.0), name)
         edges = [(-r, -r, -1.0), (r, -r, -1.0), (r, r, -1.0), (r, r, 1.0)]
         self._line(edges, INK, 1.0)
-        self._name((0.0, -r, -1.0), (-0.2, -2.3), r"$x$ / m")
-        self._name((r, 0.0, -1.0), (2.0, -1.9), r"$y$ / m")
-        self._name((r, r, 0.5), (2.0, 0.0), r"$\varphi$")
+        for corner, way, name in (
+            ((0.0, -r, -1.0), (-0.2, -2.3), r"$x$ / m"),
+            ((r, 0.0, -1.0), (2.0, -1.9), r"$y$ / m"),
+            ((r, r, 0.5), (2.0, 0.0), r"$\varphi$"),
+        ):
+            place = self._spot(corner) + 0.12 * self.reach * np.array(way)
+            self.axes.text(*place, name, ha="center", va="center", size=11)
 
     def _spot(self, corner: tuple[float, float, float]) -> Array:
         x, y, level = corner
@@ -187,12 +178,6 @@ class _Surface:
         self.axes.plot(*np.stack([spot, end]).T, color=INK, lw=0.9, zorder=2)
         place = spot + 2.3 * unit * np.array(way)
         self.axes.text(*place, text, ha="center", va="center", size=9)
-
-    def _name(
-        self, corner: tuple[float, float, float], way: tuple[float, float], text: str
-    ) -> None:
-        place = self._spot(corner) + 0.12 * self.reach * np.array(way)
-        self.axes.text(*place, text, ha="center", va="center", size=11)
 
 
 def _annulus(axes: Any, bar: Any, arm: PlanarArm, within_limits: bool) -> None:

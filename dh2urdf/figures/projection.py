@@ -55,14 +55,7 @@ class View:
 
 
 def best_view(frames: Array, chain: SerialChain) -> View:
-    """A view that shows the arm: from above for a planar arm, else the widest one.
-
-    Parameters
-    ----------
-    frames : array, shape (n + 1, 4, 4)
-        DH frames in base.
-    chain : SerialChain
-    """
+    """A view of an arm's DH frames (n + 1, 4, 4): from above for a planar one, else the widest."""
     if _is_planar(frames, chain):
         return View(-90.0, 90.0)
     points, axes = frames[:, :3, 3], frames[:, :3, [0, 2]].transpose(0, 2, 1).reshape(-1, 3)

@@ -35,20 +35,6 @@ def picture_bytes(figure: Picture, format: str, *, dpi: float = 180.0) -> bytes:
     return out.getvalue()
 
 
-def format_of(path: Path) -> str:
-    """Format by the suffix of a path.
-
-    Raises
-    ------
-    OutputError
-        No such format.
-    """
-    suffix = path.suffix.lower().removeprefix(".")
-    if suffix not in FORMATS:
-        raise OutputError(f"{path}: figures are written as .{', .'.join(FORMATS)}")
-    return suffix
-
-
 def check_target(path: str | os.PathLike[str], *, force: bool) -> str:
     """Format of a path at which a figure may be written.
 
@@ -60,7 +46,9 @@ def check_target(path: str | os.PathLike[str], *, force: bool) -> str:
         Without ``force``: somebody else's file is in the way.
     """
     target = Path(path)
-    format = format_of(target)
+    format = target.suffix.lower().removeprefix(".")
+    if format not in FORMATS:
+        raise OutputError(f"{path}: figures are written as .{', .'.join(FORMATS)}")
     if not force and target.is_file() and MARK.encode() not in target.read_bytes():
         raise OutputExistsError(
             f"{target}: exists and was not drawn by dh2urdf; --force (force=True) replaces it"

@@ -48,30 +48,24 @@ def schematic_points(arm: DrawnArm, q: Array, view: View) -> Array:
 
 def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:
     rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
+    standard, size = arm.table.convention is DHConvention.STANDARD, arm.size
     corners = [np.zeros(3), rows[0].T_prev[:3, 3]]
     for row in rows:
-        corners += [*_corners(arm, row), row.T_next[:3, 3]]
+        foot = (row.d if standard else row.a).segment[1]
+        corners += [foot, row.T_reached[:3, 3], row.T_next[:3, 3]]
     corners.append((rows[-1].T_next @ arm.table.tool.matrix)[:3, 3])
     for start, end in pairwise(corners):
-        if float(np.linalg.norm(end - start)) > 1e-6 * arm.size:
-            yield Part("link", _rod(start, end, ROD * arm.size))
+        if float(np.linalg.norm(end - start)) > 1e-6 * size:
+            yield Part("link", _rod(start, end, ROD * size))
     placed: list[Array] = []
     for row, joint in zip(rows, arm.table.joints, strict=True):
         spot, axis = _spot(arm, row, placed)
         placed.append(spot)
-        size = arm.size
+        body = Body("cylinder", (DRUM_RADIUS * size, DRUM_LENGTH * size), np.eye(4), "joint")
         if joint.joint_type is JointType.PRISMATIC:
             box = (BOX_WIDTH * size, BOX_WIDTH * size, BOX_LENGTH * size)
-            yield Part("joint", [(Body("box", box, np.eye(4), "joint"), _along(spot, axis))])
-        else:
-            drum = (DRUM_RADIUS * size, DRUM_LENGTH * size)
-            yield Part("joint", [(Body("cylinder", drum, np.eye(4), "joint"), _along(spot, axis))])
-
-
-def _corners(arm: DrawnArm, row: DHRowPicture) -> tuple[Array, Array]:
-    """Where the link turns: the foot of the common normal and the frame reached."""
-    first = row.d if arm.table.convention is DHConvention.STANDARD else row.a
-    return first.segment[1], row.T_reached[:3, 3]
+            body = Body("box", box, np.eye(4), "joint")
+        yield Part("joint", [(body, _along(spot, axis))])
 
 
 def _spot(arm: DrawnArm, row: DHRowPicture, placed: list[Array]) -> tuple[Array, Array]:

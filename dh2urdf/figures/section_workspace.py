@@ -46,17 +46,8 @@ def section_picture(
 ) -> Picture:
     """Draw the maps of a section side by side.
 
-    Parameters
-    ----------
-    robot : Robot
-    counts : (Section, array), optional
-        Number of branches with the tip turned to R.
-    shares : (Section, array, int), optional
-        Share of orientations reached, and how many were tried.
-    R : array, shape (3, 3)
-    within_limits : bool
-    tried : str
-        What stands in the caption about a joint to spare.
+    ``counts`` are the branches with the tip turned to R (3, 3), ``shares`` those of orientations
+    reached and how many were tried; ``tried`` tells in the caption of a joint to spare.
     """
     panels = [p for p in (counts, shares) if p is not None]
     with mpl.rc_context(RC):

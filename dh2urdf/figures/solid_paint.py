@@ -65,9 +65,8 @@ def paint_parts(canvas: Canvas, parts: list[Part], view: View, to: ToPoints, pai
     faces = [part.faces(view) for part in parts]
     for k in seen.order:
         _paint_part(canvas, parts[k].material, faces[k], to, paint)
-    for k, regions in seen.again:
-        rings = [to(ring) for region in regions for ring in region.rings]
-        with canvas.clipped(rings):
+    for k, rings in seen.again:
+        with canvas.clipped([to(ring) for ring in rings]):
             _paint_part(canvas, parts[k].material, faces[k], to, paint)
 
 
@@ -82,8 +81,7 @@ def _paint_part(
         canvas.polygon(to(faces[0].polygon), paint.tone(material, 0.0))
     for faces in solids:
         for face in faces[1:]:
-            is_cap = face.tone == 1.0 and len(solids) > 1
-            if is_cap:
+            if face.tone == 1.0 and len(solids) > 1:  # a cap between two solids
                 continue
             edge = paint.edge if len(solids) == 1 and face.tone != SHEEN else "none"
             tone = paint.tone(material, face.tone)

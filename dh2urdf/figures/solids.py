@@ -38,13 +38,7 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """Solids of one material that are painted as one, with one outline.
-
-    Parameters
-    ----------
-    material : str
-    solids : list of (Body, T_base_body)
-    """
+    """Solids (Body, T_base_body) of one material that are painted as one, with one outline."""
 
     material: str
     solids: list[tuple[Body, Array]]
@@ -133,8 +127,7 @@ def hull_points(body: Body, T: Array) -> Array:
         corners = np.array(np.meshgrid(*[(-s / 2, s / 2) for s in body.size])).reshape(3, -1).T
         placed: Array = corners @ T[:3, :3].T + T[:3, 3]
         return placed
-    radius = body.size[0]
-    poles = np.stack([T[:3, 3] + radius * axis for axis in NORMALS])
+    poles: Array = T[:3, 3] + body.size[0] * NORMALS
     return poles
 
 

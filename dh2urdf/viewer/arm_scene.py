@@ -33,43 +33,20 @@ def quaternions(R: Array) -> Array:
     The largest of the four components is taken from the diagonal, the others from sums and
     differences across it (Shepperd, "Quaternion from rotation matrix", 1978).
     """
-    m = np.asarray(R)
-    xx, yy, zz = m[..., 0, 0], m[..., 1, 1], m[..., 2, 2]
-    squares = np.stack([1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz], -1)
-    wx, wy, wz = (
-        m[..., 2, 1] - m[..., 1, 2],
-        m[..., 0, 2] - m[..., 2, 0],
-        m[..., 1, 0] - m[..., 0, 1],
-    )
-    xy, xz, yz = (
-        m[..., 0, 1] + m[..., 1, 0],
-        m[..., 0, 2] + m[..., 2, 0],
-        m[..., 1, 2] + m[..., 2, 1],
-    )
-    w2, x2, y2, z2 = (squares[..., k] for k in range(4))
-    candidates = np.stack(
-        [
-            np.stack([w2, wx, wy, wz], -1),
-            np.stack([wx, x2, xy, xz], -1),
-            np.stack([wy, xy, y2, yz], -1),
-            np.stack([wz, xz, yz, z2], -1),
-        ],
-        -2,
-    )
-    best = np.argmax(squares, axis=-1)
-    chosen = np.take_along_axis(candidates, best[..., None, None], axis=-2)[..., 0, :]
+    trace = np.trace(R, axis1=-2, axis2=-1)
+    products = np.empty((*R.shape[:-2], 4, 4))  # four times the products of two components
+    products[..., 0, 0] = 1 + trace
+    products[..., 0, 1:] = R[..., [2, 0, 1], [1, 2, 0]] - R[..., [1, 2, 0], [2, 0, 1]]
+    products[..., 1:, 0] = products[..., 0, 1:]
+    products[..., 1:, 1:] = R + np.swapaxes(R, -1, -2) + (1 - trace)[..., None, None] * np.eye(3)
+    best = np.argmax(np.diagonal(products, axis1=-2, axis2=-1), axis=-1)
+    chosen = np.take_along_axis(products, best[..., None, None], axis=-2)[..., 0, :]
     out: Array = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
     return out
 
 
 class ArmScene:
-    """The solid arm.
-
-    Parameters
-    ----------
-    server : viser server
-    drawing : Drawing
-    """
+    """The solid arm."""
 
     def __init__(self, server: Any, drawing: Drawing) -> None:
         self.server, self.drawing = server, drawing
@@ -77,23 +54,17 @@ class ArmScene:
             server.scene.add_frame(f"/arm/{k}", show_axes=False) for k in range(len(drawing.nodes))
         ]
         self.translucent = False
-        self.meshes: list[Any] = []
-        self._add_meshes()
-
-    def _add_meshes(self) -> None:
-        opacity = TRANSLUCENT if self.translucent else None
         self.meshes = [
-            self.server.scene.add_mesh_simple(
+            server.scene.add_mesh_simple(
                 f"/arm/{k}/{m}",
                 surface.vertices.astype(np.float32),
                 surface.faces,
                 color=surface.colour,
-                opacity=opacity,
-                cast_shadow=not self.translucent,
+                cast_shadow=True,
                 receive_shadow=False,
                 side="front",
             )
-            for k, node in enumerate(self.drawing.nodes)
+            for k, node in enumerate(drawing.nodes)
             for m, surface in enumerate(node.surfaces)
         ]
 
@@ -122,14 +93,7 @@ class ArmScene:
 class Ghosts:
     """Other configurations of the arm, each in its colour: a batch of instances per link.
 
-    Parameters
-    ----------
-    server : viser server
-    drawing : Drawing
-    count : int
-        Most ghosts at a time.
-    on_click : callable
-        Called with the index of a ghost that was clicked.
+    There are ``count`` at most; ``on_click`` is called with the index of one that was clicked.
     """
 
     def __init__(

@@ -6,6 +6,7 @@ import contextlib
 import errno
 import io
 import socket
+import threading
 from collections.abc import Callable
 from typing import Any
 
@@ -17,7 +18,7 @@ try:
 except ImportError:
     raise MissingExtraError("viewer", "showing an arm in the browser") from None
 
-__all__ = ["LOOPBACK", "quietly", "start_server"]
+__all__ = ["LOOPBACK", "by_visitor", "later", "quietly", "start_server"]
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 """Hosts that only this machine can reach."""
@@ -52,8 +53,8 @@ def start_server(host: str, port: int | None) -> Any:
     )
     if port and server.get_port() != port:
         server.stop()
-        raise ServerError(_in_use(port))
-    server.request_share_url = _no_tunnel
+        raise _in_use(port)
+    server.request_share_url = lambda *_, **__: None  # no tunnel: nothing leaves the machine
     server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
     return server
 
@@ -64,8 +65,17 @@ def quietly(call: Callable[[], Any]) -> Any:
         return call()
 
 
-def _no_tunnel(*_: object, **__: object) -> None:
-    """Stand in for the request of a public address: nothing leaves the machine."""
+def by_visitor(call: Callable[[Any], object]) -> Callable[[Any], object]:
+    """The call for what a visitor does; what the program itself sets has no client."""
+    return lambda event: None if event.client is None else call(event)
+
+
+def later(seconds: float, call: Callable[..., object], *values: Any) -> threading.Timer:
+    """A call in the background after some time; it does not keep the program running."""
+    timer = threading.Timer(seconds, call, values)
+    timer.daemon = True
+    timer.start()
+    return timer
 
 
 def _free_port(host: str) -> int:
@@ -80,12 +90,12 @@ def _checked_port(host: str, port: int) -> int:
         with _bound(host, 0) as probe:
             return int(probe.getsockname()[1])
     if not _bindable(host, port):
-        raise ServerError(_in_use(port))
+        raise _in_use(port)
     return port
 
 
-def _in_use(port: int) -> str:
-    return f"port {port} is in use; leave the port out for the next free one"
+def _in_use(port: int) -> ServerError:
+    return ServerError(f"port {port} is in use; leave the port out for the next free one")
 
 
 def _bindable(host: str, port: int) -> bool:
@@ -99,27 +109,16 @@ def _bindable(host: str, port: int) -> bool:
 
 
 def _bound(host: str, port: int) -> socket.socket:
-    """A socket bound to an address, which shows that it is free.
-
-    Raises
-    ------
-    ServerError
-        No such host.
-    """
+    """A socket that listens at an address, which shows that it is free."""
     try:
-        family, kind, proto, _, address = socket.getaddrinfo(
+        family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
     except (socket.gaierror, UnicodeError) as error:
         raise ServerError(f"host {host!r}: {getattr(error, 'strerror', error)}") from None
-    probe = socket.socket(family, kind, proto)
     try:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        probe.bind(address)
-        probe.listen(1)
+        return socket.create_server(address[:2], family=family)
     except OSError as error:
-        probe.close()
         if error.errno == errno.EADDRNOTAVAIL:
             raise ServerError(f"host {host!r} is not an address of this machine") from None
         raise
-    return probe

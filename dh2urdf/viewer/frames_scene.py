@@ -159,34 +159,18 @@ class RowScene:
             self._arc(arc, words[arc.key])
         self._names(picture)
 
-    @property
-    def middle(self) -> Array:
-        """Where the row is, shape (3,)."""
-        assert self.picture is not None
-        middle: Array = (self.picture.T_prev[:3, 3] + self.picture.T_next[:3, 3]) / 2
-        return middle
-
-    @property
-    def extent(self) -> float:
-        """Distance between the two frames [m]."""
-        assert self.picture is not None
-        return float(np.linalg.norm(self.picture.T_next[:3, 3] - self.picture.T_prev[:3, 3]))
-
     def _axes(self, picture: DHRowPicture) -> None:
         """Both z axes as long thin lines, and the common normal."""
         reach = 1.8 * self.length
         start, end = picture.a.segment
-        x = picture.T_reached[:3, 0] if self._standard else picture.T_prev[:3, 0]
+        standard = self.arm.table.convention is DHConvention.STANDARD
+        x = picture.T_reached[:3, 0] if standard else picture.T_prev[:3, 0]
         lines = [
             [T[:3, 3] - reach * T[:3, 2], T[:3, 3] + reach * T[:3, 2]]
             for T in (picture.T_prev, picture.T_reached)
         ]
         lines.append([start - 0.5 * reach * x, end + 0.7 * reach * x])
         self._segments("axes", np.array(lines), "#8a93a3", 1.2)
-
-    @property
-    def _standard(self) -> bool:
-        return self.arm.table.convention is DHConvention.STANDARD
 
     def _measure(self, measure: Measure, text: str) -> None:
         """A tube with its value; a length of zero has none."""

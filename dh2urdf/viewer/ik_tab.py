@@ -11,10 +11,11 @@ import numpy as np
 from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, quaternion_to_matrix
 from dh2urdf.viewer import html
 from dh2urdf.viewer.arm_scene import Ghosts, quaternions
 from dh2urdf.viewer.branches import Answer, answer, branch_table
+from dh2urdf.viewer.door import by_visitor, later
 from dh2urdf.viewer.redundancy import Redundancy
 from dh2urdf.workspace import common_axis, task_of
 
@@ -33,16 +34,8 @@ WARM_UP_AFTER = 3.0
 class IKTab:
     """The target, its solutions, the redundant joint.
 
-    Parameters
-    ----------
-    server : viser server
-    tab : viser tab
-    lock : lock
-        Held while the arm is moved or rebuilt.
-    on_move : callable
-        Called with a configuration that the arm should take.
-    on_target : callable
-        Called with the visitor who switched the target on.
+    ``lock`` is held while the arm is moved or rebuilt, ``on_move`` called with a configuration
+    that the arm should take, ``on_target`` with the visitor who switched the target on.
     """
 
     def __init__(
@@ -72,8 +65,8 @@ class IKTab:
             self.listed = gui.add_html("")
             self.go = gui.add_button_group("Move to", ("1",), visible=False)
         for handle in (self.active, self.show_ghosts, self.within, self.task):
-            handle.on_update(self._switched)
-        self.go.on_click(self._pressed)
+            handle.on_update(by_visitor(self._switched))
+        self.go.on_click(by_visitor(lambda _: self._go(int(self.go.value) - 1)))
 
     def build(self, robot: Robot, drawing: Drawing, q: Array) -> None:
         """Prepare for another arm."""
@@ -102,9 +95,7 @@ class IKTab:
         if self.active.value:
             self.solve(robot.fk(q))
         else:
-            self._warming = threading.Timer(WARM_UP_AFTER, self._warm_up, (robot, q))
-            self._warming.daemon = True
-            self._warming.start()
+            self._warming = later(WARM_UP_AFTER, self._warm_up, robot, q)
 
     def close(self) -> None:
         """Start nothing more."""
@@ -118,12 +109,10 @@ class IKTab:
 
     def show(self, q: Array) -> None:
         """Follow the arm to q (n,), which some other tab moved."""
-        self.q = np.array(q)
+        self.q, T = np.array(q), self.robot.fk(q)
         if not self.active.value:
-            self._place_target(self.robot.fk(q))
-            return
-        T = self.robot.fk(q)
-        if float(np.abs(T - self._T).max()) > 1e-7:
+            self._place_target(T)
+        elif float(np.abs(T - self._T).max()) > 1e-7:
             self._place_target(T)
             self.solve(T)
 
@@ -169,8 +158,6 @@ class IKTab:
         self.target.position, self.target.wxyz = T[:3, 3], quaternions(T[:3, :3])
 
     def _switched(self, event: Any) -> None:
-        if event.client is None:
-            return
         with self.lock:
             self.target.visible = self.active.value
             if not self.active.value:
@@ -199,10 +186,6 @@ class IKTab:
                         self.solve(T, follow=True)
             finally:
                 self._busy.release()
-
-    def _pressed(self, event: Any) -> None:
-        if event.client is not None:
-            self._go(int(self.go.value) - 1)
 
     def _go(self, k: int) -> None:
         """Move the arm to solution k."""
@@ -251,13 +234,7 @@ def dragged_axes(robot: Robot) -> tuple[bool, bool, bool]:
 
 def _pose(handle: Any) -> Array:
     """Pose of a handle of the scene, its quaternion brought to unit length, shape (4, 4)."""
-    quaternion = np.array(handle.wxyz, float)
-    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    w, *xyz = np.array(handle.wxyz, float) / np.linalg.norm(handle.wxyz)
     T = np.eye(4)
-    T[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-    ]
-    T[:3, 3] = handle.position
+    T[:3, :3], T[:3, 3] = quaternion_to_matrix(np.array([*xyz, w])), handle.position
     return T

@@ -11,6 +11,7 @@ import numpy as np
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer import html
+from dh2urdf.viewer.door import by_visitor
 
 __all__ = ["JointsTab"]
 
@@ -19,15 +20,7 @@ TURN = 2 * math.pi
 
 
 class JointsTab:
-    """Sliders in degrees and millimetres.
-
-    Parameters
-    ----------
-    gui : viser gui
-    tab : viser tab
-    on_move : callable
-        Called with a configuration when a visitor moves a slider.
-    """
+    """Sliders in degrees and millimetres; ``on_move`` is called when a visitor moves one."""
 
     def __init__(self, gui: Any, tab: Any, on_move: Callable[[Array], None]) -> None:
         self.gui, self.tab, self.on_move = gui, tab, on_move
@@ -48,7 +41,7 @@ class JointsTab:
             for k, name in enumerate(robot.joint_names):
                 self.sliders.append(self._slider(k, name, float(q[k])))
             self.buttons = self.gui.add_button_group("Pose", ("Zero", "Random"))
-        self.buttons.on_click(self._pressed)
+        self.buttons.on_click(by_visitor(self._pressed))
         self.parts = [*self.sliders, self.readout, self.buttons]
         self.show(q)
 
@@ -63,23 +56,19 @@ class JointsTab:
             step=0.01,
             initial_value=self._clipped(k, value, low, high),
         )
-        slider.on_update(lambda event, k=k: self._slid(event, k))
+        slider.on_update(by_visitor(lambda event: self._slid(event, k)))
         return slider
 
     def _clipped(self, k: int, value: float, low: float, high: float) -> float:
         return min(max(round(float(value * self.scale[k]), 2), low), high)
 
     def _slid(self, event: Any, k: int) -> None:
-        """A visitor moved slider k; what the program itself sets has no client."""
-        if event.client is None:
-            return
+        """A visitor moved slider k."""
         q = self.q.copy()
         q[k] = min(self.high[k], max(self.low[k], event.target.value / self.scale[k]))  # no NaN
         self.on_move(q)
 
-    def _pressed(self, event: Any) -> None:
-        if event.client is None:
-            return
+    def _pressed(self, _: Any) -> None:
         if self.buttons.value == "Zero":
             self.on_move(np.clip(np.zeros(self.robot.n), self.low, self.high))
         else:
@@ -92,9 +81,8 @@ class JointsTab:
             value = self._clipped(k, float(q[k]), slider.min, slider.max)
             if abs(slider.value - value) > 0.006:
                 slider.value = value
-        self.readout.content = html.pose(
-            self.robot.fk(self.q), f"{self.robot.tip} in {self.robot.base}"
-        )
+        what = f"{self.robot.tip} in {self.robot.base}"
+        self.readout.content = html.pose(self.robot.fk(self.q), what)
 
     def clear(self) -> None:
         """Take the sliders out of the panel."""

@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.exceptions import NoSolverError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer import html
+from dh2urdf.viewer.door import by_visitor
 
 __all__ = ["Redundancy"]
 
@@ -18,12 +20,8 @@ __all__ = ["Redundancy"]
 class Redundancy:
     """A choice of joint and a slider for it, there for arms with seven joints.
 
-    Parameters
-    ----------
-    gui : viser gui
-    on_hold : callable
-        Called with the joint and its value when a visitor moves the slider; returns a word
-        where the arm cannot follow, nothing where it does.
+    ``on_hold`` is called with the joint and its value when a visitor moves the slider; it returns
+    a word where the arm cannot follow, nothing where it does.
     """
 
     def __init__(self, gui: Any, on_hold: Callable[[dict[int, float]], str]) -> None:
@@ -33,21 +31,19 @@ class Redundancy:
             self.joint = gui.add_dropdown("Held joint", ("none",))
             self.slider = gui.add_slider("Value [°]", -180.0, 180.0, 0.1, 0.0)
             self.note = gui.add_html("")
-        self.joint.on_update(self._chosen)
-        self.slider.on_update(self._slid)
-        self.robot: Robot | None = None
+        self.joint.on_update(by_visitor(lambda _: self._range()))
+        self.slider.on_update(by_visitor(self._slid))
 
     @property
     def locked(self) -> dict[int, float] | None:
         """The joint that is held and its value; None where the arm has no joint to spare."""
-        if self.robot is None or self.robot.n != 7:
+        if self.robot.n != 7:
             return None
         return {self.index: float(self.q[self.index])}
 
     @property
     def index(self) -> int:
         """Index of the joint that is held."""
-        assert self.robot is not None
         return self.robot.joint_names.index(self.joint.value)
 
     def build(self, robot: Robot, q: Array) -> None:
@@ -63,24 +59,17 @@ class Redundancy:
     def show(self, q: Array) -> None:
         """Follow the arm to q (n,)."""
         self.q = np.array(q)
-        if self.robot is not None and self.robot.n == 7:
+        if self.robot.n == 7:
             shown = round(math.degrees(float(q[self.index])), 1)
             self.slider.value = min(max(shown, self.slider.min), self.slider.max)
 
     def _range(self) -> None:
-        assert self.robot is not None
         low, high = self.robot.lower[self.index], self.robot.upper[self.index]
         self.slider.min = round(math.degrees(max(float(low), -2 * math.pi)), 1)
         self.slider.max = round(math.degrees(min(float(high), 2 * math.pi)), 1)
         self.show(self.q)
 
-    def _chosen(self, event: Any) -> None:
-        if event.client is not None:
-            self._range()
-
-    def _slid(self, event: Any) -> None:
-        if event.client is None:
-            return
+    def _slid(self, _: Any) -> None:
         words = self.on_hold({self.index: math.radians(self.slider.value)})
         self.note.content = html.message(words, "bad") if words else ""
 
@@ -91,8 +80,6 @@ def default_joint(robot: Robot) -> int:
     Arms with a spherical wrist keep it when the third joint is held; arms whose first three
     axes meet instead keep those when the last one is.
     """
-    from dh2urdf.exceptions import NoSolverError
-
     q = robot.random_configuration(0)
     for k in (2, 6, 4):
         try:

@@ -14,6 +14,7 @@ from dh2urdf.drawing.row import DHRowPicture, length_index, row_words, subscript
 from dh2urdf.exceptions import Dh2UrdfError, TableError
 from dh2urdf.grids import number
 from dh2urdf.viewer import html
+from dh2urdf.viewer.door import by_visitor
 
 __all__ = ["TableTab"]
 
@@ -25,15 +26,8 @@ UNITS = Units("m", "deg")
 class TableTab:
     """Shows, explains and edits the table.
 
-    Parameters
-    ----------
-    gui : viser gui
-    tab : viser tab
-    on_explain : callable
-        Called with the row to explain, 0 for none, and the visitor who asked.
-    on_table : callable
-        Called with an edited table and the visitor who edited it; it raises Dh2UrdfError where
-        that is not possible.
+    ``on_explain`` is called with the row to explain, 0 for none, and the visitor who asked;
+    ``on_table`` with an edited table and the visitor, and raises Dh2UrdfError where it cannot be.
     """
 
     def __init__(
@@ -44,7 +38,7 @@ class TableTab:
         on_table: Callable[[DHTable, Any], None],
     ) -> None:
         self.gui, self.on_explain, self.on_table = gui, on_explain, on_table
-        self.table: DHTable | None = None
+        self.table = new_table()
         self.row = 0
         with tab:
             self.shown = gui.add_html("")
@@ -58,7 +52,12 @@ class TableTab:
             self.note = gui.add_html("")
             self.save_urdf = gui.add_button("Save the URDF")
             self.save_table = gui.add_button("Save the table")
-        self._connect()
+        self.choice.on_update(by_visitor(self._chosen))
+        self.apply.on_click(by_visitor(lambda event: self._try(self._with_row_cells, event.client)))
+        self.rows.on_click(by_visitor(lambda event: self._try(self._with_rows, event.client)))
+        self.rebuild.on_click(by_visitor(lambda event: self._try(self._with_text, event.client)))
+        self.save_urdf.on_click(self._save_urdf)
+        self.save_table.on_click(self._save_table)
 
     def _cells(self) -> dict[str, Any]:
         gui = self.gui
@@ -76,34 +75,21 @@ class TableTab:
         self.rows = gui.add_button_group("Rows", ("Add below", "Remove"))
         return cells
 
-    def _connect(self) -> None:
-        self.choice.on_update(self._chosen)
-        self.apply.on_click(lambda event: self._try(self._with_row_cells, event.client))
-        self.rows.on_click(self._rows_pressed)
-        self.rebuild.on_click(lambda event: self._try(self._with_text, event.client))
-        self.save_urdf.on_click(self._save_urdf)
-        self.save_table.on_click(self._save_table)
-
     def build(self, table: DHTable) -> None:
         """Show another table; the row stays chosen where it still exists."""
         self.table = table
-        options = (NOTHING, *[str(i) for i in range(1, table.n + 1)])
-        self.row = min(self.row, table.n)
-        self.choice.options = options
-        self.choice.value = str(self.row) if self.row else NOTHING
+        self.choice.options = (NOTHING, *[str(i) for i in range(1, table.n + 1)])
         self.text.value = table_to_text(table, "yaml", UNITS)
-        self._refresh()
+        self.choose(min(self.row, table.n))
 
     def explain(self, picture: DHRowPicture | None) -> None:
         """Say what a row says, with its matrix; None says nothing."""
-        if picture is None or self.table is None:
+        if picture is None:
             self.words.content = html.message("Choose a row to see what its numbers measure.")
             return
-        i = picture.i
-        name = f"T<sub>{i - 1},{i}</sub>"
-        self.words.content = html.message(row_words(self.table, picture)) + html.matrix(
-            picture.T_prev_next, name
-        )
+        name = f"T<sub>{picture.i - 1},{picture.i}</sub>"
+        words = html.message(row_words(self.table, picture))
+        self.words.content = words + html.matrix(picture.T_prev_next, name)
 
     def choose(self, row: int) -> None:
         """Choose a row, 0 for none, as a visitor would."""
@@ -116,13 +102,12 @@ class TableTab:
         self.note.content = html.message(text, kind) if text else ""
 
     def _refresh(self) -> None:
-        assert self.table is not None
         self.shown.content = html.table(self.table, self.row)
         self.row_folder.visible = self.row > 0
         if not self.row:
             return
-        row, slides = self._joint(self.row), self._slides(self.row)
-        bound = number if slides else degrees
+        row = self.table.joints[self.row - 1]
+        bound = number if row.joint_type is JointType.PRISMATIC else degrees
         shown = {
             "joint_type": str(row.joint_type),
             "theta": degrees(row.theta),
@@ -141,23 +126,10 @@ class TableTab:
             self.cells[key].label = label
         self.cells["alpha"].label = f"α{j} [deg]"
 
-    def _joint(self, i: int) -> DHRow:
-        assert self.table is not None
-        return self.table.joints[i - 1]
-
-    def _slides(self, i: int) -> bool:
-        return self._joint(i).joint_type is JointType.PRISMATIC
-
     def _chosen(self, event: Any) -> None:
-        if event.client is None:
-            return
         self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
         self._refresh()
         self.on_explain(self.row, event.client)
-
-    def _rows_pressed(self, event: Any) -> None:
-        if event.client is not None:
-            self._try(self._with_rows, event.client)
 
     def _try(self, edit: Callable[[], DHTable], visitor: Any = None) -> None:
         """Make the edited table the arm's, or say what is wrong and change nothing."""
@@ -186,10 +158,9 @@ class TableTab:
                 problems.append(f"{self.cells[key].label}: {text!r}: {error}")
         if problems:
             raise TableError(problems)
-        joint_type = JointType(self.cells["joint_type"].value)
         row = replace(
-            self._joint(self.row),
-            joint_type=joint_type,
+            self.table.joints[self.row - 1],
+            joint_type=JointType(self.cells["joint_type"].value),
             sign=int(self.cells["sign"].value),
             **found,  # type: ignore[arg-type]
         )
@@ -197,30 +168,24 @@ class TableTab:
 
     def _place(self) -> int:
         """Index among all rows of the joint row that is chosen."""
-        assert self.table is not None
         joints = [k for k, row in enumerate(self.table.rows) if row.is_joint]
         return joints[self.row - 1]
 
     def _with(self, at: int, rows: list[DHRow]) -> DHTable:
-        assert self.table is not None
         return replace(self.table, rows=(*self.table.rows[:at], *rows, *self.table.rows[at + 1 :]))
 
     def _with_rows(self) -> DHTable:
-        at, row = self._place(), self._joint(self.row)
+        at = self._place()
         if self.rows.value == "Remove":
             return self._with(at, [])
-        return self._with(at, [row, DHRow(a=0.1, name=self._new_name())])
-
-    def _new_name(self) -> str:
-        assert self.table is not None
         known = set(self.table.joint_names)
-        return next(f"joint_{k}" for k in range(1, 1000) if f"joint_{k}" not in known)
+        name = next(f"joint_{k}" for k in range(1, 1000) if f"joint_{k}" not in known)
+        return self._with(at, [self.table.rows[at], DHRow(a=0.1, name=name)])
 
     def _with_text(self) -> DHTable:
         return parse_table(self.text.value, "yaml", "table").table
 
     def _save_urdf(self, event: Any) -> None:
-        assert self.table is not None
         try:
             text, max_error, warnings = verified_urdf(self.table)
         except Dh2UrdfError as error:
@@ -233,7 +198,6 @@ class TableTab:
         self.say(f"{name}: {checked}{notes}", "good")
 
     def _save_table(self, event: Any) -> None:
-        assert self.table is not None
         name = f"{_file_name(self.table)}.yaml"
         text = table_to_text(self.table, "yaml")
         event.client.send_file_download(name, text.encode(), save_immediately=True)

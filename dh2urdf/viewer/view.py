@@ -15,7 +15,7 @@ from dh2urdf.drawing.surfaces import Drawing, TableDrawing
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.arm_scene import ArmScene
-from dh2urdf.viewer.door import LOOPBACK, quietly, start_server
+from dh2urdf.viewer.door import LOOPBACK, by_visitor, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.ik_tab import IKTab
 from dh2urdf.viewer.joints_tab import JointsTab
@@ -135,9 +135,7 @@ class ArmView:
     def _welcome(self, _: Any) -> None:
         """Let shadows fall once the first visitor has seen a picture."""
         if self._shadows is None:
-            self._shadows = threading.Timer(SHADOWS_AFTER, cast_shadows, (self._server,))
-            self._shadows.daemon = True
-            self._shadows.start()
+            self._shadows = later(SHADOWS_AFTER, cast_shadows, self._server)
 
     def _options(self) -> tuple[Any, Any, Any]:
         """Switches of what the scene shows, under the tabs."""
@@ -150,7 +148,7 @@ class ArmView:
             (names, self._switch_frames),
             (meshes, self._switch_meshes),
         ):
-            handle.on_update(lambda event, switch=switch: switch(event))
+            handle.on_update(by_visitor(switch))
         return frames, names, meshes
 
     def _build(self, robot: Robot, q: Array) -> None:
@@ -183,8 +181,8 @@ class ArmView:
             self._redraw()
 
     def _redraw(self) -> None:
-        q = self.robot.chain_configuration(self._q)
-        self._scene.show(self._scene_configuration(q))
+        q = self.robot.chain_configuration(self._q)  # of all joints of the table
+        self._scene.show(q if isinstance(self._scene.drawing, TableDrawing) else self._q)
         if self._show_frames.value:
             self._frames.show(q)
         self._joints.show(self._q)
@@ -192,10 +190,6 @@ class ArmView:
         if self._row_scene:
             self._row_scene.show(q)
             self._table.explain(self._row_scene.picture)
-
-    def _scene_configuration(self, q: Array) -> Array:
-        """What the drawing wants: all joints of a table, or the values of a URDF robot."""
-        return q if isinstance(self._scene.drawing, TableDrawing) else self._q
 
     def _explain(self, i: int, visitor: Any = None) -> None:
         """Explain row i, 0 for none, and bring the eye of who asked near to it."""
@@ -209,11 +203,13 @@ class ArmView:
 
     def _bring_near(self, visitor: Any) -> None:
         """Bring the eye of one visitor to the row that is explained, or to the whole arm."""
-        if self._row_scene is None or self._row_scene.picture is None:
+        row = self._row_scene.picture if self._row_scene else None
+        if row is None:
             look_at(visitor, *self._stage)
         else:
-            scene = self._row_scene
-            look_at(visitor, scene.middle, max(CLOSE * self._arm.size, 2.2 * scene.extent))
+            start, end = row.T_prev[:3, 3], row.T_next[:3, 3]
+            extent = float(np.linalg.norm(end - start))
+            look_at(visitor, (start + end) / 2, max(CLOSE * self._arm.size, 2.2 * extent))
 
     def _target_on(self, visitor: Any) -> None:
         """Put the explained row away when the target comes up."""
@@ -231,17 +227,13 @@ class ArmView:
             self._table.explain(None)
         self._scene.set_translucent(i > 0 or self._show_frames.value)
 
-    def _switch_frames(self, event: Any = None) -> None:
-        if event is not None and event.client is None:
-            return
+    def _switch_frames(self, _: Any = None) -> None:
         with self._lock:
             self._frames.set_visible(self._show_frames.value, self._show_names.value)
             self._frames.show(self.robot.chain_configuration(self._q))
             self._scene.set_translucent(self._table.row > 0 or self._show_frames.value)
 
-    def _switch_meshes(self, event: Any) -> None:
-        if event.client is None:
-            return
+    def _switch_meshes(self, _: Any) -> None:
         with self._lock:
             self._build(self.robot, self._q)
 
