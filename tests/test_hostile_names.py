@@ -276,3 +276,10 @@ def test_a_figure_shows_the_name(name):
         texts = ["".join(element.itertext()) for element in tree.iter("{*}text")]
         start = shown(name)[0]
         assert any(start in text or "\N{WHITE SQUARE}" in text for text in texts)
+
+
+@pytest.mark.parametrize("format", ["yaml", "toml", "json", "csv", "markdown"])
+def test_a_joint_called_like_a_missing_cell_keeps_its_name(format):
+    """``n/a`` is a name where it is quoted."""
+    table = table_of("n/a", "n/a")
+    assert parse_table(table_to_text(table, format), format).table == table

@@ -6,6 +6,7 @@ import pytest
 from hostile import hostile, outcome
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
 
 from dh2urdf.dh_io.read_yaml import yaml_values
 from dh2urdf.exceptions import TableFileError
@@ -61,7 +62,13 @@ VALUES = st.recursive(
 
 @hostile(values=VALUES)
 def test_values_come_back_as_ruamel_wrote_them(values):
-    """Numbers, texts, truths and nothing keep their kinds."""
+    """Numbers, texts, truths and nothing keep their kinds; what ruamel cannot read is refused."""
     stream = io.StringIO()
     YAML(typ="safe", pure=True).dump({"values": values}, stream)
-    assert yaml_values(stream.getvalue(), "values.yaml") == {"values": values}
+    text = stream.getvalue()
+    try:
+        YAML(typ="safe", pure=True).load(text)
+    except YAMLError:  # it writes some texts that begin with a colon without quotes
+        assert isinstance(outcome(yaml_values, text, "values.yaml"), TableFileError)
+    else:
+        assert yaml_values(text, "values.yaml") == {"values": values}

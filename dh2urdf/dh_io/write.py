@@ -31,7 +31,7 @@ Widths = dict[str, int]
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
 _PLAIN_LINE = re.compile(r"[A-Za-z][^:#|\\\"*`]*")
 _MARKUP = re.compile(r"[`*<>&\[\]|~$!_]")
-_WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n"}
+_WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n", "n/a"}
 
 
 def write_table(

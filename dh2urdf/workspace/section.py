@@ -80,7 +80,8 @@ def section(robot: Robot, plane: str = "", at: float | None = None, count: int =
     count : int
         Points along the longer side.
     """
-    choice(plane, "plane", ("", *PLANES))
+    if plane != "":
+        choice(plane, "plane", PLANES)
     count = integer(count, "points along a side", *POINTS)
     at = None if at is None else number(at, "at", -LENGTH, LENGTH)
     if not plane:
