@@ -156,7 +156,7 @@ def test_limits_of_the_planar_arm_are_kept_on_every_turn():
 
 def test_bad_plane_is_named():
     """A plane that is none raises with those there are."""
-    with pytest.raises(ConfigurationError, match="xz, yz, xy"):
+    with pytest.raises(ConfigurationError, match="'xz' or 'yz' or 'xy'"):
         workspace_figure(Robot.from_dh("ur5e"), plane="zz")
 
 
