@@ -48,13 +48,7 @@ MARK = " written from a DH table "
 
 
 def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, tuple[str, ...]]:
-    """The URDF of a table, and what had to be assumed to write it.
-
-    Raises
-    ------
-    TableError
-        Names that XML or the file's own frames forbid.
-    """
+    """The URDF of a table, and what had to be assumed to write it."""
     _check_names(table)
     return _Writer(table, options).write()
 

@@ -44,13 +44,8 @@ def verify_urdf_text(
     """Largest difference [m and rad] between the file's frames and the DH product.
 
     Every ``dh_i`` frame that the file has, and ``tool0``, over ``count`` random configurations;
-    limits are compared too.
-
-    Raises
-    ------
-    VerificationError
-        The file does not load, or differs by more than rounding to ``digits`` explains, or by
-        more than a rounded file of any use does.
+    limits are compared too. An error where it is more than rounding to ``digits`` explains, or
+    than a rounded file of any use has.
     """
     try:
         model = pin.buildModelFromXML(text)
@@ -59,11 +54,9 @@ def verify_urdf_text(
     data = model.createData()
     order = [model.joints[model.getJointId(name)].idx_q for name in table.joint_names]
     _check_limits(model, order, table, 0.0 if digits is None else 0.5 * 10.0**-digits)
-    names = [f"dh_{i}" for i in range(table.n + 1)]
     body = pin.FrameType.BODY
-    present = [i for i, name in enumerate(names) if model.existFrame(name, body)]
-    ids = [model.getFrameId(names[i], body) for i in present]
-    tip = model.getFrameId("tool0", body)
+    present = [i for i in range(table.n + 1) if model.existFrame(f"dh_{i}", body)]
+    ids = [model.getFrameId(name, body) for name in [*(f"dh_{i}" for i in present), "tool0"]]
     size = _size(table) if digits is not None else max(1.0, _size(table))
     largest = relative = 0.0
     for q in random_configurations(table, count):
@@ -72,7 +65,7 @@ def verify_urdf_text(
         pin.framesForwardKinematics(model, data, q_model)
         frames = table.frames(q)
         expected = np.stack([*frames[present], frames[-1] @ table.tool.matrix])
-        placed = np.stack([data.oMf[k].homogeneous for k in [*ids, tip]])
+        placed = np.stack([data.oMf[k].homogeneous for k in ids])
         largest = max(largest, pose_error(placed, expected))
         for T in (placed, expected):
             T[:, :3, 3] /= size

@@ -30,17 +30,8 @@ def read_bytes(
 ) -> bytes:
     """All bytes of a regular file, or of an open stream such as ``sys.stdin.buffer``.
 
-    Parameters
-    ----------
-    source : path or binary stream
-    limit : int
-        Bytes that it may have.
-    error : exception type
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``: nothing there, no permission, a folder, a pipe or device, or too large.
+    The error says that nothing is there, or a folder, pipe or device, that it may not be read,
+    or that it has more bytes than the limit.
     """
     if not isinstance(source, str | os.PathLike):
         if not hasattr(source, "read"):
@@ -59,10 +50,9 @@ def read_bytes(
             raise
         if os.path.isdir(source):
             raise error(f"{name}: this is a folder, not a file") from None
-        code, text = getattr(fault, "errno", None), getattr(fault, "strerror", None)
-        raise error(
-            f"{name}: {_REASONS.get(code or 0) or f'cannot read: {text or fault}'}"
-        ) from None
+        text = getattr(fault, "strerror", None) or fault
+        reason = _REASONS.get(getattr(fault, "errno", None) or 0, f"cannot read: {text}")
+        raise error(f"{name}: {reason}") from None
 
 
 def _bounded(stream: BinaryIO, limit: int, name: str, error: Error) -> bytes:
@@ -76,13 +66,7 @@ def _bounded(stream: BinaryIO, limit: int, name: str, error: Error) -> bytes:
 
 
 def decode(data: bytes, name: str, error: Error = ArgumentError) -> str:
-    """UTF-8 text with plain line ends, with or without a byte order mark.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
-    """
+    """UTF-8 text with plain line ends, with or without a byte order mark; or the error."""
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise error(f"{name}: the file is UTF-16 text; save it as UTF-8")
     try:

@@ -27,13 +27,7 @@ def list_tables() -> tuple[str, ...]:
 
 
 def as_table(table: TableLike) -> DHTable:
-    """A table, or the one of a path or name; the door of every function that takes a table.
-
-    Raises
-    ------
-    ArgumentError
-        Neither; or an error of :func:`load_table`.
-    """
+    """A table, or the one of a path or name; the door of every function that takes a table."""
     return table if isinstance(table, DHTable) else load_table(table)
 
 

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh_io.schema import ROW_KINDS
 from dh2urdf.dh_io.units import PI, SI, Kind, Units
 
 __all__ = ["NearMiss", "near_misses"]
@@ -84,14 +85,10 @@ def _cells(table: DHTable) -> Iterator[tuple[str, float, Kind]]:
         if row.origin is not None:
             origins.append((path, row.origin))
             continue
-        yield f"{path}.theta", row.theta, Kind.ANGLE
-        yield f"{path}.d", row.d, Kind.LENGTH
-        yield f"{path}.a", row.a, Kind.LENGTH
-        yield f"{path}.alpha", row.alpha, Kind.ANGLE
         moved = Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE
-        for key in ("lower", "upper"):
+        for key in ("theta", "d", "a", "alpha", "lower", "upper"):
             if (value := getattr(row, key)) is not None:
-                yield f"{path}.{key}", value, moved
+                yield f"{path}.{key}", value, ROW_KINDS.get(key, moved)
         for i, value in enumerate(row.com or (), 1):
             yield f"{path}.com[{i}]", value, Kind.LENGTH
     for path, origin in origins:

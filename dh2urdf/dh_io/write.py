@@ -13,7 +13,7 @@ from dh2urdf.dh_io.atomic import atomic_write
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.read import format_of
-from dh2urdf.dh_io.schema import ROW_KEYS
+from dh2urdf.dh_io.schema import ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
 from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
@@ -27,6 +27,8 @@ Field = tuple[str, str | list[str]]
 
 Quote = Callable[[str], str]
 Widths = dict[str, int]
+
+_FIELDS = ROW_KEYS[ROW_KEYS.index("theta") : ROW_KEYS.index("inertia_frame")]
 
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
 _PLAIN_LINE = re.compile(r"[A-Za-z][^:#|\\\"*`]*")
@@ -103,23 +105,15 @@ def _row(row: DHRow, units: Units, quote: Quote) -> list[Field]:
     out.append(("type", quote(str(row.joint_type))))
     if row.origin is not None:
         return out + _origin(row.origin, units)
-    moved = units.length if row.joint_type is JointType.PRISMATIC else units.angle
-    out += [
-        ("theta", decimal_text(row.theta, units.angle)),
-        ("d", decimal_text(row.d, units.length)),
-        ("a", decimal_text(row.a, units.length)),
-        ("alpha", decimal_text(row.alpha, units.angle)),
-    ]
-    if row.sign != 1:
-        out.append(("sign", str(row.sign)))
-    in_units = dict.fromkeys(("lower", "upper", "velocity"), moved)
-    for key in (*in_units, "effort", "damping", "friction", "mass"):
-        if (value := getattr(row, key)) is not None:
-            out.append((key, decimal_text(value, in_units.get(key, ""))))
-    if row.com is not None:
-        out.append(("com", [decimal_text(v, units.length) for v in row.com]))
-    if row.inertia is not None:
-        out.append(("inertia", [decimal_text(v) for v in row.inertia]))
+    moved = Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE
+    kinds = {**ROW_KINDS, **dict.fromkeys(("lower", "upper", "velocity"), moved)}
+    for key in _FIELDS:
+        value, unit = getattr(row, key), units.of(kinds.get(key, Kind.NUMBER))
+        if value is None or (key == "sign" and value == 1):
+            continue
+        vector = isinstance(value, tuple)
+        text = [decimal_text(v, unit) for v in value] if vector else decimal_text(value, unit)
+        out.append((key, text))
     return out
 
 

@@ -16,13 +16,7 @@ __all__ = ["embedded_table", "parse_xml"]
 
 
 def parse_xml(data: bytes, where: str) -> etree._Element:
-    """The root element of a document, entities and network off.
-
-    Raises
-    ------
-    UrdfError
-        Not XML, or with a document type; the message names the line.
-    """
+    """The root element of a document, entities and network off; a `UrdfError` names the line."""
     parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
     try:
         root = etree.fromstring(data, parser)
@@ -32,9 +26,8 @@ def parse_xml(data: bytes, where: str) -> etree._Element:
         raise UrdfError(f"{where}:{line}: not XML: {message}") from None
     if root.getroottree().docinfo.doctype:
         line = data[: max(data.find(b"<!DOCTYPE"), 0)].count(b"\n") + 1
-        raise UrdfError(
-            f"{where}:{line}: <!DOCTYPE>: document types and entities are not allowed in a URDF"
-        )
+        message = "<!DOCTYPE>: document types and entities are not allowed in a URDF"
+        raise UrdfError(f"{where}:{line}: {message}")
     return root
 
 

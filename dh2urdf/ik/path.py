@@ -104,18 +104,9 @@ class Stage:
 
 
 class PathFinder:
-    """Finds the path of least joint motion through poses.
+    """Finds the path of least joint motion through checked poses (m, 4, 4).
 
-    Parameters
-    ----------
-    problem : Problem
-    Ts : array, shape (m, 4, 4)
-        Checked poses in the order of the path.
-    start : array, shape (n,), optional
-        Checked configuration before the first pose; the way from there counts as motion.
-    within_limits : bool
-    max_jump : float, optional
-        Motion of a joint between neighbours that counts as a break [rad or m].
+    It may begin at a configuration before the first pose; the way from there counts as motion.
     """
 
     def __init__(
@@ -142,9 +133,8 @@ class PathFinder:
             q[reached] = self.best(stages)
         steps = np.abs(np.diff(q[reached], axis=0)).max(axis=1, initial=0.0)
         breaks = np.flatnonzero(reached)[1:][steps > self.jump]
-        missing = np.flatnonzero(~reached)
-        names = self.chain.names
-        return IKPath(q, tuple(breaks.tolist()), tuple(missing.tolist()), names, self.jump)
+        missing = tuple(np.flatnonzero(~reached).tolist())
+        return IKPath(q, tuple(breaks.tolist()), missing, self.chain.names, self.jump)
 
     def first(self, pose: int) -> Stage:
         """Where the path may begin: near the start, or at any solution in any turn."""

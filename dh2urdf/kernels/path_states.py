@@ -31,16 +31,9 @@ def onward(links, joints, T, unit, jump, penalty, q, cost, solutions, q_out, cos
     First each state follows the arm by the shortest step, and into the limits if it has left
     them; then come the solutions (s, n) of the pose, each by its cheapest way.
 
-    Parameters
-    ----------
-    links, joints, unit
-        As for :func:`dh2urdf.kernels.self_motion.nearest_members`.
-    jump, penalty : float
-        What a step costs beyond its length in which a joint moves by more than ``jump``.
-    cost : array, shape (f,)
-        Of the states.
-    q_out, cost_out, parent : arrays, shapes (f + s, n), (f + s,) and (f + s,), out
-        States of the pose, their cost, infinite where there is no way, and where they come from.
+    ``links``, ``joints``, ``unit`` are as for :func:`dh2urdf.kernels.self_motion.nearest_members`;
+    a step over ``jump`` costs ``penalty`` more. Out come the states of the pose, q_out (f + s, n),
+    their cost, infinite where there is no way, and their parent.
     """
     f, n = q.shape
     damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))

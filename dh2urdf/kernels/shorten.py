@@ -106,10 +106,8 @@ def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
                     settled = False
                 continue
             slope = g[i] + diagonal[i] * x[i]
-            if i > 0:
-                slope += beside[i] * x[i - 1]
-            if i + 1 < m:
-                slope += beside[i + 1] * x[i + 1]
+            slope += beside[i] * x[i - 1] if i > 0 else 0.0
+            slope += beside[i + 1] * x[i + 1] if i + 1 < m else 0.0
             if least < most and slope * (1.0 if bound[i] == most else -1.0) > 0.0:
                 bound[i] = math.inf
                 settled = False
@@ -145,14 +143,8 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
 def shorten(links, joints, Ts, unit, start, jump, penalty, q):
     """Shorten a path q (m, n) through poses Ts (m, 4, 4), in place; returns its length.
 
-    Parameters
-    ----------
-    links, joints, unit
-        As for :func:`dh2urdf.kernels.self_motion.nearest_members`.
-    start : array, shape (0 or 1, n)
-        Configuration before the first pose; its step counts too.
-    jump, penalty : float
-        What a step costs in which a joint moves by more than ``jump`` [rad or m].
+    The step from ``start`` (0 or 1, n) counts too. ``links``, ``joints``, ``unit`` are as for
+    :func:`dh2urdf.kernels.self_motion.nearest_members`; a step over ``jump`` costs ``penalty``.
     """
     m, n = q.shape
     damped, guess, work = make_damped(n), np.empty(n), np.empty(n)
