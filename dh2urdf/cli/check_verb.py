@@ -75,15 +75,7 @@ def check_(
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
     if fix is not None:
-        if len(files) != 1:
-            raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
-        with _on_disk(files[0]) as path:
-            text, mends = mended_urdf(path if files[0] == "-" else files[0], base, tip)
-        if not force:
-            refuse_foreign(fix, MENDED)
-        atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
-        emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
-        return 0
+        return _mend(files, fix, base, tip, force=force)
     results, failed = [], []
     for file in track(files, "checking"):
         try:
@@ -114,6 +106,20 @@ def check_(
         for _, findings, said in results
     )
     return 2 if failed else int(any(wrong))
+
+
+def _mend(
+    files: tuple[str, ...], fix: Path, base: str | None, tip: str | None, *, force: bool
+) -> int:
+    if len(files) != 1:
+        raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
+    with _on_disk(files[0]) as path:
+        text, mends = mended_urdf(path if files[0] == "-" else files[0], base, tip)
+    if not force:
+        refuse_foreign(fix, MENDED)
+    atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
+    emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
+    return 0
 
 
 @contextmanager

@@ -90,7 +90,17 @@ def extract_(
     if output is not None or format is not None:
         _write(found, output, format, force=force)
     if json:
-        _show_json(found)
+        emit_json(
+            "extract",
+            base=found.base,
+            tip=found.tip,
+            max_error=found.max_error,
+            configurations=found.configurations,
+            table=loads(table_to_text(found.table, "json")),
+            steps=[asdict(step) for step in found.steps],
+            changes=[asdict(change) for change in found.changes],
+            warnings=found.warnings,
+        )
         return 0
     for warning in found.warnings:
         note(f"warning: {warning}")
@@ -136,18 +146,4 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
     note(
         f"{output}: {found.base} to {found.tip}, largest FK difference {found.max_error:.2g} "
         f"m or rad (Pinocchio)"
-    )
-
-
-def _show_json(found: Extraction) -> None:
-    emit_json(
-        "extract",
-        base=found.base,
-        tip=found.tip,
-        max_error=found.max_error,
-        configurations=found.configurations,
-        table=loads(table_to_text(found.table, "json")),
-        steps=[asdict(step) for step in found.steps],
-        changes=[asdict(change) for change in found.changes],
-        warnings=found.warnings,
     )

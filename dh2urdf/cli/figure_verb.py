@@ -73,10 +73,8 @@ def figure_(
 
         config = zero_configuration(arm, config)
         found = arm.ik(arm.fk(config), seed=config, within_limits=False)
-        ghosts, names = (
-            found.q[1:],
-            [name or f"solution {k + 1}" for k, name in enumerate(found.branch)][1:],
-        )
+        ghosts = found.q[1:]
+        names = [name or f"solution {k}" for k, name in enumerate(found.branch[1:], 2)]
         if not len(ghosts):
             note("this pose has one solution only: nothing to draw as a ghost")
     picture = figure(

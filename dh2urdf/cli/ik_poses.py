@@ -80,7 +80,7 @@ def pose_of(
     if matrix:
         kinds = [KINDS[key] for key in MATRIX]
         entries = read_numbers(matrix, "--matrix", (12, 16), kinds, units, error=PoseError)
-        return _checked(_of_matrix(np.array(entries)), "--matrix", nearest)
+        return _of_matrix(entries, "--matrix", nearest)
     if not xyz:
         raise PoseError("a pose is needed: --xyz X Y Z --rpy R P Y, --matrix, or --csv FILE")
     position = read_numbers(xyz, "--xyz", (3,), Kind.LENGTH, units, error=PoseError)
@@ -198,7 +198,7 @@ def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -
             for cell, c in zip(picked, columns, strict=True)
         ]
     if columns[0].name == MATRIX[0]:
-        return _checked(_of_matrix(np.array(values)), where, nearest)
+        return _of_matrix(values, where, nearest)
     if columns[-1].name == "yaw":
         return origin_matrix(values[:3], values[3:])
     T, norm = origin_matrix(values[:3], (0.0, 0.0, 0.0)), math.hypot(*values[3:])
@@ -208,14 +208,9 @@ def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -
     return T
 
 
-def _checked(T: Array, what: str, nearest: bool) -> Array:
-    """Poses that are rigid, or near enough to a rotation where that is asked for."""
-    check_pose(rounded_off(T)[0] if nearest else T, what=what)
-    return T
-
-
-def _of_matrix(entries: Array) -> Array:
-    """A matrix from 12 or 16 numbers, row by row, shape (4, 4)."""
+def _of_matrix(entries: list[float], what: str, nearest: bool) -> Array:
+    """A pose from 12 or 16 numbers, row by row, that is rigid, or nearly where that will do."""
     T = np.eye(4)
-    T[: len(entries) // 4] = entries.reshape(-1, 4)
+    T[: len(entries) // 4] = np.reshape(entries, (-1, 4))
+    check_pose(rounded_off(T)[0] if nearest else T, what=what)
     return T

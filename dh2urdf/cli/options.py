@@ -90,12 +90,7 @@ def read_numbers(
     """Numbers of an option in [m], [rad] or plain, parted by spaces or commas.
 
     ``sizes`` says how many there may be, ``kinds`` what they measure, all or each, ``units`` in
-    what bare ones are, and ``names`` what each is called in messages.
-
-    Raises
-    ------
-    ArgumentError
-        Or ``error``.
+    what bare ones are, and ``names`` what each is called in messages; ``error`` is raised.
     """
     cells = [cell.strip() for value in values for cell in value.split(",") if cell.strip()]
     if len(cells) not in sizes:
@@ -185,12 +180,7 @@ NEEDED: dict[str, dict[str, str]] = {
 
 
 def check_together(verb: str, given: Mapping[str, Any]) -> None:
-    """Refuse options that say nothing beside or without others.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """Refuse options that say nothing beside or without others."""
     facts = set()
     for name, value in given.items():
         if value is not None and value != ():

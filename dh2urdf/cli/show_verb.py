@@ -16,6 +16,13 @@ from dh2urdf.transforms import Array
 
 __all__ = ["show_"]
 
+WRITERS = {
+    "markdown": DHTable.to_markdown,
+    "csv": DHTable.to_csv,
+    "latex": DHTable.to_latex,
+    "html": DHTable._repr_html_,
+}
+
 
 def show_(
     table: str,
@@ -45,15 +52,8 @@ def show_(
     arm = Robot.from_dh(table_of(table))
     dh = arm.table
     assert dh is not None
-    writers = {
-        "text": dh.__str__,
-        "markdown": dh.to_markdown,
-        "csv": dh.to_csv,
-        "latex": dh.to_latex,
-        "html": dh._repr_html_,
-    }
-    if choice(format, "--format", tuple(writers)) != "text":
-        emit(writers[format]())
+    if choice(format, "--format", ("text", *WRITERS)) != "text":
+        emit(WRITERS[format](dh))
         return 0
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)

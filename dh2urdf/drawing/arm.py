@@ -12,13 +12,13 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.bodies import Body, draw_bodies, link_frames
 from dh2urdf.conversions.chain_to_dh import chain_to_dh
 from dh2urdf.conversions.dh_to_chain import dh_to_chain
-from dh2urdf.dh import DHTable, JointType
+from dh2urdf.dh import DHTable
 from dh2urdf.doors import finite_array, instance
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["DrawnArm", "drawn_arm", "slides", "table_of", "zero_configuration"]
+__all__ = ["DrawnArm", "drawn_arm", "table_of", "zero_configuration"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +74,3 @@ def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:
         return np.clip(np.zeros(robot.n), robot.lower, robot.upper)
     expected = f"{robot.n} finite numbers ({', '.join(robot.joint_names)})"
     return finite_array(q, "q", expected, ConfigurationError, (robot.n,))
-
-
-def slides(table: DHTable) -> tuple[bool, ...]:
-    """True for each joint of the table that slides."""
-    return tuple(row.joint_type is JointType.PRISMATIC for row in table.joints)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.doors import choice, finite_array, flag, items, text
-from dh2urdf.drawing.arm import DrawnArm, drawn_arm, slides, table_of, zero_configuration
+from dh2urdf.drawing.arm import DrawnArm, drawn_arm, table_of, zero_configuration
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
 from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
@@ -24,7 +24,7 @@ from dh2urdf.figures.solid_paint import (
     paint_floor,
     paint_parts,
 )
-from dh2urdf.figures.solids import Part, arm_parts
+from dh2urdf.figures.solids import Part, arm_parts, outlines
 from dh2urdf.figures.style import RC, Picture, mpl
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
@@ -115,7 +115,7 @@ class _ArmPicture:
         self.parts = self._parts(self.q)
         self.floor = self._floor()
         self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]
-        note = pose_sentence(self.q, slides(self.arm.table))
+        note = pose_sentence(self.q, self.arm.chain.prismatic)
         self.panel = DHPanel(self.arm.table, [note], self.key) if table else None
         self._lay_out(dh_frames)
 
@@ -124,7 +124,8 @@ class _ArmPicture:
 
     def _lay_out(self, dh_frames: Array) -> None:
         """Choose scale and sheet so that the arm fills its panel."""
-        points = [self._extent(parts) for parts in [self.parts, *self.ghost_parts]]
+        points = [*outlines(self.parts, self.view)]
+        points += [o for parts in self.ghost_parts for o in outlines(parts, self.view)]
         if self.style == "schematic":
             points = [schematic_points(self.arm, self.q, self.view)]
         flat = np.concatenate([*points, *self.floor])
@@ -152,10 +153,6 @@ class _ArmPicture:
         """From picture metres to points on the sheet."""
         return lambda flat: (flat - self.middle) * self.scale + self.centre
 
-    def _extent(self, parts: list[Part]) -> Array:
-        corners = [f[0].polygon for part in parts for f in part.faces(self.view)]
-        return np.concatenate(corners)
-
     def draw(self) -> Picture:
         paint_floor(self.canvas, self.to, self.floor)
         colours = [ghost.colour for ghost in self.ghosts if ghost.is_drawn]
@@ -166,8 +163,8 @@ class _ArmPicture:
         else:
             draw_schematic(self.canvas, self.view, self.to, self.arm, self.q, self.scale)
         if self.show_frames:
-            outlines = [f[0].polygon for part in self.parts for f in part.faces(self.view)]
-            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow, outlines)
+            seen = outlines(self.parts, self.view)
+            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow, seen)
             marks.draw(self.bounds)
         if self.panel is None:
             draw_key(self.canvas, 14.0, 14.0 * len(self.key), self.key)

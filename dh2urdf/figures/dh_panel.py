@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -145,7 +146,7 @@ def draw_key(canvas: Canvas, left: float, top: float, key: list[tuple[str, str]]
         canvas.text((left + 14.0, y), name, SIZE - 2, align="left")
 
 
-def pose_sentence(q: Array, slides: tuple[bool, ...]) -> str:
+def pose_sentence(q: Array, slides: Iterable[bool]) -> str:
     """``pose drawn: q = (30°, 40°, 250 mm)``."""
     cells = [
         f"{number(round(v * 1000, 3))} mm" if s else f"{number(round(math.degrees(v), 3))}°"

@@ -14,7 +14,7 @@ from dh2urdf.drawing.row import DHRowPicture, row_picture
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.projection import View
 from dh2urdf.figures.solid_paint import Paint, ToPoints, paint_parts
-from dh2urdf.figures.solids import Part
+from dh2urdf.figures.solids import Part, outlines
 from dh2urdf.figures.style import INK
 from dh2urdf.transforms import Array
 
@@ -42,8 +42,7 @@ def draw_schematic(
 
 def schematic_points(arm: DrawnArm, q: Array, view: View) -> Array:
     """Picture coordinates [m] that the schematic spans, shape (m, 2)."""
-    points = [f[0].polygon for part in _parts(arm, q) for f in part.faces(view)]
-    return np.concatenate([*points, view.flat(np.zeros((1, 3)))])
+    return np.concatenate([*outlines(_parts(arm, q), view), view.flat(np.zeros((1, 3)))])
 
 
 def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:

@@ -5,6 +5,7 @@ A cylinder, a sphere or a box is convex, so what it shows is one polygon.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +15,7 @@ from dh2urdf.conversions.bodies import Body
 from dh2urdf.figures.projection import View
 from dh2urdf.transforms import Array
 
-__all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points"]
+__all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points", "outlines"]
 
 AROUND = 48
 """Corners of a circle."""
@@ -47,6 +48,11 @@ class Part:
         """Of each solid: its silhouette first, then what is drawn on it."""
         order = sorted(self.solids, key=lambda s: float(view.depth(s[1][:3, 3])))
         return [_faces(body, T, view) for body, T in order]
+
+
+def outlines(parts: Iterable[Part], view: View) -> list[Array]:
+    """The silhouette (m, 2) [m] of every solid."""
+    return [faces[0].polygon for part in parts for faces in part.faces(view)]
 
 
 def arm_parts(bodies: list[list[Body]], link_poses: Array) -> list[Part]:

@@ -29,21 +29,10 @@ TO_BUTTON = (
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """All solutions of a target.
+    """All solutions q (k, n) of a target, and words on what was found, or why nothing.
 
-    Parameters
-    ----------
-    words : str
-        What was found, or why nothing.
-    q : array, shape (k, n)
-    residual : array, shape (k,)
-    branch : tuple of str
-    free : tuple of tuples of int
-        Joints free along a singular family.
-    current : int
-        The solution where the arm stands, -1 for none.
-    nearest : array, shape (n,), or None
-        The solution nearest to the arm.
+    ``free`` are the joints free along singular families, ``current`` is the solution where the
+    arm stands, -1 for none, and ``nearest`` (n,) the one nearest to it.
     """
 
     words: str
@@ -76,18 +65,13 @@ def answer(
         return _none(robot, str(error).partition("\n")[0])
     if nearest is None:
         return _none(robot, _why(robot, T, task=task, within=within, locked=locked))
-    rows = np.array(found.q)
-    free = found.free_joints
+    rows, residual, free = np.array(found.q), np.array(found.residual), found.free_joints
     reached = float(np.abs(robot.fk(q) - T).max()) < SAME
-    return Answer(
-        _count_words(len(rows), free, robot),
-        rows,
-        np.array(found.residual),
-        found.branch,
-        free,
+    current, words = (
         _standing(rows, q, free if reached else ()),
-        nearest,
+        _count_words(len(rows), free, robot),
     )
+    return Answer(words, rows, residual, found.branch, free, current, nearest)
 
 
 def _none(robot: Robot, words: str) -> Answer:

@@ -47,7 +47,7 @@ def start_server(host: str, port: int | None) -> Any:
     if port is not None:
         integer(port, "port", 0, 65535, ConfigurationError)
     text(host, "host")
-    chosen = _free_port(host) if port is None else _checked_port(host, port)
+    chosen = _free_port(host, port)
     server: Any = quietly(
         lambda: viser.ViserServer(host=host, port=chosen, label="dh2urdf", verbose=False)
     )
@@ -78,34 +78,23 @@ def later(seconds: float, call: Callable[..., object], *values: Any) -> threadin
     return timer
 
 
-def _free_port(host: str) -> int:
-    for port in range(FIRST_PORT, FIRST_PORT + PORTS):
-        if _bindable(host, port):
-            return port
-    raise ServerError(f"no free port between {FIRST_PORT} and {FIRST_PORT + PORTS - 1} on {host}")
-
-
-def _checked_port(host: str, port: int) -> int:
-    if port == 0:
-        with _bound(host, 0) as probe:
-            return int(probe.getsockname()[1])
-    if not _bindable(host, port):
+def _free_port(host: str, port: int | None) -> int:
+    """The port asked for, any for 0, the next free one for None."""
+    for candidate in range(FIRST_PORT, FIRST_PORT + PORTS) if port is None else [port]:
+        try:
+            with _bound(host, candidate) as probe:
+                return int(probe.getsockname()[1])
+        except ServerError:
+            raise
+        except OSError:
+            continue
+    if port is not None:
         raise _in_use(port)
-    return port
+    raise ServerError(f"no free port between {FIRST_PORT} and {FIRST_PORT + PORTS - 1} on {host}")
 
 
 def _in_use(port: int) -> ServerError:
     return ServerError(f"port {port} is in use; leave the port out for the next free one")
-
-
-def _bindable(host: str, port: int) -> bool:
-    try:
-        _bound(host, port).close()
-    except ServerError:
-        raise
-    except OSError:
-        return False
-    return True
 
 
 def _bound(host: str, port: int) -> socket.socket:

@@ -138,10 +138,9 @@ class RowScene:
         self.server, self.arm, self.i = server, arm, i
         self.root = server.scene.add_frame("/row", show_axes=False)
         self.length = 1.6 * AXIS_LENGTH * arm.size
-        self.ends = [
-            server.scene.add_frame(f"/row/{name}", show_axes=False) for name in ("prev", "next")
-        ]
+        self.ends = []
         for name in ("prev", "next"):
+            self.ends.append(server.scene.add_frame(f"/row/{name}", show_axes=False))
             _arrows(server, f"/row/{name}", self.length, 0.7 * arm.size)
         self.picture: DHRowPicture | None = None
 

@@ -52,10 +52,12 @@ def pose(T: Array, what: str) -> str:
 
 def matrix(T: Array, name: str) -> str:
     """A (4, 4) matrix, four digits after the point."""
+    faint = f"color:{FAINT}"
     body = "".join(
         "<tr>"
         + "".join(
-            f'<td style="{CELL}{NUMBERS}{_grey(v)}">{number(round(float(v), 4) + 0.0)}</td>'
+            f'<td style="{CELL}{NUMBERS}{faint if abs(v) < 5e-5 else ""}">'
+            f"{number(round(float(v), 4) + 0.0)}</td>"
             for v in row
         )
         + "</tr>"
@@ -63,10 +65,6 @@ def matrix(T: Array, name: str) -> str:
     )
     border = "border-left:1.5px solid #888;border-right:1.5px solid #888;border-radius:4px"
     return f'<div style="{STYLE}"><b>{name}</b> =<table style="{border}">{body}</table></div>'
-
-
-def _grey(value: float) -> str:
-    return f"color:{FAINT}" if abs(value) < 5e-5 else ""
 
 
 def table(dh: DHTable, row: int = 0) -> str:

@@ -50,11 +50,12 @@ def set_stage(
     low, high = points.min(axis=0), points.max(axis=0)
     middle = (low + high) / 2
     span = max(float(np.linalg.norm(high - low)), 0.8 * arm.size)
+    lowest = float(min([0.0, *(s.vertices[:, 2].min() for s in drawing.nodes[0].surfaces)]))
     cell = 10.0 ** math.floor(math.log10(max(arm.size, 1e-3) / 3.0))
     server.scene.add_grid(
         "/floor",
         infinite_grid=True,
-        position=(0.0, 0.0, _lowest(drawing)),
+        position=(0.0, 0.0, lowest),
         cell_size=cell,
         section_size=5.0 * cell,
         cell_color=(232, 234, 238),
@@ -70,12 +71,6 @@ def set_stage(
     camera.near = 0.01 * span
     camera.far = 200.0 * span
     return middle, DISTANCE * span
-
-
-def _lowest(drawing: Drawing) -> float:
-    """Height of the lowest point of the base's bodies, 0 where they stand on the origin [m]."""
-    heights = [s.vertices[:, 2].min() for s in drawing.nodes[0].surfaces]
-    return float(min([0.0, *heights]))
 
 
 def light(server: Any) -> None:

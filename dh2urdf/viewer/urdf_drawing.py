@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +30,7 @@ MESH_BYTES = 200_000_000
 
 
 class UrdfDrawing:
-    """Links of a URDF with their visuals, placed by Pinocchio.
-
-    Parameters
-    ----------
-    robot : Robot
-    nodes : list of Node
-        Each named as its link.
-    """
+    """Links of a URDF with their visuals, a node each of its name, placed by Pinocchio."""
 
     def __init__(self, robot: Robot, nodes: list[Node]) -> None:
         self.robot, self.nodes = robot, tuple(nodes)
@@ -61,10 +53,11 @@ def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
     if source is None or source.suffix.lower() != ".urdf":
         return None, []
     root = parse_xml(read_bytes(source, ROBOT_BYTES), str(source))
-    missing: list[str] = []
-    nodes = []
+    missing: set[str] = set()
+    nodes, notes = [], []
     known = {f.name for f in robot.model.frames if f.type == pin.FrameType.BODY}
-    colours = dict(_material_colours(root))
+    materials = [m for m in root.iter("material") if m.find("color") is not None]
+    colours = {m.get("name", ""): _rgb(m.find("color")) for m in materials}
     for link in root.iterfind("link"):
         name = link.get("name", "")
         surfaces: list[Surface] = []
@@ -72,24 +65,12 @@ def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
             surfaces += _visual(visual, colours, source, missing)
         if surfaces and name in known:
             nodes.append(Node(name, tuple(surfaces)))
-    return (UrdfDrawing(robot, nodes) if nodes else None), _notes(missing)
-
-
-def _notes(missing: list[str]) -> list[str]:
-    if not missing:
-        return []
-    names = ", ".join(sorted(set(missing))[:3])
-    more = f" and {len(set(missing)) - 3} more" if len(set(missing)) > 3 else ""
-    return [
-        f"Meshes not found or not readable: {names}{more}. Set ROS_PACKAGE_PATH to their folder."
-    ]
-
-
-def _material_colours(root: Any) -> Iterator[tuple[str, tuple[int, int, int]]]:
-    for material in root.iter("material"):
-        colour = material.find("color")
-        if colour is not None:
-            yield material.get("name", ""), _rgb(colour)
+    if missing:
+        names = ", ".join(sorted(missing)[:3])
+        names += f" and {len(missing) - 3} more" if len(missing) > 3 else ""
+        where = "Set ROS_PACKAGE_PATH to their folder."
+        notes.append(f"Meshes not found or not readable: {names}. {where}")
+    return (UrdfDrawing(robot, nodes) if nodes else None), notes
 
 
 def _rgb(colour: Any) -> tuple[int, int, int]:
@@ -98,14 +79,18 @@ def _rgb(colour: Any) -> tuple[int, int, int]:
 
 
 def _visual(
-    visual: Any, colours: dict[str, tuple[int, int, int]], source: Path, missing: list[str]
+    visual: Any, colours: dict[str, tuple[int, int, int]], source: Path, missing: set[str]
 ) -> list[Surface]:
     """Surfaces of one ``<visual>`` in the frame of its link."""
     geometry = visual.find("geometry")
     shape = geometry[0] if geometry is not None and len(geometry) else None
     if shape is None or not isinstance(shape, etree._Element):
         return []
-    T_link_visual = _origin(visual.find("origin"))
+    origin = visual.find("origin")
+    xyz, rpy = (
+        _numbers("0 0 0" if origin is None else origin.get(key, "0 0 0")) for key in ("xyz", "rpy")
+    )
+    T_link_visual = Origin(xyz, rpy).matrix  # type: ignore[arg-type]
     material = visual.find("material")
     colour = None
     if material is not None:
@@ -124,27 +109,19 @@ def _numbers(text: str) -> tuple[float, ...]:
     return tuple(float(v) for v in text.split())
 
 
-def _origin(element: Any) -> Array:
-    if element is None:
-        return np.eye(4)
-    xyz = _numbers(element.get("xyz", "0 0 0"))
-    rpy = _numbers(element.get("rpy", "0 0 0"))
-    return Origin(xyz, rpy).matrix  # type: ignore[arg-type]
-
-
 def _mesh(
     shape: Any,
     T_link_visual: Array,
     colour: tuple[int, int, int] | None,
     source: Path,
-    missing: list[str],
+    missing: set[str],
 ) -> list[Surface]:
     """Surfaces of a mesh file, scaled and placed."""
     name = shape.get("filename", "")
     path = find_mesh(name, source)
     scene = _load(path) if path else None
     if scene is None:
-        missing.append(name)
+        missing.add(name)
         return []
     scale = np.array(_numbers(shape.get("scale", "1 1 1")))
     out = []

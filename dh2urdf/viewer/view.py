@@ -143,12 +143,9 @@ class ArmView:
         frames = gui.add_checkbox("DH frames", False)
         names = gui.add_checkbox("Names of axes", True)
         meshes = gui.add_checkbox("Meshes of the URDF", True, visible=False)
-        for handle, switch in (
-            (frames, self._switch_frames),
-            (names, self._switch_frames),
-            (meshes, self._switch_meshes),
-        ):
-            handle.on_update(by_visitor(switch))
+        for handle in (frames, names):
+            handle.on_update(by_visitor(self._switch_frames))
+        meshes.on_update(by_visitor(self._switch_meshes))
         return frames, names, meshes
 
     def _build(self, robot: Robot, q: Array) -> None:
