@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -158,12 +157,7 @@ def _convert_many(
             failed.append({"source": source, "error": str(error)})
     if json:
         emit_json("convert", files=done, failed=failed)
-    else:
-        _summary(done, failed, out_dir)
-    return 2 if failed else 0
-
-
-def _summary(done: list[dict[str, object]], failed: list[dict[str, str]], out_dir: Path) -> None:
+        return 2 if failed else 0
     for item in done:
         for warning in item["warnings"]:  # type: ignore[attr-defined]
             note(f"warning: {item['source']}: {warning}")
@@ -173,4 +167,5 @@ def _summary(done: list[dict[str, object]], failed: list[dict[str, str]], out_di
         worst = max(done, key=lambda item: float(item["max_error"]))  # type: ignore[arg-type]
         emit(f"{len(done)} files written to {out_dir}; {_checked(worst)} ({worst['source']})")
     if failed:
-        sys.stderr.write(f"{len(failed)} of {len(done) + len(failed)} tables were not converted\n")
+        note(f"{len(failed)} of {len(done) + len(failed)} tables were not converted")
+    return 2 if failed else 0

@@ -50,11 +50,8 @@ def emit(text: str) -> None:
 def emit_json(verb: str, **values: Any) -> None:
     """One JSON object on stdout: full precision, metres and radians."""
     data = {"schema": SCHEMA, "verb": verb, **values}
-    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=not _utf8(), indent=2) + "\n")
-
-
-def _utf8() -> bool:
-    return "utf" in (sys.stdout.encoding or "").lower()
+    spelt = "utf" not in (sys.stdout.encoding or "").lower()
+    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=spelt, indent=2) + "\n")
 
 
 def note(text: str) -> None:
@@ -112,10 +109,6 @@ def parse_configuration(
 
     Bare numbers are radians (degrees with ``deg``) and metres. Each value may carry its unit
     (``90deg``, ``120mm``) or be an expression (``-pi/2``); spaces or commas part them.
-
-    Raises
-    ------
-    ConfigurationError
     """
     kinds = [Kind.LENGTH if slides else Kind.ANGLE for slides in robot.slides]
     units = Units("m", "deg" if deg else "rad")
@@ -128,10 +121,10 @@ def ten_digits(value: float) -> str:
     return number(0.0 if abs(value) < 1e-15 else float(f"{value:.10g}"))
 
 
-def matrix_text(T: Array, indent: str = "  ") -> str:
+def matrix_text(T: Array) -> str:
     """A (4, 4) matrix in aligned columns."""
     cells = [list(map(ten_digits, row)) for row in T]
     widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
     return "\n".join(
-        indent + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
+        "  " + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
     )

@@ -23,16 +23,7 @@ __all__ = ["DrawnArm", "drawn_arm", "table_of", "zero_configuration"]
 
 @dataclass(frozen=True, eq=False)
 class DrawnArm:
-    """A table with its bodies.
-
-    Parameters
-    ----------
-    table : DHTable
-    chain : SerialChain
-        The chain of the table.
-    bodies : list of n + 1 lists of Body
-        Of base_link and of links 1 ... n, each in its link's frame.
-    """
+    """A table, its chain, and the bodies of base_link and of links 1 ... n in their frames."""
 
     table: DHTable
     chain: SerialChain

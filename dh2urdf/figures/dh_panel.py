@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,7 @@ WIDEST = 9
 KEYS = ("i", "theta", "d", "a", "alpha")
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """Text of a cell and its colour."""
 
     text: str
@@ -45,7 +44,11 @@ class DHPanel:
         self.rounded = False
         numbers = np.cumsum([row.is_joint for row in table.rows]).tolist()
         self.rows = [self._row(row, i) for row, i in zip(table.rows, numbers, strict=True)]
-        self.header = self._header()
+        j = "{i-1}" if table.convention is DHConvention.MODIFIED else "i"
+        m = r"\,/\,\mathrm{m}"
+        signs = ("$i$", r"$\theta_i$", f"$d_i{m}$", f"$a_{j}{m}$", rf"$\alpha_{j}$")
+        pairs = zip(KEYS, signs, strict=True)
+        self.header = [Cell(sign, QUANTITY.get(key, INK)) for key, sign in pairs]
         self.title = f"{plain(table.name)}, {table.convention} DH"
         ends = {"frame 0 in base": table.base, "tool in the last frame": table.tool}
         notes = [f"{k}: {step(T)}" for k, T in ends.items() if not T.is_identity] + notes
@@ -99,17 +102,6 @@ class DHPanel:
             else:
                 size = SIZE + 1.5 if row is self.header else SIZE
                 canvas.text((x - 4, y), cell.text, size, cell.colour, align="right")
-
-    def _header(self) -> list[Cell]:
-        modified = self.table.convention is DHConvention.MODIFIED
-        j = "{i-1}" if modified else "i"
-        return [
-            Cell("$i$"),
-            Cell(r"$\theta_i$", QUANTITY["theta"]),
-            Cell(r"$d_i\,/\,\mathrm{m}$", QUANTITY["d"]),
-            Cell(rf"$a_{j}\,/\,\mathrm{{m}}$", QUANTITY["a"]),
-            Cell(rf"$\alpha_{j}$", QUANTITY["alpha"]),
-        ]
 
     def _row(self, row: DHRow, i: int) -> list[Cell]:
         if row.origin is not None:

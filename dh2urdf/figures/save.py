@@ -36,15 +36,7 @@ def picture_bytes(figure: Picture, format: str, *, dpi: float = 180.0) -> bytes:
 
 
 def check_target(path: str | os.PathLike[str], *, force: bool) -> str:
-    """Format of a path at which a figure may be written.
-
-    Raises
-    ------
-    OutputError
-        A format that is not written here.
-    OutputExistsError
-        Without ``force``: somebody else's file is in the way.
-    """
+    """Format of a path at which a figure may be written; raises as :func:`save_picture`."""
     target = Path(path)
     format = target.suffix.lower().removeprefix(".")
     if format not in FORMATS:

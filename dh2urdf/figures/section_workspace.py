@@ -162,20 +162,17 @@ def _posed(
 ) -> tuple[Array, Array | None]:
     """A configuration that reaches a point right of the middle; zero where none does."""
     zero = zero_configuration(robot, None)
-    middle = np.array([np.median(grid.u), np.median(grid.v)])
-    half = (grid.u[-1] - grid.u[0]) / 2
+    u, v, half = np.median(grid.u), np.median(grid.v), (grid.u[-1] - grid.u[0]) / 2
+    across = [grid.plane.normal, grid.plane.u, grid.plane.v]
+    T = np.eye(4)
+    T[:3, :3] = R
     for share in (0.55, 0.45, 0.35, 0.65, 0.25):
-        point = np.zeros(3)
-        point[grid.plane.normal] = grid.at
-        point[grid.plane.u] = middle[0] + share * half
-        point[grid.plane.v] = middle[1] + 0.15 * half
-        T = np.eye(4)
-        T[:3, :3], T[:3, 3] = R, point
+        T[across, 3] = grid.at, u + share * half, v + 0.15 * half
         try:
             found = robot.ik(T, within_limits=within_limits, task=task_of(robot).name)
         except Dh2UrdfError:
             return zero, None
         if len(found):
             heights = robot.frames(found.q)[..., :3, 3].mean(axis=1)[:, grid.plane.v]
-            return found.q[int(np.argmax(heights))], point
+            return found.q[int(np.argmax(heights))], T[:3, 3]
     return zero, None

@@ -75,11 +75,9 @@ def _faces(body: Body, T: Array, view: View) -> list[Face]:
     outline = convex_hull(view.flat(hull_points(body, T)))
     if body.shape == "box":
         return [Face(outline, 0.0), *_box_faces(body, T, view)]
-    if body.shape == "cylinder":
-        side = 1.0 if float(view.axes[2] @ T[:3, 2]) >= 0 else -1.0
-        cap = view.flat(_circle(body, T, side))
-        return [Face(outline, 0.0), *_sheen(body, T, view), Face(cap, 1.0)]
-    raise AssertionError(body.shape)
+    side = 1.0 if float(view.axes[2] @ T[:3, 2]) >= 0 else -1.0
+    cap = view.flat(_circle(body, T, side))
+    return [Face(outline, 0.0), *_sheen(body, T, view), Face(cap, 1.0)]
 
 
 def _sheen(body: Body, T: Array, view: View) -> list[Face]:

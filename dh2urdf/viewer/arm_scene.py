@@ -101,8 +101,7 @@ class Ghosts:
     ) -> None:
         self.drawing, self.count = drawing, count
         self.moving = [k for k, node in enumerate(drawing.nodes) if k and node.surfaces]
-        colours = [rgb(BRANCH_COLOURS[k % len(BRANCH_COLOURS)]) for k in range(count)]
-        self.colours = np.array(colours, np.uint8)
+        self.colours = np.resize(np.array([rgb(c) for c in BRANCH_COLOURS], np.uint8), (count, 3))
         self.handles = [self._batch(server, k) for k in self.moving]
         for handle in self.handles:
             handle.on_click(lambda event: on_click(int(event.instance_index or 0)))

@@ -67,10 +67,8 @@ def answer(
         return _none(robot, _why(robot, T, task=task, within=within, locked=locked))
     rows, residual, free = np.array(found.q), np.array(found.residual), found.free_joints
     reached = float(np.abs(robot.fk(q) - T).max()) < SAME
-    current, words = (
-        _standing(rows, q, free if reached else ()),
-        _count_words(len(rows), free, robot),
-    )
+    current = _standing(rows, q, free if reached else ())
+    words = _count_words(len(rows), free, robot)
     return Answer(words, rows, residual, found.branch, free, current, nearest)
 
 

@@ -33,16 +33,7 @@ PORTS = 200
 def start_server(host: str, port: int | None) -> Any:
     """A viser server, silent, without the button that opens a tunnel to the outside.
 
-    Parameters
-    ----------
-    host : str
-    port : int, optional
-        That port and no other; 0 for any free one. Without it: the next free one from 8080.
-
-    Raises
-    ------
-    ServerError
-        The port is in use, or the host is not an address of this machine.
+    ServerError where the port is in use, or the host is no address of this machine.
     """
     if port is not None:
         integer(port, "port", 0, 65535, ConfigurationError)

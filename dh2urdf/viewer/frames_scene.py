@@ -175,10 +175,9 @@ class RowScene:
         """A tube with its value; a length of zero has none."""
         start, end = measure.segment
         length = float(np.linalg.norm(end - start))
-        shown = length > 1e-9
         pose = np.eye(4)
         pose[:3, 3] = (start + end) / 2
-        if shown:
+        if shown := length > 1e-9:
             pose[:3, :3] = frame_along((end - start) / length)
         size = (TUBE * 0.7 * SHAFT * self.arm.size, max(length, 1e-6))
         tube = body_surface(Body("cylinder", size, pose, "link"), rgb(QUANTITY[measure.key]))

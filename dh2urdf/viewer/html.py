@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from html import escape
 
 from dh2urdf.dh import DHTable
@@ -74,7 +73,13 @@ def table(dh: DHTable, row: int = 0) -> str:
         f'<th style="{CELL}color:{QUANTITY.get(k, "inherit")}">{escape(h)}</th>'
         for k, h in zip(keys, header, strict=True)
     )
-    body = "".join(_table_row(keys, cells, marked=cells[0] == str(row)) for cells in rows)
+    body = ""
+    for cells in rows:
+        body += f'<tr style="{MARKED if cells[0] == str(row) else ""}">'
+        for key, text in zip(keys, cells, strict=True):
+            colour = FAINT if text in {"0", "0°"} else QUANTITY.get(key, "inherit")
+            body += f'<td style="{CELL}{NUMBERS}color:{colour}">{escape(text)}</td>'
+        body += "</tr>"
     return (
         f'<div style="{STYLE}"><table style="border-collapse:collapse" data-dh="table">'
         f'<thead><tr style="border-bottom:1px solid #999">{head}</tr></thead>'
@@ -90,11 +95,3 @@ def _without_names(
     name = keys.index("name")
     cells = [[row[k] or (row[name] if k == 0 else "") for k in kept] for row in rows]
     return [keys[k] for k in kept], [header[k] for k in kept], cells
-
-
-def _table_row(keys: Sequence[str], cells: Sequence[str], *, marked: bool) -> str:
-    out = []
-    for key, text in zip(keys, cells, strict=True):
-        colour = FAINT if text in {"0", "0°"} else QUANTITY.get(key, "inherit")
-        out.append(f'<td style="{CELL}{NUMBERS}color:{colour}">{escape(text)}</td>')
-    return f'<tr style="{MARKED if marked else ""}">{"".join(out)}</tr>'
