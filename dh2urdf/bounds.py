@@ -116,5 +116,5 @@ ORIENTATIONS = 10_000
 POINTS = (2, 1_000)
 """Points along a side of a workspace map: a million poses."""
 
-DPI = (10.0, 1_200.0)
+DPI = (10.0, 1_000.0)
 """Dots per inch of a picture: more than a printer's take 1 GB."""

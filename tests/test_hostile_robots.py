@@ -196,6 +196,15 @@ def test_a_name_that_is_null_is_none(tmp_path):
     assert extract_dh(path).table.joint_names == ("joint_1", "joint_2")
 
 
+def test_a_file_of_axes_may_name_the_robot(tmp_path):
+    """``name`` is that of the table, null leaves the file's, anything but a text is refused."""
+    path = tmp_path / "arm.yaml"
+    for name, expected in (("foo", "foo"), ('"a b"', "a b"), ("null", "arm"), ("[x]", None)):
+        path.write_text(f"name: {name}\naxes: [{{axis: [0, 0, 1]}}, {{axis: [0, 1, 0]}}]\n")
+        found = outcome(extract_dh, path)
+        assert isinstance(found, UrdfError) if expected is None else found.table.name == expected
+
+
 def chain_text(links, joints):
     """A chain of links, some first joints of which move."""
     parts = ["<robot name='r'>"] + [f"<link name='l{i}'/>" for i in range(links)]
@@ -223,6 +232,9 @@ def test_a_chain_at_the_bound_is_built(tmp_path):
     np.testing.assert_allclose(robot.fk(q), expected, rtol=0, atol=1e-10)
     assert outcome(extract_dh, path).max_error <= 1e-10
     outcome(check_urdf, path)
+    path.write_text(chain_text(LINKS, LINKS - 1))
+    massless = [f for f in outcome(check_urdf, path) if f.rule == "massless"]
+    assert len(massless) == LINKS - 1
 
 
 @pytest.mark.parametrize("links", [LINKS + 1, 5000, 30_000])

@@ -11,6 +11,7 @@ from lxml import etree
 from strategies import tables
 
 import dh2urdf
+from dh2urdf.bounds import ANGLE
 from dh2urdf.conversions.verify import random_configurations
 from dh2urdf.conversions.write_urdf import embedded_table
 from dh2urdf.exceptions import OutputExistsError, TableError
@@ -170,6 +171,12 @@ def test_a_missing_bound_is_named():
     options = dh2urdf.UrdfOptions()
     _, warnings = dh2urdf.conversions.dh_to_urdf.urdf_text_and_warnings(table, options)
     assert warnings == ("joint_1 (lower): no limits in the table; written as +-2 pi rad",)
+    table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, lower=ANGLE),), "standard")
+    _, warnings = dh2urdf.conversions.dh_to_urdf.urdf_text_and_warnings(table, options)
+    assert warnings == (
+        "joint_1 (upper): no limits in the table; written as 100000 rad, beyond the one that is "
+        "given",
+    )
 
 
 @pytest.mark.parametrize("name", ["ur5", "gantry", "puma560"])

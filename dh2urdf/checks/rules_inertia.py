@@ -41,18 +41,22 @@ def _tensor(doc: Document, inertial: etree._Element) -> Array | None:
     return tensor(six) if len(six) == len(TENSOR) else None
 
 
-def _is_last(doc: Document, link: str) -> bool:
-    """True where nothing with a mass moves beyond the link."""
-    todo, heavy = [link], False
-    part = set(doc.rigid_part(link))
+def _laden(doc: Document) -> set[str]:
+    """Links beyond which something has a mass."""
+    above: dict[str, list[str]] = {name: [] for name in doc.link_by_name}
+    for parent, child, _ in doc.edges:
+        above[child].append(parent)
+    todo = [name for name in above if _mass(doc, name)]
+    laden: set[str] = set()
     for name in todo:
-        todo += [c for c, _ in doc.children[name] if c not in todo]
-        heavy |= name not in part and bool(_mass(doc, name))
-    return not heavy
+        todo += set(above[name]) - laden
+        laden.update(above[name])
+    return laden
 
 
 def massless(doc: Document) -> Iterator[Found]:
     """What a joint moves has a mass."""
+    laden = _laden(doc)
     for name in doc.moving:
         link, part = doc.link_by_name[name], doc.rigid_part(name)
         if any(_mass(doc, member) for member in part) or _unreadable(doc, part):
@@ -63,7 +67,7 @@ def massless(doc: Document) -> Iterator[Found]:
             *([] if shells else [refuse(Consumer.MUJOCO)]),
             *(
                 [complain(Consumer.PINOCCHIO, text="forward dynamics give NaN")]
-                if _is_last(doc, name)
+                if name not in laden
                 else []
             ),
             misread(Consumer.GAZEBO, text="drops the link and all that hangs on it"),
@@ -170,6 +174,7 @@ def inertial_incomplete(doc: Document) -> Iterator[Found]:
 
 def inertia_zero(doc: Document) -> Iterator[Found]:
     """What a joint moves and has a mass has a tensor too."""
+    laden = _laden(doc)
     for name in doc.moving:
         inertial = doc.link_by_name[name].find("inertial")
         if inertial is None or not _mass(doc, name):
@@ -183,7 +188,7 @@ def inertia_zero(doc: Document) -> Iterator[Found]:
                 refuse(Consumer.MUJOCO),
                 *(
                     [complain(Consumer.PINOCCHIO, text="may compute NaN")]
-                    if _is_last(doc, name) and _on_axis(doc, name, inertial)
+                    if name not in laden and _on_axis(doc, name, inertial)
                     else []
                 ),
                 mend=f"write the tensor of a body of that size; {ESTIMATE}",

@@ -227,8 +227,8 @@ class _Writer:
         """The limits of a row that has none, in words."""
         slides = row.joint_type is JointType.PRISMATIC
         far = default_limits(replace(row, lower=None, upper=None), self.table)[1]
-        beyond = [v for v in default_limits(row, self.table) if abs(v) > far]
-        beyond = [v for v in beyond if v not in (row.lower, row.upper)]
+        both = zip(default_limits(row, self.table), (row.lower, row.upper), strict=True)
+        beyond = [v for v, given in both if given is None and abs(v) > far]
         if beyond:
             return f"{beyond[0]:.6g} {'m' if slides else 'rad'}, beyond the one that is given"
         reach = f"+-{far:.6g} m, as far as the table's lengths sum to"

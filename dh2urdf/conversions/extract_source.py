@@ -99,7 +99,7 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
             if base is not None or tip is not None:
                 where = shown(source)
                 raise UrdfError(f"{where}: base and tip: typed axes go from the base to the tool")
-            return _from_chain(read_axes(path), path.stem, path.name)
+            return _from_chain(*read_axes(path), path.name)
     given = read_description(source, base, tip)
     found = tree_to_chain(given.tree, given.base, given.tip)
     found = replace(found, warnings=(*given.mends, *found.warnings))

@@ -7,6 +7,7 @@ One of three lists, in the base frame at q = 0, in metres and radians::
       - {axis: [0, 1, 0], point: [0, 0, 0.3]}
     # screws: [[0, 0, 1, 0, 0, 0], ...]     # or omega, v
     # frames: [[[1, 0, 0, 0], ...], ...]    # or 4 x 4 frames, z along the axis
+    name: elbow_arm                         # else that of the file
     types: RR                               # for points and frames, if not all revolute
     tool: {xyz: [0.5, 0, 0.3], rpy: [0, 0, 0]}   # or a 4 x 4 matrix
 """
@@ -25,7 +26,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.typed_axes import typed_to_chain
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.read_yaml import yaml_values
-from dh2urdf.doors import found, real_array
+from dh2urdf.doors import found, real_array, text
 from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
 
 __all__ = ["SUFFIXES", "read_axes"]
@@ -37,8 +38,8 @@ OTHERS = ("types", "tool", "names", "name")
 AXIS_KEYS = ("axis", "point", "type", "name")
 
 
-def read_axes(path: Path) -> SerialChain:
-    """The chain of a file of joint axes.
+def read_axes(path: Path) -> tuple[SerialChain, str]:
+    """The chain of a file of joint axes, and its name.
 
     Raises
     ------
@@ -61,7 +62,8 @@ def read_axes(path: Path) -> SerialChain:
         _check_keys(content, (*LISTS, *OTHERS))
         if given[0] == "axes":
             source, types, names = _axes(source, types, names)
-        return typed_to_chain(source, types, _tool(content.get("tool")), names)
+        name = text(content.get("name") or path.stem, "name", UrdfError)
+        return typed_to_chain(source, types, _tool(content.get("tool")), names), name
     except (UrdfError, PoseError, TableError) as error:
         raise UrdfError(f"{where}: {given[0]}: {error}") from None
 
