@@ -50,11 +50,8 @@ def verified_urdf(
 ) -> tuple[str, float, tuple[str, ...]]:
     """Text of the URDF, largest FK difference [m and rad], warnings.
 
-    Raises
-    ------
-    VerificationError
-        Pinocchio's frames differ from the DH product by more than 1e-9, or, with numbers
-        rounded on request, by more than that can explain or anyone can use.
+    A `VerificationError` where Pinocchio's frames differ from the DH product by more than 1e-9, or,
+    with numbers rounded on request, by more than that can explain or anyone can use.
     """
     from dh2urdf.conversions.verify import verify_urdf_text
 

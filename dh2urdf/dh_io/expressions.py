@@ -60,19 +60,8 @@ def _no_names(name: str) -> Value:
 def parse_cell(text: str, kind: Kind | str = Kind.NUMBER, units: Units = SI) -> float:
     """Value of a number or expression without variables, a float in [m], [rad] or plain.
 
-    Parameters
-    ----------
-    text : str
-        ``"-90"``, ``"pi/2"``, ``"90deg"``, ``"100 mm"``, ...
-    kind : Kind
-        ``length``, ``angle`` or ``number``.
-    units : Units
-        Unit of bare numbers.
-
-    Raises
-    ------
-    TableError
-        The text is not a finite number.
+    ``"-90"``, ``"pi/2"``, ``"90deg"``, ``"100 mm"``; bare numbers are in ``units``. A `TableError`
+    says why it is no finite number.
     """
     return to_float(evaluate(text, Kind(kind), units, _no_names).number)
 

@@ -45,19 +45,9 @@ def near_misses(
 ) -> tuple[NearMiss, ...]:
     """Cells of a table that are probably not meant as they stand.
 
-    Parameters
-    ----------
-    table : DHTable
-    units : Units
-        Units of the file the table was read from.
-    texts : mapping, optional
-        Text of each cell by its path; where not given, the table's floats in [m] and [rad].
-
-    Returns
-    -------
-    tuple of NearMiss
-        Rounded multiples of pi, lengths over 10 m or all below 3 mm, angles over a turn, tensors
-        of no body, joints on one axis.
+    Rounded multiples of pi, lengths over 10 m or all below 3 mm, angles over a turn, tensors of no
+    body, joints on one axis. ``units`` are those of the file and ``texts`` its cells by their
+    paths; where these are not given, the table's floats in [m] and [rad].
     """
     known = texts is not None
     cells = {

@@ -52,13 +52,7 @@ class TableFile(NamedTuple):
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """Format of a path by its suffix.
-
-    Raises
-    ------
-    TableFileError
-        The suffix is not one of `FORMATS`.
-    """
+    """Format of a path by its suffix; an error where it is not one of `FORMATS`."""
     suffix = Path(path).suffix.casefold()
     if suffix in FORMATS:
         return FORMATS[suffix]
@@ -99,11 +93,7 @@ def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> Ta
 def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
     """Read a table from a text in one of the formats.
 
-    Parameters
-    ----------
-    text, format : str
-    filename : str
-        How messages name the text; its stem is the table's name where the text gives none.
+    Messages call the text by the file's name, whose stem names a table that has no name.
     """
     report = Report.of_text(filename, text)
     read = _READERS[choice(format, "format", _READERS, TableFileError)]
