@@ -8,16 +8,25 @@ import numpy as np
 
 from dh2urdf.kernels.certify import ROUNDING, TWO_PI, move
 from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel
-from dh2urdf.kernels.polish import polish, pose_residual
+from dh2urdf.kernels.polish import (
+    POLISH,
+    damped_step,
+    normal_equations,
+    polish,
+    pose_residual,
+)
 
 __all__ = ["merge_solutions"]
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
 
-FLAT = 4.0 * ROUNDING
-"""Residual [m and rad] of the middle between two exact solutions that are one: at an elbow of 0.1 m
-two that are 6e-7 rad apart, a third of what is asked for."""
+FLAT = 40.0 * ROUNDING
+"""Residual [m and rad] of the middle between two exact solutions that are one. Between elbows that
+are 2e-6 rad apart, and two, it is 1e-13; where six branches meet, and are one, up to 2e-14."""
+
+ACROSS = 1e-10
+"""Damping of the step by which such a middle is brought back across the way, not along it."""
 
 
 @inlined_kernel
@@ -38,8 +47,15 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
         middle[i] = q[i] + 0.5 * gap
         start[i] = middle[i]
         longest = max(longest, abs(gap))
+    rough = pose_residual(links, joints, T, middle)
+    normal_equations(links, joints, T, middle, work)
+    damped_step(work, ACROSS)
+    for i in range(q.shape[0]):
+        middle[i] += work[i, 7]
     if pose_residual(links, joints, T, middle) <= accuracy:
         return True
+    if rough <= POLISH:
+        return False
     if not polish(links, joints, T, middle, work) <= accuracy:
         return False
     for i in range(q.shape[0]):
