@@ -154,6 +154,15 @@ def test_a_joint_and_a_link_may_have_one_name(base, tip, tmp_path):
     assert {f.name for f in robot.model.frames} >= {"a", "b", "c", "d"}
 
 
+def test_the_joints_of_a_urdf_may_be_called_like_the_world_of_pinocchio(tmp_path):
+    """Its joint 0 is ``universe``; the arm's own of that name is another, with its own limits."""
+    path = tmp_path / "universe.urdf"
+    path.write_text(SAME.replace('joint name="b"', 'joint name="universe"'))
+    found = extract_dh(path)
+    assert found.max_error <= 1e-14
+    assert [row.lower for row in found.table.joints] == [-1.0] * 3
+
+
 def test_a_body_and_a_joint_of_an_mjcf_may_have_one_name(tmp_path):
     """The same in MuJoCo's format."""
     path = tmp_path / "same.xml"

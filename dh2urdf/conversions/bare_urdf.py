@@ -50,7 +50,7 @@ def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]
         raise UrdfError(f"{tree.where}: Pinocchio does not load it: {error}") from None
     for read in tree.joints:
         if read.name in chain and read.kind in ("revolute", "prismatic"):
-            k = model.joints[model.getJointId(read.name)].idx_q
+            k = model.joints[list(model.names).index(read.name, 1)].idx_q
             model.lowerPositionLimit[k] = -math.inf if read.lower is None else read.lower
             model.upperPositionLimit[k] = math.inf if read.upper is None else read.upper
     return model

@@ -35,7 +35,7 @@ Referee = Callable[[Array], Array]
 
 def model_referee(model: pin.Model, base: int, tip: int, names: Sequence[str]) -> Referee:
     """FK between two frames of a model (indices), by the names of the joints in the chain."""
-    joints = [model.joints[model.getJointId(name)] for name in names]
+    joints = [model.joints[list(model.names).index(name, 1)] for name in names]
     circles = [k for k, joint in enumerate(joints) if joint.nq == 2]
     return addressed_referee(model, base, tip, [joint.idx_q for joint in joints], circles)
 
