@@ -92,11 +92,11 @@ TEXT_CHARACTERS = 2_000
 
 # Work asked for in one call
 
-APART_SECONDS = 8
+APART_SECONDS = 7
 """Time that xacro or MuJoCo may take over a file; makers' largest take one second."""
 
-APART_BYTES = 2_000_000_000
-"""Addresses that they may ask for, half of which are libraries."""
+APART_BYTES = 900_000_000
+"""Memory that they may ask for, libraries apart."""
 
 TURNS = 100_000
 """Solutions that ``turns="all"`` may list for one pose."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
@@ -24,7 +23,7 @@ from dh2urdf.checks import (
     check_urdf,
 )
 from dh2urdf.cli.options import Json
-from dh2urdf.cli.output import emit, emit_json, note
+from dh2urdf.cli.output import emit, emit_json, note, stdin
 from dh2urdf.cli.progress import track
 from dh2urdf.conversions.description import description_bytes, is_xacro, mended_urdf
 from dh2urdf.dh_io import atomic_write, refuse_foreign
@@ -125,13 +124,13 @@ def _mend(
 @contextmanager
 def _on_disk(file: str) -> Iterator[Path]:
     """Path of a URDF; what comes by stdin, or of a xacro, is put into one."""
-    stdin = file == "-"
-    if not stdin and not is_xacro(file):
+    piped = file == "-"
+    if not piped and not is_xacro(file):
         yield Path(file)
         return
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{'stdin' if stdin else Path(file).stem}.urdf"
-        data = read_bytes(sys.stdin.buffer, ROBOT_BYTES) if stdin else description_bytes(file)[0]
+        path = Path(folder) / f"{'stdin' if piped else Path(file).stem}.urdf"
+        data = read_bytes(stdin(), ROBOT_BYTES) if piped else description_bytes(file)[0]
         path.write_bytes(data)
         yield path
 

@@ -107,7 +107,7 @@ def _main(reader: str, source: str, folder: str) -> int:
     with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (APART_BYTES, APART_BYTES))
+        resource.setrlimit(resource.RLIMIT_DATA, (APART_BYTES, APART_BYTES))
     try:
         {"xacro": _xacro, "mjcf": _mjcf}[reader](source, Path(folder))
     except Exception as error:
