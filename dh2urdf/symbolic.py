@@ -83,13 +83,15 @@ def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
 def symbolic_product(table: TableLike) -> Any:
     """``H_n^0`` in symbols; angles about parallel axes are added (``c_12``)."""
     sp, table = _sympy(), as_table(table)
+    from sympy.simplify.fu import TR8  # products of sines and cosines as sums
+
     product, group = sp.eye(4), sp.eye(4)
     matrices = symbolic_transforms(table)
     for k, matrix in enumerate(matrices):
-        group = group * matrix
+        group = (group * matrix).applyfunc(lambda e: TR8(sp.expand(e)))
         parallel = group[2, 2] ** 2 == 1
         if not parallel or k == len(matrices) - 1:
-            product = product * group.applyfunc(lambda e: sp.trigsimp(sp.expand(e)))
+            product = product * group
             group = sp.eye(4)
     if table.n <= SHORT:
         return product.applyfunc(lambda e: sp.trigsimp(sp.expand(e)))

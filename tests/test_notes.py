@@ -10,6 +10,7 @@ import dh2urdf
 from dh2urdf import DHRow, Origin, dh_parameters
 from dh2urdf import transforms as tf
 from dh2urdf.exceptions import TableError
+from dh2urdf.symbolic import symbolic_product
 
 Q1, Q2, Q3 = 0.7, -1.1, 0.4
 
@@ -117,3 +118,11 @@ def test_symbolic_product_is_numerically_the_dh_product(name):
     H = np.array(symbolic_product(table).evalf(subs=values), dtype=float)
     frames = table.frames(q)
     assert difference(H, tf.inverse(frames[0]) @ frames[-1]) < 1e-12
+
+
+def test_the_angles_of_sixty_parallel_joints_are_added():
+    """The product of a long planar arm is a sum of cosines, found in seconds."""
+    sympy = pytest.importorskip("sympy")
+    arm = dh2urdf.DHTable.from_array(np.tile([0, 0, 0.01, 0], (60, 1)), convention="standard")
+    total = sum(sympy.symbols("q_1:61"))
+    assert symbolic_product(arm)[0, 0] == sympy.cos(total)

@@ -77,7 +77,7 @@ def verify_urdf_text(
     if not relative <= allowed:
         raise VerificationError(
             f"{table.name}: the written file differs from the DH product by {largest:.3g} m or "
-            f"rad, {relative:.2g} of the arm (allowed {allowed:.0e}){hint}"
+            f"rad, {relative:.3g} of the arm (allowed {allowed:.3g}){hint}"
         )
     return largest
 
