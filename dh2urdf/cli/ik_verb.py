@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import logging
 import math
-import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -78,7 +76,6 @@ def ik_(
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
-    logging.getLogger("dh2urdf").addHandler(logging.StreamHandler(sys.stderr))
     arm = robot_of(robot, base, tip)
     options: dict[str, Any] = {
         "locked": _held(locked, arm, deg=deg),

@@ -80,7 +80,7 @@ def section(robot: Robot, plane: str = "", at: float | None = None, count: int =
     count : int
         Points along the longer side.
     """
-    if plane != "":
+    if type(plane) is not str or plane:
         choice(plane, "plane", PLANES)
     count = integer(count, "points along a side", *POINTS)
     at = None if at is None else number(at, "at", -LENGTH, LENGTH)
