@@ -210,7 +210,8 @@ def test_hostile_command_lines_are_answers_or_one_message(line, stdin):
     assert status in (0, 1, 2)
     assert "Traceback" not in err
     assert status != 2 or err.strip()
-    assert status == 0 or left == []
+    several = verb == "convert" and len(tokens) > 0
+    assert status == 0 or left == [] or several  # of several tables the good ones are written
 
 
 def test_the_reading_of_a_robot_goes_by_the_same_names():
