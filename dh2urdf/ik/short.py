@@ -138,8 +138,9 @@ class ShortChain(SolverBase):
             half = 0.0
             if x >= 0:
                 half = np.arctan(0.5 * q[x] / self.unit) if self.chain.prismatic[x] else 0.5 * q[x]
-                short_loop.loop_matrix(columns, used, np.cos(half + 1.0), np.sin(half + 1.0), M)
-                blind = blind or bool(np.linalg.svd(M, compute_uv=False)[-1] < VANISHED)
+                u, v = np.cos(half + 1.0), np.sin(half + 1.0)
+                size = short_loop.loop_matrix(columns, used, u, v, M)
+                blind = blind or bool(np.linalg.svd(M[:size], compute_uv=False)[-1] < VANISHED)
             size = short_loop.loop_matrix(columns, used, np.cos(half), np.sin(half), M)
             sigma = np.linalg.svd(M[:size], compute_uv=False)
             here = int((sigma < VANISHED).sum())
