@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from dh2urdf import transforms
     from dh2urdf.chain import SerialChain
     from dh2urdf.checks.rules import check_urdf
-    from dh2urdf.conversions.convention import to_convention
-    from dh2urdf.conversions.dh_to_urdf import UrdfOptions
-    from dh2urdf.conversions.write_urdf import ConversionReport, urdf_text, write_urdf
+    from dh2urdf.conversions.assign.convention import to_convention
+    from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions
+    from dh2urdf.conversions.write.write_urdf import ConversionReport, urdf_text, write_urdf
     from dh2urdf.dh import (
         DHConvention,
         DHRow,
@@ -35,13 +35,13 @@ if TYPE_CHECKING:
         dh_factors,
         dh_transform,
     )
+    from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
-    from dh2urdf.dh_reach import dh_parameters
     from dh2urdf.extract import Extraction, extract_dh
-    from dh2urdf.ik.batch import IKBatch
-    from dh2urdf.ik.path import IKPath
-    from dh2urdf.ik.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
-    from dh2urdf.ik.solutions import IKSolutions
+    from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+    from dh2urdf.ik.problem.batch import IKBatch
+    from dh2urdf.ik.problem.path import IKPath
+    from dh2urdf.ik.problem.solutions import IKSolutions
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
@@ -55,28 +55,28 @@ _LATE = {
             *("dh_factors", "dh_transform"),
         )
     },
-    "dh_parameters": ("dh2urdf.dh_reach", "dh_parameters"),
+    "dh_parameters": ("dh2urdf.dh.reach", "dh_parameters"),
     "transforms": ("dh2urdf.transforms", ""),
-    "ConversionReport": ("dh2urdf.conversions.write_urdf", "ConversionReport"),
+    "ConversionReport": ("dh2urdf.conversions.write.write_urdf", "ConversionReport"),
     "Extraction": ("dh2urdf.extract", "Extraction"),
-    "IKBatch": ("dh2urdf.ik.batch", "IKBatch"),
-    "IKPath": ("dh2urdf.ik.path", "IKPath"),
-    "IKSolutions": ("dh2urdf.ik.solutions", "IKSolutions"),
+    "IKBatch": ("dh2urdf.ik.problem.batch", "IKBatch"),
+    "IKPath": ("dh2urdf.ik.problem.path", "IKPath"),
+    "IKSolutions": ("dh2urdf.ik.problem.solutions", "IKSolutions"),
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
-    "UrdfOptions": ("dh2urdf.conversions.urdf_options", "UrdfOptions"),
+    "UrdfOptions": ("dh2urdf.conversions.write.urdf_options", "UrdfOptions"),
     "check_urdf": ("dh2urdf.checks.rules", "check_urdf"),
     "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),
     "load_table": ("dh2urdf.robots", "load_table"),
-    "planar_reach": ("dh2urdf.ik.planar", "planar_reach"),
-    "planar_rr_ik": ("dh2urdf.ik.planar", "planar_rr_ik"),
-    "planar_rrr_ik": ("dh2urdf.ik.planar", "planar_rrr_ik"),
+    "planar_reach": ("dh2urdf.ik.families.planar", "planar_reach"),
+    "planar_rr_ik": ("dh2urdf.ik.families.planar", "planar_rr_ik"),
+    "planar_rrr_ik": ("dh2urdf.ik.families.planar", "planar_rrr_ik"),
     "save_table": ("dh2urdf.dh_io", "write_table"),
-    "to_convention": ("dh2urdf.conversions.convention", "to_convention"),
-    "urdf_text": ("dh2urdf.conversions.write_urdf", "urdf_text"),
-    "wrist_centre": ("dh2urdf.ik.planar", "wrist_centre"),
-    "write_urdf": ("dh2urdf.conversions.write_urdf", "write_urdf"),
+    "to_convention": ("dh2urdf.conversions.assign.convention", "to_convention"),
+    "urdf_text": ("dh2urdf.conversions.write.write_urdf", "urdf_text"),
+    "wrist_centre": ("dh2urdf.ik.families.planar", "wrist_centre"),
+    "write_urdf": ("dh2urdf.conversions.write.write_urdf", "write_urdf"),
 }
 """Public names whose modules are imported when they are first asked for."""
 

@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from dh2urdf.conversions.frame_assignment import XRule
+from dh2urdf.conversions.assign.frame_assignment import XRule
 from dh2urdf.dh import DHConvention, DHTable, JointType
-from dh2urdf.dh_motions import convention_of
+from dh2urdf.dh.motions import convention_of
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import pose_error
 
 if TYPE_CHECKING:
-    from dh2urdf.conversions.explain import FrameStep
-    from dh2urdf.conversions.snap import Change
+    from dh2urdf.conversions.assign.explain import FrameStep
+    from dh2urdf.conversions.assign.snap import Change
 
 __all__ = ["SIGNATURE", "Extraction", "extract_dh"]
 
@@ -134,14 +134,14 @@ def extract_dh(
         The table differs from the source by more than rounding (only with ``compact=False``,
         where a common normal is too far away for sixteen digits).
     """
-    from dh2urdf.conversions import snap as snapping
-    from dh2urdf.conversions.carry import carry
-    from dh2urdf.conversions.chain_to_dh import chain_to_dh, flip_signs
-    from dh2urdf.conversions.explain import explain_frames
-    from dh2urdf.conversions.extract_source import read_source
-    from dh2urdf.conversions.frame_assignment import references
-    from dh2urdf.conversions.near_misses import near_misses
-    from dh2urdf.conversions.referee import configurations, table_poses
+    from dh2urdf.conversions.assign import snap as snapping
+    from dh2urdf.conversions.assign.chain_to_dh import chain_to_dh, flip_signs
+    from dh2urdf.conversions.assign.explain import explain_frames
+    from dh2urdf.conversions.assign.frame_assignment import references
+    from dh2urdf.conversions.assign.near_misses import near_misses
+    from dh2urdf.conversions.chains.carry import carry
+    from dh2urdf.conversions.chains.extract_source import read_source
+    from dh2urdf.conversions.chains.referee import configurations, table_poses
 
     convention = convention_of(convention)
     tolerance = snapping.snap_tolerance(snap)

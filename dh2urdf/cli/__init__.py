@@ -28,7 +28,7 @@ VERBS = {
     "workspace": "Draw what an arm can reach.",
     "view": "Look at an arm in the browser.",
 }
-"""Each is the function ``<verb>_`` of ``dh2urdf.cli.<verb>_verb``, loaded when it is called."""
+"""Each is the function ``<verb>_`` of ``dh2urdf.cli.verbs.<verb>``, loaded when it is called."""
 
 PLAIN = {"\u2212": "-", "\u2500": "-", "\u2026": "...", "\u00b0": "deg", "\u03c0": "pi"}
 """Signs of ours as a terminal without them shows them."""
@@ -88,7 +88,7 @@ def _run(tokens: list[str]) -> int:
         help_epilogue="--debug shows the traceback of an error.",
     )
     for verb, summary in VERBS.items():
-        app.command(f"dh2urdf.cli.{verb}_verb:{verb}_", name=verb, help=summary)
+        app.command(f"dh2urdf.cli.verbs.{verb}:{verb}_", name=verb, help=summary)
     app.register_install_completion_command()
     try:
         command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)

@@ -15,8 +15,8 @@ from cyclopts import Parameter
 
 from dh2urdf.bounds import ANGLE, DPI, LENGTH, NUMBER
 from dh2urdf.dh_io import FORMATS, Kind, Units, parse_cell
-from dh2urdf.dh_io.units import SI
-from dh2urdf.dh_io.values import FUNCTIONS
+from dh2urdf.dh_io.cells.units import SI
+from dh2urdf.dh_io.cells.values import FUNCTIONS
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
 

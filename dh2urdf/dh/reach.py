@@ -7,7 +7,7 @@ import math
 from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
-from dh2urdf.dh_motions import DHConvention, convention_of
+from dh2urdf.dh.motions import DHConvention, convention_of
 from dh2urdf.doors import integer
 from dh2urdf.exceptions import PoseError, TableError
 from dh2urdf.grids import number

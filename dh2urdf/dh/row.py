@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, INERTIA, LENGTH, NUMBER
-from dh2urdf.dh_motions import DHConvention, dh_transform
-from dh2urdf.dh_reach import why_unreachable
+from dh2urdf.dh.motions import DHConvention, dh_transform
+from dh2urdf.dh.reach import why_unreachable
 from dh2urdf.doors import choice, found, instance, number, real_array, text
 from dh2urdf.exceptions import ArgumentError, TableError
 from dh2urdf.transforms import Array

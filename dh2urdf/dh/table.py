@@ -2,7 +2,7 @@
 
 A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joint puts
 ``sign * q + d`` in place of d; frame i is the product of the rows up to joint i, see
-:mod:`dh2urdf.dh_motions`.
+:mod:`dh2urdf.dh.motions`.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import JOINTS, LENGTH, ROWS
-from dh2urdf.dh_motions import DHConvention, convention_of, dh_factors, dh_transform
-from dh2urdf.dh_print import table_csv, table_html, table_latex, table_markdown, table_text
-from dh2urdf.dh_row import DHRow, JointType, Origin
+from dh2urdf.dh.motions import DHConvention, convention_of, dh_factors, dh_transform
+from dh2urdf.dh.print import table_csv, table_html, table_latex, table_markdown, table_text
+from dh2urdf.dh.row import DHRow, JointType, Origin
 from dh2urdf.doors import finite_array, found, instance, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array

@@ -18,20 +18,20 @@ Units
     second, by the joint's type. Mass [kg], inertia [kg m^2], effort [N m or N], damping and
     friction are SI in every file.
 Cells
-    Numbers and expressions (`dh2urdf.dh_io.expressions`). ``theta: theta3 + 90`` and
+    Numbers and expressions (`dh2urdf.dh_io.cells.expressions`). ``theta: theta3 + 90`` and
     ``d: 2 - q2`` show the joint's own variable; that gives the type and the sign.
 CSV and Markdown
-    A header row in any order, ``key: value`` lines around it (`dh2urdf.dh_io.grid`).
+    A header row in any order, ``key: value`` lines around it (`dh2urdf.dh_io.formats.grid`).
 Messages
     ``joints[3].alpha`` is the third row of the file, counted from 1.
 """
 
 from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign
-from dh2urdf.dh_io.expressions import parse_cell
+from dh2urdf.dh_io.cells.expressions import parse_cell
+from dh2urdf.dh_io.cells.units import SI, Kind, Units
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
-from dh2urdf.dh_io.units import SI, Kind, Units
 from dh2urdf.dh_io.write import table_to_text, write_table
 
 __all__ = [

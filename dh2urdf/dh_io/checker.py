@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dh2urdf.bounds import ROWS
 from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
-from dh2urdf.dh_io.cells import Cells, Context, found
-from dh2urdf.dh_io.document import NOWHERE, Items, Keys, Node, Report, Scalar
+from dh2urdf.dh_io.cells.cells import Cells, Context, found
+from dh2urdf.dh_io.cells.document import NOWHERE, Items, Keys, Node, Report, Scalar
+from dh2urdf.dh_io.cells.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
+from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, unit_name
 from dh2urdf.dh_io.near_misses import near_misses
 from dh2urdf.dh_io.rows import read_row
-from dh2urdf.dh_io.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
-from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, unit_name
 from dh2urdf.exceptions import TableError
 
 __all__ = ["check_document"]

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
-from dh2urdf.dh_io.schema import ROW_KINDS
-from dh2urdf.dh_io.units import PI, SI, Kind, Units
+from dh2urdf.dh_io.cells.schema import ROW_KINDS
+from dh2urdf.dh_io.cells.units import PI, SI, Kind, Units
 
 __all__ = ["NearMiss", "near_misses"]
 

@@ -10,14 +10,14 @@ from typing import NamedTuple
 
 from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
+from dh2urdf.dh_io.cells.document import Node, Report
 from dh2urdf.dh_io.checker import check_document
-from dh2urdf.dh_io.document import Node, Report
 from dh2urdf.dh_io.files import path_of, read_text, shown
-from dh2urdf.dh_io.read_csv import read_csv
-from dh2urdf.dh_io.read_json import read_json
-from dh2urdf.dh_io.read_markdown import read_markdown
-from dh2urdf.dh_io.read_toml import read_toml
-from dh2urdf.dh_io.read_yaml import read_yaml
+from dh2urdf.dh_io.formats.csv import read_csv
+from dh2urdf.dh_io.formats.json import read_json
+from dh2urdf.dh_io.formats.markdown import read_markdown
+from dh2urdf.dh_io.formats.toml import read_toml
+from dh2urdf.dh_io.formats.yaml import read_yaml
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
 

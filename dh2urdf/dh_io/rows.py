@@ -8,12 +8,12 @@ from decimal import Decimal
 from typing import Any, TypeVar
 
 from dh2urdf.dh import DHRow, JointType, Origin
-from dh2urdf.dh_io.cells import Cells, Context, found
-from dh2urdf.dh_io.document import Node, Scalar
-from dh2urdf.dh_io.expressions import Lookup, to_float
-from dh2urdf.dh_io.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
-from dh2urdf.dh_io.units import Kind
-from dh2urdf.dh_io.values import ExpressionError, Value
+from dh2urdf.dh_io.cells.cells import Cells, Context, found
+from dh2urdf.dh_io.cells.document import Node, Scalar
+from dh2urdf.dh_io.cells.expressions import Lookup, to_float
+from dh2urdf.dh_io.cells.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
+from dh2urdf.dh_io.cells.units import Kind
+from dh2urdf.dh_io.cells.values import ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 __all__ = ["read_row"]

@@ -10,11 +10,11 @@ from pathlib import Path
 
 from dh2urdf.dh import DHRow, DHTable, JointType, Origin
 from dh2urdf.dh_io.atomic import atomic_write
+from dh2urdf.dh_io.cells.schema import ROW_KEYS, ROW_KINDS
+from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, decimal_text
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.read import format_of
-from dh2urdf.dh_io.schema import ROW_KEYS, ROW_KINDS
-from dh2urdf.dh_io.units import SI, UNIT_SIZES, Kind, Units, decimal_text
 from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown

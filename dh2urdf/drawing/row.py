@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dh2urdf.conversions.axis_pairs import AxisCase, classify
+from dh2urdf.conversions.assign.axis_pairs import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
-from dh2urdf.dh_print import degrees
+from dh2urdf.dh.print import degrees
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, rotation

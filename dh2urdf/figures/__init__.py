@@ -5,6 +5,6 @@ The only package that imports matplotlib (extra ``plot``).
 
 from dh2urdf.figures.arm import figure
 from dh2urdf.figures.save import picture_bytes, save_picture
-from dh2urdf.figures.workspace import workspace_figure
+from dh2urdf.figures.workspaces.workspace import workspace_figure
 
 __all__ = ["figure", "picture_bytes", "save_picture", "workspace_figure"]

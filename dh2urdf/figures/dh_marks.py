@@ -12,8 +12,8 @@ from dh2urdf.drawing.colours import AXIS, QUANTITY
 from dh2urdf.drawing.row import length_index, row_picture
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.labels import Label, Line, place_labels
-from dh2urdf.figures.projection import View
-from dh2urdf.figures.solid_paint import ToPoints
+from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.solids.solid_paint import ToPoints
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
 

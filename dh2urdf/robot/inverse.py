@@ -13,17 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.robot_poses import RobotPoses
+from dh2urdf.robot.poses import RobotPoses
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
     import numpy as np
 
-    from dh2urdf.ik.held_solver import HeldSolver
-    from dh2urdf.ik.numeric import NumericProblem, NumericSolutions
-    from dh2urdf.ik.solutions import IKSolutions
+    from dh2urdf.ik.arm.solver import Solver, Task
+    from dh2urdf.ik.problem.numeric import NumericProblem, NumericSolutions
+    from dh2urdf.ik.problem.solutions import IKSolutions
+    from dh2urdf.ik.redundant.held_solver import HeldSolver
     from dh2urdf.ik.solve import InverseKinematics, Locked
-    from dh2urdf.ik.solver import Solver, Task
 
 __all__ = ["RobotIK"]
 
@@ -206,7 +206,7 @@ class RobotIK(RobotPoses):
 
     @cached_property
     def _numeric(self) -> NumericProblem:
-        from dh2urdf.ik.numeric import NumericProblem
+        from dh2urdf.ik.problem.numeric import NumericProblem
 
         return NumericProblem(self.chain, *self._values(), self.lower, self.upper)
 

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.batch import IKBatch
-    from dh2urdf.ik.path import IKPath
-    from dh2urdf.ik.problem import Progress
+    from dh2urdf.ik.arm.solver import Task
+    from dh2urdf.ik.problem.batch import IKBatch
+    from dh2urdf.ik.problem.path import IKPath
+    from dh2urdf.ik.problem.problem import Progress
     from dh2urdf.ik.solve import InverseKinematics, Locked
-    from dh2urdf.ik.solver import Task
 
 __all__ = ["RobotPoses"]
 

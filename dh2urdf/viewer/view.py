@@ -17,10 +17,10 @@ from dh2urdf.transforms import Array
 from dh2urdf.viewer.arm_scene import ArmScene
 from dh2urdf.viewer.door import LOOPBACK, by_visitor, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
-from dh2urdf.viewer.ik_tab import IKTab
-from dh2urdf.viewer.joints_tab import JointsTab
 from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
-from dh2urdf.viewer.table_tab import TableTab
+from dh2urdf.viewer.tabs.ik_tab import IKTab
+from dh2urdf.viewer.tabs.joints_tab import JointsTab
+from dh2urdf.viewer.tabs.table_tab import TableTab
 from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
 __all__ = ["ArmView", "view"]

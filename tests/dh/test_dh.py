@@ -72,7 +72,7 @@ def test_inertia_moves_with_the_frames():
         table.frames(q)[1:], modified.frames(q)[1:], table.joints, modified.joints, strict=True
     ):
         assert difference(old @ [*a.com, 1], new @ [*b.com, 1]) < 1e-14
-        I_old, I_new = (dh2urdf.conversions.inertia.tensor(r.inertia) for r in (a, b))
+        I_old, I_new = (dh2urdf.conversions.write.inertia.tensor(r.inertia) for r in (a, b))
         base_old = old[:3, :3] @ I_old @ old[:3, :3].T
         assert difference(base_old, new[:3, :3] @ I_new @ new[:3, :3].T) < 1e-15
 

@@ -182,7 +182,7 @@ def test_a_table_made_in_python_is_judged_by_its_floats() -> None:
 
 
 @pytest.mark.parametrize(
-    "path", sorted((Path(__file__).parents[1] / "dh2urdf" / "robots").glob("*.yaml")), ids=str
+    "path", sorted((Path(__file__).parents[2] / "dh2urdf" / "robots").glob("*.yaml")), ids=str
 )
 def test_tables_that_ship_give_no_warning(path: Path) -> None:
     """No shipped table has a near miss."""

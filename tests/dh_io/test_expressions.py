@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dh2urdf.dh_io import SI, Units, parse_cell
-from dh2urdf.dh_io.units import decimal_text
+from dh2urdf.dh_io.cells.units import decimal_text
 from dh2urdf.exceptions import TableError
 
 MM_DEG = Units("mm", "deg")

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
-from dh2urdf.dh_io.read_yaml import yaml_values
+from dh2urdf.dh_io.formats.yaml import yaml_values
 from dh2urdf.exceptions import TableFileError
 
 BOMB = "a: &a [x, x, x, x, x, x, x, x, x, x]\n" + "".join(

@@ -13,15 +13,15 @@ from matplotlib.path import Path
 
 import dh2urdf
 from dh2urdf import Robot, load_table
-from dh2urdf.conversions.bodies import Body
+from dh2urdf.conversions.write.bodies import Body
 from dh2urdf.drawing.arm import drawn_arm, table_of
 from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
 from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
-from dh2urdf.figures.ghosts import group_ghosts
-from dh2urdf.figures.occlusion import front_depth, occlusion
-from dh2urdf.figures.projection import View
-from dh2urdf.figures.solids import Part, arm_parts, convex_hull
+from dh2urdf.figures.solids.ghosts import group_ghosts
+from dh2urdf.figures.solids.occlusion import front_depth, occlusion
+from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.solids.solids import Part, arm_parts, convex_hull
 from dh2urdf.transforms import rot_x, rot_y, rot_z, trans
 
 ARMS = ("puma560", "ur5e", "stanford", "planar_rr", "franka_fr3", "fanuc_crx10ia", "gantry_wrist")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-ARTIFACTS = Path(__file__).parents[1] / "artifacts"
+ARTIFACTS = Path(__file__).parents[2] / "artifacts"
 CHROMIUM = ("/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome")
 TIMEOUT = 120_000
 """Patience [ms] with a browser that renders without a GPU on a busy machine."""

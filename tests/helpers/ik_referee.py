@@ -14,10 +14,10 @@ import numpy as np
 
 import dh2urdf
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
 from dh2urdf.dh import JointType
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.solver import select_solver
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.solver import select_solver
 
 HALF = math.pi / 2
 

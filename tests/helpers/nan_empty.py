@@ -1,4 +1,4 @@
-"""A plugin, ``-p tests.nan_empty``: memory from ``np.empty`` holds NaN, or the least integer.
+"""A plugin (``-p tests.helpers.nan_empty``): `np.empty` holds NaN, or the least integer.
 
 Whoever reads what nobody wrote then gets a wrong answer or a warning, in Python and in kernels,
 compiled or not. Compiled ones need a cache of their own: ``NUMBA_CACHE_DIR``.

@@ -5,7 +5,7 @@ import pytest
 from dh_product import dh_frames
 
 from dh2urdf.exceptions import PoseError
-from dh2urdf.kernels.poses import first_bad_pose
+from dh2urdf.kernels.numbers.poses import first_bad_pose
 from dh2urdf.robots import load_table
 from dh2urdf.transforms import check_pose
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from dh2urdf.kernels import certify, polish
+from dh2urdf.kernels.certificate import certify, polish
 
 HALF_PI = math.pi / 2
 PUMA = ((0, 0, HALF_PI), (0, 0.4318, 0), (0.15005, 0.0203, -HALF_PI), (0.4318, 0, HALF_PI))

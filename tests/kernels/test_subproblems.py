@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from dh2urdf.kernels import subproblems as sp
-from dh2urdf.kernels import trig
+from dh2urdf.kernels.numbers import subproblems as sp
+from dh2urdf.kernels.numbers import trig
 
 DRAWS = 300
 SLACK = 1e-9

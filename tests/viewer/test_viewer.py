@@ -16,16 +16,16 @@ import pytest
 
 import dh2urdf
 from dh2urdf import DHConvention, DHRow, DHTable, JointType, Robot, load_table
-from dh2urdf.conversions.bodies import Body
+from dh2urdf.conversions.write.bodies import Body
 from dh2urdf.drawing.arm import drawn_arm
 from dh2urdf.drawing.surfaces import TableDrawing, body_surface
 from dh2urdf.exceptions import ConfigurationError, ServerError
 from dh2urdf.transforms import rot_x, rot_y, trans
 from dh2urdf.viewer.arm_scene import quaternions
-from dh2urdf.viewer.branches import answer, branch_table, initials
-from dh2urdf.viewer.ik_tab import default_task, dragged_axes
-from dh2urdf.viewer.redundancy import default_joint
-from dh2urdf.viewer.table_tab import new_table
+from dh2urdf.viewer.tabs.branches import answer, branch_table, initials
+from dh2urdf.viewer.tabs.ik_tab import default_task, dragged_axes
+from dh2urdf.viewer.tabs.redundancy import default_joint
+from dh2urdf.viewer.tabs.table_tab import new_table
 from dh2urdf.viewer.urdf_drawing import find_mesh, urdf_drawing
 
 VISITOR = SimpleNamespace(client=SimpleNamespace(send_file_download=lambda *_, **__: None))

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from dh2urdf import Robot
 from dh2urdf.transforms import trans
-from dh2urdf.viewer.table_tab import new_table
+from dh2urdf.viewer.tabs.table_tab import new_table
 
 SENT = []
 CLIENT = SimpleNamespace(send_file_download=lambda name, data, **_: SENT.append((name, data)))

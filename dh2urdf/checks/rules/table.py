@@ -5,17 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 
-from dh2urdf.checks import rules_geometry as geometry
-from dh2urdf.checks import rules_inertia as inertia
-from dh2urdf.checks import rules_joints as joints
-from dh2urdf.checks import rules_names as names
-from dh2urdf.checks import rules_numbers as numbers
-from dh2urdf.checks import rules_reading as reading
-from dh2urdf.checks import rules_tree as tree
 from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.report import Found
 from dh2urdf.checks.rounding import rounded_angle
+from dh2urdf.checks.rules import geometry, inertia, joints, names, numbers, reading, tree
 
 __all__ = ["RULES", "check_urdf"]
 

@@ -121,8 +121,8 @@ def _stdin() -> str:
 
 def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
     """The table in its format, to a file or stdout."""
-    from dh2urdf.conversions.constructors import CONSTRUCTORS
-    from dh2urdf.dh_print import table_latex
+    from dh2urdf.conversions.write.constructors import CONSTRUCTORS
+    from dh2urdf.dh.print import table_latex
 
     to_stdout = output is None or str(output) == "-"
     suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")

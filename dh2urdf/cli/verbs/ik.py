@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.ik_poses import Poses, pose_of, poses_of_csv
 from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+from dh2urdf.cli.verbs.ik_poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.solutions import IKSolutions
+    from dh2urdf.ik.problem.solutions import IKSolutions
     from dh2urdf.robot import Robot
 
 __all__ = ["ik_"]

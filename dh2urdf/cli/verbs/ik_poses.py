@@ -13,10 +13,10 @@ from dh2urdf.bounds import POSES_BYTES
 from dh2urdf.cli.options import LARGEST, read_number, read_numbers
 from dh2urdf.cli.output import stdin
 from dh2urdf.dh_io import Kind, Units
-from dh2urdf.dh_io.document import Report
+from dh2urdf.dh_io.cells.document import Report
+from dh2urdf.dh_io.cells.units import UNIT_SIZES
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.dh_io.grid import INDEX, heading, metadata, separator, unit_words
-from dh2urdf.dh_io.units import UNIT_SIZES
+from dh2urdf.dh_io.formats.grid import INDEX, heading, metadata, separator, unit_words
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off

@@ -45,7 +45,7 @@ def view_(
     """
     from dh2urdf.robot import Robot
     from dh2urdf.viewer import view
-    from dh2urdf.viewer.table_tab import new_table
+    from dh2urdf.viewer.tabs.table_tab import new_table
 
     arm = robot_of(robot, base, tip) if robot else Robot.from_dh(new_table())
     shown = view(arm, parse_configuration(q, arm, deg=deg) if q else None, host=host, port=port)

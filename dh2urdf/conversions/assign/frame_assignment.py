@@ -1,7 +1,7 @@
 """Frame assignment: lecture notes section 4, from the joint axes to the DH parameters.
 
 The chain is ``B Z_1(q1) L_1 Z_2(q2) ... L_{n-1} Z_n(qn) M``. Every ``L_i`` is factored along a
-common normal (:mod:`dh2urdf.conversions.axis_pairs`); the turns and slides about one axis,
+common normal (:mod:`dh2urdf.conversions.assign.axis_pairs`); the turns and slides about one axis,
 from the pair before and the pair after, add up to that joint's theta and d. What the notes
 leave free is settled here, once:
 
@@ -26,15 +26,15 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.axis_pairs import (
+from dh2urdf.conversions.assign.axis_pairs import (
     AxisPair,
     Normal,
     across,
     classify,
     common_normal,
 )
-from dh2urdf.conversions.frame_directions import choose_directions
-from dh2urdf.conversions.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
+from dh2urdf.conversions.assign.frame_directions import choose_directions
+from dh2urdf.conversions.assign.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
 

@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.axis_pairs import AxisPair, Normal, flipped, wrap
-from dh2urdf.conversions.frame_ends import End
+from dh2urdf.conversions.assign.axis_pairs import AxisPair, Normal, flipped, wrap
+from dh2urdf.conversions.assign.frame_ends import End
 
 __all__ = ["HALF_TURN", "Directions", "choose_directions"]
 

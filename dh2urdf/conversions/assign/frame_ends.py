@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.axis_pairs import across, classify, common_normal, flipped, wrap
+from dh2urdf.conversions.assign.axis_pairs import across, classify, common_normal, flipped, wrap
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
 

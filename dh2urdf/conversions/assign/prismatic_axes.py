@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.axis_pairs import PARALLEL
+from dh2urdf.conversions.assign.axis_pairs import PARALLEL
 from dh2urdf.transforms import Array
 
 __all__ = ["place_prismatic_axes", "shifted"]

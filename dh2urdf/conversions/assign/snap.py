@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.axis_pairs import PARALLEL, across, classify, common_normal, compose
-from dh2urdf.conversions.frame_assignment import references
-from dh2urdf.conversions.referee import table_poses
-from dh2urdf.conversions.rounding import near_angle
+from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
+from dh2urdf.conversions.assign.frame_assignment import references
+from dh2urdf.conversions.assign.rounding import near_angle
+from dh2urdf.conversions.chains.referee import table_poses
 from dh2urdf.dh import DHConvention, DHTable, Origin
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error

@@ -23,9 +23,9 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, TABLE_BYTES
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.typed_axes import typed_to_chain
+from dh2urdf.conversions.chains.typed_axes import typed_to_chain
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.dh_io.read_yaml import yaml_values
+from dh2urdf.dh_io.formats.yaml import yaml_values
 from dh2urdf.doors import found, real_array, text
 from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
 

@@ -1,7 +1,7 @@
 """Readers of other projects, which a file may drive anywhere: each in a process of its own.
 
-``python -m dh2urdf.conversions.apart xacro arm.xacro folder`` leaves what it read in the folder,
-or a file ``error``. Time and memory are bounded; what a reader prints goes nowhere.
+``python -m dh2urdf.conversions.read.apart xacro arm.xacro folder`` leaves what it read in the
+folder, or a file ``error``. Time and memory are bounded; what a reader prints goes nowhere.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def read_apart(reader: str, source: Path) -> Iterator[Path]:
     module, extra = NEEDS[reader]
     if find_spec(module) is None:
         raise MissingExtraError(extra, f"reading {source.name}")
-    path = [str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
+    path = [str(Path(__file__).parents[3]), os.environ.get("PYTHONPATH", "")]
     with tempfile.TemporaryDirectory() as folder:
         try:
             run = subprocess.run(

@@ -8,8 +8,8 @@ from collections.abc import Collection
 import pinocchio as pin
 from lxml import etree
 
-from dh2urdf.conversions.inertia import Inertial
-from dh2urdf.conversions.kinematic_tree import KinematicTree
+from dh2urdf.conversions.read.kinematic_tree import KinematicTree
+from dh2urdf.conversions.write.inertia import Inertial
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
@@ -29,7 +29,7 @@ def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]
     Parameters
     ----------
     root : lxml element
-        The document, as :func:`~dh2urdf.conversions.read_urdf.read_urdf` leaves it.
+        The document, as :func:`~dh2urdf.conversions.read.read_urdf.read_urdf` leaves it.
     chain : collection of str
         Joints that move; all others are held at 0.
 

@@ -10,16 +10,16 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.conversions.apart import read_apart
-from dh2urdf.conversions.bare_urdf import bare_model
-from dh2urdf.conversions.kinematic_tree import (
+from dh2urdf.conversions.read.apart import read_apart
+from dh2urdf.conversions.read.bare_urdf import bare_model
+from dh2urdf.conversions.read.kinematic_tree import (
     MOVING,
     KinematicTree,
     choose_ends,
     find_path,
 )
-from dh2urdf.conversions.naming import link_name
-from dh2urdf.conversions.read_urdf import read_urdf
+from dh2urdf.conversions.read.naming import link_name
+from dh2urdf.conversions.read.read_urdf import read_urdf
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found
@@ -122,7 +122,7 @@ def read_description(
 
 
 def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | None) -> Description:
-    from dh2urdf.conversions.read_mjcf import read_mjcf
+    from dh2urdf.conversions.read.read_mjcf import read_mjcf
 
     tree, addresses, model = read_mjcf(path)
     ends = choose_ends(tree, base, tip)

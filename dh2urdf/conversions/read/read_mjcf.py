@@ -11,10 +11,10 @@ import pinocchio as pin
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, LINKS
-from dh2urdf.conversions.apart import read_apart
-from dh2urdf.conversions.inertia import Inertial
-from dh2urdf.conversions.kinematic_tree import KinematicTree, TreeJoint, TreeLink
-from dh2urdf.conversions.model_to_chain import as_pinocchio_takes
+from dh2urdf.conversions.chains.model_to_chain import as_pinocchio_takes
+from dh2urdf.conversions.read.apart import read_apart
+from dh2urdf.conversions.read.kinematic_tree import KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.write.inertia import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array

@@ -8,9 +8,15 @@ from typing import NoReturn
 from lxml import etree
 
 from dh2urdf.bounds import ANGLE, LINKS
-from dh2urdf.conversions.kinematic_tree import MOVING, KinematicTree, Mimic, TreeJoint, TreeLink
-from dh2urdf.conversions.naming import listed
-from dh2urdf.conversions.urdf_reader import UrdfReader
+from dh2urdf.conversions.read.kinematic_tree import (
+    MOVING,
+    KinematicTree,
+    Mimic,
+    TreeJoint,
+    TreeLink,
+)
+from dh2urdf.conversions.read.naming import listed
+from dh2urdf.conversions.read.urdf_reader import UrdfReader
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 

@@ -15,8 +15,8 @@ from itertools import pairwise
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.inertia import Inertial
-from dh2urdf.conversions.link_paths import LinkFrames, link_frames, link_paths
+from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.write.link_paths import LinkFrames, link_frames, link_paths
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.transforms import Array
 

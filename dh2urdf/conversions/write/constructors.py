@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from dh2urdf.conversions.inertia import tensor
+from dh2urdf.conversions.write.inertia import tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import matlab, one_line

@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from dh2urdf.conversions.dh_to_urdf import MARK, UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.write.dh_to_urdf import MARK, UrdfOptions, urdf_text_and_warnings
 from dh2urdf.dh_io import TableLike, as_table, atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.xml import embedded_table
@@ -53,7 +53,7 @@ def verified_urdf(
     A `VerificationError` where Pinocchio's frames differ from the DH product by more than 1e-9, or,
     with numbers rounded on request, by more than that can explain or anyone can use.
     """
-    from dh2urdf.conversions.verify import verify_urdf_text
+    from dh2urdf.conversions.write.verify import verify_urdf_text
 
     table, chosen = as_table(table), _chosen(options)
     text, warnings = urdf_text_and_warnings(table, chosen)

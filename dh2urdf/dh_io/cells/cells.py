@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from dh2urdf.dh import Origin
-from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
-from dh2urdf.dh_io.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
-from dh2urdf.dh_io.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
-from dh2urdf.dh_io.units import SI, Kind, Units, unit_kind, unit_name
-from dh2urdf.dh_io.values import FUNCTIONS, ExpressionError, Value
+from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
+from dh2urdf.dh_io.cells.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
+from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
+from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 __all__ = ["Cells", "Context", "found"]

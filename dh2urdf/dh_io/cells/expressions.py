@@ -25,8 +25,8 @@ from dataclasses import replace
 from decimal import Decimal, DecimalException
 
 from dh2urdf.bounds import CELL_CHARACTERS, CELL_DEPTH
-from dh2urdf.dh_io.units import EXACT, PI, SI, Kind, Units, to_si, unit_kind, unit_name
-from dh2urdf.dh_io.values import (
+from dh2urdf.dh_io.cells.units import EXACT, PI, SI, Kind, Units, to_si, unit_kind, unit_name
+from dh2urdf.dh_io.cells.values import (
     FUNCTIONS,
     NOUNS,
     ExpressionError,

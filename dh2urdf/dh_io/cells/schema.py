@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterable, Mapping
 
 from dh2urdf.dh import DHConvention, JointType
-from dh2urdf.dh_io.units import Kind
+from dh2urdf.dh_io.cells.units import Kind
 
 __all__ = [
     "CONVENTIONS",

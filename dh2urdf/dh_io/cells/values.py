@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal, DecimalException, Overflow
 
 from dh2urdf.bounds import EXPONENT
-from dh2urdf.dh_io.units import EXACT, Kind
+from dh2urdf.dh_io.cells.units import EXACT, Kind
 from dh2urdf.exceptions import TableError
 
 __all__ = [

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import csv
 
-from dh2urdf.dh_io.document import Keys, Mark, Report, Scalar
-from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata, separator
+from dh2urdf.dh_io.cells.document import Keys, Mark, Report, Scalar
+from dh2urdf.dh_io.formats.grid import Grid, grid_document, is_header, metadata, separator
 
 __all__ = ["read_csv"]
 

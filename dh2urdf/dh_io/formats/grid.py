@@ -17,9 +17,9 @@ import re
 from typing import NamedTuple
 
 from dh2urdf.dh import DHConvention
-from dh2urdf.dh_io.cells import found
-from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
-from dh2urdf.dh_io.schema import (
+from dh2urdf.dh_io.cells.cells import found
+from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.schema import (
     CONVENTIONS,
     MISUSED_KEYS,
     ROW_KEYS,
@@ -29,7 +29,7 @@ from dh2urdf.dh_io.schema import (
     nearest,
     of_previous_link,
 )
-from dh2urdf.dh_io.units import UNIT_SIZES, Kind, unit_kind, unit_name
+from dh2urdf.dh_io.cells.units import UNIT_SIZES, Kind, unit_kind, unit_name
 
 __all__ = [
     "INDEX",

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from json import JSONDecodeError, JSONDecoder
 from typing import TypeVar
 
-from dh2urdf.dh_io.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
 __all__ = ["read_json"]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
-from dh2urdf.dh_io.document import Keys, Mark, Report, Scalar
-from dh2urdf.dh_io.grid import Grid, grid_document, is_header, metadata
+from dh2urdf.dh_io.cells.document import Keys, Mark, Report, Scalar
+from dh2urdf.dh_io.formats.grid import Grid, grid_document, is_header, metadata
 
 __all__ = ["read_markdown"]
 

@@ -6,7 +6,7 @@ import re
 import tomllib
 from typing import Any
 
-from dh2urdf.dh_io.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
 __all__ = ["read_toml"]
 

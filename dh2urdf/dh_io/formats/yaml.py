@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from dh2urdf.dh_io.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.exceptions import TableFileError
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.conversions.bodies import Body
-from dh2urdf.figures.projection import View
+from dh2urdf.conversions.write.bodies import Body
+from dh2urdf.figures.solids.projection import View
 from dh2urdf.transforms import Array
 
 __all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points", "outlines"]

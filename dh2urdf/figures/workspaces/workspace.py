@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
 from dh2urdf.doors import finite_array, integer, number
 from dh2urdf.exceptions import ArgumentError, UnreachedError
-from dh2urdf.figures.planar_workspace import planar_picture
-from dh2urdf.figures.section_workspace import section_picture
 from dh2urdf.figures.style import Picture
+from dh2urdf.figures.workspaces.planar_workspace import planar_picture
+from dh2urdf.figures.workspaces.section_workspace import section_picture
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import rpy_to_matrix
 from dh2urdf.workspace import (

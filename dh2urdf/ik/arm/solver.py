@@ -15,7 +15,7 @@ from typing import ClassVar, Protocol
 
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.transforms import Array
 
 __all__ = [
@@ -142,79 +142,79 @@ SOLVERS: tuple[SolverRow, ...] = (
     SolverRow(
         "spherical wrist",
         "six joints, the last three revolute with axes through one point",
-        "dh2urdf.ik.spherical_wrist",
+        "dh2urdf.ik.families.spherical_wrist",
         "SphericalWrist",
     ),
     SolverRow(
         "three parallel axes",
         "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel",
-        "dh2urdf.ik.three_parallel",
+        "dh2urdf.ik.families.three_parallel",
         "ThreeParallel",
     ),
     SolverRow(
         "spherical shoulder",
         "six joints, the first three revolute with axes through one point",
-        "dh2urdf.ik.reversed_chain",
+        "dh2urdf.ik.families.reversed_chain",
         "SphericalShoulder",
     ),
     SolverRow(
         "three parallel axes, from the tool",
         "six revolute joints, axes 3, 4, 5 or 4, 5, 6 parallel",
-        "dh2urdf.ik.reversed_chain",
+        "dh2urdf.ik.families.reversed_chain",
         "ThreeParallelReversed",
     ),
     SolverRow(
         "planar arm",
         "two or three revolute joints with parallel axes",
-        "dh2urdf.ik.planar",
+        "dh2urdf.ik.families.planar",
         "PlanarArm",
     ),
     SolverRow(
         "three slides",
         "three sliding joints and two or three turning ones",
-        "dh2urdf.ik.three_slides",
+        "dh2urdf.ik.families.three_slides",
         "ThreeSlides",
     ),
     SolverRow(
         "short chain",
         "one to five joints of any kind, each of which moves the tool",
-        "dh2urdf.ik.short",
+        "dh2urdf.ik.families.short",
         "ShortChain",
     ),
     SolverRow(
         "position arm",
         "task position: one to three joints of any kind, each of which moves the tool's origin",
-        "dh2urdf.ik.short_position",
+        "dh2urdf.ik.families.short_position",
         "ShortPosition",
     ),
     SolverRow(
         "tool axis",
         "task position+axis: a virtual joint about the tool's z makes a chain that is covered",
-        "dh2urdf.ik.tool_axis",
+        "dh2urdf.ik.families.tool_axis",
         "ToolAxis",
     ),
     SolverRow(
         "nearly a family",
         "six revolute joints, rounded or calibrated: nearly one of the first four rows",
-        "dh2urdf.ik.near_family",
+        "dh2urdf.ik.families.near_family",
         "NearFamily",
     ),
     SolverRow(
         "general 6R",
         "six revolute joints, any axes",
-        "dh2urdf.ik.general_6r",
+        "dh2urdf.ik.families.general_6r",
         "General6R",
     ),
     SolverRow(
         "swept joint",
         "seven joints, one of which can be held so that a row above covers the others",
-        "dh2urdf.ik.swept",
+        "dh2urdf.ik.redundant.swept",
         "SweptJoint",
     ),
     SolverRow(
         "joints to spare",
         "one or two joints that can move while the task stays satisfied; they are held",
-        "dh2urdf.ik.redundancy",
+        "dh2urdf.ik.redundant.redundancy",
         "RedundantChain",
     ),
 )
@@ -229,7 +229,7 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
     NoSolverError
         No family covers it; the message lists each with what stood in its way.
     """
-    from dh2urdf.ik.searched import SearchedSolver, hardly_moves
+    from dh2urdf.ik.problem.searched import SearchedSolver, hardly_moves
 
     task = Task(task)
     others: list[tuple[str, str]] = []

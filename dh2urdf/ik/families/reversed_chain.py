@@ -11,10 +11,10 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.solver import SolverBase, Task
-from dh2urdf.ik.spherical_wrist import SphericalWrist
-from dh2urdf.ik.three_parallel import ThreeParallel
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.families.spherical_wrist import SphericalWrist
+from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalShoulder", "ThreeParallelReversed"]
@@ -47,7 +47,7 @@ class ReversedSolver(SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the inverse poses, and turn the solutions back."""
-        from dh2urdf.kernels.reverse import invert_poses, turn_back
+        from dh2urdf.kernels.certificate.reverse import invert_poses, turn_back
 
         inverse_poses = np.empty_like(Ts)
         invert_poses(Ts, inverse_poses)

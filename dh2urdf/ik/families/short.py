@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.outputs import IntArray, Outputs
-from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]
@@ -69,7 +69,7 @@ class ShortChain(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains import solve_short_chains
+        from dh2urdf.kernels.short_chains.poses import solve_short_chains
 
         return solve_short_chains  # type: ignore[no-any-return]
 
@@ -119,8 +119,8 @@ class ShortChain(SolverBase):
 
     def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
         """How well a cut of the loop finds random configurations."""
-        from dh2urdf.kernels import short_loop
-        from dh2urdf.kernels.short_chains import close_loop
+        from dh2urdf.kernels.short_chains import loop as short_loop
+        from dh2urdf.kernels.short_chains.poses import close_loop
 
         rng = np.random.default_rng(1)
         loop, columns, M, pose = (
@@ -164,7 +164,7 @@ class ShortChain(SolverBase):
 
 def _loop_links(links: Array, unit: float) -> Array:
     """Dual quaternions of the links between the joints, and a row for the closing one, (n, 8)."""
-    from dh2urdf.kernels.dual_quaternions import dual_of_pose
+    from dh2urdf.kernels.numbers.dual_quaternions import dual_of_pose
 
     loop = np.zeros((len(links) - 1, 8))
     for row, link in zip(loop[:-1], links[1:-1], strict=True):

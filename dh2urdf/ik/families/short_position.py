@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortPosition", "axis_frames"]
@@ -39,7 +39,7 @@ class ShortPosition(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_position import solve_short_positions
+        from dh2urdf.kernels.short_chains.position import solve_short_positions
 
         return solve_short_positions  # type: ignore[no-any-return]
 

@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.geometry import AxisLines, DHForm, moves_freely
-from dh2urdf.ik.limits import plain_ranges
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
+from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely
+from dh2urdf.ik.arm.limits import plain_ranges
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
@@ -88,8 +88,8 @@ class SphericalWrist(SolverBase):
     @cached_property
     def kernel(self) -> BatchKernel:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.spherical_wrist import solve_sliding_arm, solve_turning_arm
-        from dh2urdf.kernels.spherical_wrist_blocks import solve_common_wrist
+        from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
+        from dh2urdf.kernels.spherical_wrist.poses import solve_sliding_arm, solve_turning_arm
 
         if self.chain.prismatic.any():
             return solve_sliding_arm  # type: ignore[no-any-return]

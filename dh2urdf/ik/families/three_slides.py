@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeSlides"]
@@ -34,7 +34,7 @@ class ThreeSlides(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.three_slides import solve_three_slides
+        from dh2urdf.kernels.short_chains.three_slides import solve_three_slides
 
         return solve_three_slides  # type: ignore[no-any-return]
 

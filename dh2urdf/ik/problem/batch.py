@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.outputs import IntArray, Outputs
-from dh2urdf.ik.solutions import IKSolutions
+from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.problem.solutions import IKSolutions
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.problem import Problem
+    from dh2urdf.ik.problem.problem import Problem
     from dh2urdf.transforms import Array
 
 __all__ = ["IKBatch"]

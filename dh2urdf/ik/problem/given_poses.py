@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.doors import flag, real_array
 from dh2urdf.exceptions import PoseError
-from dh2urdf.ik.solver import Task
+from dh2urdf.ik.arm.solver import Task
 from dh2urdf.poses import POSE, check_pose, rounded_off
 from dh2urdf.transforms import Array
 

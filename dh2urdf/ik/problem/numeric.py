@@ -16,10 +16,10 @@ from dh2urdf.bounds import STARTS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, generator, integer
 from dh2urdf.exceptions import NoSolutionError
-from dh2urdf.ik.chain_unit import in_own_unit, lengths_in
-from dh2urdf.ik.given_poses import one_pose
-from dh2urdf.ik.solutions import as_configuration
-from dh2urdf.ik.solver import Task
+from dh2urdf.ik.arm.chain_unit import in_own_unit, lengths_in
+from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.problem.given_poses import one_pose
+from dh2urdf.ik.problem.solutions import as_configuration
 from dh2urdf.transforms import Array
 
 __all__ = ["NumericProblem", "NumericSolutions"]
@@ -127,7 +127,7 @@ class NumericProblem:
         nearest: bool = False,
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
-        from dh2urdf.kernels.arrange import measure_all
+        from dh2urdf.kernels.certificate.arrange import measure_all
 
         wanted = Task(choice(task, "task", tuple(Task)))
         given, change = one_pose(T, wanted, nearest)
@@ -164,7 +164,7 @@ class NumericProblem:
         rng: np.random.Generator,
     ) -> tuple[Array, int]:
         """Configurations (k, n) that reach a pose, nearest to a seed first; starts that it took."""
-        from dh2urdf.kernels.numeric import find_solutions
+        from dh2urdf.kernels.certificate.numeric import find_solutions
 
         n = len(self.lower)
         bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)

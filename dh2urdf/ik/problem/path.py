@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.doors import number
-from dh2urdf.ik import limits
-from dh2urdf.ik.families import Family
-from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.tolerances import PATH_JUMP
+from dh2urdf.ik.arm.limits import TWO_PI, middle, turn_counts, turned_to
+from dh2urdf.ik.arm.singular_families import Family
+from dh2urdf.ik.arm.tolerances import PATH_JUMP
+from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.transforms import Array
 
 __all__ = ["IKPath", "PathFinder", "Stage"]
@@ -142,15 +142,15 @@ class PathFinder:
         if self.origin is not None:
             q = self.problem.arranged(found, self.origin, self.within_limits).q
             return Stage(pose, q, np.linalg.norm(q - self.origin, axis=1), np.zeros(len(q), int))
-        few = 0 < limits.turn_counts(self.chain, found.q).sum() <= MOST_STATES
+        few = 0 < turn_counts(self.chain, found.q).sum() <= MOST_STATES
         q = self.problem.with_all_turns(found).q if few else found.q
-        wound = np.linalg.norm(q - limits.middle(self.chain), axis=1)
+        wound = np.linalg.norm(q - middle(self.chain), axis=1)
         return Stage(pose, q, UNWOUND * wound, np.zeros(len(q), int))
 
     def next(self, last: Stage, pose: int) -> Stage:
         """Every way on from the last stage; for each configuration the cheapest."""
         targets = self.targets(last, pose)
-        q = limits.turned_to(self.chain, targets[None], last.q[:, None])
+        q = turned_to(self.chain, targets[None], last.q[:, None])
         cost = last.cost[:, None] + self.step_costs(q - last.q[:, None])
         order = np.argsort(cost, axis=None, kind="stable")
         _, first = np.unique(_turn_keys(q, targets).ravel()[order], return_index=True)
@@ -194,7 +194,7 @@ def trace(stages: list[Stage], state: int) -> Array:
 
 def _turn_keys(q: Array, targets: Array) -> Array:
     """One number for each target and its turns, of configurations q (f, k, n), shape (f, k)."""
-    turns = np.round((q - targets) / limits.TWO_PI)
+    turns = np.round((q - targets) / TWO_PI)
     keys: Array = np.arange(float(len(targets))) + turns @ (
         len(targets) * 64.0 ** np.arange(q.shape[2])
     )

@@ -12,20 +12,20 @@ import numpy as np
 from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik import limits
-from dh2urdf.ik.batch import IKBatch
-from dh2urdf.ik.families import Family, slide_to_seed, task_error
-from dh2urdf.ik.held_solver import HeldSolver
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.part_chains import hold
-from dh2urdf.ik.shortfall import beyond_limits, shortfall
-from dh2urdf.ik.solutions import (
+from dh2urdf.ik.arm.limits import all_turns, inside, middle, turn_counts
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.part_chains import hold
+from dh2urdf.ik.arm.singular_families import Family, slide_to_seed, task_error
+from dh2urdf.ik.arm.solver import Solver, Task
+from dh2urdf.ik.arm.tolerances import ACCEPT, LIMIT_SLACK
+from dh2urdf.ik.problem.batch import IKBatch
+from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
+from dh2urdf.ik.problem.solutions import (
     IKSolutions,
     branch_words_of,
     joints_of_mask,
 )
-from dh2urdf.ik.solver import Solver, Task
-from dh2urdf.ik.tolerances import ACCEPT, LIMIT_SLACK
+from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
 __all__ = ["ForwardKinematics", "Problem", "Progress"]
@@ -81,7 +81,7 @@ class Problem:
         self.branch_words = branch_words_of(solver)
         self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
-        from dh2urdf.kernels.poses import first_bad_pose
+        from dh2urdf.kernels.numbers.poses import first_bad_pose
 
         self.first_bad_pose: Callable[[Array], int] = first_bad_pose
 
@@ -132,7 +132,7 @@ class Problem:
 
     def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
         """Fill the arrays of a part of a batch; the number of its poses."""
-        from dh2urdf.kernels.poses import pad_solutions
+        from dh2urdf.kernels.numbers.poses import pad_solutions
 
         out = Outputs(part.q, part.residual, part.count, part.branch_code, part.free_mask)
         if self.values is None:
@@ -154,8 +154,8 @@ class Problem:
         if not within_limits:
             return found
         q, keep = found.q.copy(), np.ones(len(found), np.bool_)
-        middle = limits.middle(self.chain)
-        for k in np.flatnonzero(~limits.inside(self.chain, q)):
+        middle = middle(self.chain)
+        for k in np.flatnonzero(~inside(self.chain, q)):
             family = Family(self.chain, self.task, found.T, found.free_joints[k], q[k])
             member = family.nearest(middle, within_limits=True)
             keep[k] = member is not None
@@ -164,7 +164,7 @@ class Problem:
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
-        from dh2urdf.kernels.arrange import measure_and_sort, turn_to
+        from dh2urdf.kernels.certificate.arrange import measure_and_sort, turn_to
 
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
@@ -188,7 +188,7 @@ class Problem:
         ArgumentError
             There are more than ``bounds.TURNS``.
         """
-        counts = limits.turn_counts(self.chain, found.q)
+        counts = turn_counts(self.chain, found.q)
         total = int(counts.sum())
         if total > TURNS:
             raise ArgumentError(
@@ -197,7 +197,7 @@ class Problem:
             )
         if not total:
             return found
-        turns = [limits.all_turns(self.chain, q) for q in found.q]
+        turns = [all_turns(self.chain, q) for q in found.q]
         rows = np.repeat(np.arange(len(found)), [len(t) for t in turns])
         all_of_them = self._accepted(self._at(found.select(rows), np.concatenate(turns)))
         if seed is None:
@@ -219,7 +219,7 @@ class Problem:
 
     def measured(self, Ts: Array, q: Array, count: Any, residual: Array) -> None:
         """Measure q (m, k, n), the first ``count[i]`` of pose Ts[i], into residual (m, k)."""
-        from dh2urdf.kernels.arrange import measure_all
+        from dh2urdf.kernels.certificate.arrange import measure_all
 
         measure_all(*self.chain.tables, self.task.number, Ts, q, count, residual)
 

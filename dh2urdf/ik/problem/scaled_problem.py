@@ -1,7 +1,7 @@
 """The border of an arm that is solved in a unit of its own: metres outside.
 
-Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.chain_unit`; what comes out is in [m],
-and its residuals are measured there.
+Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chain_unit`; what comes out is in
+[m], and its residuals are measured there.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.batch import IKBatch
-from dh2urdf.ik.chain_unit import lengths_in
-from dh2urdf.ik.held_solver import HeldSolver
-from dh2urdf.ik.path import IKPath
-from dh2urdf.ik.problem import Problem, Progress
-from dh2urdf.ik.solutions import IKSolutions
-from dh2urdf.ik.swept_path import find_path
-from dh2urdf.ik.swept_problem import SweptProblem
+from dh2urdf.ik.arm.chain_unit import lengths_in
+from dh2urdf.ik.problem.batch import IKBatch
+from dh2urdf.ik.problem.path import IKPath
+from dh2urdf.ik.problem.problem import Problem, Progress
+from dh2urdf.ik.problem.solutions import IKSolutions
+from dh2urdf.ik.problem.swept_path import find_path
+from dh2urdf.ik.problem.swept_problem import SweptProblem
+from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
 __all__ = ["ScaledProblem"]

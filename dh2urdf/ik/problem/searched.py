@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.redundancy import TRIALS, random_configurations
-from dh2urdf.ik.shortfall import nearly_reaching
-from dh2urdf.ik.solutions import branch_words_of
-from dh2urdf.ik.solver import Solver, Task
-from dh2urdf.ik.tolerances import NO_RANK, SLACK, WEAK_RANK
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.singular_families import task_jacobian
+from dh2urdf.ik.arm.solver import Solver, Task
+from dh2urdf.ik.arm.tolerances import NO_RANK, SLACK, WEAK_RANK
+from dh2urdf.ik.problem.shortfall import nearly_reaching
+from dh2urdf.ik.problem.solutions import branch_words_of
+from dh2urdf.ik.redundant.redundancy import TRIALS, random_configurations
 from dh2urdf.transforms import Array
 
 __all__ = ["SearchedSolver", "hardly_moves"]
@@ -50,7 +50,7 @@ class SearchedSolver:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
-        from dh2urdf.kernels.finish import finish_batch
+        from dh2urdf.kernels.certificate.finish import finish_batch
 
         self.inner.solve_batch(Ts, within_limits, out)
         for i in np.flatnonzero(out.counts == 0):

@@ -12,10 +12,10 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.families import task_error, task_jacobian
-from dh2urdf.ik.geometry import AxisLines
-from dh2urdf.ik.solver import Task
-from dh2urdf.ik.tolerances import ACCEPT
+from dh2urdf.ik.arm.geometry import AxisLines
+from dh2urdf.ik.arm.singular_families import task_error, task_jacobian
+from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.tolerances import ACCEPT
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["beyond_limits", "closest", "shortfall"]
@@ -106,7 +106,7 @@ def nearly_reaching(
 
 def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
     """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
-    from dh2urdf.kernels.chain import chain_fk_batch
+    from dh2urdf.kernels.chain.forward import chain_fk_batch
 
     poses = np.empty((len(q), 4, 4))
     chain_fk_batch(chain.links, chain.prismatic, q, poses)

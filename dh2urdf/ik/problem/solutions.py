@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.doors import finite_array
 from dh2urdf.exceptions import ConfigurationError, NoSolutionError
-from dh2urdf.ik.outputs import IntArray, Outputs
+from dh2urdf.ik.arm.outputs import IntArray, Outputs
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.problem import Problem
+    from dh2urdf.ik.problem.problem import Problem
     from dh2urdf.transforms import Array
 
 __all__ = ["IKSolutions", "IntArray", "branch_name", "branch_words_of", "joints_of_mask"]

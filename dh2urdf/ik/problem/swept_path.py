@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.ik.path import BREAK, MOST_STATES, IKPath, PathFinder, Stage, trace
-from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.swept_problem import SweptProblem
+from dh2urdf.ik.problem.path import BREAK, MOST_STATES, IKPath, PathFinder, Stage, trace
+from dh2urdf.ik.problem.problem import Problem
+from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.transforms import Array
 
 __all__ = ["find_path"]
@@ -33,7 +33,7 @@ EQUAL = 1e-3
 def find_path(
     problem: Problem, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
 ) -> IKPath:
-    """The path of least joint motion through poses, see :class:`dh2urdf.ik.path.PathFinder`."""
+    """The path of least joint motion through poses, see :class:`.PathFinder`."""
     if isinstance(problem, SweptProblem):
         return SweptPath(problem, Ts, start, within_limits, max_jump).find()
     return PathFinder(problem, Ts, start, within_limits, max_jump).find()
@@ -53,7 +53,7 @@ class SweptPath(PathFinder):
 
     def next(self, last: Stage, pose: int) -> Stage:
         """The last stage's states where they follow the arm, and the samples, one for a cell."""
-        from dh2urdf.kernels.path_states import onward
+        from dh2urdf.kernels.redundant.path_states import onward
 
         samples = self.batch.solutions(pose).q
         q = np.concatenate([last.q, samples])
@@ -105,7 +105,7 @@ class SweptPath(PathFinder):
 
     def _shorten(self, poses: Array, q: Array, jump: float) -> float:
         """Shorten a path (m, n) through some poses in place; its length."""
-        from dh2urdf.kernels.shorten import shorten
+        from dh2urdf.kernels.redundant.shorten import shorten
 
         if not np.isfinite(q).all():
             return np.inf
@@ -115,7 +115,7 @@ class SweptPath(PathFinder):
 
     def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
         """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
-        from dh2urdf.kernels.path_states import onward
+        from dh2urdf.kernels.redundant.path_states import onward
 
         every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.ik import limits
-from dh2urdf.ik.problem import Problem
-from dh2urdf.ik.self_motion import nearest_members, reach_intervals
-from dh2urdf.ik.solutions import IKSolutions
-from dh2urdf.ik.swept import SweptJoint
+from dh2urdf.ik.arm.limits import turned_to
+from dh2urdf.ik.problem.problem import Problem
+from dh2urdf.ik.problem.solutions import IKSolutions
+from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals
+from dh2urdf.ik.redundant.swept import SweptJoint
 from dh2urdf.transforms import Array
 
 __all__ = ["SweptProblem"]
@@ -22,7 +22,7 @@ class SweptProblem(Problem):
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The nearest members to the seed (n,) on all self-motions, then the samples."""
         near = nearest_members(self.solver, found.T, seed, within_limits)
-        q = np.concatenate([near, limits.turned_to(self.chain, found.q, seed)])
+        q = np.concatenate([near, turned_to(self.chain, found.q, seed)])
         order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
         branch, free = found.codes
         arranged = IKSolutions.of(

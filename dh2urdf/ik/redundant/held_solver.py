@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain, settled_state
-from dh2urdf.ik.outputs import Outputs
+from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.transforms import Array
 
 __all__ = ["HeldSolver"]
@@ -36,7 +36,7 @@ class HeldSolver:
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held values (m, h) [rad] or [m].
 
-        Outputs as in :class:`dh2urdf.ik.solver.Solver`, with all joints of the chain.
+        Outputs as in :class:`dh2urdf.ik.arm.solver.Solver`, with all joints of the chain.
         """
         raise NotImplementedError
 

@@ -15,14 +15,14 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.held import HeldJoints
-from dh2urdf.ik.limits import near_ranges
-from dh2urdf.ik.numeric import NumericProblem
-from dh2urdf.ik.outputs import IntArray, Outputs
-from dh2urdf.ik.part_chains import hold
-from dh2urdf.ik.solver import SolverBase, Task
-from dh2urdf.ik.tolerances import FAMILY_RANK, SPARE_RANK
+from dh2urdf.ik.arm.limits import near_ranges
+from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.arm.part_chains import hold
+from dh2urdf.ik.arm.singular_families import task_jacobian
+from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.arm.tolerances import FAMILY_RANK, SPARE_RANK
+from dh2urdf.ik.problem.numeric import NumericProblem
+from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.transforms import Array
 
 __all__ = ["RedundantChain", "spare_joints"]

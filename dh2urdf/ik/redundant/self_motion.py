@@ -11,10 +11,10 @@ import numpy as np
 
 from dh2urdf.bounds import SAMPLES
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik import limits
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.swept import SweptJoint, sample_values
-from dh2urdf.ik.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
+from dh2urdf.ik.arm.limits import TWO_PI, middle, turned_to
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
+from dh2urdf.ik.redundant.swept import SweptJoint, sample_values
 from dh2urdf.transforms import Array
 
 __all__ = ["few_members", "inside_members", "nearest_members", "reach_intervals"]
@@ -59,9 +59,9 @@ def few_members(
     solver.solve_at(values, np.array(T[None]), within_limits, outputs)
     q = outputs.q[0, : outputs.counts[0]]
     if not len(q) and within_limits:
-        q = inside_members(solver, T, limits.middle(chain), most, FEW)
+        q = inside_members(solver, T, middle(chain), most, FEW)
     elif not len(q):
-        q = limits.turned_to(chain, _on_curves(solver, T, FEW), limits.middle(chain))
+        q = turned_to(chain, _on_curves(solver, T, FEW), middle(chain))
     kept: list[int] = []
     for k in range(len(q)):
         if len(kept) < most and all(np.abs(q[k] - q[j]).max() > APART for j in kept):
@@ -71,8 +71,8 @@ def few_members(
 
 def _measured(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
-    from dh2urdf.kernels.arrange import measure_all
-    from dh2urdf.kernels.damped import POSE
+    from dh2urdf.kernels.certificate.arrange import measure_all
+    from dh2urdf.kernels.certificate.damped import POSE
 
     q, residual, count = np.ascontiguousarray(q), np.empty(len(q)), np.array([len(q)])
     measure_all(solver.links, solver.joints, POSE, T[None], q[None], count, residual[None])
@@ -99,12 +99,12 @@ def inside_members(
     values : int
         Values of each joint at which curves are looked for.
     """
-    from dh2urdf.kernels.self_motion import enter_limits
+    from dh2urdf.kernels.redundant.self_motion import enter_limits
 
     chain = solver.chain
-    q = limits.turned_to(chain, _on_curves(solver, T, values), goal)
+    q = turned_to(chain, _on_curves(solver, T, values), goal)
     outside = (q < chain.lower - LIMIT_SLACK) | (q > chain.upper + LIMIT_SLACK)
-    other_turn = np.where(outside, limits.turned_to(chain, q, limits.middle(chain)), q)
+    other_turn = np.where(outside, turned_to(chain, q, middle(chain)), q)
     q = np.concatenate([q, other_turn[np.any(other_turn != q, axis=1)]])
     clipped = np.clip(q, chain.lower, chain.upper)
     excess = np.abs(q - clipped).max(axis=1, initial=0.0)
@@ -145,14 +145,14 @@ def nearest_members(solver: SweptJoint, T: Array, seed: Array, within_limits: bo
     array, shape (k, n)
         Nearest first; the first is the nearest of all, on every curve that was found.
     """
-    from dh2urdf.kernels import self_motion
-    from dh2urdf.kernels.damped import POSE
+    from dh2urdf.kernels.certificate.damped import POSE
+    from dh2urdf.kernels.redundant import self_motion
 
     chain = solver.chain
     if within_limits:
         q = inside_members(solver, T, seed, STARTS)
     else:
-        q = limits.turned_to(chain, _on_curves(solver, T, VALUES), seed)
+        q = turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
     q = np.ascontiguousarray(q[:STARTS])
     self_motion.nearest_members(
@@ -183,7 +183,7 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
     values = _grid(solver, within_limits)
     reached = _reached(solver, T, values, within_limits)
     if within_limits:
-        middle = limits.middle(solver.chain)
+        middle = middle(solver.chain)
         extra = inside_members(solver, T, middle, 16 * VALUES)[:, solver.joint]
         extra = _every_turn(solver, extra[_reached(solver, T, extra, True)])
         values = np.concatenate([values, extra])
@@ -204,9 +204,9 @@ def _every_turn(solver: SweptJoint, values: Array) -> Array:
     lower, upper = solver.joints[solver.joint, 1:]
     if solver.joints[solver.joint, 0] or not np.isfinite(upper - lower):
         return values
-    most = np.ceil((upper - lower) / limits.TWO_PI)
+    most = np.ceil((upper - lower) / TWO_PI)
     turns = np.arange(-most, most + 1.0)
-    every = (values[:, None] + limits.TWO_PI * turns).ravel()
+    every = (values[:, None] + TWO_PI * turns).ravel()
     inside: Array = every[(lower <= every) & (every <= upper)]
     return inside
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.families import task_jacobian
-from dh2urdf.ik.held_solver import HeldSolver
-from dh2urdf.ik.held_values import select_held
-from dh2urdf.ik.held_wrist import HeldWrist
-from dh2urdf.ik.limits import near_ranges
-from dh2urdf.ik.outputs import Outputs
-from dh2urdf.ik.solver import SolverBase, Task
+from dh2urdf.ik.arm.limits import near_ranges
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.singular_families import task_jacobian
+from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.redundant.held_solver import HeldSolver
+from dh2urdf.ik.redundant.held_values import select_held
+from dh2urdf.ik.redundant.held_wrist import HeldWrist
 from dh2urdf.transforms import Array
 
 __all__ = ["SAMPLES", "SweptJoint", "sample_values"]
@@ -116,7 +116,7 @@ class SweptJoint(SolverBase):
         self.solve_at(values, Ts, within_limits, out)
         missed = np.flatnonzero(out.counts == 0)
         if len(missed):
-            from dh2urdf.ik.self_motion import few_members
+            from dh2urdf.ik.redundant.self_motion import few_members
 
             for i in missed:
                 q, residual = few_members(self, Ts[i], within_limits, self.kmax)
@@ -126,7 +126,7 @@ class SweptJoint(SolverBase):
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
-        from dh2urdf.kernels.sweep import gather_samples, spread_samples
+        from dh2urdf.kernels.redundant.sweep import gather_samples, spread_samples
 
         samples = len(values)
         step = max(1, min(len(Ts), BLOCK // samples))

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import TWO_PI
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
-from dh2urdf.kernels.polish import pose_residual
+from dh2urdf.kernels.certificate.certify import TWO_PI
+from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
+from dh2urdf.kernels.certificate.polish import pose_residual
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 
 __all__ = ["measure_all", "measure_and_sort", "turn_to"]
 
@@ -82,9 +82,9 @@ def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
     Parameters
     ----------
     links, joints
-        The chain, see :mod:`dh2urdf.kernels.certify`.
+        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
     task : int
-        What of the pose counts, see :mod:`dh2urdf.kernels.damped`.
+        What of the pose counts, see :mod:`dh2urdf.kernels.certificate.damped`.
     T : array, shape (4, 4)
     seed : array, shape (n,)
     q : array, shape (k, n)

@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.chain import _joint_times_link, _load
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.polish import residual_of, turn_between
+from dh2urdf.kernels.certificate.polish import residual_of, turn_between
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
+from dh2urdf.kernels.numbers.compiled import inner_kernel
 
 __all__ = [
     "POSE",
@@ -54,11 +54,11 @@ def pose_and_jacobian(links, joints, T, q, unit, damped):
     """
     J, _, e, _ = damped
     n = q.shape[0]
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(n):
         J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
         J[i, 3], J[i, 4], J[i, 5] = r[2], r[6], r[10]
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     ex, ey, ez, trace = turn_between(r, T)
     if trace < 1.0:
         size = max(math.sqrt(ex * ex + ey * ey + ez * ez), 1e-6)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ANYWHERE, finish_pose
-from dh2urdf.kernels.compiled import kernel
-from dh2urdf.kernels.families import free_joints
-from dh2urdf.kernels.merging import merge_solutions
+from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
+from dh2urdf.kernels.certificate.families import free_joints
+from dh2urdf.kernels.certificate.merging import merge_solutions
+from dh2urdf.kernels.numbers.compiled import kernel
 
 __all__ = ["finish_batch"]
 
@@ -19,11 +19,11 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
     Parameters
     ----------
     links, joints
-        The exact chain, see :mod:`dh2urdf.kernels.certify`.
+        The exact chain, see :mod:`dh2urdf.kernels.certificate.certify`.
     Ts : array, shape (m, 4, 4)
     within_limits : bool
     q, residual, count, branch, free
-        As in :class:`dh2urdf.ik.solver.Solver`; branches become -1.
+        As in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
     """
     n = q.shape[2]
     work, trial = np.empty((n, n + 8)), np.empty((2, n))

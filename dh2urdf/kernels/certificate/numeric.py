@@ -15,8 +15,8 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI
-from dh2urdf.kernels.damped import (
+from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI
+from dh2urdf.kernels.certificate.damped import (
     add_transposed,
     make_damped,
     pose_and_jacobian,
@@ -132,7 +132,7 @@ def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, start
     Parameters
     ----------
     links, joints
-        The chain, see :mod:`dh2urdf.kernels.certify`.
+        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
     coupling : array, shape (chain.n, n)
     offset : array, shape (chain.n,)
     bounds : array, shape (n, 3)

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.kernels.chain import _joint_times_link, _load
-from dh2urdf.kernels.compiled import helper_kernel, inner_kernel
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
+from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel
 
 __all__ = [
     "HOPELESS",
@@ -86,9 +86,9 @@ def turn_between(r, T):
 @inner_kernel
 def pose_residual(links, joints, T, q):
     """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(q.shape[0]):
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     return residual_of(r, T)
 
 
@@ -100,11 +100,11 @@ def normal_equations(links, joints, T, q, work):
     ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
     """
     n = q.shape[0]
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(n):
         work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
         work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     ex, ey, ez, _ = turn_between(r, T)
     px, py, pz = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
     for i in range(n):

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numba import njit
 
-from dh2urdf.kernels.chain_lanes import BLOCK, ROWS, fits, lanes_fk
-from dh2urdf.kernels.compiled import helper_kernel
+from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
+from dh2urdf.kernels.numbers.compiled import helper_kernel
 
 __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_batch"]
 
@@ -60,7 +60,7 @@ def _times_link(r, link):
 
 
 @helper_kernel
-def _joint_times_link(r, slides, q, link):
+def joint_times_link(r, slides, q, link):
     """``R Z(q) link`` of a pose held in twelve scalars."""
     return _times_link(_times_joint(r, slides, q), link)
 
@@ -72,13 +72,13 @@ def _load_row(link, i):
 
 
 @helper_kernel
-def _load(link):
+def load_pose(link):
     """The twelve scalars of a pose."""
     return _load_row(link, 0) + _load_row(link, 1) + _load_row(link, 2)
 
 
 @helper_kernel
-def _store(r, T):
+def store_pose(r, T):
     """Write twelve scalars as a homogeneous matrix."""
     T[0, 0], T[0, 1], T[0, 2], T[0, 3] = r[0], r[1], r[2], r[3]
     T[1, 0], T[1, 1], T[1, 2], T[1, 3] = r[4], r[5], r[6], r[7]
@@ -89,10 +89,10 @@ def _store(r, T):
 @njit(cache=True, nogil=True)
 def chain_fk(links, prismatic, q, T):
     """``T_base_tool`` of one configuration q (n,), written to T (4, 4)."""
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(q.shape[0]):
-        r = _joint_times_link(r, prismatic[i], q[i], links[i + 1])
-    _store(r, T)
+        r = joint_times_link(r, prismatic[i], q[i], links[i + 1])
+    store_pose(r, T)
 
 
 @njit(cache=True, nogil=True)
@@ -119,11 +119,11 @@ def chain_frames_batch(links, prismatic, frames, q, T):
     ``T[:, 0] = frames[0]`` in base; ``T[:, i] = (pose after Z_i) frames[i]``.
     """
     for k in range(q.shape[0]):
-        _store(_load(frames[0]), T[k, 0])
-        r = _load(links[0])
+        store_pose(load_pose(frames[0]), T[k, 0])
+        r = load_pose(links[0])
         for i in range(q.shape[1]):
             r = _times_joint(r, prismatic[i], q[k, i])
-            _store(_times_link(r, frames[i + 1]), T[k, i + 1])
+            store_pose(_times_link(r, frames[i + 1]), T[k, i + 1])
             r = _times_link(r, links[i + 1])
 
 
@@ -137,11 +137,11 @@ def chain_jacobian_batch(links, prismatic, q, J):
     """
     n = q.shape[1]
     for k in range(q.shape[0]):
-        r = _load(links[0])
+        r = load_pose(links[0])
         for i in range(n):
             J[k, 0, i], J[k, 1, i], J[k, 2, i] = r[3], r[7], r[11]
             J[k, 3, i], J[k, 4, i], J[k, 5, i] = r[2], r[6], r[10]
-            r = _joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
+            r = joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
         for i in range(n):
             zx, zy, zz = J[k, 3, i], J[k, 4, i], J[k, 5, i]
             if prismatic[i]:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.chain import _joint_times_link, _load, _store
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 
 __all__ = ["held_links", "held_pose", "held_poses", "insert_held", "insert_held_batch"]
 
@@ -23,7 +23,7 @@ def held_links(links, slides, k, value, out):
         for a in range(4):
             for b in range(4):
                 out[i, a, b] = links[source, a, b]
-    _store(_joint_times_link(_load(links[k]), slides, value, links[k + 1]), out[k])
+    store_pose(joint_times_link(load_pose(links[k]), slides, value, links[k + 1]), out[k])
 
 
 @inner_kernel

@@ -19,9 +19,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.kernels.arm_6r import ARM_6R, MOST
-from dh2urdf.kernels.general_6r_follow import accounted, follow, isolated
-from dh2urdf.kernels.general_6r_roots import (
+from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST
+from dh2urdf.kernels.general_6r.follow import accounted, follow, isolated
+from dh2urdf.kernels.general_6r.roots import (
     eliminate,
     find_roots,
     nudge,
@@ -29,7 +29,7 @@ from dh2urdf.kernels.general_6r_roots import (
     prepare,
     simple_roots,
 )
-from dh2urdf.kernels.lanes import entry_kernel, inlined
+from dh2urdf.kernels.numbers.lanes import entry_kernel, inlined
 
 __all__ = ["Arm", "plan_general_6r", "replan_general_6r", "solve_general_6r"]
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.arc_roots import (
+from dh2urdf.kernels.general_6r.arc_roots import (
     ARC,
     ARC_TAN,
     CIRCLE_COS,
@@ -21,16 +21,16 @@ from dh2urdf.kernels.arc_roots import (
     window_arc,
     window_nodes,
 )
-from dh2urdf.kernels.arm_6r import OWN
-from dh2urdf.kernels.elimination import (
+from dh2urdf.kernels.general_6r.arm import OWN
+from dh2urdf.kernels.general_6r.elimination import (
     close_loop,
     left_coefficients,
     reduce_right,
     right_coefficients,
     six_equations,
 )
-from dh2urdf.kernels.lanes import LANES, inlined, vector_kernel
-from dh2urdf.kernels.resultant import resultants
+from dh2urdf.kernels.general_6r.resultant import resultants
+from dh2urdf.kernels.numbers.lanes import LANES, inlined, vector_kernel
 
 __all__ = ["eliminate", "find_roots", "nudge", "place_target", "prepare", "simple_roots"]
 

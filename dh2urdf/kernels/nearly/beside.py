@@ -10,11 +10,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import CLUSTER, NO_JOINT, principal, same
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped
-from dh2urdf.kernels.families import null_direction, work_array
-from dh2urdf.kernels.polish import MAX_TURN, POLISH, normal_equations, pose_residual
+from dh2urdf.kernels.certificate.certify import CLUSTER, NO_JOINT, principal, same
+from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
+from dh2urdf.kernels.certificate.families import null_direction, work_array
+from dh2urdf.kernels.certificate.polish import MAX_TURN, POLISH, normal_equations, pose_residual
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 
 __all__ = ["search_beside"]
 
@@ -89,7 +89,7 @@ def _is_known(joints, q, count, p):
 def search_beside(links, joints, Ts, q, count):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4).
 
-    ``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certify`; six turning joints.
+    ``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certificate.certify`; six turning joints.
     """
     start, trial, work = np.empty(6), np.empty(6), work_array(6)
     A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)

@@ -11,16 +11,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels import spherical_wrist, three_parallel
-from dh2urdf.kernels.certify import ACCEPT, ANYWHERE, finish_pose
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, error_and_jacobian, make_damped, solve_damped
-from dh2urdf.kernels.parallel_pairs import outer_pairs
-from dh2urdf.kernels.parallel_plane import last_joint
-from dh2urdf.kernels.polish import polish
-from dh2urdf.kernels.position_arm import place_wrist, tool_to_wrist
-from dh2urdf.kernels.spherical_wrist import add_wrist
-from dh2urdf.kernels.three_parallel import _slope_of_last, add_pairs
+from dh2urdf.kernels.certificate.certify import ACCEPT, ANYWHERE, finish_pose
+from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped, solve_damped
+from dh2urdf.kernels.certificate.polish import polish
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.parallel_axes import poses as three_parallel
+from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
+from dh2urdf.kernels.parallel_axes.plane import last_joint
+from dh2urdf.kernels.parallel_axes.poses import slope_of_last, add_pairs
+from dh2urdf.kernels.spherical_wrist import poses as spherical_wrist
+from dh2urdf.kernels.spherical_wrist.poses import add_wrist
+from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist, tool_to_wrist
 
 __all__ = ["add_candidates", "solve_near_parallel", "solve_near_wrist"]
 
@@ -74,7 +75,7 @@ def _in_line(form, first, pairs, slack, D, pair, cs, regular):
         cs[outer, 0], cs[outer, 1] = pair[k, 0], pair[k, 1]
         cs[4, 0], cs[4, 1] = pair[k, 2], pair[k, 3]
         if first == 1 and form[4, 0] == 0.0:
-            _slope_of_last(form, D, cs, slack)
+            slope_of_last(form, D, cs, slack)
         if last_joint(form, first, D, cs) < regular:
             return True
     return False

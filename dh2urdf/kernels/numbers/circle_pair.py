@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.trig import TINY, linear_trig, trig_roots
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers.trig import TINY, linear_trig, trig_roots
 
 __all__ = ["circle_pair"]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 
 __all__ = ["dual_conjugate", "dual_of_pose", "dual_product", "dual_times_joint"]
 

@@ -19,7 +19,7 @@ import math
 
 from numba import njit
 
-from dh2urdf.kernels.compiled import UNCACHED, VECTOR
+from dh2urdf.kernels.numbers.compiled import UNCACHED, VECTOR
 
 __all__ = [
     "COLUMN",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dh2urdf.kernels.compiled import block_kernel, kernel
+from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
 
 __all__ = ["first_bad_pose", "pad_solutions"]
 

@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.circle_pair import circle_pair
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.trig import linear_trig, real_quadratic
+from dh2urdf.kernels.numbers.circle_pair import circle_pair
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import linear_trig, real_quadratic
 
 __all__ = ["sp1", "sp2", "sp3", "sp4", "sp5", "sp6", "sp_slide1", "sp_slide2", "sp_slide3"]
 __all__ += ["sp_slide4", "sp_turn_slide"]

@@ -12,7 +12,7 @@ import math
 
 from numba import njit
 
-from dh2urdf.kernels.compiled import helper_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel, kernel
 
 __all__ = [
     "add_square",

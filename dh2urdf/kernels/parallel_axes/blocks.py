@@ -1,8 +1,8 @@
 """The UR family, vectorised: axes 2, 3, 4 parallel, the last three square to one another.
 
-The same mathematics as :mod:`dh2urdf.kernels.three_parallel`, for poses away from singularities and
-rims; all others go to the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow
-``k >> 1 & 1``, wrist ``k >> 2``.
+The same mathematics as :mod:`dh2urdf.kernels.parallel_axes.poses`, for poses away from
+singularities and rims; all others go to the scalar kernel. Solution ``k`` has shoulder ``k & 1``,
+elbow ``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
 from __future__ import annotations
@@ -11,8 +11,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.block_values import HALF_TURN, NEGATED, OWN, emit
-from dh2urdf.kernels.blocks import (
+from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
+from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
+from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     CLEAR,
     COS,
@@ -28,10 +30,8 @@ from dh2urdf.kernels.blocks import (
     measure,
     planar_arm,
 )
-from dh2urdf.kernels.compiled import block_kernel, kernel
-from dh2urdf.kernels.parallel_pairs import pairs_of_meeting
-from dh2urdf.kernels.position_arm import tool_to_wrist
-from dh2urdf.kernels.three_parallel import finish_pairs, make_scratch
+from dh2urdf.kernels.spherical_wrist.block_values import HALF_TURN, NEGATED, OWN, emit
+from dh2urdf.kernels.spherical_wrist.position_arm import tool_to_wrist
 
 __all__ = ["solve_common_parallel"]
 
@@ -146,7 +146,7 @@ def _elbows(form, slack, n, S):
 def solve_common_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
-    """:func:`dh2urdf.kernels.three_parallel.solve_three_parallel` for the common geometry."""
+    """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):

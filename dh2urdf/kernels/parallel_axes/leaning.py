@@ -1,7 +1,7 @@
 """Axis 5 in line, or nearly, with the parallel axes 1, 2, 3: the t4 and t5 that rounding leaves.
 
 With t4 off by e from where axis 5 is parallel to the three (``c4 = +-1``, ``k = sin(alpha3) c4``),
-height and slope of the pose (:mod:`dh2urdf.kernels.parallel_pairs`) become
+height and slope of the pose (:mod:`dh2urdf.kernels.parallel_axes.pairs`) become
 
     a5 k e cos(t5) = rise(e),    sin(alpha5) k e sin(t5) = slope(e).
 
@@ -15,9 +15,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import TWO_PI
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.parallel_plane import last_joint, seen_arm
+from dh2urdf.kernels.certificate.certify import TWO_PI
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm
 
 __all__ = ["MOST_ARCS", "levels", "pairs_of_leaning"]
 

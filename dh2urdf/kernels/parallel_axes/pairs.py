@@ -1,8 +1,8 @@
 """Joints outside three parallel axes: pairs of values, without the three.
 
 The height of the pose over the plane in which the three turn, and the slope of axis 6, are two
-equations in two of the other joints, see :mod:`dh2urdf.kernels.three_parallel`. Each pair is a row
-of ``pair`` (8, 5): cosine and sine of the first unknown, of t5, and whether t5 is free.
+equations in two of the other joints, see :mod:`dh2urdf.kernels.parallel_axes.poses`. Each pair is a
+row of ``pair`` (8, 5): cosine and sine of the first unknown, of t5, and whether t5 is free.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.circle_pair import circle_pair
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.leaning import levels
-from dh2urdf.kernels.position_arm import FREE
-from dh2urdf.kernels.trig import add_square, linear_trig, root_of_gap, trig_roots
+from dh2urdf.kernels.numbers.circle_pair import circle_pair
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers.trig import add_square, linear_trig, root_of_gap, trig_roots
+from dh2urdf.kernels.parallel_axes.leaning import levels
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE
 
 __all__ = ["outer_pairs", "pairs_of_meeting"]
 

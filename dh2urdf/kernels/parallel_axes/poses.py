@@ -5,8 +5,8 @@ height of the pose over that plane and the slope of axis 6 are two equations wit
 of the other joints: a subproblem 6, or 4 twice where axes 5 and 6 meet. Then axis 6 follows by
 subproblem 1, and the three are a planar RR arm with a wrist (Elias and Wen; EAIK).
 
-In Denavit-Hartenberg form (:mod:`dh2urdf.kernels.position_arm`) the parallel axes have
-alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and
+In Denavit-Hartenberg form (:mod:`dh2urdf.kernels.spherical_wrist.position_arm`) the parallel axes
+have alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and
 whether t5 is free.
 """
 
@@ -16,15 +16,15 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import copy_rows, finish_pose
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.families import free_joints
-from dh2urdf.kernels.leaning import MOST_ARCS, pairs_of_leaning
-from dh2urdf.kernels.parallel_pairs import outer_pairs
-from dh2urdf.kernels.parallel_plane import last_joint, seen_arm, seen_from_plane
-from dh2urdf.kernels.position_arm import FREE, NICE, tool_to_wrist
-from dh2urdf.kernels.spherical_wrist import middle_angle
-from dh2urdf.kernels.trig import elbow_angle
+from dh2urdf.kernels.certificate.certify import copy_rows, finish_pose
+from dh2urdf.kernels.certificate.families import free_joints
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import elbow_angle
+from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
+from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
+from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
+from dh2urdf.kernels.spherical_wrist.poses import middle_angle
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
 
 __all__ = [
     "add_pairs",
@@ -127,7 +127,7 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
 
 
 @inner_kernel
-def _slope_of_last(form, D, cs, slack):
+def slope_of_last(form, D, cs, slack):
     """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
     kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
     x = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
@@ -161,7 +161,7 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
             if first == 1:
                 shoulder = 1 if row[0] * D[0, 3] + row[1] * D[1, 3] < 0.0 else 0
                 if form[4, 0] == 0.0:
-                    wrists = _slope_of_last(form, D, cs, slack)
+                    wrists = slope_of_last(form, D, cs, slack)
             free_with = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
                 found = _add_planar(

@@ -9,7 +9,7 @@ Constants of an arm, packed for a cheap call:
 ``frames`` (30, 4, 4)
     0 to 7 links of the exact chain; 8 to 15 those of the oriented chain; 16, 17, 18 S0, S1, S2;
     19, 20 X and Y; 21 to 23 inverse of the base, inverse of the tool, tool; 24, 25 what a target
-    stands between, and 26 to 29 factors, see :mod:`dh2urdf.kernels.held_wrist_load`.
+    stands between, and 26 to 29 factors, see :mod:`dh2urdf.kernels.redundant.held_wrist_load`.
 ``which`` (5,)
     Held joint; whether it slides; whether the oriented chain is the reversed one; held joint of
     the oriented chain; which S depends on it, -1: none.
@@ -25,21 +25,21 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT, finish_pose
-from dh2urdf.kernels.chain import _joint_times_link, _load, _store
-from dh2urdf.kernels.circle_pair import circle_pair
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, make_damped, restore
-from dh2urdf.kernels.held_joint import held_links, held_pose, insert_held
-from dh2urdf.kernels.position_arm import (
+from dh2urdf.kernels.certificate.certify import ACCEPT, finish_pose
+from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
+from dh2urdf.kernels.certificate.reverse import invert_pose, reverse_joints
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.chain.held_joint import held_links, held_pose, insert_held
+from dh2urdf.kernels.numbers.circle_pair import circle_pair
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.spherical_wrist.poses import append_wrist
+from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,
     UPPER_FREE,
-    _elbow_on_axis,
+    elbow_on_axis,
     tool_to_wrist,
 )
-from dh2urdf.kernels.reverse import invert_pose, reverse_joints
-from dh2urdf.kernels.spherical_wrist import append_wrist
 
 __all__ = ["points_on_curves", "solve_held_wrist", "solve_rough"]
 
@@ -80,10 +80,10 @@ def oriented_pose(frames, which, value, T, scratch):
     tool_to_wrist(frames[ENDS:], target, D)
     for i in range(3):
         if i == which[VARIES]:
-            r = _joint_times_link(_load(frames[BEFORE]), slides, value, frames[AFTER])
-            _store(r, S[i])
+            r = joint_times_link(load_pose(frames[BEFORE]), slides, value, frames[AFTER])
+            store_pose(r, S[i])
         else:
-            _store(_load(frames[LINK + i]), S[i])
+            store_pose(load_pose(frames[LINK + i]), S[i])
 
 
 @inner_kernel
@@ -92,7 +92,7 @@ def _place_wrist(form, D, S, slack, scratch):
 
     Seen from axis 2, ``y(q1) = S0^-1 Z1^-1 p`` and ``u(q3) = S1 Z3 w`` have one height and one
     length: a subproblem 6 in q1 and q3. Subproblem 1 gives q2. The rows are as in
-    :mod:`dh2urdf.kernels.position_arm`, without names of branches.
+    :mod:`dh2urdf.kernels.spherical_wrist.position_arm`, without names of branches.
     """
     arm, equations, series, pairs = scratch[4], scratch[8], scratch[9], scratch[10]
     M, N, d = equations[0], equations[1], equations[2, 0]
@@ -115,7 +115,7 @@ def _place_wrist(form, D, S, slack, scratch):
     d[1] -= square + pz * pz + tx * tx + ty * ty + tz * tz - 2.0 * tz * pz
     free = square <= FREE * FREE
     if free:
-        count = _elbow_on_axis(N, d, 0.0, slack, pairs)
+        count = elbow_on_axis(N, d, 0.0, slack, pairs)
     else:
         count = circle_pair(M, N, d, slack, series, pairs)
     for k in range(count):

@@ -12,9 +12,18 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, COS, DIRTY, MASK, MERGED, TURN, VALID, at
-from dh2urdf.kernels.compiled import block_kernel
-from dh2urdf.kernels.held_wrist_load import LOADED, UPPER
+from dh2urdf.kernels.numbers.compiled import block_kernel
+from dh2urdf.kernels.redundant.held_wrist_load import LOADED, UPPER
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+    BLOCK,
+    COS,
+    DIRTY,
+    MASK,
+    MERGED,
+    TURN,
+    VALID,
+    at,
+)
 
 __all__ = ["FORE", "FREE_ROW", "T1", "T2", "T4", "place_elbows", "place_shoulders"]
 

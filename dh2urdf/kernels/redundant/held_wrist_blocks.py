@@ -1,22 +1,23 @@
 """Seven joints, one held, vectorised: axes 1 and 2 meet, the wrist is orthogonal.
 
-The same mathematics as :mod:`dh2urdf.kernels.held_wrist` where axes 1 and 2 of the oriented arm
-meet: :mod:`~dh2urdf.kernels.held_wrist_arms` finds joints 3, 1 and 2 one after the other,
-:mod:`~dh2urdf.kernels.held_wrist_wrists` the rest. Poses near singularities and rims go to the
-scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3 ``k >> 1 & 1``, wrist ``k >> 2``.
+The same mathematics as :mod:`dh2urdf.kernels.redundant.held_wrist` where axes 1 and 2 of the
+oriented arm meet: :mod:`~dh2urdf.kernels.redundant.held_wrist_arms` finds joints 3, 1 and 2 one
+after the other, :mod:`~dh2urdf.kernels.redundant.held_wrist_wrists` the rest. Poses near
+singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3 ``k >>
+1 & 1``, wrist ``k >> 2``.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.block_values import MIRRORS, settle, write
-from dh2urdf.kernels.blocks import BLOCK, ROWS
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.held_wrist import HELD, LINK, REVERSED, solve_rough
-from dh2urdf.kernels.held_wrist_arms import place_elbows, place_shoulders
-from dh2urdf.kernels.held_wrist_load import all_equal, load_block, prepare_block
-from dh2urdf.kernels.held_wrist_wrists import finish_arm
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
+from dh2urdf.kernels.redundant.held_wrist_arms import place_elbows, place_shoulders
+from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
+from dh2urdf.kernels.redundant.held_wrist_wrists import finish_arm
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import BLOCK, ROWS
+from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, settle, write
 
 __all__ = ["solve_held_blocks"]
 
@@ -48,7 +49,7 @@ def _places(which):
 def solve_held_blocks(
     frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
 ):
-    """:func:`dh2urdf.kernels.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
+    """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
     constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
     if m == 0:

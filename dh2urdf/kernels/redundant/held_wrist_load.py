@@ -1,8 +1,9 @@
 """What a block of poses starts from where seven joints have one held: targets, S1 and levers.
 
-The kernel of :mod:`dh2urdf.kernels.held_wrist_blocks` takes the target of the oriented arm, the
-link S1 and the point whose position error counts from the lanes, since they may all depend on the
-held value. With E0, E7 the outer links of the oriented chain and V the held joint, the target is
+The kernel of :mod:`dh2urdf.kernels.redundant.held_wrist_blocks` takes the target of the oriented
+arm, the link S1 and the point whose position error counts from the lanes, since they may all depend
+on the held value. With E0, E7 the outer links of the oriented chain and V the held joint, the
+target is
 
     base^-1 T' tool^-1,     base^-1 V^-1 E0^-1 T' tool^-1,     base^-1 T' E7^-1 V^-1 tool^-1
 
@@ -15,10 +16,18 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.blocks import BLOCK, MASK, WORK, at, load_poses
-from dh2urdf.kernels.chain_lanes import LARGEST, cosine_sine
-from dh2urdf.kernels.compiled import block_kernel, inner_kernel
-from dh2urdf.kernels.held_wrist import ENDS, FACTORS, ORIENTED, REVERSED, SIDES, SLIDES, VARIES
+from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
+from dh2urdf.kernels.numbers.compiled import block_kernel, inner_kernel
+from dh2urdf.kernels.redundant.held_wrist import (
+    ENDS,
+    FACTORS,
+    ORIENTED,
+    REVERSED,
+    SIDES,
+    SLIDES,
+    VARIES,
+)
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import BLOCK, MASK, WORK, at, load_poses
 
 __all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "prepare_block"]
 

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.arrange import turn_to
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, make_damped, restore
-from dh2urdf.kernels.self_motion import HELD, enter_limits
+from dh2urdf.kernels.certificate.arrange import turn_to
+from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.redundant.self_motion import HELD, enter_limits
 
 __all__ = ["onward", "step_length"]
 
@@ -31,9 +31,10 @@ def onward(links, joints, T, unit, jump, penalty, q, cost, solutions, q_out, cos
     First each state follows the arm by the shortest step, and into the limits if it has left
     them; then come the solutions (s, n) of the pose, each by its cheapest way.
 
-    ``links``, ``joints``, ``unit`` are as for :func:`dh2urdf.kernels.self_motion.nearest_members`;
-    a step over ``jump`` costs ``penalty`` more. Out come the states of the pose, q_out (f + s, n),
-    their cost, infinite where there is no way, and their parent.
+    ``links``, ``joints``, ``unit`` are as for
+    :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
+    ``penalty`` more. Out come the states of the pose, q_out (f + s, n), their cost, infinite where
+    there is no way, and their parent.
     """
     f, n = q.shape
     damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))

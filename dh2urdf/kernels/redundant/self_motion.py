@@ -15,9 +15,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import (
+from dh2urdf.kernels.certificate.certify import ACCEPT
+from dh2urdf.kernels.certificate.damped import (
     POSE,
     add_transposed,
     error_and_jacobian,
@@ -25,6 +24,7 @@ from dh2urdf.kernels.damped import (
     restore,
     solve_damped,
 )
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 
 __all__ = ["enter_limits", "nearest_members", "walk_family"]
 
@@ -149,9 +149,9 @@ def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residu
     Parameters
     ----------
     links, joints
-        The chain, see :mod:`dh2urdf.kernels.certify`.
+        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
     task : int
-        What of the pose counts, see :mod:`dh2urdf.kernels.damped`.
+        What of the pose counts, see :mod:`dh2urdf.kernels.certificate.damped`.
     T : array, shape (4, 4)
     unit : float
         Size of the arm [m].

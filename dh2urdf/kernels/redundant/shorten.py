@@ -13,10 +13,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.damped import POSE, make_damped, restore
-from dh2urdf.kernels.path_states import step_length
-from dh2urdf.kernels.self_motion import HELD, LONGEST, _excess, _part_inside, _tangent
+from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.redundant.path_states import step_length
+from dh2urdf.kernels.redundant.self_motion import HELD, LONGEST, _excess, _part_inside, _tangent
 
 __all__ = ["shorten"]
 
@@ -144,7 +144,8 @@ def shorten(links, joints, Ts, unit, start, jump, penalty, q):
     """Shorten a path q (m, n) through poses Ts (m, 4, 4), in place; returns its length.
 
     The step from ``start`` (0 or 1, n) counts too. ``links``, ``joints``, ``unit`` are as for
-    :func:`dh2urdf.kernels.self_motion.nearest_members`; a step over ``jump`` costs ``penalty``.
+    :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
+    ``penalty``.
     """
     m, n = q.shape
     damped, guess, work = make_damped(n), np.empty(n), np.empty(n)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dh2urdf.kernels.compiled import kernel
+from dh2urdf.kernels.numbers.compiled import kernel
 
 __all__ = ["gather_samples", "spread_samples"]
 
@@ -28,7 +28,7 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
     ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
-    the caller's, with room for all, see :class:`dh2urdf.ik.solver.Solver`.
+    the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     some_q, some_residual, some_count, some_branch, some_free = found
     for i in range(first, last):

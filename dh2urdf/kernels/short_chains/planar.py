@@ -9,12 +9,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import finish_pose
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.families import work_array
-from dh2urdf.kernels.position_task import finish_position
-from dh2urdf.kernels.short_position import applied
-from dh2urdf.kernels.trig import elbow_angle
+from dh2urdf.kernels.certificate.certify import finish_pose
+from dh2urdf.kernels.certificate.families import work_array
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import elbow_angle
+from dh2urdf.kernels.short_chains.position import applied
+from dh2urdf.kernels.short_chains.position_task import finish_position
 
 __all__ = ["planar_rr", "solve_planar"]
 
@@ -89,7 +89,7 @@ def solve_planar(
     Parameters
     ----------
     links, joints
-        See :func:`dh2urdf.kernels.certify.finish_pose`.
+        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
     plane : array, shape (2, 4, 4)
         Base to the frame on axis 1, x to axis 2; what takes the tool's pose at q = 0 back to it.
     form : array, shape (9,)
@@ -98,7 +98,7 @@ def solve_planar(
     pose : bool
         The full pose, or the position only (two joints).
     Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.solver.Solver`.
+        See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work = work_array(n)

@@ -1,9 +1,9 @@
 """All configurations of a chain of one to five joints that reach a pose.
 
-Candidates come from the closed loop (:mod:`dh2urdf.kernels.short_loop`), solutions from the exact
-chain (:mod:`dh2urdf.kernels.certify`). Where a solution lies on a singular family, the joints that
-move along it are found by walking a little, and one representative stays: the one whose first
-free joint is at rest.
+Candidates come from the closed loop (:mod:`dh2urdf.kernels.short_chains.loop`), solutions from the
+exact chain (:mod:`dh2urdf.kernels.certificate.certify`). Where a solution lies on a singular
+family, the joints that move along it are found by walking a little, and one representative stays:
+the one whose first free joint is at rest.
 """
 
 from __future__ import annotations
@@ -12,14 +12,15 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ANYWHERE, copy_rows, finish_pose
-from dh2urdf.kernels.chain import _joint_times_link, _load, _store
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.dual_quaternions import dual_conjugate, dual_of_pose
-from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
-from dh2urdf.kernels.merging import merge_solutions
-from dh2urdf.kernels.short_candidates import add_candidates
-from dh2urdf.kernels.short_loop import (
+from dh2urdf.kernels.certificate.certify import ANYWHERE, copy_rows, finish_pose
+from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family, work_array
+from dh2urdf.kernels.certificate.merging import merge_solutions
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.dual_quaternions import dual_conjugate, dual_of_pose
+from dh2urdf.kernels.numbers.trig import trig_roots
+from dh2urdf.kernels.short_chains.candidates import add_candidates
+from dh2urdf.kernels.short_chains.loop import (
     SAMPLES,
     determinant_series,
     factor,
@@ -28,7 +29,6 @@ from dh2urdf.kernels.short_loop import (
     null_basis,
     vanishes,
 )
-from dh2urdf.kernels.trig import trig_roots
 
 __all__ = ["close_loop", "solve_short_chains"]
 
@@ -46,8 +46,8 @@ ZERO = 1e-11
 @kernel
 def close_loop(ends, T, unit, pose, loop):
     """Write the last link of the loop, ``(L_0^-1 T L_n^-1)^-1``, to the last row of loop."""
-    r = _joint_times_link(_load(ends[0]), False, 0.0, T)
-    _store(_joint_times_link(r, False, 0.0, ends[1]), pose)
+    r = joint_times_link(load_pose(ends[0]), False, 0.0, T)
+    store_pose(joint_times_link(r, False, 0.0, ends[1]), pose)
     last = loop[loop.shape[0] - 1]
     dual_of_pose(pose, unit, last)
     dual_conjugate(last, last)
@@ -153,7 +153,7 @@ def solve_short_chains(
     rest_unit : array, shape (n + 1,)
         Rest value of each joint, then the length of one dual unit [m].
     Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.solver.Solver`.
+        See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work = work_array(n)

@@ -17,12 +17,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import copy_rows
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.families import work_array
-from dh2urdf.kernels.position_task import finish_position
-from dh2urdf.kernels.short_loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
-from dh2urdf.kernels.trig import trig_roots
+from dh2urdf.kernels.certificate.certify import copy_rows
+from dh2urdf.kernels.certificate.families import work_array
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import trig_roots
+from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
+from dh2urdf.kernels.short_chains.position_task import finish_position
 
 __all__ = ["applied", "solve_short_positions"]
 
@@ -267,7 +267,7 @@ def solve_short_positions(
     rest_unit : array, shape (n + 1,)
         Rest values, then the size of the arm [m].
     Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.solver.Solver`.
+        See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work = work_array(n)

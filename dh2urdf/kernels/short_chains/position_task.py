@@ -1,7 +1,7 @@
 """Certification where only the position of the tool counts: the task ``position``.
 
-The counterpart of :mod:`dh2urdf.kernels.certify` with three equations instead of six; the same
-thresholds and the same scratch.
+The counterpart of :mod:`dh2urdf.kernels.certificate.certify` with three equations instead of six;
+the same thresholds and the same scratch.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT, CLUSTER, TWO_PI, move
-from dh2urdf.kernels.chain import _joint_times_link, _load
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.families import MOVES, SINGULAR, WALK, null_direction
-from dh2urdf.kernels.merging import NEAR
-from dh2urdf.kernels.polish import HOPELESS, MAX_TURN, POLISH, damped_step
+from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
+from dh2urdf.kernels.certificate.families import MOVES, SINGULAR, WALK, null_direction
+from dh2urdf.kernels.certificate.merging import NEAR
+from dh2urdf.kernels.certificate.polish import HOPELESS, MAX_TURN, POLISH, damped_step
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
+from dh2urdf.kernels.numbers.compiled import inner_kernel
 
 __all__ = ["finish_position", "position_residual"]
 
@@ -26,9 +26,9 @@ MAX_STEPS = 12
 @inner_kernel
 def position_residual(links, joints, T, q):
     """Distance [m] of the tool at q (n,) from the origin of T (4, 4)."""
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(q.shape[0]):
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
     return math.sqrt(x * x + y * y + z * z)
 
@@ -37,11 +37,11 @@ def position_residual(links, joints, T, q):
 def normal_equations(links, joints, T, q, work):
     """``J^T J`` to ``work[:, 8:]`` (lower triangle), ``J^T e`` to ``work[:, 6]``, three rows."""
     n = q.shape[0]
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(n):
         work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
         work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
-        r = _joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     ex, ey, ez = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
     for i in range(n):
         zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
@@ -85,7 +85,7 @@ def _polish(links, joints, T, q, work):
 
 @inner_kernel
 def _free_joints(links, joints, T, q, trial, work):
-    """Bits of the joints that move along a family, see :mod:`dh2urdf.kernels.families`."""
+    """Bits of the joints that move along a family, see :mod:`.certificate.families`."""
     normal_equations(links, joints, T, q, work)
     mask = np.int64(0)
     if null_direction(work) > SINGULAR:
@@ -105,7 +105,7 @@ def _free_joints(links, joints, T, q, trial, work):
 
 @inner_kernel
 def _one(links, joints, T, q, p, accuracy, middle):
-    """Whether two solutions are one, see :mod:`dh2urdf.kernels.merging`."""
+    """Whether two solutions are one, see :mod:`dh2urdf.kernels.certificate.merging`."""
     largest = 0.0
     for i in range(q.shape[0]):
         gap = p[i] - q[i]
@@ -152,7 +152,7 @@ def finish_position(links, joints, T, within_limits, q, residual, branch, free, 
     Parameters
     ----------
     links, joints, T, within_limits, q, residual, branch, free, count, work
-        See :func:`dh2urdf.kernels.certify.finish_pose`; free masks are found here.
+        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`; free masks are found here.
     trial : array, shape (n,), scratch
     """
     kept = np.int64(0)

@@ -10,11 +10,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ANYWHERE, finish_pose
-from dh2urdf.kernels.chain import _joint_times_link, _load, _store
-from dh2urdf.kernels.compiled import inner_kernel, kernel
-from dh2urdf.kernels.families import free_joints, one_of_each_family, work_array
-from dh2urdf.kernels.trig import linear_trig
+from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
+from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family, work_array
+from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import linear_trig
 
 __all__ = ["solve_three_slides"]
 
@@ -38,16 +38,16 @@ ROWS = 26
 def _turning_links(links, joints, turning, scratch):
     """Products of the links between the turning joints, to rows of scratch; how many turn."""
     count = 0
-    r = _load(links[0])
+    r = load_pose(links[0])
     for i in range(joints.shape[0]):
         if joints[i, 0] == 0.0:
-            _store(r, scratch[4 * count : 4 * count + 4])
+            store_pose(r, scratch[4 * count : 4 * count + 4])
             turning[count] = i
             count += 1
-            r = _load(links[i + 1])
+            r = load_pose(links[i + 1])
         else:
-            r = _joint_times_link(r, False, 0.0, links[i + 1])
-    _store(r, scratch[4 * count : 4 * count + 4])
+            r = joint_times_link(r, False, 0.0, links[i + 1])
+    store_pose(r, scratch[4 * count : 4 * count + 4])
     return count
 
 
@@ -92,7 +92,7 @@ def _candidates(links, joints, T, q, turning, scratch):
     Parameters
     ----------
     links, joints, T
-        See :func:`dh2urdf.kernels.certify.finish_pose`.
+        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
     q : array, shape (>= 2, n), out
     turning : int64 array, shape (3,), scratch
     scratch : array, shape (ROWS, 4)
@@ -135,14 +135,14 @@ def _slides(links, joints, T, q, columns):
 
     Where the slides lie in a plane they move as little as possible.
     """
-    r = _load(links[0])
+    r = load_pose(links[0])
     k = 0
     for i in range(q.shape[0]):
         slides = joints[i, 0] != 0.0
         if slides:
             columns[k, 0], columns[k, 1], columns[k, 2] = r[2], r[6], r[10]
             k += 1
-        r = _joint_times_link(r, slides, 0.0 if slides else q[i], links[i + 1])
+        r = joint_times_link(r, slides, 0.0 if slides else q[i], links[i + 1])
     columns[3, 0], columns[3, 1], columns[3, 2] = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
     volume = _volume(columns[0], columns[1], columns[2])
     if abs(volume) < FLAT:
@@ -186,11 +186,11 @@ def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, coun
     Parameters
     ----------
     links, joints
-        See :func:`dh2urdf.kernels.certify.finish_pose`.
+        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
     rest : array, shape (n,)
         Value of the first free joint of a family's representative.
     Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.solver.Solver`.
+        See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work, trial = work_array(n), np.empty(n)

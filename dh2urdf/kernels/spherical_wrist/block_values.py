@@ -1,7 +1,7 @@
 """Many poses side by side: from cosines and sines to the solutions that a family hands over.
 
-Layout and lanes are those of :mod:`dh2urdf.kernels.blocks`. Of the angles of an arm some are mirror
-images of others; only the others need an arctangent.
+Layout and lanes are those of :mod:`dh2urdf.kernels.spherical_wrist.block_arithmetic`. Of the angles
+of an arm some are mirror images of others; only the others need an arctangent.
 """
 
 from __future__ import annotations
@@ -10,7 +10,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.blocks import (
+from dh2urdf.kernels.certificate.certify import CLUSTER, TWO_PI
+from dh2urdf.kernels.numbers.compiled import block_kernel, helper_kernel
+from dh2urdf.kernels.numbers.trig import arctangent
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     COS,
     DIRTY,
@@ -21,9 +24,6 @@ from dh2urdf.kernels.blocks import (
     VALUES,
     at,
 )
-from dh2urdf.kernels.certify import CLUSTER, TWO_PI
-from dh2urdf.kernels.compiled import block_kernel, helper_kernel
-from dh2urdf.kernels.trig import arctangent
 
 __all__ = ["HALF_TURN", "MIRRORS", "NEGATED", "OWN", "emit", "settle", "write"]
 

@@ -1,8 +1,9 @@
 """The common spherical-wrist arm, vectorised: axis 2 parallel to 3, an orthogonal wrist.
 
-The same mathematics as :mod:`dh2urdf.kernels.position_arm` and
-:mod:`dh2urdf.kernels.spherical_wrist`, for poses away from singularities and rims; all others go to
-the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow ``k >> 1 & 1``, wrist ``k >> 2``.
+The same mathematics as :mod:`dh2urdf.kernels.spherical_wrist.position_arm` and
+:mod:`dh2urdf.kernels.spherical_wrist.poses`, for poses away from singularities and rims; all others
+go to the scalar kernel. Solution ``k`` has shoulder ``k & 1``, elbow ``k >> 1 & 1``, wrist ``k >>
+2``.
 
 The other wrist, ``(q4 + pi, -q5, q6 + pi)``, changes signs that cancel in forward kinematics, so
 that its residual is the same number.
@@ -14,8 +15,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.block_values import MIRRORS, emit
-from dh2urdf.kernels.blocks import (
+from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     CLEAR,
     COS,
@@ -33,9 +34,9 @@ from dh2urdf.kernels.blocks import (
     planar_arm,
     turned_and_tilted,
 )
-from dh2urdf.kernels.compiled import block_kernel, kernel
-from dh2urdf.kernels.position_arm import place_wrist_in_plane
-from dh2urdf.kernels.spherical_wrist import make_scratch, solve_pose
+from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, emit
+from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
+from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist_in_plane
 
 __all__ = ["solve_common_wrist"]
 
@@ -143,7 +144,7 @@ def _wrists(form, n, S):
 def solve_common_wrist(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
-    """:func:`dh2urdf.kernels.spherical_wrist.solve_turning_arm` for the common geometry."""
+    """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_turning_arm` for the common geometry."""
     m = Ts.shape[0]
     S = np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import (
+from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,
     ROUNDING,
@@ -21,11 +21,11 @@ from dh2urdf.kernels.certify import (
     principal,
     same,
 )
-from dh2urdf.kernels.compiled import inlined_kernel, inner_kernel, kernel
-from dh2urdf.kernels.polish import polish
-from dh2urdf.kernels.position_arm import FREE, NICE, place_wrist, tool_to_wrist
-from dh2urdf.kernels.position_slides import place_wrist_sliding
-from dh2urdf.kernels.trig import root_of_gap
+from dh2urdf.kernels.certificate.polish import polish
+from dh2urdf.kernels.numbers.compiled import inlined_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers.trig import root_of_gap
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, place_wrist, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist.position_slides import place_wrist_sliding
 
 __all__ = ["add_wrist", "append_wrist", "make_scratch", "middle_angle", "solve_pose"]
 __all__ += ["solve_sliding_arm", "solve_turning_arm"]
@@ -102,7 +102,7 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
     R : array, shape (3, 3)
         Scratch.
     q, branch, free
-        Candidates, as in :func:`dh2urdf.kernels.certify.finish_pose`.
+        Candidates, as in :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
     """
     _orientation_left(form, D, values, R)
     return append_wrist(form, values, R, slack, q, branch, free, count)
@@ -252,9 +252,9 @@ def solve_turning_arm(
 ):
     """All solutions of poses Ts (m, 4, 4) of a 6R arm with a spherical wrist.
 
-    Constants: ``links`` and ``joints`` of the exact chain (:mod:`dh2urdf.kernels.certify`),
-    ``form`` and ``ends`` of its Denavit-Hartenberg form. Outputs: q (m, 8, 6), residual,
-    branch and free (m, 8), count (m,).
+    Constants: ``links`` and ``joints`` of the exact chain
+    (:mod:`dh2urdf.kernels.certificate.certify`), ``form`` and ``ends`` of its Denavit-Hartenberg
+    form. Outputs: q (m, 8, 6), residual, branch and free (m, 8), count (m,).
     """
     arm, scratch = (links, joints, form, ends, slack), make_scratch()
     for i in range(Ts.shape[0]):

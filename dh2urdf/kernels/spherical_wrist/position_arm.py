@@ -14,10 +14,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certify import ACCEPT
-from dh2urdf.kernels.circle_pair import circle_pair
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.trig import elbow_angle, linear_trig, root_of_gap
+from dh2urdf.kernels.certificate.certify import ACCEPT
+from dh2urdf.kernels.numbers.circle_pair import circle_pair
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers.trig import elbow_angle, linear_trig, root_of_gap
 
 __all__ = [
     "FREE",
@@ -156,7 +156,7 @@ def _any_elbow(form, px, py, pz, slack, arm):
     pairs = np.empty((4, 4))
     free = square <= FREE * FREE
     if free:
-        count = _elbow_on_axis(N, d, form[0, 4], slack, pairs)
+        count = elbow_on_axis(N, d, form[0, 4], slack, pairs)
     else:
         count = circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
     for k in range(count):
@@ -209,7 +209,7 @@ def onto_axis_2(form, c1, s1, px, py, pz):
 
 
 @inner_kernel
-def _elbow_on_axis(N, d, nice, slack, pairs):
+def elbow_on_axis(N, d, nice, slack, pairs):
     """The wrist centre on axis 1: q1 is free, and q3 alone has to satisfy both equations."""
     det = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]
     first, second = abs(N[0, 0]) + abs(N[0, 1]), abs(N[1, 0]) + abs(N[1, 1])

@@ -1,16 +1,16 @@
 """Where three joints put a wrist centre when two or all of them slide: RPP, PRP, PPR, PPP.
 
-Notation and output as in :mod:`dh2urdf.kernels.position_arm`.
+Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 """
 
 from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.arm_links import after_joint, after_link, wrist_circle, wrist_in_three
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
-from dh2urdf.kernels.trig import linear_trig
+from dh2urdf.kernels.chain.links import after_joint, after_link, wrist_circle, wrist_in_three
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers.trig import linear_trig
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
 
 __all__ = ["slide_slide_turn", "slide_turn_slide", "three_slides", "turn_slide_slide"]
 

@@ -1,8 +1,9 @@
 """Where three joints put a wrist centre when some of them slide: RRP, RPR, PRR, RPP, PRP, PPR, PPP.
 
-Notation and output as in :mod:`dh2urdf.kernels.position_arm`. A slide enters linearly, so it is
-eliminated first; what is left is one trigonometric equation in one angle, of degree 1 where the
-slide is square to a neighbour (Stanford arm, cylinder, gantry), else of degree 2.
+Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`. A slide enters
+linearly, so it is eliminated first; what is left is one trigonometric equation in one angle, of
+degree 1 where the slide is square to a neighbour (Stanford arm, cylinder, gantry), else of degree
+2.
 """
 
 from __future__ import annotations
@@ -11,10 +12,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.arm_links import after_link, wrist_circle, wrist_in_three
-from dh2urdf.kernels.certify import ACCEPT
-from dh2urdf.kernels.compiled import inner_kernel
-from dh2urdf.kernels.position_arm import (
+from dh2urdf.kernels.certificate.certify import ACCEPT
+from dh2urdf.kernels.chain.links import after_link, wrist_circle, wrist_in_three
+from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers.trig import add_square, linear_trig, root_of_gap, trig_roots
+from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     ON_AXIS,
     SHOULDER_FREE,
@@ -22,13 +24,12 @@ from dh2urdf.kernels.position_arm import (
     onto_axis_2,
     seen_from_axis_2,
 )
-from dh2urdf.kernels.position_more_slides import (
+from dh2urdf.kernels.spherical_wrist.position_more_slides import (
     slide_slide_turn,
     slide_turn_slide,
     three_slides,
     turn_slide_slide,
 )
-from dh2urdf.kernels.trig import add_square, linear_trig, root_of_gap, trig_roots
 
 __all__ = ["place_wrist_sliding"]
 

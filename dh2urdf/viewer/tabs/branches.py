@@ -11,7 +11,7 @@ from dh2urdf.drawing.colours import BRANCH_COLOURS
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-from dh2urdf.viewer.html import FAINT, MARKED, NUMBERS, STYLE
+from dh2urdf.viewer.tabs.html import FAINT, MARKED, NUMBERS, STYLE
 
 __all__ = ["Answer", "answer", "branch_table", "initials"]
 

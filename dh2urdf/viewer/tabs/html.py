@@ -6,7 +6,7 @@ import math
 from html import escape
 
 from dh2urdf.dh import DHTable
-from dh2urdf.dh_print import table_grid
+from dh2urdf.dh.print import table_grid
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, matrix_to_rpy

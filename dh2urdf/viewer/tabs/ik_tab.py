@@ -12,11 +12,11 @@ from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix
-from dh2urdf.viewer import html
 from dh2urdf.viewer.arm_scene import Ghosts, quaternions
-from dh2urdf.viewer.branches import Answer, answer, branch_table
 from dh2urdf.viewer.door import by_visitor, later
-from dh2urdf.viewer.redundancy import Redundancy
+from dh2urdf.viewer.tabs import html
+from dh2urdf.viewer.tabs.branches import Answer, answer, branch_table
+from dh2urdf.viewer.tabs.redundancy import Redundancy
 from dh2urdf.workspace import common_axis, task_of
 
 __all__ = ["IKTab"]

@@ -11,8 +11,8 @@ import numpy as np
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-from dh2urdf.viewer import html
 from dh2urdf.viewer.door import by_visitor
+from dh2urdf.viewer.tabs import html
 
 __all__ = ["Redundancy"]
 

@@ -6,15 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from dh2urdf.conversions.write_urdf import verified_urdf
+from dh2urdf.conversions.write.write_urdf import verified_urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh.print import degrees
 from dh2urdf.dh_io import Kind, Units, parse_cell, parse_table, table_to_text
-from dh2urdf.dh_print import degrees
 from dh2urdf.drawing.row import DHRowPicture, length_index, row_words, subscript
 from dh2urdf.exceptions import Dh2UrdfError, TableError
 from dh2urdf.grids import number
-from dh2urdf.viewer import html
 from dh2urdf.viewer.door import by_visitor
+from dh2urdf.viewer.tabs import html
 
 __all__ = ["TableTab"]
 

@@ -17,8 +17,8 @@ from test_extract_sources import BROKEN, URDF
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.cli import main
-from dh2urdf.conversions.chain_to_dh import chain_to_dh
-from dh2urdf.conversions.constructors import matlab_corke, matlab_rst, rtb_python
+from dh2urdf.conversions.assign.chain_to_dh import chain_to_dh
+from dh2urdf.conversions.write.constructors import matlab_corke, matlab_rst, rtb_python
 from dh2urdf.dh import DHConvention
 from dh2urdf.dh_io import parse_table
 from dh2urdf.exceptions import TableError

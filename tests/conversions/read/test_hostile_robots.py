@@ -19,7 +19,7 @@ from lxml import etree
 from dh2urdf import Robot, extract_dh
 from dh2urdf.bounds import JOINTS, LINKS
 from dh2urdf.checks import check_urdf
-from dh2urdf.conversions.apart import check_expression
+from dh2urdf.conversions.read.apart import check_expression
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 
 TEXTS = [
@@ -43,7 +43,7 @@ TEXTS = [
 FOLDER = tempfile.TemporaryDirectory()
 atexit.register(FOLDER.cleanup)
 
-FILES = sorted(Path(__file__).parents[1].glob("urdf/*.urdf"))
+FILES = sorted(Path(__file__).parents[3].glob("urdf/*.urdf"))
 KEPT = [etree.parse(str(path)).getroot() for path in FILES[:: max(1, len(FILES) // 8)]]
 
 
@@ -329,7 +329,7 @@ def test_a_xacro_computes(tmp_path):
 )
 def test_a_xacro_without_end_or_bound_is_stopped(z, extra, tmp_path, monkeypatch):
     """Endless powers, memory, pipes and recursion: one message in time, and nothing run."""
-    monkeypatch.setattr("dh2urdf.conversions.apart.APART_SECONDS", 3)
+    monkeypatch.setattr("dh2urdf.conversions.read.apart.APART_SECONDS", 3)
     os.mkfifo(tmp_path / "pipe")
     pwned = tmp_path / "pwned"
     names = {"PWNED": str(pwned), "PIPE": str(tmp_path / "pipe")}
@@ -366,7 +366,8 @@ MJCF = (
 def test_a_hostile_mjcf_is_refused_in_time(old, new, tmp_path, monkeypatch):
     """MuJoCo and Pinocchio read it in a process of their own; nothing is left behind."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("dh2urdf.conversions.apart.APART_SECONDS", 3 if "replicate" in new else 8)
+    seconds = 3 if "replicate" in new else 8
+    monkeypatch.setattr("dh2urdf.conversions.read.apart.APART_SECONDS", seconds)
     path = tmp_path / "x.xml"
     path.write_text(MJCF.replace(old, new, 1))
     for door in (Robot.from_urdf, extract_dh)[: 1 if "replicate" in new else 2]:

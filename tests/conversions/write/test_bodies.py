@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import dh2urdf
-from dh2urdf.conversions.bodies import draw_bodies, link_frames
-from dh2urdf.conversions.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.write.bodies import draw_bodies, link_frames
+from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
 
 
 def bodies_of(table):

@@ -16,9 +16,9 @@ from dh_product import dh_frames, difference
 
 import dh2urdf
 from dh2urdf.cli import main
-from dh2urdf.conversions.verify import random_configurations
+from dh2urdf.conversions.write.verify import random_configurations
 
-FOLDER = Path(__file__).parents[1] / "urdf"
+FOLDER = Path(__file__).parents[3] / "urdf"
 NAMES = dh2urdf.list_tables()
 
 every_file = pytest.mark.parametrize("name", NAMES)

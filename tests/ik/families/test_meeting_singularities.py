@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import dh2urdf
+from dh2urdf.ik.arm.solver import select_solver
 from dh2urdf.ik.solve import InverseKinematics
-from dh2urdf.ik.solver import select_solver
 
 QUARTERS = np.array([0.0, math.pi / 2, -math.pi / 2, math.pi])
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 import dh2urdf
 from dh2urdf.exceptions import ConfigurationError, PoseError
-from dh2urdf.ik.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
 
 LENGTHS = st.floats(0.05, 3.0)
 ANGLES = st.floats(-math.pi, math.pi)

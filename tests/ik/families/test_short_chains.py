@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
-from dh2urdf.ik.redundancy import spare_joints
-from dh2urdf.ik.short import ShortChain
-from dh2urdf.ik.solver import Task, select_solver
+from dh2urdf.ik.arm.solver import Task, select_solver
+from dh2urdf.ik.families.short import ShortChain
+from dh2urdf.ik.redundant.redundancy import spare_joints
 
 HALF = math.pi / 2
 

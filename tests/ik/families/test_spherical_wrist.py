@@ -11,8 +11,8 @@ import pytest
 from ik_referee import HALF
 
 import dh2urdf
-from dh2urdf.ik.solver import select_solver
-from dh2urdf.ik.spherical_wrist import SphericalWrist
+from dh2urdf.ik.arm.solver import select_solver
+from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 
 SHIPPED = [
     "abb_irb120",
@@ -139,8 +139,8 @@ def compare_with_search(name, m):
 
 def test_block_and_scalar_kernels_agree():
     """The vectorised kernel returns the same solutions and branches as the scalar one."""
-    from dh2urdf.kernels.spherical_wrist import solve_turning_arm
-    from dh2urdf.kernels.spherical_wrist_blocks import solve_common_wrist
+    from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
+    from dh2urdf.kernels.spherical_wrist.poses import solve_turning_arm
 
     chain = ref.shipped("denso_vs6556")
     solver = SphericalWrist(chain)

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from ik_referee import HALF
 
-from dh2urdf.ik.solver import Task, select_solver
-from dh2urdf.ik.three_parallel import ThreeParallel
+from dh2urdf.ik.arm.solver import Task, select_solver
+from dh2urdf.ik.families.three_parallel import ThreeParallel
 
 DEG = math.pi / 180
 SHIPPED = ["techman_tm5_700", "unitree_z1", "ur10", "ur10e", "ur16e", "ur20", "ur3", "ur30"]
@@ -93,8 +93,8 @@ def compare_with_search(chain, m):
 
 def test_block_and_scalar_kernels_agree():
     """The vectorised kernel returns the same solutions and branches as the scalar one."""
-    from dh2urdf.kernels.three_parallel import solve_three_parallel
-    from dh2urdf.kernels.three_parallel_blocks import solve_common_parallel
+    from dh2urdf.kernels.parallel_axes.blocks import solve_common_parallel
+    from dh2urdf.kernels.parallel_axes.poses import solve_three_parallel
 
     chain = ref.with_limits(ref.shipped("ur5"), -2.5, 3.0)
     solver = ThreeParallel(chain)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from dh2urdf.kernels.arc_roots import (
+from dh2urdf.kernels.general_6r.arc_roots import (
     ARC,
     ARC_TAN,
     SPANS,

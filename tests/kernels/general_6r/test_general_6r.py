@@ -16,7 +16,7 @@ from general_6r_arms import (
     twist_and_jacobian,
 )
 
-from dh2urdf.kernels.general_6r import plan_general_6r, replan_general_6r, solve_general_6r
+from dh2urdf.kernels.general_6r.poses import plan_general_6r, replan_general_6r, solve_general_6r
 
 
 def solve_poses(rows, poses):

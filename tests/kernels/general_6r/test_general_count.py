@@ -10,7 +10,7 @@ import pytest
 from ik_referee import draw, forward, gaps, search, shipped, solve
 from test_ik_general import CLOSED_FORMS, regularity
 
-from dh2urdf.ik.general_6r import General6R
+from dh2urdf.ik.families.general_6r import General6R
 
 REGULAR = 1e-3
 """Smallest singular value of the Jacobian, lengths relative, of a solution that is counted."""

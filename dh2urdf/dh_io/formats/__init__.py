@@ -1,0 +1,1 @@
+"""Formats of table files, each read into one document with the place of every cell."""

@@ -1,0 +1,1 @@
+"""Pictures of what an arm reaches: the planar arm's surface, sections through a spatial arm."""

@@ -1,0 +1,5 @@
+"""The robot: a Pinocchio model with the chain between two of its frames, and what it can do."""
+
+from dh2urdf.robot.robot import Robot
+
+__all__ = ["Robot"]

@@ -1,0 +1,1 @@
+"""Tabs of the view, and what they show."""
