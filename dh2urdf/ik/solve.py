@@ -17,16 +17,17 @@ from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.exceptions import ConfigurationError, PoseError
-from dh2urdf.ik.arm.chain_unit import in_own_unit
-from dh2urdf.ik.arm.locked import Locked, held_values
+from dh2urdf.ik.arm.chains import in_own_unit
+from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
 from dh2urdf.ik.arm.notice import notice_if_slow
-from dh2urdf.ik.arm.solver import Solver, Task, select_solver
+from dh2urdf.ik.arm.solver import Solver, Task
+from dh2urdf.ik.arm.table import select_solver
 from dh2urdf.ik.problem.batch import IKBatch
-from dh2urdf.ik.problem.given_poses import many_poses, one_pose
+from dh2urdf.ik.problem.locked import Locked, held_values
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.problem.scaled_problem import ScaledProblem
-from dh2urdf.ik.problem.solutions import IKSolutions, as_configuration
+from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.problem.swept_path import find_path
 from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.ik.redundant.held_solver import HeldSolver

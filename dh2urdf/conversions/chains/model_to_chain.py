@@ -19,7 +19,6 @@ from dh2urdf.transforms import Array
 
 __all__ = [
     "ChainPath",
-    "as_pinocchio_takes",
     "chain_path",
     "frame_id",
     "frame_names",
@@ -27,9 +26,6 @@ __all__ = [
     "tip_names",
     "with_locked",
 ]
-
-SNAP = 1e-12
-"""Distance from x, y or z up to which Pinocchio takes an axis to be that one."""
 
 CONTINUOUS = ("JointModelRUB", "JointModelRevoluteUnboundedUnaligned")
 
@@ -166,26 +162,6 @@ def frame_with_z(axis: Array) -> Array:
         x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
         x /= np.linalg.norm(x)
     return np.stack([x, np.cross(z, x), z], axis=1)
-
-
-def as_pinocchio_takes(axis: Array) -> Array:
-    """The axis, or the coordinate axis that it misses by no more than 1e-12.
-
-    Pinocchio has joints of their own for x, y and z (not for their opposites), and takes those up
-    to this distance (Eigen's ``isApprox``): a picometre on an arm of a metre. The same axis is
-    read here, so that a chain and Pinocchio's placement of it are one thing.
-    """
-    length = _square(axis)
-    for unit in np.eye(3):
-        if _square(axis - unit) <= SNAP * SNAP * min(length, 1.0):
-            return unit
-    return axis
-
-
-def _square(v: Array) -> float:
-    """Squared length, summed in Eigen's order."""
-    x, y, z = v.tolist()
-    return float(x * x + (y * y + z * z))
 
 
 def with_locked(model: pin.Model, ids: Sequence[int]) -> pin.Model:

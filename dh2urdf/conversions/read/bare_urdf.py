@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 
+import numpy as np
 import pinocchio as pin
 from lxml import etree
 
@@ -13,11 +14,34 @@ from dh2urdf.conversions.write.inertia import Inertial
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
-__all__ = ["bare_model"]
+__all__ = ["as_pinocchio_takes", "bare_model"]
 
 NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
 
 TENSOR = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+
+SNAP = 1e-12
+"""Distance from x, y or z up to which Pinocchio takes an axis to be that one."""
+
+
+def as_pinocchio_takes(axis: Array) -> Array:
+    """The axis, or the coordinate axis that it misses by no more than 1e-12.
+
+    Pinocchio has joints of their own for x, y and z (not for their opposites), and takes those up
+    to this distance (Eigen's ``isApprox``): a picometre on an arm of a metre. The same axis is
+    read here, so that a chain and Pinocchio's placement of it are one thing.
+    """
+    length = _square(axis)
+    for unit in np.eye(3):
+        if _square(axis - unit) <= SNAP * SNAP * min(length, 1.0):
+            return unit
+    return axis
+
+
+def _square(v: Array) -> float:
+    """Squared length, summed in Eigen's order."""
+    x, y, z = v.tolist()
+    return float(x * x + (y * y + z * z))
 
 
 def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]) -> pin.Model:

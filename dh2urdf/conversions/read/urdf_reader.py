@@ -12,7 +12,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER, TEXT_CHARACTERS
-from dh2urdf.conversions.chains.model_to_chain import as_pinocchio_takes
+from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import MOVING, TreeJoint, TreeLink
 from dh2urdf.conversions.write.dh_to_urdf import DEFAULT_EFFORT, DEFAULT_VELOCITY
 from dh2urdf.conversions.write.inertia import Inertial, tensor

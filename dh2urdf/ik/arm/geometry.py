@@ -14,9 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
-from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, inverse, pose_error
 
 __all__ = ["AxisLines", "DHForm", "moves_freely"]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import limits
-from dh2urdf.ik.arm.part_chains import hold
+from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.transforms import Array

@@ -17,11 +17,11 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
+from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
 from dh2urdf.ik.arm.tolerances import NOMINAL, SNAP
 from dh2urdf.ik.families.short_position import axis_frames
-from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, check_pose, inverse
 
 __all__ = [

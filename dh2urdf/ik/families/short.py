@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.outputs import IntArray, Outputs
 from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.redundant.redundancy import spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortPosition", "axis_frames"]

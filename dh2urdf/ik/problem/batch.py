@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.problem.solutions import IKSolutions
+from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.problem.problem import Problem
     from dh2urdf.transforms import Array
 
 __all__ = ["IKBatch"]
@@ -46,7 +45,7 @@ class IKBatch:
     A stack of poses with more axes, (..., 4, 4), has them in place of the one of length m.
     """
 
-    problem: Problem
+    problem: Answering
     targets: Array
     q: Array
     residual: Array

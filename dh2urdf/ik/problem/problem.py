@@ -12,17 +12,16 @@ import numpy as np
 from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
+from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.limits import all_turns, inside, middle, turn_counts
 from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.part_chains import hold
 from dh2urdf.ik.arm.singular_families import Family, slide_to_seed, task_error
-from dh2urdf.ik.arm.solver import Solver, Task
+from dh2urdf.ik.arm.solver import Solver, Task, branch_words_of
 from dh2urdf.ik.arm.tolerances import ACCEPT, LIMIT_SLACK
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import (
     IKSolutions,
-    branch_words_of,
     joints_of_mask,
 )
 from dh2urdf.ik.redundant.held_solver import HeldSolver
@@ -154,10 +153,10 @@ class Problem:
         if not within_limits:
             return found
         q, keep = found.q.copy(), np.ones(len(found), np.bool_)
-        middle = middle(self.chain)
+        centre = middle(self.chain)
         for k in np.flatnonzero(~inside(self.chain, q)):
             family = Family(self.chain, self.task, found.T, found.free_joints[k], q[k])
-            member = family.nearest(middle, within_limits=True)
+            member = family.nearest(centre, within_limits=True)
             keep[k] = member is not None
             q[k] = q[k] if member is None else member
         return self._at(found, q).select(keep)

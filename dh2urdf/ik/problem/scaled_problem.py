@@ -1,6 +1,6 @@
 """The border of an arm that is solved in a unit of its own: metres outside.
 
-Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chain_unit`; what comes out is in
+Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chains`; what comes out is in
 [m], and its residuals are measured there.
 """
 
@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.chain_unit import lengths_in
+from dh2urdf.ik.arm.chains import lengths_in
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import Problem, Progress

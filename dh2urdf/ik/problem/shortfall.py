@@ -13,21 +13,15 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.geometry import AxisLines
-from dh2urdf.ik.arm.singular_families import task_error, task_jacobian
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import ACCEPT
+from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["beyond_limits", "closest", "shortfall"]
 
-STARTS = 64
-STEPS = 60
-
 FAR = 1e6
 """Distance, in sizes of the arm, at which the arm is a point."""
-
-LESS = 0.05
-"""Damping after a good step; in a valley it has to fall below the square of its slope."""
 
 STIFF = 1e3
 """Weight of the position against the orientation where the position comes first."""
@@ -73,44 +67,6 @@ def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:
     weight = np.where(np.arange(error.shape[1]) < 3, STIFF / chain.size, 1.0)
     best = error[((error * weight) ** 2).sum(axis=1).argmin()]
     return float(np.linalg.norm(best[:3])), float(np.linalg.norm(best[3:]))
-
-
-def nearly_reaching(
-    chain: SerialChain, T: Array, task: Task, stiff: float = 1.0
-) -> tuple[Array, Array]:
-    """Configurations (s, n) that come as near to a pose as they can, and their task errors.
-
-    ``stiff`` is the weight of positions, in sizes of the arm, against the orientation.
-    The steps are by singular values, not by normal equations, which lose the directions in which
-    the pose hardly changes.
-    """
-    rng = np.random.default_rng(3)
-    q = rng.uniform(-1.0, 1.0, (STARTS, chain.n)) * np.where(chain.prismatic, chain.size, np.pi)
-    weight = np.ones(3 if task is Task.POSITION else 6)
-    weight[:3] = stiff / chain.size
-    error = _weighted(chain, q, T, task, weight)
-    damping = np.full(STARTS, 1e-2)
-    for _ in range(STEPS):
-        U, sigma, Vt = np.linalg.svd(task_jacobian(chain, task, q) * weight[:, None], False)
-        square = sigma**2 + (sigma**2).sum(axis=1, keepdims=True) * damping[:, None] + 1e-300
-        along = np.einsum("kij,ki->kj", U, error) * sigma / square
-        step = np.einsum("kij,ki->kj", Vt, along)
-        step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
-        trial = _weighted(chain, q + step, T, task, weight)
-        better = (trial**2).sum(axis=1) < (error**2).sum(axis=1)
-        q[better] += step[better]
-        error[better] = trial[better]
-        damping = np.clip(damping * np.where(better, LESS, 10.0), 1e-30, 1e3)
-    return q, error / weight
-
-
-def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
-    """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
-    from dh2urdf.kernels.chain.forward import chain_fk_batch
-
-    poses = np.empty((len(q), 4, 4))
-    chain_fk_batch(chain.links, chain.prismatic, q, poses)
-    return task_error(poses, T, task) * weight
 
 
 def _arm_to(chain: SerialChain, joints: int, point: Array) -> SerialChain:

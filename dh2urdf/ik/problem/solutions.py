@@ -2,38 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, overload
+from collections.abc import Iterator
+from typing import Protocol, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.bounds import ANGLE, LENGTH
-from dh2urdf.doors import finite_array
-from dh2urdf.exceptions import ConfigurationError, NoSolutionError
+from dh2urdf.chain import SerialChain
+from dh2urdf.exceptions import NoSolutionError
+from dh2urdf.ik.arm.given import as_configuration
 from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.arm.solver import BRANCH_WORDS, BranchWords
+from dh2urdf.transforms import Array
 
-if TYPE_CHECKING:
-    from dh2urdf.ik.problem.problem import Problem
-    from dh2urdf.transforms import Array
-
-__all__ = ["IKSolutions", "IntArray", "branch_name", "branch_words_of", "joints_of_mask"]
-
-BRANCH_WORDS = (
-    ("shoulder left", "shoulder right"),
-    ("elbow up", "elbow down"),
-    ("wrist no flip", "wrist flip"),
-)
-"""Names of the bits of a branch code, value 0 first."""
-
-
-BranchWords = Sequence[tuple[str, str] | None]
-
-
-def branch_words_of(solver: object) -> BranchWords:
-    """Names of the bits of a solver's branch codes; None for a bit without meaning."""
-    words: BranchWords = getattr(solver, "branch_words", BRANCH_WORDS)
-    return words
+__all__ = ["Answering", "IKSolutions", "branch_name", "joints_of_mask"]
 
 
 def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
@@ -46,6 +28,19 @@ def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
 def joints_of_mask(mask: int) -> tuple[int, ...]:
     """Indices of the joints whose bits are set."""
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
+
+
+class Answering(Protocol):
+    """What solutions ask of the problem that they are of."""
+
+    chain: SerialChain
+    branch_words: BranchWords
+
+    def arranged(self, found: IKSolutions, seed: Array) -> IKSolutions:
+        """The solutions towards a seed, nearest first."""
+
+    def measure(self, q: Array, T: Array) -> Array:
+        """Residuals of configurations (k, n) at a pose, by another forward kinematics."""
 
 
 class IKSolutions:
@@ -70,7 +65,7 @@ class IKSolutions:
     __slots__ = ("_arrays", "_index", "_problem", "_targets", "count", "pose_change")
 
     def __init__(
-        self, problem: Problem, targets: Array, arrays: Outputs, index: int, count: int
+        self, problem: Answering, targets: Array, arrays: Outputs, index: int, count: int
     ) -> None:
         self._problem, self._targets, self._arrays = problem, targets, arrays
         self._index, self.count, self.pose_change = index, count, 0.0
@@ -166,7 +161,7 @@ class IKSolutions:
     @classmethod
     def of(
         cls,
-        problem: Problem,
+        problem: Answering,
         target: Array,
         q: Array,
         residual: Array,
@@ -200,24 +195,3 @@ def _read_only(view: Array) -> Array:
     """The view, protected from writing."""
     view.setflags(write=False)
     return view
-
-
-def as_configuration(q: ArrayLike, slides: NDArray[np.bool_], what: str) -> Array:
-    """A checked copy of a configuration, shape (n,): finite lengths and angles within bounds.
-
-    ``slides`` (n,) is true where a value is a length.
-
-    Raises
-    ------
-    ConfigurationError
-    """
-    n = len(slides)
-    out = np.array(finite_array(q, what, f"{n} finite numbers", ConfigurationError), order="C")
-    if out.shape != (n,):
-        raise ConfigurationError(f"{what}: expected shape ({n},), got {out.shape}")
-    far = np.flatnonzero(~(np.abs(out) <= np.where(slides, LENGTH, ANGLE)))
-    if len(far):
-        i = int(far[0])
-        allowed = f"a length up to {LENGTH:g} m" if slides[i] else f"an angle up to {ANGLE:g} rad"
-        raise ConfigurationError(f"{what}[{i}]: expected {allowed} either way, got {out[i]:g}")
-    return out

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.chains import hold, without_end
 from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.part_chains import hold, without_end
-from dh2urdf.ik.arm.solver import Solver, Task, select_solver
+from dh2urdf.ik.arm.solver import Solver, Task
+from dh2urdf.ik.arm.table import select_solver
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.ik.redundant.held_solver import HeldSolver

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.chains import hold, without_end
 from dh2urdf.ik.arm.geometry import AxisLines, DHForm
 from dh2urdf.ik.arm.limits import plain_ranges
 from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.part_chains import hold, without_end
 from dh2urdf.ik.arm.tolerances import SLACK, SNAP
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.redundant.held_solver import HeldSolver

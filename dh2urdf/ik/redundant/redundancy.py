@@ -15,20 +15,18 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.limits import near_ranges
+from dh2urdf.ik.arm.mobility import TRIALS, random_configurations, spare_joints
 from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.part_chains import hold
 from dh2urdf.ik.arm.singular_families import task_jacobian
 from dh2urdf.ik.arm.solver import SolverBase, Task
-from dh2urdf.ik.arm.tolerances import FAMILY_RANK, SPARE_RANK
-from dh2urdf.ik.problem.numeric import NumericProblem
+from dh2urdf.ik.arm.tolerances import FAMILY_RANK
+from dh2urdf.ik.families.numeric import NumericProblem
 from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.transforms import Array
 
-__all__ = ["RedundantChain", "spare_joints"]
-
-TRIALS = 4
-"""Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
+__all__ = ["RedundantChain"]
 
 STARTS = 8
 """Starts of the numeric search; a member of a family is soon found, if there is one."""
@@ -38,25 +36,6 @@ MOST = 16
 
 VALUES = (1, 24, 7)
 """Values at which each of 0, 1, 2 joints is held: a turn in steps of 15 degrees, of 51 for two."""
-
-
-def random_configurations(chain: SerialChain, count: int) -> Array:
-    """Configurations anywhere, the same ones each time, shape (count, n)."""
-    rng = np.random.default_rng(2)
-    span = np.where(chain.prismatic, chain.size, np.pi)
-    return rng.uniform(-1.0, 1.0, (count, chain.n)) * span
-
-
-def spare_joints(chain: SerialChain, task: Task) -> int:
-    """Dimension of the motions that leave the task alone in every configuration."""
-    q = random_configurations(chain, TRIALS)
-    J = task_jacobian(chain, task, q)
-    if not chain.n:
-        return 0
-    if task is not Task.POSITION:
-        J[:, :3] /= chain.size
-    sigma = np.linalg.svd(J, compute_uv=False)
-    return chain.n - int((sigma > SPARE_RANK * sigma[:, :1]).sum(axis=1).max())
 
 
 class RedundantChain(SolverBase):

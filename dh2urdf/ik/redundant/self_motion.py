@@ -7,17 +7,27 @@ ends of the intervals of the swept joint in which the pose is reached.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Protocol
+
 import numpy as np
 
 from dh2urdf.bounds import SAMPLES
+from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.arm.limits import TWO_PI, middle, turned_to
+from dh2urdf.ik.arm.limits import TWO_PI, middle, near_ranges, turned_to
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.ik.arm.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
-from dh2urdf.ik.redundant.swept import SweptJoint, sample_values
+from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
-__all__ = ["few_members", "inside_members", "nearest_members", "reach_intervals"]
+__all__ = [
+    "few_members",
+    "inside_members",
+    "nearest_members",
+    "reach_intervals",
+    "sample_values",
+]
 
 VALUES = 128
 """Values of the swept joint at which curves are looked for."""
@@ -43,9 +53,39 @@ GRID = 720
 """Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
 
 
-def few_members(
-    solver: SweptJoint, T: Array, within_limits: bool, most: int
-) -> tuple[Array, Array]:
+class Sweep(Protocol):
+    """A chain that can be solved at values of one joint or, roughly, of another."""
+
+    chain: SerialChain
+    links: Array
+    joints: Array
+    held: HeldSolver
+    joint: int
+
+    @property
+    def sweeps(self) -> Sequence[HeldSolver]:
+        """Solvers of the chain with either joint held."""
+
+    def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses (m, 4, 4) at values (s,) of the joint."""
+
+
+def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: bool) -> Array:
+    """Values of a joint at the middles of equal parts of its range, shape (samples,).
+
+    One turn at most; where the range is wider or has no bound, the turn about its middle.
+    """
+    lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
+    if chain.prismatic[joint]:
+        lower, upper = (float(end[joint]) for end in near_ranges(chain))
+    elif not within_limits or upper - lower > 2.0 * np.pi:
+        middle = 0.5 * (lower + upper) if np.isfinite(upper - lower) else 0.0
+        lower, upper = middle - np.pi, middle + np.pi
+    parts: Array = lower + (upper - lower) * (np.arange(samples) + 0.5) / samples
+    return parts
+
+
+def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tuple[Array, Array]:
     """Some solutions of a pose (4, 4) on curves that a coarse sweep has missed.
 
     Returns
@@ -69,7 +109,7 @@ def few_members(
     return _measured(solver, T, q[kept])
 
 
-def _measured(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
+def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
     from dh2urdf.kernels.certificate.arrange import measure_all
     from dh2urdf.kernels.certificate.damped import POSE
@@ -79,9 +119,7 @@ def _measured(solver: SweptJoint, T: Array, q: Array) -> tuple[Array, Array]:
     return q, residual
 
 
-def inside_members(
-    solver: SweptJoint, T: Array, goal: Array, most: int, values: int = VALUES
-) -> Array:
+def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int = VALUES) -> Array:
     """Members inside the limits of the curves of a pose, shape (k, n).
 
     The curves are looked for in sweeps of two joints over a whole turn, for one that is short in
@@ -89,7 +127,7 @@ def inside_members(
 
     Parameters
     ----------
-    solver : SweptJoint
+    solver : Sweep
     T : array, shape (4, 4)
     goal : array, shape (n,)
         Configuration by which full turns are chosen; members come in the order of their
@@ -120,7 +158,7 @@ def inside_members(
     return ordered
 
 
-def _on_curves(solver: SweptJoint, T: Array, values: int) -> Array:
+def _on_curves(solver: Sweep, T: Array, values: int) -> Array:
     """Solutions of a pose near values over a whole turn of two joints, limits or not, (k, n)."""
     return np.concatenate(
         [
@@ -130,12 +168,12 @@ def _on_curves(solver: SweptJoint, T: Array, values: int) -> Array:
     )
 
 
-def nearest_members(solver: SweptJoint, T: Array, seed: Array, within_limits: bool) -> Array:
+def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -> Array:
     """Solutions of a pose that are nearer to a seed than their neighbours on the self-motion.
 
     Parameters
     ----------
-    solver : SweptJoint
+    solver : Sweep
     T : array, shape (4, 4)
     seed : array, shape (n,)
     within_limits : bool
@@ -167,7 +205,7 @@ def nearest_members(solver: SweptJoint, T: Array, seed: Array, within_limits: bo
     return nearest
 
 
-def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
+def reach_intervals(solver: Sweep, T: Array, within_limits: bool) -> Array:
     """Intervals of the swept joint in which a pose is reached, shape (k, 2), ascending.
 
     Reach is tried at ``GRID`` values a turn and at the members of narrow curves; between a value
@@ -175,7 +213,7 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
 
     Parameters
     ----------
-    solver : SweptJoint
+    solver : Sweep
     T : array, shape (4, 4)
     within_limits : bool
         The whole range of the joint, with all joints inside their limits; without it one turn.
@@ -183,8 +221,7 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
     values = _grid(solver, within_limits)
     reached = _reached(solver, T, values, within_limits)
     if within_limits:
-        middle = middle(solver.chain)
-        extra = inside_members(solver, T, middle, 16 * VALUES)[:, solver.joint]
+        extra = inside_members(solver, T, middle(solver.chain), 16 * VALUES)[:, solver.joint]
         extra = _every_turn(solver, extra[_reached(solver, T, extra, True)])
         values = np.concatenate([values, extra])
         reached = np.concatenate([reached, np.ones(len(extra), np.bool_)])
@@ -199,7 +236,7 @@ def reach_intervals(solver: SweptJoint, T: Array, within_limits: bool) -> Array:
     return ends.reshape(-1, 2)
 
 
-def _every_turn(solver: SweptJoint, values: Array) -> Array:
+def _every_turn(solver: Sweep, values: Array) -> Array:
     """Values of the swept joint in all turns that its limits allow, shape (k,)."""
     lower, upper = solver.joints[solver.joint, 1:]
     if solver.joints[solver.joint, 0] or not np.isfinite(upper - lower):
@@ -211,7 +248,7 @@ def _every_turn(solver: SweptJoint, values: Array) -> Array:
     return inside
 
 
-def _grid(solver: SweptJoint, within_limits: bool) -> Array:
+def _grid(solver: Sweep, within_limits: bool) -> Array:
     """Values at which reach is tried, both bounds of the range among them."""
     one_turn = sample_values(solver.chain, solver.joint, 2, False)
     step = (one_turn[1] - one_turn[0]) * 2.0 / GRID
@@ -230,7 +267,7 @@ def _grid(solver: SweptJoint, within_limits: bool) -> Array:
     return grid
 
 
-def _reached(solver: SweptJoint, T: Array, values: Array, within_limits: bool) -> Array:
+def _reached(solver: Sweep, T: Array, values: Array, within_limits: bool) -> Array:
     """Whether the pose has a sharp solution at each of the values (s,), bool shape (s,)."""
     m = len(values)
     out, Ts = Outputs.of(m, solver.held.kmax, solver.chain.n), np.repeat(T[None], m, axis=0)
@@ -241,7 +278,7 @@ def _reached(solver: SweptJoint, T: Array, values: Array, within_limits: bool) -
 
 
 def _ends(
-    solver: SweptJoint, T: Array, left: Array, right: Array, reached: Array, within_limits: bool
+    solver: Sweep, T: Array, left: Array, right: Array, reached: Array, within_limits: bool
 ) -> Array:
     """Ends between values of which the pose is reached at one, halved until they are known."""
     left, right = left.copy(), right.copy()

@@ -16,9 +16,10 @@ from dh2urdf.ik.arm.solver import SolverBase, Task
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
+from dh2urdf.ik.redundant.self_motion import few_members, sample_values
 from dh2urdf.transforms import Array
 
-__all__ = ["SAMPLES", "SweptJoint", "sample_values"]
+__all__ = ["SAMPLES", "SweptJoint"]
 
 SAMPLES = 16
 """Values of the swept joint, when the caller gives no other number."""
@@ -31,21 +32,6 @@ CLASSES = 10
 
 BLOCK = 16384
 """Most poses times samples that are worked on at once: a few MB."""
-
-
-def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: bool) -> Array:
-    """Values of a joint at the middles of equal parts of its range, shape (samples,).
-
-    One turn at most; where the range is wider or has no bound, the turn about its middle.
-    """
-    lower, upper = float(chain.lower[joint]), float(chain.upper[joint])
-    if chain.prismatic[joint]:
-        lower, upper = (float(end[joint]) for end in near_ranges(chain))
-    elif not within_limits or upper - lower > 2.0 * np.pi:
-        middle = 0.5 * (lower + upper) if np.isfinite(upper - lower) else 0.0
-        lower, upper = middle - np.pi, middle + np.pi
-    parts: Array = lower + (upper - lower) * (np.arange(samples) + 0.5) / samples
-    return parts
 
 
 class SweptJoint(SolverBase):
@@ -115,14 +101,11 @@ class SweptJoint(SolverBase):
         values = sample_values(self.chain, self.joint, self.samples, within_limits)
         self.solve_at(values, Ts, within_limits, out)
         missed = np.flatnonzero(out.counts == 0)
-        if len(missed):
-            from dh2urdf.ik.redundant.self_motion import few_members
-
-            for i in missed:
-                q, residual = few_members(self, Ts[i], within_limits, self.kmax)
-                k = out.counts[i] = len(q)
-                out.q[i, :k], out.residual[i, :k] = q, residual
-                out.branch[i, :k], out.free[i, :k] = -1, 0
+        for i in missed:
+            q, residual = few_members(self, Ts[i], within_limits, self.kmax)
+            k = out.counts[i] = len(q)
+            out.q[i, :k], out.residual[i, :k] = q, residual
+            out.branch[i, :k], out.free[i, :k] = -1, 0
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""

@@ -18,7 +18,7 @@ from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 from dh2urdf.kernels.parallel_axes import poses as three_parallel
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint
-from dh2urdf.kernels.parallel_axes.poses import slope_of_last, add_pairs
+from dh2urdf.kernels.parallel_axes.poses import add_pairs, slope_of_last
 from dh2urdf.kernels.spherical_wrist import poses as spherical_wrist
 from dh2urdf.kernels.spherical_wrist.poses import add_wrist
 from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist, tool_to_wrist

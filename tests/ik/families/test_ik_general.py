@@ -9,7 +9,8 @@ import pytest
 from ik_referee import arm, draw, forward, gaps, jacobians, search, shipped, solve
 
 import dh2urdf
-from dh2urdf.ik.arm.solver import SOLVERS, Task, select_solver
+from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.table import SOLVERS, select_solver
 from dh2urdf.ik.families.general_6r import General6R
 
 NON_PIEPER = ["fanuc_crx10ia", "fanuc_crx10ia_l", "kinova_jaco2", "xarm6", "abb_gofa5"]

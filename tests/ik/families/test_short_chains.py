@@ -14,9 +14,10 @@ from hypothesis import strategies as st
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
-from dh2urdf.ik.arm.solver import Task, select_solver
+from dh2urdf.ik.arm.mobility import spare_joints
+from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.table import select_solver
 from dh2urdf.ik.families.short import ShortChain
-from dh2urdf.ik.redundant.redundancy import spare_joints
 
 HALF = math.pi / 2
 

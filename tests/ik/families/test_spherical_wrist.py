@@ -11,7 +11,7 @@ import pytest
 from ik_referee import HALF
 
 import dh2urdf
-from dh2urdf.ik.arm.solver import select_solver
+from dh2urdf.ik.arm.table import select_solver
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 
 SHIPPED = [

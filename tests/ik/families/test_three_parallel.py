@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from ik_referee import HALF
 
-from dh2urdf.ik.arm.solver import Task, select_solver
+from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.table import select_solver
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 
 DEG = math.pi / 180

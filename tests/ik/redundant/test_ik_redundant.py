@@ -13,8 +13,7 @@ import dh2urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik.arm import limits
-from dh2urdf.ik.redundant.self_motion import nearest_members
-from dh2urdf.ik.redundant.swept import sample_values
+from dh2urdf.ik.redundant.self_motion import nearest_members, sample_values
 
 ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
 SWEPT = {

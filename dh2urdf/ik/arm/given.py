@@ -1,19 +1,23 @@
-"""Target poses as callers give them: checked, or with the nearest rotation where that is asked."""
+"""Target poses and configurations as callers give them, checked.
+
+A pose may be replaced by the one with the nearest rotation, where that is asked.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.doors import flag, real_array
-from dh2urdf.exceptions import PoseError
+from dh2urdf.bounds import ANGLE, LENGTH
+from dh2urdf.doors import finite_array, flag, real_array
+from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.poses import POSE, check_pose, rounded_off
 from dh2urdf.transforms import Array
 
-__all__ = ["many_poses", "one_pose"]
+__all__ = ["as_configuration", "many_poses", "one_pose"]
 
 FirstBad = Callable[[Array], int]
 """Index of the first of some poses (m, 4, 4) that is none, or -1."""
@@ -70,3 +74,24 @@ def many_poses(
             after = first_bad(flat[last + 1 :])
             last = len(flat) if after < 0 else last + 1 + after
     return m, change
+
+
+def as_configuration(q: ArrayLike, slides: NDArray[np.bool_], what: str) -> Array:
+    """A checked copy of a configuration, shape (n,): finite lengths and angles within bounds.
+
+    ``slides`` (n,) is true where a value is a length.
+
+    Raises
+    ------
+    ConfigurationError
+    """
+    n = len(slides)
+    out = np.array(finite_array(q, what, f"{n} finite numbers", ConfigurationError), order="C")
+    if out.shape != (n,):
+        raise ConfigurationError(f"{what}: expected shape ({n},), got {out.shape}")
+    far = np.flatnonzero(~(np.abs(out) <= np.where(slides, LENGTH, ANGLE)))
+    if len(far):
+        i = int(far[0])
+        allowed = f"a length up to {LENGTH:g} m" if slides[i] else f"an angle up to {ANGLE:g} rad"
+        raise ConfigurationError(f"{what}[{i}]: expected {allowed} either way, got {out[i]:g}")
+    return out

@@ -16,10 +16,9 @@ from dh2urdf.bounds import STARTS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, generator, integer
 from dh2urdf.exceptions import NoSolutionError
-from dh2urdf.ik.arm.chain_unit import in_own_unit, lengths_in
+from dh2urdf.ik.arm.chains import in_own_unit, lengths_in
+from dh2urdf.ik.arm.given import as_configuration, one_pose
 from dh2urdf.ik.arm.solver import Task
-from dh2urdf.ik.problem.given_poses import one_pose
-from dh2urdf.ik.problem.solutions import as_configuration
 from dh2urdf.transforms import Array
 
 __all__ = ["NumericProblem", "NumericSolutions"]

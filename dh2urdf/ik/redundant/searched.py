@@ -1,0 +1,96 @@
+"""Arms that hardly move in some direction, as where a twist is a millionth: search what is lost.
+
+The pose then says little of a combination of joints, and equations that are solved one after the
+other lose what it says to rounding.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.singular_families import task_error, task_jacobian
+from dh2urdf.ik.arm.solver import Solver, Task, branch_words_of
+from dh2urdf.ik.arm.tolerances import SLACK
+from dh2urdf.transforms import Array
+
+__all__ = ["SearchedSolver", "nearly_reaching"]
+
+
+STARTS = 64
+STEPS = 60
+
+LESS = 0.05
+"""Damping after a good step; in a valley it has to fall below the square of its slope."""
+
+
+class SearchedSolver:
+    """A solver whose lost poses are searched for from many starts."""
+
+    def __init__(self, inner: Solver) -> None:
+        self.inner, self.chain, self.kmax, self.name = inner, inner.chain, inner.kmax, inner.name
+        self.branch_words = branch_words_of(inner)
+
+    def explain(self) -> str:
+        """Name the solver, and that it is helped."""
+        return (
+            f"{self.inner.explain()}\nsome joints hardly move the tool together; a pose that is "
+            "not found is searched for from many starts"
+        )
+
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
+        from dh2urdf.kernels.certificate.finish import finish_batch
+
+        self.inner.solve_batch(Ts, within_limits, out)
+        for i in np.flatnonzero(out.counts == 0):
+            q, error = nearly_reaching(self.chain, Ts[i], Task.POSE)
+            q = q[np.abs(error).max(axis=1) <= SLACK]
+            found = Outputs.of(1, max(len(q), self.kmax), self.chain.n)
+            found.q[0, : len(q)], found.counts[0] = q, len(q)
+            finish_batch(*self.chain.tables, Ts[i : i + 1], within_limits, *found)
+            np.minimum(found.counts, self.kmax, out=found.counts)
+            for whole, part in zip(out, found, strict=True):
+                whole[i] = part[0, : self.kmax] if part.ndim > 1 else part[0]
+
+    def __str__(self) -> str:
+        return self.name
+
+
+def nearly_reaching(
+    chain: SerialChain, T: Array, task: Task, stiff: float = 1.0
+) -> tuple[Array, Array]:
+    """Configurations (s, n) that come as near to a pose as they can, and their task errors.
+
+    ``stiff`` is the weight of positions, in sizes of the arm, against the orientation.
+    The steps are by singular values, not by normal equations, which lose the directions in which
+    the pose hardly changes.
+    """
+    rng = np.random.default_rng(3)
+    q = rng.uniform(-1.0, 1.0, (STARTS, chain.n)) * np.where(chain.prismatic, chain.size, np.pi)
+    weight = np.ones(3 if task is Task.POSITION else 6)
+    weight[:3] = stiff / chain.size
+    error = _weighted(chain, q, T, task, weight)
+    damping = np.full(STARTS, 1e-2)
+    for _ in range(STEPS):
+        U, sigma, Vt = np.linalg.svd(task_jacobian(chain, task, q) * weight[:, None], False)
+        square = sigma**2 + (sigma**2).sum(axis=1, keepdims=True) * damping[:, None] + 1e-300
+        along = np.einsum("kij,ki->kj", U, error) * sigma / square
+        step = np.einsum("kij,ki->kj", Vt, along)
+        step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1), 1e-12))[:, None]
+        trial = _weighted(chain, q + step, T, task, weight)
+        better = (trial**2).sum(axis=1) < (error**2).sum(axis=1)
+        q[better] += step[better]
+        error[better] = trial[better]
+        damping = np.clip(damping * np.where(better, LESS, 10.0), 1e-30, 1e3)
+    return q, error / weight
+
+
+def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
+    """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
+    from dh2urdf.kernels.chain.forward import chain_fk_batch
+
+    poses = np.empty((len(q), 4, 4))
+    chain_fk_batch(chain.links, chain.prismatic, q, poses)
+    return task_error(poses, T, task) * weight
