@@ -23,9 +23,8 @@ if TYPE_CHECKING:
     from dh2urdf import transforms
     from dh2urdf.chain import SerialChain
     from dh2urdf.checks.rules import check_urdf
-    from dh2urdf.conversions.assign.convention import to_convention
-    from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions
-    from dh2urdf.conversions.write.write_urdf import ConversionReport, urdf_text, write_urdf
+    from dh2urdf.conversions.assign import to_convention
+    from dh2urdf.conversions.write import ConversionReport, UrdfOptions, urdf_text, write_urdf
     from dh2urdf.dh import (
         DHConvention,
         DHRow,
@@ -38,10 +37,8 @@ if TYPE_CHECKING:
     from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
     from dh2urdf.extract import Extraction, extract_dh
-    from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
-    from dh2urdf.ik.problem.batch import IKBatch
-    from dh2urdf.ik.problem.path import IKPath
-    from dh2urdf.ik.problem.solutions import IKSolutions
+    from dh2urdf.ik.families import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+    from dh2urdf.ik.problem import IKBatch, IKPath, IKSolutions
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
@@ -57,26 +54,26 @@ _LATE = {
     },
     "dh_parameters": ("dh2urdf.dh.reach", "dh_parameters"),
     "transforms": ("dh2urdf.transforms", ""),
-    "ConversionReport": ("dh2urdf.conversions.write.write_urdf", "ConversionReport"),
+    "ConversionReport": ("dh2urdf.conversions.write", "ConversionReport"),
     "Extraction": ("dh2urdf.extract", "Extraction"),
-    "IKBatch": ("dh2urdf.ik.problem.batch", "IKBatch"),
-    "IKPath": ("dh2urdf.ik.problem.path", "IKPath"),
-    "IKSolutions": ("dh2urdf.ik.problem.solutions", "IKSolutions"),
+    "IKBatch": ("dh2urdf.ik.problem", "IKBatch"),
+    "IKPath": ("dh2urdf.ik.problem", "IKPath"),
+    "IKSolutions": ("dh2urdf.ik.problem", "IKSolutions"),
     "Robot": ("dh2urdf.robot", "Robot"),
     "SerialChain": ("dh2urdf.chain", "SerialChain"),
-    "UrdfOptions": ("dh2urdf.conversions.write.urdf_options", "UrdfOptions"),
+    "UrdfOptions": ("dh2urdf.conversions.write", "UrdfOptions"),
     "check_urdf": ("dh2urdf.checks.rules", "check_urdf"),
     "extract_dh": ("dh2urdf.extract", "extract_dh"),
     "list_tables": ("dh2urdf.robots", "list_tables"),
     "load_table": ("dh2urdf.robots", "load_table"),
-    "planar_reach": ("dh2urdf.ik.families.planar", "planar_reach"),
-    "planar_rr_ik": ("dh2urdf.ik.families.planar", "planar_rr_ik"),
-    "planar_rrr_ik": ("dh2urdf.ik.families.planar", "planar_rrr_ik"),
+    "planar_reach": ("dh2urdf.ik.families", "planar_reach"),
+    "planar_rr_ik": ("dh2urdf.ik.families", "planar_rr_ik"),
+    "planar_rrr_ik": ("dh2urdf.ik.families", "planar_rrr_ik"),
     "save_table": ("dh2urdf.dh_io", "write_table"),
-    "to_convention": ("dh2urdf.conversions.assign.convention", "to_convention"),
-    "urdf_text": ("dh2urdf.conversions.write.write_urdf", "urdf_text"),
-    "wrist_centre": ("dh2urdf.ik.families.planar", "wrist_centre"),
-    "write_urdf": ("dh2urdf.conversions.write.write_urdf", "write_urdf"),
+    "to_convention": ("dh2urdf.conversions.assign", "to_convention"),
+    "urdf_text": ("dh2urdf.conversions.write", "urdf_text"),
+    "wrist_centre": ("dh2urdf.ik.families", "wrist_centre"),
+    "write_urdf": ("dh2urdf.conversions.write", "write_urdf"),
 }
 """Public names whose modules are imported when they are first asked for."""
 

@@ -7,15 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from dh2urdf.conversions.assign.frame_assignment import XRule
+from dh2urdf.conversions.assign import XRule
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import pose_error
 
 if TYPE_CHECKING:
-    from dh2urdf.conversions.assign.explain import FrameStep
-    from dh2urdf.conversions.assign.snap import Change
+    from dh2urdf.conversions.assign import Change, FrameStep
 
 __all__ = ["SIGNATURE", "Extraction", "extract_dh"]
 
@@ -134,17 +133,20 @@ def extract_dh(
         The table differs from the source by more than rounding (only with ``compact=False``,
         where a common normal is too far away for sixteen digits).
     """
-    from dh2urdf.conversions.assign import snap as snapping
-    from dh2urdf.conversions.assign.chain_to_dh import chain_to_dh, flip_signs
-    from dh2urdf.conversions.assign.explain import explain_frames
-    from dh2urdf.conversions.assign.frame_assignment import references
-    from dh2urdf.conversions.assign.near_misses import near_misses
-    from dh2urdf.conversions.chains.carry import carry
-    from dh2urdf.conversions.chains.extract_source import read_source
-    from dh2urdf.conversions.chains.referee import configurations, table_poses
+    from dh2urdf.conversions.assign import (
+        chain_to_dh,
+        explain_frames,
+        flip_signs,
+        near_misses,
+        references,
+        snap_chain,
+        snap_table,
+        snap_tolerance,
+    )
+    from dh2urdf.conversions.chains import carry, configurations, read_source, table_poses
 
     convention = convention_of(convention)
-    tolerance = snapping.snap_tolerance(snap)
+    tolerance = snap_tolerance(snap)
     given = read_source(source, base, tip, joint_types=joint_types, tool=tool, names=names)
     found, chain = given.found, given.found.chain
     size = references(chain.links).size
@@ -166,12 +168,12 @@ def extract_dh(
     signs = flip_signs(chain, flip)
     changes: list[Change] = []
     if tolerance > 0:
-        chain, changes = snapping.snap_chain(chain, tolerance, qs)
+        chain, changes = snap_chain(chain, tolerance, qs)
     assigned = chain_to_dh(
         chain, convention, name=found.name, x_rule=x_axis, compact=compact, signs=signs
     )
     if tolerance > 0:
-        table, rounded = snapping.snap_table(assigned.table, tolerance, qs)
+        table, rounded = snap_table(assigned.table, tolerance, qs)
         changes += rounded
         assigned = replace(assigned, table=table)
     else:

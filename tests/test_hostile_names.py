@@ -18,7 +18,7 @@ import dh2urdf
 from dh2urdf import DHRow, DHTable, JointType, Origin
 from dh2urdf.cli import main
 from dh2urdf.conversions.write.constructors import CONSTRUCTORS
-from dh2urdf.conversions.write.write_urdf import verified_urdf
+from dh2urdf.conversions.write.urdf_file import verified_urdf
 from dh2urdf.dh_io import parse_table, table_to_text
 from dh2urdf.dh_io.xml import embedded_table
 from dh2urdf.exceptions import TableError
@@ -265,7 +265,7 @@ def test_code_in_a_urdf_stays_a_name(format, tmp_path, monkeypatch):
 def test_a_figure_shows_the_name(name):
     """A name in a figure is text: no formula, no missing sign, no markup in the SVG."""
     pytest.importorskip("matplotlib")
-    from dh2urdf.figures.save import picture_bytes
+    from dh2urdf.figures.style import picture_bytes
     from dh2urdf.figures.workspaces.workspace import workspace_figure
 
     robot = dh2urdf.Robot.from_dh(

@@ -10,9 +10,7 @@ from pathlib import Path
 from lxml import etree
 
 from dh2urdf.bounds import NUMBER as LARGEST
-from dh2urdf.conversions.read.description import description_bytes
-from dh2urdf.conversions.read.read_urdf import count_elements
-from dh2urdf.conversions.read.urdf_reader import FLOAT
+from dh2urdf.conversions.read import FLOAT, count_elements, description_bytes
 from dh2urdf.dh_io.files import shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError

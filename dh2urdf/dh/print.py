@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import Protocol
 
 from dh2urdf import grids
+from dh2urdf.dh.motions import DHConvention
+from dh2urdf.dh.row import DHRow, Origin
 from dh2urdf.grids import number
 from dh2urdf.quoting import latex, markdown, one_line
-
-if TYPE_CHECKING:
-    from dh2urdf.dh import DHRow, DHTable, Origin
 
 __all__ = ["table_grid", "table_html", "table_latex", "table_markdown", "table_text"]
 
@@ -19,6 +19,25 @@ ROUNDING = 4e-16
 
 KEYS = ("i", "name", "theta", "d", "a", "alpha", "limits", "step")
 HEADER = ("i", "joint", "θ [deg]", "d [m]", "a [m]", "α [deg]", "limits of q", "fixed step")
+
+
+class _Table(Protocol):
+    """What is printed of a DH table."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def rows(self) -> Sequence[DHRow]: ...
+    @property
+    def convention(self) -> DHConvention: ...
+    @property
+    def base(self) -> Origin: ...
+    @property
+    def tool(self) -> Origin: ...
+    @property
+    def n(self) -> int: ...
+    @property
+    def joint_names(self) -> Sequence[str]: ...
 
 
 def degrees(value: float) -> str:
@@ -41,7 +60,7 @@ def plus(variable: str, offset: str) -> str:
     return f"{variable} + {offset}"
 
 
-def table_grid(table: DHTable) -> tuple[list[str], list[str], list[list[str]]]:
+def table_grid(table: _Table) -> tuple[list[str], list[str], list[list[str]]]:
     """Keys, header and cells of a table; columns that say nothing are left out."""
     rows, joint = [], 0
     for row in table.rows:
@@ -80,7 +99,7 @@ def step(origin: Origin) -> str:
     return f"xyz ({xyz}) m" + (f", rpy ({rpy}) deg" if any(origin.rpy) else "")
 
 
-def title(table: DHTable) -> str:
+def title(table: _Table) -> str:
     """Name and convention, and the base and tool where there are any."""
     lines = [
         f"{one_line(table.name)}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"
@@ -90,13 +109,13 @@ def title(table: DHTable) -> str:
     return "\n".join(lines)
 
 
-def table_text(table: DHTable) -> str:
+def table_text(table: _Table) -> str:
     """The table for a terminal."""
     _, header, rows = table_grid(table)
     return f"{title(table)}\n\n{grids.grid_text(header, rows)}"
 
 
-def table_markdown(table: DHTable) -> str:
+def table_markdown(table: _Table) -> str:
     """The table as a Markdown pipe table, angles in degrees."""
     keys, header, rows = table_grid(table)
     at = keys.index("name")
@@ -104,13 +123,13 @@ def table_markdown(table: DHTable) -> str:
     return grids.grid_markdown(header, cells)
 
 
-def table_html(table: DHTable) -> str:
+def table_html(table: _Table) -> str:
     """The table for a notebook."""
     keys, header, rows = table_grid(table)
     return grids.grid_html(header, rows, keys=keys, caption=title(table))
 
 
-def table_csv(table: DHTable) -> str:
+def table_csv(table: _Table) -> str:
     """The table as comma-separated values as shown, angles in degrees."""
     _, header, rows = table_grid(table)
     return grids.grid_csv(header, rows)
@@ -128,7 +147,7 @@ LATEX = {
 }
 
 
-def table_latex(table: DHTable) -> str:
+def table_latex(table: _Table) -> str:
     """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
     keys, _, rows = table_grid(table)
     cells = [[_latex_cell(key, text) for key, text in zip(keys, row, strict=True)] for row in rows]

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.assign.chain_to_dh import chain_to_dh
-from dh2urdf.conversions.write.bodies import Body, draw_bodies, link_frames
-from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.assign import chain_to_dh
+from dh2urdf.conversions.write import Body, dh_to_chain, draw_bodies, link_frames
 from dh2urdf.dh import DHTable
 from dh2urdf.doors import finite_array, instance
 from dh2urdf.exceptions import ConfigurationError

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dh2urdf.conversions.assign.axis_pairs import AxisCase, classify
+from dh2urdf.conversions.assign import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
 from dh2urdf.dh.print import degrees
 from dh2urdf.drawing.arm import DrawnArm

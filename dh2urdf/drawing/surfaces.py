@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.conversions.write.bodies import Body
+from dh2urdf.conversions.write import Body
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import MATERIAL, rgb
 from dh2urdf.transforms import Array

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from pathlib import Path
 
@@ -10,29 +9,12 @@ from dh2urdf.bounds import DPI
 from dh2urdf.dh_io import atomic_write
 from dh2urdf.doors import number
 from dh2urdf.exceptions import OutputError, OutputExistsError
-from dh2urdf.figures.style import RC, Picture, mpl
+from dh2urdf.figures.style import MARK, Picture, picture_bytes
 
-__all__ = ["FORMATS", "check_target", "picture_bytes", "save_picture"]
+__all__ = ["FORMATS", "check_target", "save_picture"]
 
 FORMATS = ("png", "svg", "pdf")
 """Formats written, by suffix."""
-
-MARK = "dh2urdf figure"
-"""Written into every file: what has it may be replaced."""
-
-METADATA: dict[str, dict[str, object]] = {
-    "png": {"Software": MARK},
-    "svg": {"Date": None, "Creator": MARK},
-    "pdf": {"CreationDate": None, "ModDate": None, "Creator": MARK, "Producer": None},
-}
-
-
-def picture_bytes(figure: Picture, format: str, *, dpi: float = 180.0) -> bytes:
-    """The figure in one of :data:`FORMATS`; ``dpi`` is the resolution of a PNG."""
-    out = io.BytesIO()
-    with mpl.rc_context(RC):
-        figure.savefig(out, format=format, dpi=dpi, metadata=METADATA[format])
-    return out.getvalue()
 
 
 def check_target(path: str | os.PathLike[str], *, force: bool) -> str:

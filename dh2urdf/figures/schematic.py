@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from dh2urdf.conversions.write.bodies import Body, frame_along
+from dh2urdf.conversions.write import Body, frame_along
 from dh2urdf.dh import DHConvention, JointType
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.row import DHRowPicture, row_picture

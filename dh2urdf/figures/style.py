@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ try:
 except ImportError:
     raise MissingExtraError("plot", "drawing a figure") from None
 
-__all__ = ["FAINT", "INK", "MUTED", "RC", "Picture", "mix", "mpl", "plain"]
+__all__ = ["FAINT", "INK", "MUTED", "RC", "Picture", "mix", "mpl", "picture_bytes", "plain"]
 
 INK = "#1b2333"
 MUTED = "#5c6470"
@@ -43,6 +44,16 @@ RC: Any = {
 """Settings in force while a figure is made and saved; nobody else's figures see them."""
 
 
+MARK = "dh2urdf figure"
+"""Written into every file: what has it may be replaced."""
+
+METADATA: dict[str, dict[str, object]] = {
+    "png": {"Software": MARK},
+    "svg": {"Date": None, "Creator": MARK},
+    "pdf": {"CreationDate": None, "ModDate": None, "Creator": MARK, "Producer": None},
+}
+
+
 class Picture(Figure):
     """A matplotlib figure that shows itself in a notebook without pyplot."""
 
@@ -51,9 +62,15 @@ class Picture(Figure):
         FigureCanvasAgg(self)
 
     def _repr_png_(self) -> bytes:
-        from dh2urdf.figures.save import picture_bytes
-
         return picture_bytes(self, "png", dpi=110)
+
+
+def picture_bytes(figure: Picture, format: str, *, dpi: float = 180.0) -> bytes:
+    """The figure in one of :data:`FORMATS`; ``dpi`` is the resolution of a PNG."""
+    out = io.BytesIO()
+    with mpl.rc_context(RC):
+        figure.savefig(out, format=format, dpi=dpi, metadata=METADATA[format])
+    return out.getvalue()
 
 
 def mix(colour: str, share: float, other: str = "#ffffff") -> str:

@@ -17,22 +17,30 @@ from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.exceptions import ConfigurationError, PoseError
-from dh2urdf.ik.arm.chains import in_own_unit
-from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
-from dh2urdf.ik.arm.notice import notice_if_slow
-from dh2urdf.ik.arm.solver import Solver, Task
-from dh2urdf.ik.arm.table import select_solver
-from dh2urdf.ik.problem.batch import IKBatch
-from dh2urdf.ik.problem.locked import Locked, held_values
-from dh2urdf.ik.problem.path import IKPath
-from dh2urdf.ik.problem.problem import ForwardKinematics, Problem, Progress
-from dh2urdf.ik.problem.scaled_problem import ScaledProblem
-from dh2urdf.ik.problem.solutions import IKSolutions
-from dh2urdf.ik.problem.swept_path import find_path
-from dh2urdf.ik.problem.swept_problem import SweptProblem
-from dh2urdf.ik.redundant.held_solver import HeldSolver
-from dh2urdf.ik.redundant.held_values import select_held
-from dh2urdf.ik.redundant.swept import SweptJoint
+from dh2urdf.ik.arm import (
+    Solver,
+    Task,
+    as_configuration,
+    in_own_unit,
+    many_poses,
+    notice_if_slow,
+    one_pose,
+    select_solver,
+)
+from dh2urdf.ik.problem import (
+    ForwardKinematics,
+    IKBatch,
+    IKPath,
+    IKSolutions,
+    Locked,
+    Problem,
+    Progress,
+    ScaledProblem,
+    SweptProblem,
+    find_path,
+    held_values,
+)
+from dh2urdf.ik.redundant import HeldSolver, SweptJoint, select_held
 from dh2urdf.transforms import Array
 
 __all__ = ["InverseKinematics", "Locked"]

@@ -9,8 +9,7 @@ import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains.coupling import Coupling
-from dh2urdf.conversions.chains.model_to_chain import ChainPath, is_continuous
+from dh2urdf.conversions.chains import ChainPath, Coupling, is_continuous
 from dh2urdf.doors import finite_array, generator
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.transforms import Array

@@ -19,10 +19,10 @@ from dh2urdf.transforms import Array
 if TYPE_CHECKING:
     import numpy as np
 
-    from dh2urdf.ik.arm.solver import Solver, Task
-    from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
-    from dh2urdf.ik.problem.solutions import IKSolutions
-    from dh2urdf.ik.redundant.held_solver import HeldSolver
+    from dh2urdf.ik.arm import Solver, Task
+    from dh2urdf.ik.families import NumericProblem, NumericSolutions
+    from dh2urdf.ik.problem import IKSolutions
+    from dh2urdf.ik.redundant import HeldSolver
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
 __all__ = ["RobotIK"]
@@ -206,7 +206,7 @@ class RobotIK(RobotPoses):
 
     @cached_property
     def _numeric(self) -> NumericProblem:
-        from dh2urdf.ik.families.numeric import NumericProblem
+        from dh2urdf.ik.families import NumericProblem
 
         return NumericProblem(self.chain, *self._values(), self.lower, self.upper)
 

@@ -3,15 +3,31 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
 
-if TYPE_CHECKING:
-    from dh2urdf.figures.style import Picture
-    from dh2urdf.viewer import ArmView
+from dh2urdf.transforms import Array
 
 __all__ = ["RobotPictures"]
+
+
+class Picture(Protocol):
+    """A matplotlib figure."""
+
+    def savefig(self, fname: str | Path, **options: Any) -> None:
+        """Write it to a file."""
+
+
+class ArmView(Protocol):
+    """The arm in the browser."""
+
+    url: str
+    q: Array
+
+    def stop(self) -> None:
+        """Close the page and its server."""
 
 
 class RobotPictures:

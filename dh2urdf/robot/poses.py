@@ -8,10 +8,8 @@ from typing import TYPE_CHECKING
 from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.arm.solver import Task
-    from dh2urdf.ik.problem.batch import IKBatch
-    from dh2urdf.ik.problem.path import IKPath
-    from dh2urdf.ik.problem.problem import Progress
+    from dh2urdf.ik.arm import Task
+    from dh2urdf.ik.problem import IKBatch, IKPath, Progress
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
 __all__ = ["RobotPoses"]

@@ -12,18 +12,17 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from dh2urdf.chain import settled_state
-from dh2urdf.conversions.chains.carried_frames import carried_dh_frames, carried_joint_frames
-from dh2urdf.conversions.chains.coupling import couple
-from dh2urdf.conversions.chains.model_to_chain import (
+from dh2urdf.conversions.chains import (
+    carried_dh_frames,
+    carried_joint_frames,
     chain_path,
+    couple,
     frame_id,
     model_to_chain,
     with_locked,
 )
-from dh2urdf.conversions.read.description import TEXT, read_description
-from dh2urdf.conversions.read.kinematic_tree import Mimic
-from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
-from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.read import TEXT, Mimic, read_description
+from dh2urdf.conversions.write import UrdfOptions, dh_to_chain, urdf_text_and_warnings
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
@@ -183,7 +182,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             T_base_tip: Array = oMt.homogeneous
             if isfinite(T_base_tip.item(3)):  # NaN if any joint value is
                 return T_base_tip
-        from dh2urdf.kernels.chain.forward import chain_fk_batch
+        from dh2urdf.kernels.chain import chain_fk_batch
 
         flat, shape = self._flat(config)
         T = np.empty((len(flat), 4, 4))
@@ -203,7 +202,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             For a robot made from a URDF: entry 0 is the base itself, entry i the frame of
             joint i as Pinocchio places it, after its motion.
         """
-        from dh2urdf.kernels.chain.forward import chain_frames_batch
+        from dh2urdf.kernels.chain import chain_frames_batch
 
         flat, shape = self._flat(q)
         T = np.empty((len(flat), self.chain.n + 1, 4, 4))
@@ -229,7 +228,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             J: Array = _frame_jacobian(self.model, data, config, self._tip, _ALIGNED)
             if isfinite(J.item(self._turning)):  # as above: the tip's place is in it
                 return J if J.ndim == 2 else J.reshape(6, 1)
-        from dh2urdf.kernels.chain.forward import chain_jacobian_batch
+        from dh2urdf.kernels.chain import chain_jacobian_batch
 
         flat, shape = self._flat(config)
         out = np.empty((len(flat), 6, self.chain.n))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.conversions.write.bodies import Body, frame_along
+from dh2urdf.conversions.write import Body, frame_along
 from dh2urdf.dh import DHConvention
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb

@@ -11,8 +11,8 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.conversions.chains.model_to_chain import frame_id
-from dh2urdf.conversions.write.bodies import Body
+from dh2urdf.conversions.chains import frame_id
+from dh2urdf.conversions.write import Body
 from dh2urdf.dh import Origin
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.dh_io.xml import parse_xml

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.bounds import ORIENTATIONS, SAMPLES
 from dh2urdf.doors import finite_array, flag, instance, integer
-from dh2urdf.ik.redundant.self_motion import sample_values
-from dh2urdf.ik.redundant.swept import SweptJoint
+from dh2urdf.ik.redundant import SweptJoint, sample_values
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.section import Section

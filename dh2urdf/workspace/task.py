@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.bounds import ORIENTATIONS
-from dh2urdf.conversions.write.bodies import frame_along
+from dh2urdf.conversions.write import frame_along
 from dh2urdf.doors import instance, integer
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z

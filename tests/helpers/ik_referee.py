@@ -14,7 +14,7 @@ import numpy as np
 
 import dh2urdf
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import JointType
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.ik.arm.table import select_solver

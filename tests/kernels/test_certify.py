@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from dh2urdf.kernels.certificate import certify, polish
+from dh2urdf.kernels.certificate import certify, newton
 
 HALF_PI = math.pi / 2
 PUMA = ((0, 0, HALF_PI), (0, 0.4318, 0), (0.15005, 0.0203, -HALF_PI), (0.4318, 0, HALF_PI))
@@ -46,7 +46,7 @@ def finish_pose(*arguments):
 @njit
 def pose_residual(links, joints, T, q):
     """The kernel, which only kernels can call."""
-    return polish.pose_residual(links, joints, T, q)
+    return newton.pose_residual(links, joints, T, q)
 
 
 def revolute(n, lower=-math.inf, upper=math.inf):
@@ -60,7 +60,7 @@ def finish(links, joints, T, candidates, *, within_limits=True, residual=None):
     k, n = q.shape
     residual = np.full(k, -1.0) if residual is None else np.array(residual, float)
     branch, free = np.arange(k), np.zeros(k, np.int64)
-    work = polish.new_work(n)
+    work = newton.new_work(n)
     count = finish_pose(
         links, joints, np.ascontiguousarray(T), within_limits, q, residual, branch, free, k, work
     )

@@ -10,7 +10,7 @@ from lxml import etree
 from dh2urdf.checks.document import MOVING, TENSOR, Document
 from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, complain, misread, refuse
 from dh2urdf.checks.report import Found
-from dh2urdf.conversions.write.inertia import tensor, why_impossible
+from dh2urdf.conversions.write import tensor, why_impossible
 from dh2urdf.transforms import Array
 
 __all__ = [

@@ -25,7 +25,7 @@ from dh2urdf.checks import (
 from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json, note, stdin
 from dh2urdf.cli.progress import track
-from dh2urdf.conversions.read.description import description_bytes, is_xacro, mended_urdf
+from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, note, read_source
-from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions
+from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import Dh2UrdfError, VerificationError
@@ -94,7 +94,7 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
 
 def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, object]:
     """Text of the target's kind, checked, and written unless it is for stdout."""
-    from dh2urdf.conversions.write.write_urdf import verified_urdf, write_urdf
+    from dh2urdf.conversions.write import verified_urdf, write_urdf
 
     table, warnings = read_source(source)
     result: dict[str, object] = {"source": source, "path": target, "max_error": 0.0}

@@ -121,7 +121,7 @@ def _stdin() -> str:
 
 def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
     """The table in its format, to a file or stdout."""
-    from dh2urdf.conversions.write.constructors import CONSTRUCTORS
+    from dh2urdf.conversions.write import CONSTRUCTORS
     from dh2urdf.dh.print import table_latex
 
     to_stdout = output is None or str(output) == "-"

@@ -16,7 +16,7 @@ from dh2urdf.grids import grid_csv, grid_text, number
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.problem.solutions import IKSolutions
+    from dh2urdf.ik.problem import IKSolutions
     from dh2urdf.robot import Robot
 
 __all__ = ["ik_"]

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.write.inertia import Inertial, tensor
+from dh2urdf.conversions.write import Inertial, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io import TableLike, as_table

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.assign.assigned_table import AssignedTable
 from dh2urdf.conversions.assign.axis_pairs import AxisCase, AxisPair, Normal, common_normal
-from dh2urdf.conversions.assign.chain_to_dh import AssignedTable
 from dh2urdf.conversions.assign.frame_assignment import Assignment
 from dh2urdf.conversions.assign.frame_ends import BaseChoice, ToolChoice
 from dh2urdf.dh import DHConvention, DHRow, JointType

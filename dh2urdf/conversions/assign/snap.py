@@ -18,7 +18,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.assign.rounding import near_angle
-from dh2urdf.conversions.chains.referee import table_poses
+from dh2urdf.conversions.chains import table_poses
 from dh2urdf.dh import DHConvention, DHTable, Origin
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error

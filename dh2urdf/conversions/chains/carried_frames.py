@@ -6,9 +6,8 @@ import numpy as np
 import pinocchio as pin
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains.model_to_chain import ChainPath
-from dh2urdf.conversions.write.bodies import link_frames
-from dh2urdf.conversions.write.dh_to_chain import FLIP
+from dh2urdf.conversions.chains.model_chain import ChainPath
+from dh2urdf.conversions.write import FLIP, link_frames
 from dh2urdf.dh import DHTable
 from dh2urdf.transforms import Array, inverse
 

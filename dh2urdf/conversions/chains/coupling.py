@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.read.kinematic_tree import Mimic
+from dh2urdf.conversions.read import Mimic
 from dh2urdf.transforms import Array
 
 __all__ = ["Coupling", "couple"]

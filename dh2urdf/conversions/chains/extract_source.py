@@ -12,8 +12,8 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.chains.model_chain import frame_id
 from dh2urdf.conversions.chains.model_source import model_source
-from dh2urdf.conversions.chains.model_to_chain import frame_id
 from dh2urdf.conversions.chains.read_axes import SUFFIXES as AXES_SUFFIXES
 from dh2urdf.conversions.chains.read_axes import read_axes
 from dh2urdf.conversions.chains.referee import (
@@ -22,10 +22,9 @@ from dh2urdf.conversions.chains.referee import (
     model_referee,
     screw_referee,
 )
-from dh2urdf.conversions.chains.tree_to_chain import Actuation, ChainSource, tree_to_chain
+from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource, tree_to_chain
 from dh2urdf.conversions.chains.typed_axes import typed_to_chain
-from dh2urdf.conversions.read.description import read_description
-from dh2urdf.conversions.read.naming import link_name
+from dh2urdf.conversions.read import link_name, read_description
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError

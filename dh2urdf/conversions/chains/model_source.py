@@ -7,7 +7,7 @@ import pinocchio as pin
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import LINKS
-from dh2urdf.conversions.chains.model_to_chain import (
+from dh2urdf.conversions.chains.model_chain import (
     ChainPath,
     chain_path,
     frame_id,
@@ -15,10 +15,9 @@ from dh2urdf.conversions.chains.model_to_chain import (
     model_to_chain,
     tip_names,
 )
-from dh2urdf.conversions.chains.tree_to_chain import Actuation, ChainSource
-from dh2urdf.conversions.read.kinematic_tree import TIP_NAMES
-from dh2urdf.conversions.read.naming import listed
-from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource
+from dh2urdf.conversions.read import TIP_NAMES, listed
+from dh2urdf.conversions.write import Inertial
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 

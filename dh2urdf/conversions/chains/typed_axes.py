@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import JOINTS, LENGTH, TEXT_CHARACTERS
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains.model_to_chain import frame_with_z
+from dh2urdf.conversions.chains.model_chain import frame_with_z
 from dh2urdf.dh import JointType
 from dh2urdf.doors import found, real_array
 from dh2urdf.exceptions import UrdfError

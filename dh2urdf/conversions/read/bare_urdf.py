@@ -10,7 +10,7 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.conversions.read.kinematic_tree import KinematicTree
-from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.write import Inertial
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 

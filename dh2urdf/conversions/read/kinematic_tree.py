@@ -15,7 +15,7 @@ import numpy as np
 
 from dh2urdf.bounds import JOINTS
 from dh2urdf.conversions.read.naming import listed, no_such
-from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array, inverse

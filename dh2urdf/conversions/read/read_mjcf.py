@@ -14,7 +14,7 @@ from dh2urdf.bounds import ANGLE, LENGTH, LINKS
 from dh2urdf.conversions.read.apart import read_apart
 from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import KinematicTree, TreeJoint, TreeLink
-from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array

@@ -14,8 +14,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER, TEXT_CHARACTERS
 from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import MOVING, TreeJoint, TreeLink
-from dh2urdf.conversions.write.dh_to_urdf import DEFAULT_EFFORT, DEFAULT_VELOCITY
-from dh2urdf.conversions.write.inertia import Inertial, tensor
+from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, Inertial, tensor
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array

@@ -1,0 +1,44 @@
+"""From a DH table to a URDF, proved.
+
+`table_chain`, `dh_to_urdf` (every joint and link of the file), `bodies`, `link_paths` and `inertia`
+(what is drawn and weighed), `urdf_file` (the whole way, checked by `verify`), `urdf_options`;
+`constructors` writes tables as code of other toolboxes.
+"""
+
+from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along, link_frames
+from dh2urdf.conversions.write.constructors import CONSTRUCTORS
+from dh2urdf.conversions.write.dh_to_urdf import (
+    DEFAULT_EFFORT,
+    DEFAULT_VELOCITY,
+    urdf_text_and_warnings,
+)
+from dh2urdf.conversions.write.inertia import Inertial, tensor, why_impossible
+from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain
+from dh2urdf.conversions.write.urdf_file import (
+    ConversionReport,
+    urdf_text,
+    verified_urdf,
+    write_urdf,
+)
+from dh2urdf.conversions.write.urdf_options import UrdfOptions
+
+__all__ = [
+    "CONSTRUCTORS",
+    "DEFAULT_EFFORT",
+    "DEFAULT_VELOCITY",
+    "FLIP",
+    "Body",
+    "ConversionReport",
+    "Inertial",
+    "UrdfOptions",
+    "dh_to_chain",
+    "draw_bodies",
+    "frame_along",
+    "link_frames",
+    "tensor",
+    "urdf_text",
+    "urdf_text_and_warnings",
+    "verified_urdf",
+    "why_impossible",
+    "write_urdf",
+]

@@ -13,7 +13,6 @@ from lxml import etree
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.bodies import Body, LinkFrames, draw_bodies, link_frames
-from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
 from dh2urdf.conversions.write.inertia import (
     Inertial,
     balanced,
@@ -21,6 +20,7 @@ from dh2urdf.conversions.write.inertia import (
     why_impossible,
     without_noise,
 )
+from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError

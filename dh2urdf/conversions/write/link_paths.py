@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.write.dh_to_chain import split_row
+from dh2urdf.conversions.write.table_chain import split_row
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.transforms import Array, inverse
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dh2urdf.conversions.write.bodies import Body
+from dh2urdf.conversions.write import Body
 from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import Part, hull_points
 from dh2urdf.transforms import Array

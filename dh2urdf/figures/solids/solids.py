@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.conversions.write.bodies import Body
+from dh2urdf.conversions.write import Body
 from dh2urdf.figures.solids.projection import View
 from dh2urdf.transforms import Array
 

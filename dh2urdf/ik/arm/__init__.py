@@ -1,0 +1,106 @@
+"""What is known of an arm before any pose: its axes, its limits, the solver that it gets.
+
+`tolerances` has every threshold with its reason; `solver` says what a solver is and `table` picks
+one; `geometry` looks at axes, `mobility` at joints to spare, `singular_families` at joints that
+move freely; `chains` makes chains of a chain, `limits` full turns, `outputs` the arrays that
+solvers fill; `given` checks what callers give, `notice` says that kernels compile.
+"""
+
+from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, without_end
+from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely
+from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
+from dh2urdf.ik.arm.limits import (
+    TWO_PI,
+    all_turns,
+    inside,
+    middle,
+    near_ranges,
+    plain_ranges,
+    turn_counts,
+    turned_to,
+)
+from dh2urdf.ik.arm.mobility import TRIALS, random_configurations, spare_joints
+from dh2urdf.ik.arm.notice import notice_if_slow
+from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.arm.singular_families import Family, slide_to_seed, task_error, task_jacobian
+from dh2urdf.ik.arm.solver import (
+    BRANCH_WORDS,
+    BatchKernel,
+    BranchWords,
+    Solver,
+    SolverBase,
+    Task,
+    branch_words_of,
+)
+from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm.tolerances import (
+    ACCEPT,
+    FAMILY_RANK,
+    INTERVAL_END,
+    LIMIT_SLACK,
+    NEAR,
+    NEARLY_SINGULAR,
+    NOISE_MOTION,
+    NOMINAL,
+    PATH_JUMP,
+    REGULAR,
+    SHARP,
+    SLACK,
+    SLACK_OF_NEAR,
+    SLACK_OF_NOISE,
+    SNAP,
+)
+
+__all__ = [
+    "ACCEPT",
+    "BRANCH_WORDS",
+    "FAMILY_RANK",
+    "INTERVAL_END",
+    "LIMIT_SLACK",
+    "NEAR",
+    "NEARLY_SINGULAR",
+    "NOISE_MOTION",
+    "NOMINAL",
+    "PATH_JUMP",
+    "REGULAR",
+    "SHARP",
+    "SLACK",
+    "SLACK_OF_NEAR",
+    "SLACK_OF_NOISE",
+    "SNAP",
+    "TRIALS",
+    "TWO_PI",
+    "AxisLines",
+    "BatchKernel",
+    "BranchWords",
+    "DHForm",
+    "Family",
+    "IntArray",
+    "Outputs",
+    "Solver",
+    "SolverBase",
+    "Task",
+    "all_turns",
+    "as_configuration",
+    "branch_words_of",
+    "hold",
+    "in_own_unit",
+    "inside",
+    "lengths_in",
+    "many_poses",
+    "middle",
+    "moves_freely",
+    "near_ranges",
+    "notice_if_slow",
+    "one_pose",
+    "plain_ranges",
+    "random_configurations",
+    "select_solver",
+    "slide_to_seed",
+    "spare_joints",
+    "task_error",
+    "task_jacobian",
+    "turn_counts",
+    "turned_to",
+    "without_end",
+]

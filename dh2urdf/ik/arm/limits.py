@@ -60,7 +60,7 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
     nearest one is kept. The reference (..., n) is broadcast to the same shape.
     """
-    from dh2urdf.kernels.certificate.arrange import turn_to
+    from dh2urdf.kernels.certificate import turn_to
 
     shape = np.broadcast_shapes(q.shape, reference.shape)
     out = np.array(np.broadcast_to(q, shape), order="C")

@@ -55,7 +55,7 @@ def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
 
     For ``position+axis`` the turn about the tool's own z is taken out.
     """
-    from dh2urdf.kernels.chain.forward import chain_fk_batch, chain_jacobian_batch
+    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 
     q = np.ascontiguousarray(q)
     J = np.empty((len(q), 6, chain.n))
@@ -135,7 +135,7 @@ class Family:
 
     def _slide(self, members: Array, seed: Array, within_limits: bool) -> Array:
         """Move members (k, f) along the family to where they are nearest to the seed (n,)."""
-        from dh2urdf.kernels.redundant.self_motion import nearest_members
+        from dh2urdf.kernels.redundant import nearest_members
 
         out = np.ascontiguousarray(members)
         nearest_members(*self._constants, within_limits, out, seed[self.free], np.empty(len(out)))
@@ -143,7 +143,7 @@ class Family:
 
     def _inside_members(self, start: Array, seed: Array) -> Array:
         """Members (k, f) inside the limits that are nearest to the seed, found by a walk."""
-        from dh2urdf.kernels.redundant.self_motion import walk_family
+        from dh2urdf.kernels.redundant import walk_family
 
         walk = np.empty((2, MOST_STEPS, len(self.free)))
         counts = walk_family(*self._constants, FAMILY_STEP, start[self.free], walk)

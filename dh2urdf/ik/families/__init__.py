@@ -1,0 +1,21 @@
+"""Families of arms, a module each: when it covers a chain, its constants, its kernel.
+
+`spherical_wrist`, `three_parallel`, `reversed_chain` (both seen from the tool), `planar`,
+`three_slides`, `short`, `short_position`, `tool_axis`, `near_family`, `general_6r`, `numeric`.
+"""
+
+from dh2urdf.ik.families.general_6r import General6R
+from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
+from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
+from dh2urdf.ik.families.spherical_wrist import SphericalWrist
+
+__all__ = [
+    "General6R",
+    "NumericProblem",
+    "NumericSolutions",
+    "SphericalWrist",
+    "planar_reach",
+    "planar_rr_ik",
+    "planar_rrr_ik",
+    "wrist_centre",
+]

@@ -8,14 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.geometry import AxisLines, moves_freely
-from dh2urdf.ik.arm.notice import notice_if_slow
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.arm import AxisLines, Outputs, SolverBase, Task, moves_freely, notice_if_slow
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.kernels.general_6r.poses import Arm
+    from dh2urdf.kernels.general_6r import Arm
 
 __all__ = ["General6R"]
 
@@ -40,8 +37,8 @@ class General6R(SolverBase):
         plan: Arm | None = None,
     ) -> None:
         super().__init__(chain, task, others)
-        from dh2urdf.kernels.certificate.finish import finish_batch
-        from dh2urdf.kernels.general_6r.poses import solve_general_6r
+        from dh2urdf.kernels.certificate import finish_batch
+        from dh2urdf.kernels.general_6r import solve_general_6r
 
         if plan is not None:
             self.plan = plan
@@ -51,14 +48,14 @@ class General6R(SolverBase):
     @cached_property
     def plan(self) -> Arm:
         """The eliminations that suit the arm; they are chosen when first asked for."""
-        from dh2urdf.kernels.general_6r.poses import plan_general_6r
+        from dh2urdf.kernels.general_6r import plan_general_6r
 
         with notice_if_slow():
             return plan_general_6r(self.links)
 
     def like(self, chain: SerialChain) -> General6R:
         """The solver of a chain that differs little, with the same eliminations if they do."""
-        from dh2urdf.kernels.general_6r.poses import replan_general_6r
+        from dh2urdf.kernels.general_6r import replan_general_6r
 
         plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
         solver = General6R(chain, self.task, plan=plan)

@@ -9,10 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.geometry import AxisLines
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.solver import SolverBase, Task
-from dh2urdf.ik.arm.tolerances import NEAR, NEARLY_SINGULAR, NOISE_MOTION, SLACK, SLACK_OF_NEAR
+from dh2urdf.ik.arm import (
+    NEAR,
+    NEARLY_SINGULAR,
+    NOISE_MOTION,
+    SLACK,
+    SLACK_OF_NEAR,
+    AxisLines,
+    IntArray,
+    Outputs,
+    SolverBase,
+    Task,
+)
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
@@ -85,9 +93,8 @@ class NearFamily(SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
-        from dh2urdf.kernels.certificate.finish import finish_batch
-        from dh2urdf.kernels.certificate.reverse import invert_poses
-        from dh2urdf.kernels.nearly.poses import solve_near_parallel, solve_near_wrist
+        from dh2urdf.kernels.certificate import finish_batch, invert_poses
+        from dh2urdf.kernels.nearly import solve_near_parallel, solve_near_wrist
 
         wrist = isinstance(self.nominal, SphericalWrist)
         links, joints = self.nominal.links, self.nominal.joints
@@ -109,9 +116,8 @@ class NearFamily(SolverBase):
 
     def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
         """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
-        from dh2urdf.kernels.certificate.finish import finish_batch
-        from dh2urdf.kernels.nearly.beside import search_beside
-        from dh2urdf.kernels.nearly.poses import add_candidates
+        from dh2urdf.kernels.certificate import finish_batch
+        from dh2urdf.kernels.nearly import add_candidates, search_beside
 
         wide = Outputs.of(len(rows), WIDTH, 6)
         if len(rows):

@@ -16,9 +16,7 @@ from dh2urdf.bounds import STARTS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, generator, integer
 from dh2urdf.exceptions import NoSolutionError
-from dh2urdf.ik.arm.chains import in_own_unit, lengths_in
-from dh2urdf.ik.arm.given import as_configuration, one_pose
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm import Task, as_configuration, in_own_unit, lengths_in, one_pose
 from dh2urdf.transforms import Array
 
 __all__ = ["NumericProblem", "NumericSolutions"]
@@ -126,7 +124,7 @@ class NumericProblem:
         nearest: bool = False,
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
-        from dh2urdf.kernels.certificate.arrange import measure_all
+        from dh2urdf.kernels.certificate import measure_all
 
         wanted = Task(choice(task, "task", tuple(Task)))
         given, change = one_pose(T, wanted, nearest)
@@ -163,7 +161,7 @@ class NumericProblem:
         rng: np.random.Generator,
     ) -> tuple[Array, int]:
         """Configurations (k, n) that reach a pose, nearest to a seed first; starts that it took."""
-        from dh2urdf.kernels.certificate.numeric import find_solutions
+        from dh2urdf.kernels.certificate import find_solutions
 
         n = len(self.lower)
         bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)

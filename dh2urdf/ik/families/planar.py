@@ -17,10 +17,7 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.arm.tolerances import NOMINAL, SNAP
+from dh2urdf.ik.arm import NOMINAL, SNAP, BatchKernel, Outputs, SolverBase, Task, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.transforms import Array, check_pose, inverse
 
@@ -68,7 +65,7 @@ def planar_rr_ik(l1: float, l2: float, x: float, y: float) -> Array:
     array([[ 1.5708, -1.5708],
            [ 0.    ,  1.5708]])
     """
-    from dh2urdf.kernels.short_chains.planar import planar_rr
+    from dh2urdf.kernels.short_chains import planar_rr
 
     out = np.empty((2, 2))
     count, _ = planar_rr(*_numbers(l1=l1, l2=l2, x=x, y=y), RIM, 0.0, out)
@@ -151,7 +148,7 @@ class PlanarArm(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains.planar import solve_planar
+        from dh2urdf.kernels.short_chains import solve_planar
 
         return solve_planar  # type: ignore[no-any-return]
 

@@ -11,8 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.arm import Outputs, SolverBase, Task
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
@@ -47,7 +46,7 @@ class ReversedSolver(SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the inverse poses, and turn the solutions back."""
-        from dh2urdf.kernels.certificate.reverse import invert_poses, turn_back
+        from dh2urdf.kernels.certificate import invert_poses, turn_back
 
         inverse_poses = np.empty_like(Ts)
         invert_poses(Ts, inverse_poses)

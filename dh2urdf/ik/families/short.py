@@ -9,9 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm import BatchKernel, IntArray, Outputs, SolverBase, Task, spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]
@@ -69,7 +67,7 @@ class ShortChain(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains.poses import solve_short_chains
+        from dh2urdf.kernels.short_chains import solve_short_chains
 
         return solve_short_chains  # type: ignore[no-any-return]
 
@@ -119,8 +117,7 @@ class ShortChain(SolverBase):
 
     def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
         """How well a cut of the loop finds random configurations."""
-        from dh2urdf.kernels.short_chains import loop as short_loop
-        from dh2urdf.kernels.short_chains.poses import close_loop
+        from dh2urdf.kernels.short_chains import close_loop, loop_columns, loop_matrix
 
         rng = np.random.default_rng(1)
         loop, columns, M, pose = (
@@ -133,15 +130,15 @@ class ShortChain(SolverBase):
         for _ in range(TRIALS):
             q = np.where(self.chain.prismatic, self.unit, np.pi) * rng.uniform(-1, 1, self.chain.n)
             close_loop(self.ends, self.chain.fk(q), self.unit, pose, loop)
-            short_loop.loop_columns(loop, self.joints, shape, columns)
+            loop_columns(loop, self.joints, shape, columns)
             x = shape[2]
             half = 0.0
             if x >= 0:
                 half = np.arctan(0.5 * q[x] / self.unit) if self.chain.prismatic[x] else 0.5 * q[x]
                 u, v = np.cos(half + 1.0), np.sin(half + 1.0)
-                size = short_loop.loop_matrix(columns, used, u, v, M)
+                size = loop_matrix(columns, used, u, v, M)
                 blind = blind or bool(np.linalg.svd(M[:size], compute_uv=False)[-1] < VANISHED)
-            size = short_loop.loop_matrix(columns, used, np.cos(half), np.sin(half), M)
+            size = loop_matrix(columns, used, np.cos(half), np.sin(half), M)
             sigma = np.linalg.svd(M[:size], compute_uv=False)
             here = int((sigma < VANISHED).sum())
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
@@ -164,7 +161,7 @@ class ShortChain(SolverBase):
 
 def _loop_links(links: Array, unit: float) -> Array:
     """Dual quaternions of the links between the joints, and a row for the closing one, (n, 8)."""
-    from dh2urdf.kernels.numbers.dual_quaternions import dual_of_pose
+    from dh2urdf.kernels.numbers import dual_of_pose
 
     loop = np.zeros((len(links) - 1, 8))
     for row, link in zip(loop[:-1], links[1:-1], strict=True):

@@ -8,9 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm import BatchKernel, Outputs, SolverBase, Task, spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortPosition", "axis_frames"]
@@ -39,7 +37,7 @@ class ShortPosition(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains.position import solve_short_positions
+        from dh2urdf.kernels.short_chains import solve_short_positions
 
         return solve_short_positions  # type: ignore[no-any-return]
 

@@ -7,11 +7,20 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely
-from dh2urdf.ik.arm.limits import plain_ranges
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.arm.tolerances import NOMINAL, REGULAR, SLACK, SLACK_OF_NOISE
+from dh2urdf.ik.arm import (
+    NOMINAL,
+    REGULAR,
+    SLACK,
+    SLACK_OF_NOISE,
+    AxisLines,
+    BatchKernel,
+    DHForm,
+    Outputs,
+    SolverBase,
+    Task,
+    moves_freely,
+    plain_ranges,
+)
 from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
@@ -88,8 +97,11 @@ class SphericalWrist(SolverBase):
     @cached_property
     def kernel(self) -> BatchKernel:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
-        from dh2urdf.kernels.spherical_wrist.poses import solve_sliding_arm, solve_turning_arm
+        from dh2urdf.kernels.spherical_wrist import (
+            solve_common_wrist,
+            solve_sliding_arm,
+            solve_turning_arm,
+        )
 
         if self.chain.prismatic.any():
             return solve_sliding_arm  # type: ignore[no-any-return]

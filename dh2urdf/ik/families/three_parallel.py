@@ -5,11 +5,19 @@ from __future__ import annotations
 from functools import cached_property
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely
-from dh2urdf.ik.arm.limits import plain_ranges
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
-from dh2urdf.ik.arm.tolerances import NOMINAL, SLACK, SLACK_OF_NOISE
+from dh2urdf.ik.arm import (
+    NOMINAL,
+    SLACK,
+    SLACK_OF_NOISE,
+    AxisLines,
+    BatchKernel,
+    DHForm,
+    Outputs,
+    SolverBase,
+    Task,
+    moves_freely,
+    plain_ranges,
+)
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeParallel"]
@@ -65,8 +73,7 @@ class ThreeParallel(SolverBase):
     @cached_property
     def kernel(self) -> BatchKernel:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.parallel_axes.blocks import solve_common_parallel
-        from dh2urdf.kernels.parallel_axes.poses import solve_three_parallel
+        from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 
         rows = self.form.rows
         common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0

@@ -7,9 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import BatchKernel, SolverBase, Task
+from dh2urdf.ik.arm import BatchKernel, Outputs, SolverBase, Task, spare_joints
 from dh2urdf.transforms import Array
 
 __all__ = ["ThreeSlides"]
@@ -34,7 +32,7 @@ class ThreeSlides(SolverBase):
 
     @cached_property
     def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains.three_slides import solve_three_slides
+        from dh2urdf.kernels.short_chains import solve_three_slides
 
         return solve_three_slides  # type: ignore[no-any-return]
 

@@ -12,10 +12,15 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import Solver, SolverBase, Task, branch_words_of
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm import (
+    Outputs,
+    Solver,
+    SolverBase,
+    Task,
+    branch_words_of,
+    select_solver,
+    spare_joints,
+)
 from dh2urdf.transforms import Array
 
 __all__ = ["ToolAxis", "with_tool_joint"]

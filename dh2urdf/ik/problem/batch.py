@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
+from dh2urdf.ik.arm import IntArray, Outputs
 from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 
 if TYPE_CHECKING:

@@ -12,9 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.doors import number
-from dh2urdf.ik.arm.limits import TWO_PI, middle, turn_counts, turned_to
-from dh2urdf.ik.arm.singular_families import Family
-from dh2urdf.ik.arm.tolerances import PATH_JUMP
+from dh2urdf.ik.arm import PATH_JUMP, TWO_PI, Family, middle, turn_counts, turned_to
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.transforms import Array
 

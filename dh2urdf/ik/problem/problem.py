@@ -12,19 +12,29 @@ import numpy as np
 from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.arm.chains import hold
-from dh2urdf.ik.arm.limits import all_turns, inside, middle, turn_counts
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.singular_families import Family, slide_to_seed, task_error
-from dh2urdf.ik.arm.solver import Solver, Task, branch_words_of
-from dh2urdf.ik.arm.tolerances import ACCEPT, LIMIT_SLACK
+from dh2urdf.ik.arm import (
+    ACCEPT,
+    LIMIT_SLACK,
+    Family,
+    Outputs,
+    Solver,
+    Task,
+    all_turns,
+    branch_words_of,
+    hold,
+    inside,
+    middle,
+    slide_to_seed,
+    task_error,
+    turn_counts,
+)
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import (
     IKSolutions,
     joints_of_mask,
 )
-from dh2urdf.ik.redundant.held_solver import HeldSolver
+from dh2urdf.ik.redundant import HeldSolver
 from dh2urdf.transforms import Array
 
 __all__ = ["ForwardKinematics", "Problem", "Progress"]
@@ -80,7 +90,7 @@ class Problem:
         self.branch_words = branch_words_of(solver)
         self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
-        from dh2urdf.kernels.numbers.poses import first_bad_pose
+        from dh2urdf.kernels.numbers import first_bad_pose
 
         self.first_bad_pose: Callable[[Array], int] = first_bad_pose
 
@@ -131,7 +141,7 @@ class Problem:
 
     def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
         """Fill the arrays of a part of a batch; the number of its poses."""
-        from dh2urdf.kernels.numbers.poses import pad_solutions
+        from dh2urdf.kernels.numbers import pad_solutions
 
         out = Outputs(part.q, part.residual, part.count, part.branch_code, part.free_mask)
         if self.values is None:
@@ -163,7 +173,7 @@ class Problem:
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
-        from dh2urdf.kernels.certificate.arrange import measure_and_sort, turn_to
+        from dh2urdf.kernels.certificate import measure_and_sort, turn_to
 
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
@@ -218,7 +228,7 @@ class Problem:
 
     def measured(self, Ts: Array, q: Array, count: Any, residual: Array) -> None:
         """Measure q (m, k, n), the first ``count[i]`` of pose Ts[i], into residual (m, k)."""
-        from dh2urdf.kernels.certificate.arrange import measure_all
+        from dh2urdf.kernels.certificate import measure_all
 
         measure_all(*self.chain.tables, self.task.number, Ts, q, count, residual)
 

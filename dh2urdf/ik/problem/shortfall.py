@@ -12,10 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.geometry import AxisLines
-from dh2urdf.ik.arm.solver import Task
-from dh2urdf.ik.arm.tolerances import ACCEPT
-from dh2urdf.ik.redundant.searched import nearly_reaching
+from dh2urdf.ik.arm import ACCEPT, AxisLines, Task
+from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["beyond_limits", "closest", "shortfall"]

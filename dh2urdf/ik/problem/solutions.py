@@ -10,9 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolutionError
-from dh2urdf.ik.arm.given import as_configuration
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.solver import BRANCH_WORDS, BranchWords
+from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, Outputs, as_configuration
 from dh2urdf.transforms import Array
 
 __all__ = ["Answering", "IKSolutions", "branch_name", "joints_of_mask"]

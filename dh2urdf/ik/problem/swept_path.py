@@ -53,7 +53,7 @@ class SweptPath(PathFinder):
 
     def next(self, last: Stage, pose: int) -> Stage:
         """The last stage's states where they follow the arm, and the samples, one for a cell."""
-        from dh2urdf.kernels.redundant.path_states import onward
+        from dh2urdf.kernels.redundant import onward
 
         samples = self.batch.solutions(pose).q
         q = np.concatenate([last.q, samples])
@@ -105,7 +105,7 @@ class SweptPath(PathFinder):
 
     def _shorten(self, poses: Array, q: Array, jump: float) -> float:
         """Shorten a path (m, n) through some poses in place; its length."""
-        from dh2urdf.kernels.redundant.shorten import shorten
+        from dh2urdf.kernels.redundant import shorten
 
         if not np.isfinite(q).all():
             return np.inf
@@ -115,7 +115,7 @@ class SweptPath(PathFinder):
 
     def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
         """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
-        from dh2urdf.kernels.redundant.path_states import onward
+        from dh2urdf.kernels.redundant import onward
 
         every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])

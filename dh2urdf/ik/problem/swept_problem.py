@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.ik.arm.limits import turned_to
+from dh2urdf.ik.arm import turned_to
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.solutions import IKSolutions
-from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals
-from dh2urdf.ik.redundant.swept import SweptJoint
+from dh2urdf.ik.redundant import SweptJoint, nearest_members, reach_intervals
 from dh2urdf.transforms import Array
 
 __all__ = ["SweptProblem"]

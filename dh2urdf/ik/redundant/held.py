@@ -8,10 +8,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError
-from dh2urdf.ik.arm.chains import hold
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import Solver, Task, branch_words_of
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm import Outputs, Solver, Task, branch_words_of, hold, select_solver
 from dh2urdf.transforms import Array
 
 __all__ = ["HeldJoints"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain, settled_state
-from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm import Outputs
 from dh2urdf.transforms import Array
 
 __all__ = ["HeldSolver"]

@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.chains import hold, without_end
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.solver import Solver, Task
-from dh2urdf.ik.arm.table import select_solver
-from dh2urdf.ik.families.general_6r import General6R
+from dh2urdf.ik.arm import Outputs, Solver, Task, hold, select_solver, without_end
+from dh2urdf.ik.families import General6R
 from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
@@ -37,7 +34,7 @@ class HeldEnd(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Move the poses, solve for the rest, put the held joint in its place."""
-        from dh2urdf.kernels.chain.held_joint import held_poses, insert_held_batch
+        from dh2urdf.kernels.chain import held_poses, insert_held_batch
 
         joint = self.held[0]
         poses = np.empty_like(Ts)

@@ -9,12 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.chains import hold, without_end
-from dh2urdf.ik.arm.geometry import AxisLines, DHForm
-from dh2urdf.ik.arm.limits import plain_ranges
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.tolerances import SLACK, SNAP
-from dh2urdf.ik.families.spherical_wrist import SphericalWrist
+from dh2urdf.ik.arm import SLACK, SNAP, AxisLines, DHForm, Outputs, hold, plain_ranges, without_end
+from dh2urdf.ik.families import SphericalWrist
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array, inverse, rot_z, trans
 
@@ -157,8 +153,7 @@ class HeldWrist(HeldSolver):
     @cached_property
     def kernel(self) -> Callable[..., None]:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.redundant.held_wrist import solve_held_wrist
-        from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
+        from dh2urdf.kernels.redundant import solve_held_blocks, solve_held_wrist
 
         rows, varies = self.form.rows, self.which[4]
         orthogonal = rows[3, 1] == rows[4, 1] == 0.0
@@ -188,7 +183,7 @@ class HeldWrist(HeldSolver):
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
-        from dh2urdf.kernels.redundant.held_wrist import points_on_curves
+        from dh2urdf.kernels.redundant import points_on_curves
 
         chain, m = self.chain, len(values)
         q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)

@@ -15,14 +15,20 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.chains import hold
-from dh2urdf.ik.arm.limits import near_ranges
-from dh2urdf.ik.arm.mobility import TRIALS, random_configurations, spare_joints
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.singular_families import task_jacobian
-from dh2urdf.ik.arm.solver import SolverBase, Task
-from dh2urdf.ik.arm.tolerances import FAMILY_RANK
-from dh2urdf.ik.families.numeric import NumericProblem
+from dh2urdf.ik.arm import (
+    FAMILY_RANK,
+    TRIALS,
+    IntArray,
+    Outputs,
+    SolverBase,
+    Task,
+    hold,
+    near_ranges,
+    random_configurations,
+    spare_joints,
+    task_jacobian,
+)
+from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.transforms import Array
 

@@ -9,10 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.singular_families import task_error, task_jacobian
-from dh2urdf.ik.arm.solver import Solver, Task, branch_words_of
-from dh2urdf.ik.arm.tolerances import SLACK
+from dh2urdf.ik.arm import SLACK, Outputs, Solver, Task, branch_words_of, task_error, task_jacobian
 from dh2urdf.transforms import Array
 
 __all__ = ["SearchedSolver", "nearly_reaching"]
@@ -41,7 +38,7 @@ class SearchedSolver:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
-        from dh2urdf.kernels.certificate.finish import finish_batch
+        from dh2urdf.kernels.certificate import finish_batch
 
         self.inner.solve_batch(Ts, within_limits, out)
         for i in np.flatnonzero(out.counts == 0):
@@ -89,7 +86,7 @@ def nearly_reaching(
 
 def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
     """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
-    from dh2urdf.kernels.chain.forward import chain_fk_batch
+    from dh2urdf.kernels.chain import chain_fk_batch
 
     poses = np.empty((len(q), 4, 4))
     chain_fk_batch(chain.links, chain.prismatic, q, poses)

@@ -15,9 +15,16 @@ import numpy as np
 from dh2urdf.bounds import SAMPLES
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.arm.limits import TWO_PI, middle, near_ranges, turned_to
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.tolerances import INTERVAL_END, LIMIT_SLACK, SHARP
+from dh2urdf.ik.arm import (
+    INTERVAL_END,
+    LIMIT_SLACK,
+    SHARP,
+    TWO_PI,
+    Outputs,
+    middle,
+    near_ranges,
+    turned_to,
+)
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
@@ -111,8 +118,7 @@ def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tupl
 
 def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
-    from dh2urdf.kernels.certificate.arrange import measure_all
-    from dh2urdf.kernels.certificate.damped import POSE
+    from dh2urdf.kernels.certificate import POSE, measure_all
 
     q, residual, count = np.ascontiguousarray(q), np.empty(len(q)), np.array([len(q)])
     measure_all(solver.links, solver.joints, POSE, T[None], q[None], count, residual[None])
@@ -137,7 +143,7 @@ def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int 
     values : int
         Values of each joint at which curves are looked for.
     """
-    from dh2urdf.kernels.redundant.self_motion import enter_limits
+    from dh2urdf.kernels.redundant import enter_limits
 
     chain = solver.chain
     q = turned_to(chain, _on_curves(solver, T, values), goal)
@@ -183,8 +189,8 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
     array, shape (k, n)
         Nearest first; the first is the nearest of all, on every curve that was found.
     """
-    from dh2urdf.kernels.certificate.damped import POSE
-    from dh2urdf.kernels.redundant import self_motion
+    from dh2urdf.kernels.certificate import POSE
+    from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
 
     chain = solver.chain
     if within_limits:
@@ -193,7 +199,7 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
         q = turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
     q = np.ascontiguousarray(q[:STARTS])
-    self_motion.nearest_members(
+    nearest_on_curves(
         solver.links, solver.joints, POSE, T, chain.size, within_limits, q, seed, np.empty(len(q))
     )
     order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")

@@ -9,10 +9,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.arm.limits import near_ranges
-from dh2urdf.ik.arm.outputs import Outputs
-from dh2urdf.ik.arm.singular_families import task_jacobian
-from dh2urdf.ik.arm.solver import SolverBase, Task
+from dh2urdf.ik.arm import Outputs, SolverBase, Task, near_ranges, task_jacobian
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
@@ -109,7 +106,7 @@ class SweptJoint(SolverBase):
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
-        from dh2urdf.kernels.redundant.sweep import gather_samples, spread_samples
+        from dh2urdf.kernels.redundant import gather_samples, spread_samples
 
         samples = len(values)
         step = max(1, min(len(Ts), BLOCK // samples))

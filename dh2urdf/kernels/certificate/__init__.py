@@ -1,0 +1,102 @@
+"""The certificate: candidates of any solver become solutions of the exact chain, or nothing.
+
+`newton` is Newton's method and the residual, `certify` accepts, parts doubles and counts,
+`merging` unites what rounding cannot tell apart (its ``FLAT`` decides a double root), `families`
+finds the joints that move freely; `finish` does all of it for a batch, `arrange` turns solutions
+to a seed. `damped` and `numeric` are least squares from any start, `newton_6r` is Newton in lanes,
+`reverse` brings solutions of the reversed chain back.
+"""
+
+from dh2urdf.kernels.certificate.arrange import measure_all, measure_and_sort, turn_to
+from dh2urdf.kernels.certificate.certify import (
+    ACCEPT,
+    ANYWHERE,
+    CLUSTER,
+    NO_JOINT,
+    ROUNDING,
+    TWO_PI,
+    copy_rows,
+    finish_pose,
+    move,
+    principal,
+    same,
+)
+from dh2urdf.kernels.certificate.damped import (
+    POSE,
+    add_transposed,
+    error_and_jacobian,
+    make_damped,
+    restore,
+    solve_damped,
+)
+from dh2urdf.kernels.certificate.families import (
+    MOVES,
+    SINGULAR,
+    WALK,
+    free_joints,
+    null_direction,
+    one_of_each_family,
+    work_array,
+)
+from dh2urdf.kernels.certificate.finish import finish_batch
+from dh2urdf.kernels.certificate.merging import NEAR, merge_solutions
+from dh2urdf.kernels.certificate.newton import (
+    HOPELESS,
+    MAX_TURN,
+    POLISH,
+    damped_step,
+    normal_equations,
+    polish,
+    pose_residual,
+)
+from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
+from dh2urdf.kernels.certificate.numeric import find_solutions
+from dh2urdf.kernels.certificate.reverse import invert_pose, invert_poses, reverse_joints, turn_back
+
+__all__ = [
+    "ACCEPT",
+    "ANYWHERE",
+    "CLUSTER",
+    "HOPELESS",
+    "MAX_TURN",
+    "MOVES",
+    "NEAR",
+    "NO_JOINT",
+    "POLISH",
+    "POSE",
+    "ROUNDING",
+    "SINGULAR",
+    "TWO_PI",
+    "WALK",
+    "add_transposed",
+    "chain_frames",
+    "copy_rows",
+    "damped_step",
+    "error_and_jacobian",
+    "find_solutions",
+    "finish_batch",
+    "finish_pose",
+    "free_joints",
+    "invert_pose",
+    "invert_poses",
+    "make_damped",
+    "measure_all",
+    "measure_and_sort",
+    "merge_solutions",
+    "move",
+    "newton_step",
+    "normal_equations",
+    "null_direction",
+    "one_of_each_family",
+    "polish",
+    "pose_error",
+    "pose_residual",
+    "principal",
+    "restore",
+    "reverse_joints",
+    "same",
+    "solve_damped",
+    "turn_back",
+    "turn_to",
+    "work_array",
+]

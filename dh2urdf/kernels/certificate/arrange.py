@@ -8,8 +8,8 @@ import numpy as np
 
 from dh2urdf.kernels.certificate.certify import TWO_PI
 from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
-from dh2urdf.kernels.certificate.polish import pose_residual
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.certificate.newton import pose_residual
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["measure_all", "measure_and_sort", "turn_to"]
 

@@ -13,8 +13,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.polish import POLISH, polish, pose_residual
-from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel
+from dh2urdf.kernels.certificate.newton import POLISH, polish, pose_residual
+from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
 __all__ = ["ACCEPT", "ANYWHERE", "CLUSTER", "NO_JOINT", "ROUNDING", "TWO_PI", "copy_rows"]
 __all__ += ["finish_pose", "move", "principal", "same"]
@@ -139,7 +139,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
         Branch code and mask of free joints; moved along with their candidate.
     count : int
     work : array
-        From :func:`dh2urdf.kernels.certificate.polish.new_work`.
+        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
 
     Notes
     -----

@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.polish import residual_of, turn_between
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.certificate.newton import residual_of, turn_between
+from dh2urdf.kernels.chain import joint_times_link, load_pose
+from dh2urdf.kernels.numbers import inner_kernel
 
 __all__ = [
     "POSE",

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
-from dh2urdf.kernels.certificate.polish import damped_step, normal_equations, polish
-from dh2urdf.kernels.numbers.compiled import inlined_kernel, inner_kernel
+from dh2urdf.kernels.certificate.newton import damped_step, normal_equations, polish
+from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
 
 __all__ = ["free_joints", "null_direction", "one_of_each_family", "work_array"]
 
@@ -28,7 +28,7 @@ MOVES = 1e-5
 
 @inner_kernel
 def work_array(n):
-    """Scratch as :func:`.polish.new_work` makes it, for jitted callers."""
+    """Scratch as :func:`.newton.new_work` makes it, for jitted callers."""
     return np.empty((n, n + 8))
 
 
@@ -93,7 +93,7 @@ def free_joints(links, joints, T, q, trial, work):
         A solution.
     trial : array, shape (n,), scratch
     work : array
-        From :func:`dh2urdf.kernels.certificate.polish.new_work`.
+        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
     """
     n = q.shape[0]
     normal_equations(links, joints, T, q, work)

@@ -7,7 +7,7 @@ import numpy as np
 from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
 from dh2urdf.kernels.certificate.families import free_joints
 from dh2urdf.kernels.certificate.merging import merge_solutions
-from dh2urdf.kernels.numbers.compiled import kernel
+from dh2urdf.kernels.numbers import kernel
 
 __all__ = ["finish_batch"]
 

@@ -7,14 +7,14 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ROUNDING, TWO_PI, move
-from dh2urdf.kernels.certificate.polish import (
+from dh2urdf.kernels.certificate.newton import (
     POLISH,
     damped_step,
     normal_equations,
     polish,
     pose_residual,
 )
-from dh2urdf.kernels.numbers.compiled import inlined_kernel, inner_kernel
+from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
 
 __all__ = ["merge_solutions"]
 
@@ -74,7 +74,7 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
         See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
     scratch : array, shape (2, n)
     work : array
-        From :func:`dh2urdf.kernels.certificate.polish.new_work`.
+        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
     """
     kept = np.int64(0)
     for k in range(count):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import finish_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["invert_pose", "invert_poses", "reverse_joints", "turn_back"]
 

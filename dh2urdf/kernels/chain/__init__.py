@@ -1,0 +1,43 @@
+"""The serial chain: forward kinematics and Jacobian, one configuration and many.
+
+`forward` is the product of links and joints, `lanes` the same for a block of configurations side
+by side, `links` carries points along three joints, `held_joint` holds one joint at a value.
+"""
+
+from dh2urdf.kernels.chain.forward import (
+    chain_fk_batch,
+    chain_frames_batch,
+    chain_jacobian_batch,
+    joint_times_link,
+    load_pose,
+    store_pose,
+)
+from dh2urdf.kernels.chain.held_joint import (
+    held_links,
+    held_pose,
+    held_poses,
+    insert_held,
+    insert_held_batch,
+)
+from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
+from dh2urdf.kernels.chain.links import after_joint, after_link, wrist_circle, wrist_in_three
+
+__all__ = [
+    "LARGEST",
+    "after_joint",
+    "after_link",
+    "chain_fk_batch",
+    "chain_frames_batch",
+    "chain_jacobian_batch",
+    "cosine_sine",
+    "held_links",
+    "held_pose",
+    "held_poses",
+    "insert_held",
+    "insert_held_batch",
+    "joint_times_link",
+    "load_pose",
+    "store_pose",
+    "wrist_circle",
+    "wrist_in_three",
+]

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
-from dh2urdf.kernels.numbers.compiled import helper_kernel
+from dh2urdf.kernels.numbers import helper_kernel
 
 __all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_batch"]
 

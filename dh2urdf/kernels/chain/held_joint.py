@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["held_links", "held_pose", "held_poses", "insert_held", "insert_held_batch"]
 

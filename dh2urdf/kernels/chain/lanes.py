@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from dh2urdf.kernels.numbers.compiled import UNCACHED, VECTOR, lane_kernel
+from dh2urdf.kernels.numbers import UNCACHED, VECTOR, lane_kernel
 
 __all__ = ["BLOCK", "LARGEST", "ROWS", "cosine_sine", "fits", "lanes_fk", "sincos_lanes"]
 

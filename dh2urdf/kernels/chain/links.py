@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers import inner_kernel
 
 __all__ = ["after_joint", "after_link", "wrist_circle", "wrist_in_three"]
 

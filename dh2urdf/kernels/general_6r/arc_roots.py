@@ -16,7 +16,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.lanes import LANES, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
 
 __all__ = [
     "ARC",

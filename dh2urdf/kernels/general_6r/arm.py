@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, TERMS
-from dh2urdf.kernels.numbers.lanes import COLUMN, LANES
+from dh2urdf.kernels.numbers import COLUMN, LANES
 
 __all__ = ["ARM_6R", "MOST", "OWN"]
 

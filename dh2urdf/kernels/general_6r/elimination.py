@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.lanes import inlined, vector_kernel
+from dh2urdf.kernels.numbers import inlined, vector_kernel
 
 __all__ = [
     "close_loop",

@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
+from dh2urdf.kernels.certificate import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.loop_angles import left_frames, other_joints
 from dh2urdf.kernels.general_6r.resultant import resultants, split_pairs, two_joints
-from dh2urdf.kernels.numbers.lanes import (
+from dh2urdf.kernels.numbers import (
     LANES,
     MASK,
     inlined,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.lanes import LANES, MASK, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, MASK, inlined, vector_kernel
 
 __all__ = ["left_frames", "other_joints"]
 

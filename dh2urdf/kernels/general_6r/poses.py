@@ -29,7 +29,7 @@ from dh2urdf.kernels.general_6r.roots import (
     prepare,
     simple_roots,
 )
-from dh2urdf.kernels.numbers.lanes import entry_kernel, inlined
+from dh2urdf.kernels.numbers import entry_kernel, inlined
 
 __all__ = ["Arm", "plan_general_6r", "replan_general_6r", "solve_general_6r"]
 

@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.lanes import (
+from dh2urdf.kernels.numbers import (
     COLUMN,
     LANES,
     MASK,

@@ -30,7 +30,7 @@ from dh2urdf.kernels.general_6r.elimination import (
     six_equations,
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
-from dh2urdf.kernels.numbers.lanes import LANES, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
 
 __all__ = ["eliminate", "find_roots", "nudge", "place_target", "prepare", "simple_roots"]
 

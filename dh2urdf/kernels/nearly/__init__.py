@@ -1,0 +1,9 @@
+"""Arms nearly of a closed-form family, rounded or calibrated: its solutions are the seeds.
+
+`poses` is the solver; `beside` looks for solutions close to solutions, where singularities meet.
+"""
+
+from dh2urdf.kernels.nearly.beside import search_beside
+from dh2urdf.kernels.nearly.poses import add_candidates, solve_near_parallel, solve_near_wrist
+
+__all__ = ["add_candidates", "search_beside", "solve_near_parallel", "solve_near_wrist"]

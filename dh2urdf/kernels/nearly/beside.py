@@ -10,11 +10,22 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import CLUSTER, NO_JOINT, principal, same
-from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
-from dh2urdf.kernels.certificate.families import null_direction, work_array
-from dh2urdf.kernels.certificate.polish import MAX_TURN, POLISH, normal_equations, pose_residual
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.certificate import (
+    CLUSTER,
+    MAX_TURN,
+    NO_JOINT,
+    POLISH,
+    POSE,
+    error_and_jacobian,
+    make_damped,
+    normal_equations,
+    null_direction,
+    pose_residual,
+    principal,
+    same,
+    work_array,
+)
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["search_beside"]
 

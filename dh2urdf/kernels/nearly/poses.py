@@ -11,17 +11,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT, ANYWHERE, finish_pose
-from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped, solve_damped
-from dh2urdf.kernels.certificate.polish import polish
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.parallel_axes import poses as three_parallel
-from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
-from dh2urdf.kernels.parallel_axes.plane import last_joint
-from dh2urdf.kernels.parallel_axes.poses import add_pairs, slope_of_last
-from dh2urdf.kernels.spherical_wrist import poses as spherical_wrist
-from dh2urdf.kernels.spherical_wrist.poses import add_wrist
-from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist, tool_to_wrist
+from dh2urdf.kernels.certificate import (
+    ACCEPT,
+    ANYWHERE,
+    POSE,
+    error_and_jacobian,
+    finish_pose,
+    make_damped,
+    polish,
+    solve_damped,
+)
+from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
+from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
+from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
 __all__ = ["add_candidates", "solve_near_parallel", "solve_near_wrist"]
 
@@ -55,7 +59,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
 @kernel
 def solve_near_wrist(links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
-    D, R, arm, work, _ = spherical_wrist.make_scratch()
+    D, R, arm, work, _ = wrist_scratch()
     start, damped = np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
@@ -86,7 +90,7 @@ def solve_near_parallel(
     links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free
 ):
     """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
-    scratch = three_parallel.make_scratch()
+    scratch = parallel_scratch()
     D, pair, work = scratch[0], scratch[1], scratch[3]
     start, damped = np.empty(6), make_damped(6)
     first = 1 if form[0, 2] != 0.0 else 0

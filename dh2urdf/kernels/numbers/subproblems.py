@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.circle_pair import circle_pair
+from dh2urdf.kernels.numbers.circles import circle_pair
 from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
 from dh2urdf.kernels.numbers.trig import linear_trig, real_quadratic
 

@@ -11,27 +11,30 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
+from dh2urdf.kernels.numbers import block_kernel, kernel
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
     CLEAR,
     COS,
     DIRTY,
+    HALF_TURN,
     MERGED,
+    NEGATED,
+    OWN,
     ROWS,
     SIN,
     TURN,
     VALID,
     WORK,
     at,
+    emit,
     load_poses,
     measure,
     planar_arm,
+    tool_to_wrist,
 )
-from dh2urdf.kernels.spherical_wrist.block_values import HALF_TURN, NEGATED, OWN, emit
-from dh2urdf.kernels.spherical_wrist.position_arm import tool_to_wrist
 
 __all__ = ["solve_common_parallel"]
 

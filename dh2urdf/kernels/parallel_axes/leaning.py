@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import TWO_PI
-from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.certificate import TWO_PI
+from dh2urdf.kernels.numbers import inner_kernel
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm
 
 __all__ = ["MOST_ARCS", "levels", "pairs_of_leaning"]

@@ -11,11 +11,16 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.circle_pair import circle_pair
-from dh2urdf.kernels.numbers.compiled import inner_kernel
-from dh2urdf.kernels.numbers.trig import add_square, linear_trig, root_of_gap, trig_roots
+from dh2urdf.kernels.numbers import (
+    add_square,
+    circle_pair,
+    inner_kernel,
+    linear_trig,
+    root_of_gap,
+    trig_roots,
+)
 from dh2urdf.kernels.parallel_axes.leaning import levels
-from dh2urdf.kernels.spherical_wrist.position_arm import FREE
+from dh2urdf.kernels.spherical_wrist import FREE
 
 __all__ = ["outer_pairs", "pairs_of_meeting"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel
-from dh2urdf.kernels.spherical_wrist.position_arm import NICE
+from dh2urdf.kernels.numbers import inner_kernel
+from dh2urdf.kernels.spherical_wrist import NICE
 
 __all__ = ["last_joint", "seen_arm", "seen_from_plane"]
 

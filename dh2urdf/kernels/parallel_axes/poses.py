@@ -16,15 +16,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import copy_rows, finish_pose
-from dh2urdf.kernels.certificate.families import free_joints
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.trig import elbow_angle
+from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
+from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
-from dh2urdf.kernels.spherical_wrist.poses import middle_angle
-from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, tool_to_wrist
 
 __all__ = [
     "add_pairs",

@@ -25,18 +25,29 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT, finish_pose
-from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
-from dh2urdf.kernels.certificate.reverse import invert_pose, reverse_joints
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.chain.held_joint import held_links, held_pose, insert_held
-from dh2urdf.kernels.numbers.circle_pair import circle_pair
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.spherical_wrist.poses import append_wrist
-from dh2urdf.kernels.spherical_wrist.position_arm import (
+from dh2urdf.kernels.certificate import (
+    ACCEPT,
+    POSE,
+    finish_pose,
+    invert_pose,
+    make_damped,
+    restore,
+    reverse_joints,
+)
+from dh2urdf.kernels.chain import (
+    held_links,
+    held_pose,
+    insert_held,
+    joint_times_link,
+    load_pose,
+    store_pose,
+)
+from dh2urdf.kernels.numbers import circle_pair, inner_kernel, kernel
+from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
     UPPER_FREE,
+    append_wrist,
     elbow_on_axis,
     tool_to_wrist,
 )

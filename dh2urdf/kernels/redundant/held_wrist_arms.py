@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.compiled import block_kernel
+from dh2urdf.kernels.numbers import block_kernel
 from dh2urdf.kernels.redundant.held_wrist_load import LOADED, UPPER
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
     COS,
     DIRTY,

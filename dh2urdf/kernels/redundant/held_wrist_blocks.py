@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
 from dh2urdf.kernels.redundant.held_wrist_wrists import finish_arm
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import BLOCK, ROWS
-from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, settle, write
+from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, settle, write
 
 __all__ = ["solve_held_blocks"]
 

@@ -16,8 +16,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
-from dh2urdf.kernels.numbers.compiled import block_kernel, inner_kernel
+from dh2urdf.kernels.chain import LARGEST, cosine_sine
+from dh2urdf.kernels.numbers import block_kernel, inner_kernel
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
     FACTORS,
@@ -27,7 +27,7 @@ from dh2urdf.kernels.redundant.held_wrist import (
     SLIDES,
     VARIES,
 )
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import BLOCK, MASK, WORK, at, load_poses
+from dh2urdf.kernels.spherical_wrist import BLOCK, MASK, WORK, at, load_poses
 
 __all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "prepare_block"]
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.certificate.polish import POLISH
-from dh2urdf.kernels.numbers.compiled import block_kernel
+from dh2urdf.kernels.certificate import POLISH
+from dh2urdf.kernels.numbers import block_kernel
 from dh2urdf.kernels.redundant.held_wrist_arms import FORE, FREE_ROW, T1, T2, T4
 from dh2urdf.kernels.redundant.held_wrist_load import LEVER
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
     CLEAR,
     DIRTY,

@@ -6,9 +6,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.arrange import turn_to
-from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.self_motion import HELD, enter_limits
 
 __all__ = ["onward", "step_length"]

@@ -15,8 +15,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT
-from dh2urdf.kernels.certificate.damped import (
+from dh2urdf.kernels.certificate import (
+    ACCEPT,
     POSE,
     add_transposed,
     error_and_jacobian,
@@ -24,7 +24,7 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["enter_limits", "nearest_members", "walk_family"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dh2urdf.kernels.numbers.compiled import kernel
+from dh2urdf.kernels.numbers import kernel
 
 __all__ = ["gather_samples", "spread_samples"]
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.numbers import inner_kernel
 
 __all__ = ["add_candidates"]
 

@@ -20,8 +20,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.dual_quaternions import dual_product, dual_times_joint
+from dh2urdf.kernels.numbers import dual_product, dual_times_joint, inner_kernel, kernel
 
 __all__ = ["SAMPLES", "add_sample", "determinant_series", "factor", "loop_columns", "loop_matrix"]
 __all__ += ["null_basis", "vanishes"]

@@ -9,10 +9,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import finish_pose
-from dh2urdf.kernels.certificate.families import work_array
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.trig import elbow_angle
+from dh2urdf.kernels.certificate import finish_pose, work_array
+from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
 from dh2urdf.kernels.short_chains.position import applied
 from dh2urdf.kernels.short_chains.position_task import finish_position
 

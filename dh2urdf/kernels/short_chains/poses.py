@@ -12,13 +12,17 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ANYWHERE, copy_rows, finish_pose
-from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family, work_array
-from dh2urdf.kernels.certificate.merging import merge_solutions
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.dual_quaternions import dual_conjugate, dual_of_pose
-from dh2urdf.kernels.numbers.trig import trig_roots
+from dh2urdf.kernels.certificate import (
+    ANYWHERE,
+    copy_rows,
+    finish_pose,
+    free_joints,
+    merge_solutions,
+    one_of_each_family,
+    work_array,
+)
+from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.numbers import dual_conjugate, dual_of_pose, inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.candidates import add_candidates
 from dh2urdf.kernels.short_chains.loop import (
     SAMPLES,

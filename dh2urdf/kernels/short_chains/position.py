@@ -17,10 +17,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import copy_rows
-from dh2urdf.kernels.certificate.families import work_array
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.trig import trig_roots
+from dh2urdf.kernels.certificate import copy_rows, work_array
+from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 from dh2urdf.kernels.short_chains.position_task import finish_position
 

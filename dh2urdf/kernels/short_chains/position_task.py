@@ -10,12 +10,23 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
-from dh2urdf.kernels.certificate.families import MOVES, SINGULAR, WALK, null_direction
-from dh2urdf.kernels.certificate.merging import NEAR
-from dh2urdf.kernels.certificate.polish import HOPELESS, MAX_TURN, POLISH, damped_step
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel
+from dh2urdf.kernels.certificate import (
+    ACCEPT,
+    CLUSTER,
+    HOPELESS,
+    MAX_TURN,
+    MOVES,
+    NEAR,
+    POLISH,
+    SINGULAR,
+    TWO_PI,
+    WALK,
+    damped_step,
+    move,
+    null_direction,
+)
+from dh2urdf.kernels.chain import joint_times_link, load_pose
+from dh2urdf.kernels.numbers import inner_kernel
 
 __all__ = ["finish_position", "position_residual"]
 

@@ -10,11 +10,15 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
-from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family, work_array
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-from dh2urdf.kernels.numbers.trig import linear_trig
+from dh2urdf.kernels.certificate import (
+    ANYWHERE,
+    finish_pose,
+    free_joints,
+    one_of_each_family,
+    work_array,
+)
+from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
 __all__ = ["solve_three_slides"]
 

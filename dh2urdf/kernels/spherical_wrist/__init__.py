@@ -1,0 +1,97 @@
+"""Arms whose last three axes meet: position, then orientation (Pieper 1968, lecture notes 8.3).
+
+`poses` is the solver: `position_arm` puts the wrist centre by three turning joints,
+`position_slides` and `position_more_slides` by joints that slide, the wrist's ZYZ angles are in
+`poses`. `blocks` is the same for common arms, many poses side by side, in the arithmetic of
+`block_arithmetic` and `block_values`.
+"""
+
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+    BLOCK,
+    CLEAR,
+    COS,
+    DIRTY,
+    MASK,
+    MERGED,
+    RESIDUAL,
+    ROWS,
+    SIN,
+    TURN,
+    VALID,
+    WORK,
+    at,
+    column,
+    dot,
+    load_poses,
+    measure,
+    planar_arm,
+)
+from dh2urdf.kernels.spherical_wrist.block_values import (
+    HALF_TURN,
+    MIRRORS,
+    NEGATED,
+    OWN,
+    emit,
+    settle,
+    write,
+)
+from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
+from dh2urdf.kernels.spherical_wrist.poses import (
+    add_wrist,
+    append_wrist,
+    make_scratch,
+    middle_angle,
+    solve_sliding_arm,
+    solve_turning_arm,
+)
+from dh2urdf.kernels.spherical_wrist.position_arm import (
+    FREE,
+    NICE,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    elbow_on_axis,
+    place_wrist,
+    tool_to_wrist,
+)
+
+__all__ = [
+    "BLOCK",
+    "CLEAR",
+    "COS",
+    "DIRTY",
+    "FREE",
+    "HALF_TURN",
+    "MASK",
+    "MERGED",
+    "MIRRORS",
+    "NEGATED",
+    "NICE",
+    "OWN",
+    "RESIDUAL",
+    "ROWS",
+    "SHOULDER_FREE",
+    "SIN",
+    "TURN",
+    "UPPER_FREE",
+    "VALID",
+    "WORK",
+    "add_wrist",
+    "append_wrist",
+    "at",
+    "column",
+    "dot",
+    "elbow_on_axis",
+    "emit",
+    "load_poses",
+    "make_scratch",
+    "measure",
+    "middle_angle",
+    "place_wrist",
+    "planar_arm",
+    "settle",
+    "solve_common_wrist",
+    "solve_sliding_arm",
+    "solve_turning_arm",
+    "tool_to_wrist",
+    "write",
+]

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.certificate.polish import POLISH
-from dh2urdf.kernels.numbers.compiled import block_kernel, lane_kernel
+from dh2urdf.kernels.certificate import POLISH
+from dh2urdf.kernels.numbers import block_kernel, lane_kernel
 
 __all__ = [
     "BLOCK",

@@ -10,9 +10,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import CLUSTER, TWO_PI
-from dh2urdf.kernels.numbers.compiled import block_kernel, helper_kernel
-from dh2urdf.kernels.numbers.trig import arctangent
+from dh2urdf.kernels.certificate import CLUSTER, TWO_PI
+from dh2urdf.kernels.numbers import arctangent, block_kernel, helper_kernel
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     COS,

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
+from dh2urdf.kernels.numbers import block_kernel, kernel
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     CLEAR,

@@ -11,19 +11,18 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import (
+from dh2urdf.kernels.certificate import (
     ACCEPT,
     CLUSTER,
     ROUNDING,
     copy_rows,
     finish_pose,
     move,
+    polish,
     principal,
     same,
 )
-from dh2urdf.kernels.certificate.polish import polish
-from dh2urdf.kernels.numbers.compiled import inlined_kernel, inner_kernel, kernel
-from dh2urdf.kernels.numbers.trig import root_of_gap
+from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel, root_of_gap
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist.position_slides import place_wrist_sliding
 

@@ -14,10 +14,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT
-from dh2urdf.kernels.numbers.circle_pair import circle_pair
-from dh2urdf.kernels.numbers.compiled import inner_kernel
-from dh2urdf.kernels.numbers.trig import elbow_angle, linear_trig, root_of_gap
+from dh2urdf.kernels.certificate import ACCEPT
+from dh2urdf.kernels.numbers import circle_pair, elbow_angle, inner_kernel, linear_trig, root_of_gap
 
 __all__ = [
     "FREE",

@@ -12,10 +12,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT
-from dh2urdf.kernels.chain.links import after_link, wrist_circle, wrist_in_three
-from dh2urdf.kernels.numbers.compiled import inner_kernel
-from dh2urdf.kernels.numbers.trig import add_square, linear_trig, root_of_gap, trig_roots
+from dh2urdf.kernels.certificate import ACCEPT
+from dh2urdf.kernels.chain import after_link, wrist_circle, wrist_in_three
+from dh2urdf.kernels.numbers import add_square, inner_kernel, linear_trig, root_of_gap, trig_roots
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     ON_AXIS,

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from dh2urdf.conversions.write.write_urdf import verified_urdf
+from dh2urdf.conversions.write import verified_urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh.print import degrees
 from dh2urdf.dh_io import Kind, Units, parse_cell, parse_table, table_to_text

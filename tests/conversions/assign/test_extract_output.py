@@ -17,7 +17,7 @@ from test_extract_sources import BROKEN, URDF
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.cli import main
-from dh2urdf.conversions.assign.chain_to_dh import chain_to_dh
+from dh2urdf.conversions.assign.assigned_table import chain_to_dh
 from dh2urdf.conversions.write.constructors import matlab_corke, matlab_rst, rtb_python
 from dh2urdf.dh import DHConvention
 from dh2urdf.dh_io import parse_table

@@ -85,7 +85,7 @@ def test_the_offered_tolerance_is_enough():
 
 
 def extract_dh_again(found):
-    from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
+    from dh2urdf.conversions.write.table_chain import dh_to_chain
 
     return extract_dh(dh_to_chain(found.table)).warnings
 

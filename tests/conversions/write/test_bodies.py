@@ -8,7 +8,7 @@ import pytest
 
 import dh2urdf
 from dh2urdf.conversions.write.bodies import draw_bodies, link_frames
-from dh2urdf.conversions.write.dh_to_chain import dh_to_chain
+from dh2urdf.conversions.write.table_chain import dh_to_chain
 
 
 def bodies_of(table):

@@ -13,8 +13,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.damped import POSE, make_damped, restore
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.certificate import POSE, make_damped, restore
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.path_states import step_length
 from dh2urdf.kernels.redundant.self_motion import HELD, LONGEST, _excess, _part_inside, _tangent
 

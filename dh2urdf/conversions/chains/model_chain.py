@@ -11,7 +11,7 @@ import pinocchio as pin
 
 from dh2urdf.bounds import ANGLE, JOINTS, LENGTH
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.read.naming import listed, no_such
+from dh2urdf.conversions.read import listed, no_such
 from dh2urdf.dh import JointType
 from dh2urdf.doors import instance, text
 from dh2urdf.exceptions import NameNotFoundError, UrdfError

@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.kernels.chain.forward import joint_times_link, load_pose
-from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel
+from dh2urdf.kernels.chain import joint_times_link, load_pose
+from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
 __all__ = [
     "HOPELESS",

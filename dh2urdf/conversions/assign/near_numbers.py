@@ -6,9 +6,9 @@ import math
 from collections.abc import Iterator
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.assign.chain_to_dh import AssignedTable, chain_to_dh
+from dh2urdf.conversions.assign.assigned_table import AssignedTable, chain_to_dh
 from dh2urdf.conversions.assign.snap import snap_chain, snap_table
-from dh2urdf.conversions.chains.referee import table_poses
+from dh2urdf.conversions.chains import table_poses
 from dh2urdf.transforms import Array, pose_error
 
 __all__ = ["near_misses"]

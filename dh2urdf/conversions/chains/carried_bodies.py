@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from dh2urdf.conversions.chains.tree_to_chain import Actuation, ChainSource
-from dh2urdf.conversions.write.inertia import Inertial
+from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource
+from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
 

@@ -10,7 +10,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.frame_assignment import Assignment, FrameAssigner, XRule
 from dh2urdf.conversions.assign.prismatic_axes import place_prismatic_axes
 from dh2urdf.conversions.assign.rounding import tidy_angle, tidy_length, tidy_origin
-from dh2urdf.conversions.write.dh_to_chain import FLIP
+from dh2urdf.conversions.write import FLIP
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import NameNotFoundError
 from dh2urdf.transforms import Array

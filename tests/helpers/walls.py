@@ -1,0 +1,26 @@
+"""An import contract: a room's files are imported by the room, everyone else asks its door."""
+
+from importlinter import Contract, ContractCheck, fields, output
+
+
+class Walls(Contract):
+    """Whoever stands outside a room imports names from its ``__init__`` only."""
+
+    packages = fields.ListField(subfield=fields.StringField())
+
+    def check(self, graph, verbose):
+        """Find the imports of a room's files from outside."""
+        through = [
+            (importer, file)
+            for package in self.packages
+            for room in graph.find_children(package)
+            for file in graph.find_descendants(room)
+            for importer in graph.find_modules_that_directly_import(file)
+            if importer != room and not importer.startswith(f"{room}.")
+        ]
+        return ContractCheck(kept=not through, metadata={"through": sorted(through)})
+
+    def render_broken_contract(self, check):
+        """Name them."""
+        for importer, file in check.metadata["through"]:
+            output.print_error(f"{importer} imports {file}: ask {file.rpartition('.')[0]}")
