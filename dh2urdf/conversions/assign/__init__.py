@@ -12,20 +12,3 @@ from dh2urdf.conversions.assign.explain import FrameStep, explain_frames
 from dh2urdf.conversions.assign.frame_assignment import XRule, references
 from dh2urdf.conversions.assign.near_numbers import near_misses
 from dh2urdf.conversions.assign.snap import Change, snap_chain, snap_table, snap_tolerance
-
-__all__ = [
-    "AxisCase",
-    "Change",
-    "FrameStep",
-    "XRule",
-    "chain_to_dh",
-    "classify",
-    "explain_frames",
-    "flip_signs",
-    "near_misses",
-    "references",
-    "snap_chain",
-    "snap_table",
-    "snap_tolerance",
-    "to_convention",
-]

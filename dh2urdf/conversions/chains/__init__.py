@@ -18,20 +18,3 @@ from dh2urdf.conversions.chains.model_chain import (
     with_locked,
 )
 from dh2urdf.conversions.chains.referee import configurations, table_poses
-
-__all__ = [
-    "ChainPath",
-    "Coupling",
-    "carried_dh_frames",
-    "carried_joint_frames",
-    "carry",
-    "chain_path",
-    "configurations",
-    "couple",
-    "frame_id",
-    "is_continuous",
-    "model_to_chain",
-    "read_source",
-    "table_poses",
-    "with_locked",
-]

@@ -24,23 +24,3 @@ from dh2urdf.conversions.read.kinematic_tree import (
 from dh2urdf.conversions.read.naming import link_name, listed, no_such
 from dh2urdf.conversions.read.read_urdf import count_elements
 from dh2urdf.conversions.read.urdf_reader import FLOAT
-
-__all__ = [
-    "FLOAT",
-    "MOVING",
-    "TEXT",
-    "TIP_NAMES",
-    "KinematicTree",
-    "Mimic",
-    "Step",
-    "count_elements",
-    "description_bytes",
-    "find_path",
-    "is_xacro",
-    "link_name",
-    "listed",
-    "mended_urdf",
-    "no_such",
-    "read_description",
-    "rigid_part",
-]

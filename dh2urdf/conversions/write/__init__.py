@@ -21,24 +21,3 @@ from dh2urdf.conversions.write.urdf_file import (
     write_urdf,
 )
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
-
-__all__ = [
-    "CONSTRUCTORS",
-    "DEFAULT_EFFORT",
-    "DEFAULT_VELOCITY",
-    "FLIP",
-    "Body",
-    "ConversionReport",
-    "Inertial",
-    "UrdfOptions",
-    "dh_to_chain",
-    "draw_bodies",
-    "frame_along",
-    "link_frames",
-    "tensor",
-    "urdf_text",
-    "urdf_text_and_warnings",
-    "verified_urdf",
-    "why_impossible",
-    "write_urdf",
-]

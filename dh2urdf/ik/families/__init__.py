@@ -8,14 +8,3 @@ from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
 from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
-
-__all__ = [
-    "General6R",
-    "NumericProblem",
-    "NumericSolutions",
-    "SphericalWrist",
-    "planar_reach",
-    "planar_rr_ik",
-    "planar_rrr_ik",
-    "wrist_centre",
-]

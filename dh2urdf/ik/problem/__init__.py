@@ -13,17 +13,3 @@ from dh2urdf.ik.problem.scaled_problem import ScaledProblem
 from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.problem.swept_path import find_path
 from dh2urdf.ik.problem.swept_problem import SweptProblem
-
-__all__ = [
-    "ForwardKinematics",
-    "IKBatch",
-    "IKPath",
-    "IKSolutions",
-    "Locked",
-    "Problem",
-    "Progress",
-    "ScaledProblem",
-    "SweptProblem",
-    "find_path",
-    "held_values",
-]

@@ -10,13 +10,3 @@ from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals, sample_values
 from dh2urdf.ik.redundant.swept import SweptJoint
-
-__all__ = [
-    "HeldSolver",
-    "SweptJoint",
-    "nearest_members",
-    "nearly_reaching",
-    "reach_intervals",
-    "sample_values",
-    "select_held",
-]

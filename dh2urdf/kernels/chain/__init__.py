@@ -21,23 +21,3 @@ from dh2urdf.kernels.chain.held_joint import (
 )
 from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
 from dh2urdf.kernels.chain.links import after_joint, after_link, wrist_circle, wrist_in_three
-
-__all__ = [
-    "LARGEST",
-    "after_joint",
-    "after_link",
-    "chain_fk_batch",
-    "chain_frames_batch",
-    "chain_jacobian_batch",
-    "cosine_sine",
-    "held_links",
-    "held_pose",
-    "held_poses",
-    "insert_held",
-    "insert_held_batch",
-    "joint_times_link",
-    "load_pose",
-    "store_pose",
-    "wrist_circle",
-    "wrist_in_three",
-]

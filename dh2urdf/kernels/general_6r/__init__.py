@@ -11,5 +11,3 @@ from dh2urdf.kernels.general_6r.poses import (
     replan_general_6r,
     solve_general_6r,
 )
-
-__all__ = ["Arm", "plan_general_6r", "replan_general_6r", "solve_general_6r"]

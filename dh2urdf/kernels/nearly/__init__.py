@@ -5,5 +5,3 @@
 
 from dh2urdf.kernels.nearly.beside import search_beside
 from dh2urdf.kernels.nearly.poses import add_candidates, solve_near_parallel, solve_near_wrist
-
-__all__ = ["add_candidates", "search_beside", "solve_near_parallel", "solve_near_wrist"]

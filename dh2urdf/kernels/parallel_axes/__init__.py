@@ -14,13 +14,3 @@ from dh2urdf.kernels.parallel_axes.poses import (
     slope_of_last,
     solve_three_parallel,
 )
-
-__all__ = [
-    "add_pairs",
-    "last_joint",
-    "make_scratch",
-    "outer_pairs",
-    "slope_of_last",
-    "solve_common_parallel",
-    "solve_three_parallel",
-]

@@ -12,16 +12,3 @@ from dh2urdf.kernels.redundant.path_states import onward
 from dh2urdf.kernels.redundant.self_motion import enter_limits, nearest_members, walk_family
 from dh2urdf.kernels.redundant.shorter_path import shorten
 from dh2urdf.kernels.redundant.sweep import gather_samples, spread_samples
-
-__all__ = [
-    "enter_limits",
-    "gather_samples",
-    "nearest_members",
-    "onward",
-    "points_on_curves",
-    "shorten",
-    "solve_held_blocks",
-    "solve_held_wrist",
-    "spread_samples",
-    "walk_family",
-]

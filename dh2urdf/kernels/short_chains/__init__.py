@@ -10,14 +10,3 @@ from dh2urdf.kernels.short_chains.planar import planar_rr, solve_planar
 from dh2urdf.kernels.short_chains.poses import close_loop, solve_short_chains
 from dh2urdf.kernels.short_chains.position import solve_short_positions
 from dh2urdf.kernels.short_chains.three_slides import solve_three_slides
-
-__all__ = [
-    "close_loop",
-    "loop_columns",
-    "loop_matrix",
-    "planar_rr",
-    "solve_planar",
-    "solve_short_chains",
-    "solve_short_positions",
-    "solve_three_slides",
-]
