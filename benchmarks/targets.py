@@ -263,10 +263,7 @@ TARGETS = (
         _why_compiling,
     ),
     Target(
-        "first call of a later start",
-        "under 1 s",
-        _below(1.0, "first call, cached"),
-        _why_cached,
+        "first call of a later start", "under 1 s", _below(1.0, "first call, cached"), _why_cached
     ),
     Target(
         "`dh2urdf convert`, whole process",

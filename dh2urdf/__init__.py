@@ -25,15 +25,7 @@ if TYPE_CHECKING:
     from dh2urdf.checks.rules import check_urdf
     from dh2urdf.conversions.assign import to_convention
     from dh2urdf.conversions.write import ConversionReport, UrdfOptions, urdf_text, write_urdf
-    from dh2urdf.dh import (
-        DHConvention,
-        DHRow,
-        DHTable,
-        JointType,
-        Origin,
-        dh_factors,
-        dh_transform,
-    )
+    from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
     from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
     from dh2urdf.extract import Extraction, extract_dh

@@ -120,11 +120,7 @@ def number(
 
 
 def integer(
-    value: object,
-    what: str,
-    low: int,
-    high: int,
-    error: type[Dh2UrdfError] = ArgumentError,
+    value: object, what: str, low: int, high: int, error: type[Dh2UrdfError] = ArgumentError
 ) -> int:
     """A whole number between two bounds, included; no truth value."""
     try:
@@ -182,10 +178,7 @@ def generator(rng: Any, what: str = "rng") -> np.random.Generator:
 
 
 def choice(
-    value: object,
-    what: str,
-    allowed: Collection[str],
-    error: type[Dh2UrdfError] = ArgumentError,
+    value: object, what: str, allowed: Collection[str], error: type[Dh2UrdfError] = ArgumentError
 ) -> str:
     """One of some words."""
     if isinstance(value, str) and value in allowed:

@@ -118,9 +118,7 @@ class MissingExtraError(Dh2UrdfError, ImportError):
 
     def __init__(self, extra: str, purpose: str) -> None:
         self.extra, self.purpose = extra, purpose
-        super().__init__(
-            f"{purpose} needs the extra {extra!r}: pip install 'dh2urdf[{extra}]'",
-        )
+        super().__init__(f"{purpose} needs the extra {extra!r}: pip install 'dh2urdf[{extra}]'")
 
     def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str]]:
         """Pickle by extra and purpose."""

@@ -95,10 +95,7 @@ def _py_opw(arm: Arm) -> FKContestant | None:
         return None
     robot = PyOpw(arm).robot
     return FKContestant(
-        "py-opw",
-        robot.forward,
-        robot.batch_forward,
-        to_poses=lambda answer: answer.as_matrix(),
+        "py-opw", robot.forward, robot.batch_forward, to_poses=lambda answer: answer.as_matrix()
     )
 
 
@@ -131,9 +128,7 @@ def _ikpy(arm: Arm) -> FKContestant:
         chain = Chain.from_urdf_file(str(path), base_elements=[*elements, "tool0_fixed"])
     pad = len(chain.links) - arm.n - 1
     return FKContestant(
-        "ikpy",
-        chain.forward_kinematics,
-        encode=lambda q: np.pad(q, ((0, 0), (1, pad))),
+        "ikpy", chain.forward_kinematics, encode=lambda q: np.pad(q, ((0, 0), (1, pad)))
     )
 
 

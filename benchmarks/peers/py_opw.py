@@ -28,7 +28,7 @@ MODELS = {
         "c4": 0.08,
         "offsets": (0.0, -HALF_PI, 0.0, 0.0, 0.0, 0.0),
         "flip_axes": (True, False, False, True, False, True),
-    },
+    }
 }
 """Its parameters for the arms here; same base, tool and joints as the arm's."""
 

@@ -37,11 +37,7 @@ _WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n", "n/a"}
 
 
 def write_table(
-    table: TableLike,
-    path: str | os.PathLike[str],
-    *,
-    format: str | None = None,
-    units: Units = SI,
+    table: TableLike, path: str | os.PathLike[str], *, format: str | None = None, units: Units = SI
 ) -> Path:
     """Write a table to a YAML, TOML, JSON, CSV or Markdown file, whole or not at all.
 

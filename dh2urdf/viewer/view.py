@@ -38,11 +38,7 @@ logger = logging.getLogger("dh2urdf")
 
 
 def view(
-    robot: Robot,
-    q: ArrayLike | None = None,
-    *,
-    host: str = "127.0.0.1",
-    port: int | None = None,
+    robot: Robot, q: ArrayLike | None = None, *, host: str = "127.0.0.1", port: int | None = None
 ) -> ArmView:
     """Show an arm in the browser.
 

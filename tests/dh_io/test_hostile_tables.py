@@ -142,10 +142,7 @@ def test_a_file_of_a_thousand_joints_is_refused(format, count, says):
 
 def test_an_array_is_the_table_of_its_columns():
     """Columns in any order and a slide: the table equals the one of written rows."""
-    rows = (
-        DHRow(0.1, 0.2, 0.3, 0.4),
-        DHRow(0.5, 0.6, 0.7, 0.8, JointType.PRISMATIC),
-    )
+    rows = (DHRow(0.1, 0.2, 0.3, 0.4), DHRow(0.5, 0.6, 0.7, 0.8, JointType.PRISMATIC))
     cells = [[0.4, 0.3, 0.2, 0.1], [0.8, 0.7, 0.6, 0.5]]
     columns = "alpha a d theta"
     made = DHTable.from_array(cells, "modified", columns, joint_types="RP", name="made")

@@ -97,7 +97,4 @@ def screw_fk(chain, q):
 def line_distance(point, axis, other_point, other_axis):
     """How far two lines are from being one: offset of a point [m] and sine of the angle."""
     gap = np.asarray(other_point) - point
-    return (
-        np.linalg.norm(gap - axis * (gap @ axis)),
-        np.linalg.norm(np.cross(axis, other_axis)),
-    )
+    return (np.linalg.norm(gap - axis * (gap @ axis)), np.linalg.norm(np.cross(axis, other_axis)))

@@ -30,10 +30,7 @@ FRANKA = (
     f"0.0825 0 0 / {H} 0 0 / z; -0.0825 0.384 0 / -{H} 0 0 / z; 0 0 0 / {H} 0 0 / z;"
     f"0.088 0 0 / {H} 0 0 / z; 0 0 0.107 / 0 0 0 / ."
 )
-IRB140 = _straight(
-    "0 0 .104 z; .07 0 .248 y; 0 0 .36 y; .38 0 0 x; 0 0 0 y; .065 0 0 x",
-    ABB_TOOL,
-)
+IRB140 = _straight("0 0 .104 z; .07 0 .248 y; 0 0 .36 y; .38 0 0 x; 0 0 0 y; .065 0 0 x", ABB_TOOL)
 CRX = "0 0 .245 z; 0 0 0 y; 0 0 {} -y; 0 0 0 -x; .54 -.15 0 -y; .16 0 0 -x"
 
 CHAINS: dict[str, tuple[str, float]] = {
@@ -47,26 +44,19 @@ CHAINS: dict[str, tuple[str, float]] = {
     "franka_fr3": (FRANKA, 1e-14),
     # ros-industrial/abb and abb_experimental
     "abb_irb120": (
-        _straight(
-            "0 0 0 z; 0 0 .29 y; 0 0 .27 y; 0 0 .07 x; .302 0 0 y; .072 0 0 x",
-            ABB_TOOL,
-        ),
+        _straight("0 0 0 z; 0 0 .29 y; 0 0 .27 y; 0 0 .07 x; .302 0 0 y; .072 0 0 x", ABB_TOOL),
         1e-14,
     ),
     "abb_irb140": (IRB140, 1e-14),
     "abb_irb140_modified": (IRB140, 1e-14),
     "abb_gofa5": (
-        _straight(
-            "0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x",
-            ABB_TOOL,
-        ),
+        _straight("0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x", ABB_TOOL),
         1e-14,
     ),
     # ros-industrial/fanuc
     "fanuc_lrmate200id": (
         _straight(
-            "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x",
-            FANUC_TOOL,
+            "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x", FANUC_TOOL
         ),
         1e-14,
     ),
@@ -81,8 +71,7 @@ CHAINS: dict[str, tuple[str, float]] = {
     ),
     "kuka_kr6_r700": (
         _straight(
-            "0 0 .4 -z; .025 0 0 y; .315 0 0 y; 0 0 .035 -x; .365 0 0 y; .08 0 0 -x",
-            ABB_TOOL,
+            "0 0 .4 -z; .025 0 0 y; .315 0 0 y; 0 0 .035 -x; .365 0 0 y; .08 0 0 -x", ABB_TOOL
         ),
         1e-14,
     ),
@@ -132,8 +121,7 @@ CHAINS: dict[str, tuple[str, float]] = {
     # ros-industrial/staubli_experimental
     "staubli_tx2_60": (
         _straight(
-            "0 0 .375 z; 0 0 0 y; 0 .02 .29 y; 0 0 0 z; 0 0 .31 y; 0 0 .07 z",
-            "0 0 0 / 0 0 0",
+            "0 0 .375 z; 0 0 0 y; 0 .02 .29 y; 0 0 0 z; 0 0 .31 y; 0 0 .07 z", "0 0 0 / 0 0 0"
         ),
         1e-14,
     ),
@@ -197,13 +185,7 @@ PACKAGED = {
         1e-13,
     ),
     "xarm7": ("xarm_description/urdf/xarm7.urdf", "link_base", "link_eef", (0, 0, 0), 5e-5),
-    "unitree_z1": (
-        "z1_description/urdf/z1.urdf",
-        "link00",
-        "link06",
-        (0, 90, 0),
-        1e-13,
-    ),
+    "unitree_z1": ("z1_description/urdf/z1.urdf", "link00", "link06", (0, 90, 0), 1e-13),
     "kinova_jaco2_spherical": (
         "kinova_description/robots/kinova.urdf",
         "j2s6s200_link_base",

@@ -99,14 +99,8 @@ FAULTS = {
         arm(elbow=joint(kind="floating", axis="", limit="")),
         arm(elbow=joint(kind="planar", limit="")),
     ],
-    "repeated-element": [
-        arm(upper=BODY + BODY),
-        arm(elbow=joint(limit=LIMIT + LIMIT)),
-    ],
-    "limit-missing": [
-        arm(elbow=joint(limit="")),
-        arm(elbow=joint(kind="prismatic", limit="")),
-    ],
+    "repeated-element": [arm(upper=BODY + BODY), arm(elbow=joint(limit=LIMIT + LIMIT))],
+    "limit-missing": [arm(elbow=joint(limit="")), arm(elbow=joint(kind="prismatic", limit=""))],
     "limit-incomplete": [
         arm(elbow=joint(limit='<limit lower="-1" upper="1"/>')),
         arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="1"/>')),
@@ -204,9 +198,7 @@ FAULTS = {
     "mesh-path": [arm(fore=BODY + mesh("small.stl"))],
     "mesh-package": [arm(fore=BODY + mesh("package://meshes/small.stl", "collision"))],
     "mesh-format": [arm(fore=BODY + mesh("meshes/small.dae", "collision"))],
-    "mesh-scale": [
-        arm(fore=BODY + mesh("small.stl", extra=' scale="0 0 0"')),
-    ],
+    "mesh-scale": [arm(fore=BODY + mesh("small.stl", extra=' scale="0 0 0"'))],
     "mesh-units": [arm(fore=BODY + mesh("big.stl"))],
     "material-undefined": [arm(fore=BODY + box(extra='<material name="blue"/>'))],
     "material-name": [arm(fore=BODY + box(extra='<material><color rgba="1 0 0 1"/></material>'))],

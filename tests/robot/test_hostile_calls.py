@@ -96,10 +96,7 @@ KINDS = {
         dh2urdf.dh_transform,
         {"theta": 0.1, "d": 0.0, "a": 0.0, "alpha": 0.0, "convention": "standard"},
     ),
-    "dh_parameters": (
-        dh2urdf.dh_parameters,
-        {"T": np.eye(4), "convention": "standard", "i": 1},
-    ),
+    "dh_parameters": (dh2urdf.dh_parameters, {"T": np.eye(4), "convention": "standard", "i": 1}),
     "to_convention": (dh2urdf.to_convention, {"table": TABLE, "convention": "modified"}),
     "urdf_text": (dh2urdf.urdf_text, {"table": TABLE, "options": None}),
     "write_urdf": (dh2urdf.write_urdf, {"table": TABLE, "path": "/proc/nowhere.urdf"}),

@@ -137,10 +137,7 @@ CLOSED_FORMS = {
     ),
     "gantry": (0.0, lambda q: (q[0], q[1], 1.5 - q[2])),
     "gantry_wrist": (0.1, lambda q: (q[0], q[1], 1.5 - q[2])),
-    "omron_cobra600": (
-        0.0,
-        lambda q: (*planar_point(q, np.array([0.325, 0.275])), 0.387 - q[2]),
-    ),
+    "omron_cobra600": (0.0, lambda q: (*planar_point(q, np.array([0.325, 0.275])), 0.387 - q[2])),
     "stanford": (
         0.263,
         lambda q: (

@@ -257,8 +257,7 @@ def root_inertia(doc: Document) -> Iterator[Found]:
                 doc.link_by_name[name],
                 "is the root and has an <inertial>",
                 complain(
-                    Consumer.KDL,
-                    text="takes no root with inertia: leaves it out with a warning",
+                    Consumer.KDL, text="takes no root with inertia: leaves it out with a warning"
                 ),
                 mend="hang the mass on a child of the root by a fixed joint",
             )

@@ -86,10 +86,7 @@ def mimic_leader(doc: Document) -> Iterator[Found]:
                 (refuse if itself else complain)(Consumer.MUJOCO),
                 complain(Consumer.YOURDFPY, text="takes the leader as 0"),
                 accept(
-                    Consumer.PINOCCHIO,
-                    Consumer.CHECK_URDF,
-                    Consumer.IKPY,
-                    text="do not look at it",
+                    Consumer.PINOCCHIO, Consumer.CHECK_URDF, Consumer.IKPY, text="do not look at it"
                 ),
                 mend="mend the name of the joint that it follows",
             )

@@ -13,15 +13,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.checks import (
-    Effect,
-    Finding,
-    Severity,
-    Testimony,
-    Verdict,
-    ask_all,
-    check_urdf,
-)
+from dh2urdf.checks import Effect, Finding, Severity, Testimony, Verdict, ask_all, check_urdf
 from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json, note, stdin
 from dh2urdf.cli.progress import track

@@ -8,17 +8,7 @@ from typing import Annotated, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import (
-    Arm,
-    Deg,
-    Dpi,
-    Force,
-    Json,
-    Link,
-    PicturePath,
-    Values,
-    read_numbers,
-)
+from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values, read_numbers
 from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
 from dh2urdf.dh_io import Kind, Units
 

@@ -26,13 +26,7 @@ from enum import StrEnum
 from typing import NamedTuple
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.assign.axis_pairs import (
-    AxisPair,
-    Normal,
-    across,
-    classify,
-    common_normal,
-)
+from dh2urdf.conversions.assign.axis_pairs import AxisPair, Normal, across, classify, common_normal
 from dh2urdf.conversions.assign.frame_directions import choose_directions
 from dh2urdf.conversions.assign.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
 from dh2urdf.dh import DHConvention

@@ -12,13 +12,7 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.chains.model_chain import frame_with_z
-from dh2urdf.conversions.read import (
-    MOVING,
-    KinematicTree,
-    Step,
-    find_path,
-    rigid_part,
-)
+from dh2urdf.conversions.read import MOVING, KinematicTree, Step, find_path, rigid_part
 from dh2urdf.conversions.write import FLIP, Inertial
 from dh2urdf.dh import JointType
 from dh2urdf.transforms import Array

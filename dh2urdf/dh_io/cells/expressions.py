@@ -45,7 +45,7 @@ PI_NAMES = ("pi", "PI", "Pi", "π")
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
-    r"|(?P<name>[^\W\d]\w*|°|º)|(?P<mark>\*\*|[-+*/^(),]))",
+    r"|(?P<name>[^\W\d]\w*|°|º)|(?P<mark>\*\*|[-+*/^(),]))"
 )
 _NOT_FINITE = re.compile(r"[-+]?\.?(nan|inf|infinity)", re.IGNORECASE)
 

@@ -106,10 +106,7 @@ class SolverBase:
     __getstate__ = settled_state
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         self.chain, self.task, self.others = chain, task, others
         self.links, self.joints = chain.tables

@@ -80,9 +80,7 @@ SOLVERS: tuple[SolverRow, ...] = (
         "dh2urdf.ik.families.near_family:NearFamily",
     ),
     SolverRow(
-        "general 6R",
-        "six revolute joints, any axes",
-        "dh2urdf.ik.families.general_6r:General6R",
+        "general 6R", "six revolute joints, any axes", "dh2urdf.ik.families.general_6r:General6R"
     ),
     SolverRow(
         "swept joint",

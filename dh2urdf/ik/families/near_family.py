@@ -47,10 +47,7 @@ class NearFamily(SolverBase):
     kmax = 16
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         match = _match(chain)

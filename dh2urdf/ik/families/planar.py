@@ -21,13 +21,7 @@ from dh2urdf.ik.arm import NOMINAL, SNAP, BatchKernel, Outputs, SolverBase, Task
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.transforms import Array, check_pose, inverse
 
-__all__ = [
-    "PlanarArm",
-    "planar_reach",
-    "planar_rr_ik",
-    "planar_rrr_ik",
-    "wrist_centre",
-]
+__all__ = ["PlanarArm", "planar_reach", "planar_rr_ik", "planar_rrr_ik", "wrist_centre"]
 
 RIM = 1e-12
 """Relative excess over the rim of the annulus that is rounding of the point or the lengths."""
@@ -120,10 +114,7 @@ class PlanarArm(SolverBase):
     branch_words = (None, ("elbow up", "elbow down"))
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         frames = axis_frames(chain)

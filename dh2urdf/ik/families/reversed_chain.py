@@ -25,10 +25,7 @@ class ReversedSolver(SolverBase):
     inner_class: ClassVar[type[SolverBase]]
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         self.inner = self.inner_class(chain.reversed(), task)

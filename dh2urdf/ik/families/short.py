@@ -55,10 +55,7 @@ class ShortChain(SolverBase):
     kmax = 8
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         self.ends = inverse(self.links[[0, -1]])
@@ -86,10 +83,7 @@ class ShortChain(SolverBase):
         best = sorted(cuts, key=lambda s: qualities[s])
         rows = [[*shapes[s], qualities[s].nullity] for s in best]
         slots = [used[s] for s in best]
-        return (
-            np.array(rows, np.int64).reshape(-1, 8),
-            np.array(slots, np.int64).reshape(-1, 8),
-        )
+        return (np.array(rows, np.int64).reshape(-1, 8), np.array(slots, np.int64).reshape(-1, 8))
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:

@@ -22,10 +22,7 @@ class ThreeSlides(SolverBase):
     kmax = 2
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         self.rest = np.clip(0.0, chain.lower, chain.upper)

@@ -29,11 +29,7 @@ class HeldJoints:
     """
 
     def __init__(
-        self,
-        chain: SerialChain,
-        held: Mapping[int, float],
-        task: Task,
-        inner: Solver | None = None,
+        self, chain: SerialChain, held: Mapping[int, float], task: Task, inner: Solver | None = None
     ) -> None:
         if len(held) == chain.n:
             raise ConfigurationError(f"locked: all {chain.n} joints are held, none is left to move")

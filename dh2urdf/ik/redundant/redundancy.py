@@ -53,10 +53,7 @@ class RedundantChain(SolverBase):
     """Bits of the joints that take part in the motion to spare."""
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
     ) -> None:
         super().__init__(chain, task, others)
         self.held = _joints_to_hold(chain, task)

@@ -28,13 +28,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
-__all__ = [
-    "few_members",
-    "inside_members",
-    "nearest_members",
-    "reach_intervals",
-    "sample_values",
-]
+__all__ = ["few_members", "inside_members", "nearest_members", "reach_intervals", "sample_values"]
 
 VALUES = 128
 """Values of the swept joint at which curves are looked for."""

@@ -19,13 +19,7 @@ import math
 
 from dh2urdf.kernels.numbers import inlined, vector_kernel
 
-__all__ = [
-    "close_loop",
-    "left_coefficients",
-    "reduce_right",
-    "right_coefficients",
-    "six_equations",
-]
+__all__ = ["close_loop", "left_coefficients", "reduce_right", "right_coefficients", "six_equations"]
 
 HALF_SQRT3 = math.sqrt(0.75)
 INV_SQRT3 = math.sqrt(1.0 / 3.0)

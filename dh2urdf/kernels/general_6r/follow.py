@@ -12,13 +12,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.loop_angles import left_frames, other_joints
 from dh2urdf.kernels.general_6r.resultant import resultants, split_pairs, two_joints
-from dh2urdf.kernels.numbers import (
-    LANES,
-    MASK,
-    inlined,
-    null_vectors,
-    vector_kernel,
-)
+from dh2urdf.kernels.numbers import LANES, MASK, inlined, null_vectors, vector_kernel
 
 __all__ = ["accounted", "follow", "isolated"]
 
@@ -146,12 +140,7 @@ def _place(k, found, out_q, out_residual, arm):
     int, int
         The number of solutions, and the index of this one; -1 if it missed.
     """
-    cosines, sines, position, angle = (
-        arm["cosines"],
-        arm["sines"],
-        arm["position"],
-        arm["angle"],
-    )
+    cosines, sines, position, angle = (arm["cosines"], arm["sines"], arm["position"], arm["angle"])
     size, q, determinant, kept = arm["size"], arm["q"], arm["determinant"], arm["kept"]
     residual = max(position[k], angle[k])
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):

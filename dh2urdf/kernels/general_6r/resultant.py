@@ -18,14 +18,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    COLUMN,
-    LANES,
-    MASK,
-    inlined,
-    reduce_columns,
-    vector_kernel,
-)
+from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, inlined, reduce_columns, vector_kernel
 
 __all__ = ["resultants", "split_pairs", "two_joints"]
 

@@ -14,14 +14,7 @@ from numba import njit
 
 from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel, kernel
 
-__all__ = [
-    "add_square",
-    "arctangent",
-    "linear_trig",
-    "real_quadratic",
-    "root_of_gap",
-    "trig_roots",
-]
+__all__ = ["add_square", "arctangent", "linear_trig", "real_quadratic", "root_of_gap", "trig_roots"]
 
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""

@@ -23,12 +23,7 @@ from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
 from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, tool_to_wrist
 
-__all__ = [
-    "add_pairs",
-    "finish_pairs",
-    "make_scratch",
-    "solve_three_parallel",
-]
+__all__ = ["add_pairs", "finish_pairs", "make_scratch", "solve_three_parallel"]
 
 ALL_FREE = 0b111111
 

@@ -14,16 +14,7 @@ import math
 
 from dh2urdf.kernels.numbers import block_kernel
 from dh2urdf.kernels.redundant.held_wrist_load import LOADED, UPPER
-from dh2urdf.kernels.spherical_wrist import (
-    BLOCK,
-    COS,
-    DIRTY,
-    MASK,
-    MERGED,
-    TURN,
-    VALID,
-    at,
-)
+from dh2urdf.kernels.spherical_wrist import BLOCK, COS, DIRTY, MASK, MERGED, TURN, VALID, at
 
 __all__ = ["FORE", "FREE_ROW", "T1", "T2", "T4", "place_elbows", "place_shoulders"]
 

@@ -49,13 +49,7 @@ class Answer:
 
 
 def answer(
-    robot: Robot,
-    T: Array,
-    q: Array,
-    *,
-    task: str,
-    within: bool,
-    locked: dict[int, float] | None,
+    robot: Robot, T: Array, q: Array, *, task: str, within: bool, locked: dict[int, float] | None
 ) -> Answer:
     """All solutions of a target, or a word on why there is none."""
     try:

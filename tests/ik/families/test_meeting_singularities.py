@@ -75,8 +75,7 @@ def test_shipped_arms_lose_nothing_at_quarter_turns(name, size):
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(
-    "name",
-    [pytest.param(n, marks=STANFORD if n.startswith("stanford") else ()) for n in CLOSED],
+    "name", [pytest.param(n, marks=STANFORD if n.startswith("stanford") else ()) for n in CLOSED]
 )
 def test_all_shipped_arms_lose_nothing_at_quarter_turns(name):
     """600 poses for every distance, of every arm with a closed form."""

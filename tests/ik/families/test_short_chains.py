@@ -198,10 +198,7 @@ def test_infeasible_poses_give_nothing(name):
 
 @pytest.mark.parametrize(
     ("name", "q", "free"),
-    [
-        ("spherical RRR", (0.3, 0.0, 0.4), (0, 2)),
-        ("five axes, elbow", None, (0, 4)),
-    ],
+    [("spherical RRR", (0.3, 0.0, 0.4), (0, 2)), ("five axes, elbow", None, (0, 4))],
 )
 def test_singular_families_are_named(name, q, free):
     """Where joints are free, one representative is returned and they are named."""
