@@ -9,8 +9,10 @@ from __future__ import annotations
 import codecs
 import io
 import os
+import signal
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 
 from dh2urdf.exceptions import Dh2UrdfError, UnreachedError
 
@@ -39,6 +41,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     tokens = list(sys.argv[1:] if argv is None else argv)
     debug = "--debug" in tokens
     try:
+        _catch_interrupts()
         _open_streams()
         status = _run([t for t in tokens if t != "--debug"])
         sys.stdout.flush()
@@ -56,11 +59,23 @@ def main(argv: Sequence[str] | None = None) -> None:
             raise
         sys.stderr.write("interrupted\n")
         status = 130
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
     if argv is None:
-        import signal
-
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
     sys.exit(status)
+
+
+def _catch_interrupts() -> None:
+    """Let Ctrl-C interrupt again, a second later, what has caught it on its way to `main`."""
+
+    def interrupt(*_: object) -> None:
+        signal.setitimer(signal.ITIMER_REAL, 1.0)
+        raise KeyboardInterrupt
+
+    with suppress(ValueError):  # of a thread, which gets no signals
+        for number in (signal.SIGINT, signal.SIGALRM):
+            signal.signal(number, interrupt)
 
 
 def _is_interrupt(error: BaseException | None) -> bool:

@@ -48,6 +48,31 @@ def test_an_interrupt_at_any_moment_is_one_word_and_status_130(argv, tmp_path):
         assert list(tmp_path.iterdir()) == []
 
 
+SWALLOW = """
+import time, dh2urdf.cli as cli
+def run(tokens):
+    print(end="go", flush=True)
+    try:
+        time.sleep(60)
+    except BaseException:
+        pass
+    time.sleep(60)
+cli._run = run
+cli.main(["ik"])
+"""
+
+
+def test_an_interrupt_that_a_library_swallows_comes_again():
+    """A bare ``except`` on the way, as imports have, delays Ctrl-C by a second."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", SWALLOW], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout.read(2) == "go"
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=50)
+    assert (process.returncode, err) == (130, "interrupted\n")
+
+
 def test_the_command_line_is_imported_before_anything_heavy():
     """What is imported outside of the guarded part is the package's names and errors alone."""
     code = "import sys, dh2urdf.cli; print(*sys.modules)"

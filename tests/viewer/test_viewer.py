@@ -442,7 +442,7 @@ def test_verb_prints_the_address_and_ends_on_interrupt():
         with urllib.request.urlopen(address) as page:
             assert page.status == 200
         done.send_signal(signal.SIGINT)
-        assert done.wait(30) == 130
+        assert done.wait(120) == 130
     finally:
         done.kill()
         done.communicate()
