@@ -71,10 +71,8 @@ class Extraction:
     def __str__(self) -> str:
         lines = [str(self.table)]
         lines += [f"set right: {change}" for change in self.changes]
-        lines.append(
-            f"{self.base} to {self.tip}: largest FK difference {self.max_error:.2g} m or rad over "
-            f"{self.configurations} configurations (Pinocchio)"
-        )
+        largest = _largest(self.max_error, self.configurations)
+        lines.append(f"{self.base} to {self.tip}: {largest} (Pinocchio)")
         return "\n".join(lines)
 
 
@@ -160,11 +158,7 @@ def extract_dh(
         error = pose_error(table_poses(written, qs), truth) if fits else math.inf
         if error <= allowed:
             return Extraction(written, found.base, found.tip, error, len(qs), ())
-        warnings.append(
-            "the table that the file carries "
-            + (f"differs from its joints by {error:.2g}" if fits else f"has {written.n} joints")
-            + "; frames are assigned anew"
-        )
+        warnings.append(_assigned_anew(written, error))
     signs = flip_signs(chain, flip)
     changes: list[Change] = []
     if tolerance > 0:
@@ -179,26 +173,27 @@ def extract_dh(
     else:
         warnings += near_misses(assigned, chain, qs)
     table = carry(assigned.table, found)
-    max_error = pose_error(table_poses(table, qs), truth)
-    if tolerance == 0 and not max_error <= allowed:
+    error = pose_error(table_poses(table, qs), truth)
+    if tolerance == 0 and not error <= allowed:
         hint = "" if compact else "; leave compact on, or snap"
         raise VerificationError(
             f"{found.name}: the table differs from Pinocchio's reading of the source by "
-            f"{max_error:.3g} (allowed {allowed:.1g}){hint}"
+            f"{error:.3g} (allowed {allowed:.1g}){hint}"
         )
-    table = replace(
-        table,
-        source=f"{SIGNATURE} from {found.origin}, {found.base} to {found.tip}",
-        checked=f"against Pinocchio, largest FK difference {max_error:.2g} m or rad over "
-        f"{len(qs)} configurations",
-    )
-    return Extraction(
-        table=table,
-        base=found.base,
-        tip=found.tip,
-        max_error=max_error,
-        configurations=len(qs),
-        steps=explain_frames(assigned, chain),
-        changes=tuple(changes),
-        warnings=tuple(warnings),
-    )
+    origin = f"{SIGNATURE} from {found.origin}, {found.base} to {found.tip}"
+    checked = f"against Pinocchio, {_largest(error, len(qs))}"
+    table = replace(table, source=origin, checked=checked)
+    steps = explain_frames(assigned, chain)
+    ends = found.base, found.tip
+    return Extraction(table, *ends, error, len(qs), steps, tuple(changes), tuple(warnings))
+
+
+def _assigned_anew(written: DHTable, error: float) -> str:
+    """Why a table that a file carries is not taken."""
+    differs = f"differs from its joints by {error:.2g}"
+    misfit = differs if error < math.inf else f"has {written.n} joints"
+    return f"the table that the file carries {misfit}; frames are assigned anew"
+
+
+def _largest(error: float, count: int) -> str:
+    return f"largest FK difference {error:.2g} m or rad over {count} configurations"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from importlib import import_module
+from typing import Any
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
@@ -23,9 +24,14 @@ class SolverRow:
 
     def load(self) -> type[SolverBase]:
         """Import the class, when it is first wanted."""
-        module, _, name = self.where.partition(":")
-        family: type[SolverBase] = getattr(import_module(module), name)
+        family: type[SolverBase] = _load(self.where)
         return family
+
+
+def _load(where: str) -> Any:
+    """A class by ``module:name``, imported when it is first wanted."""
+    module, _, name = where.partition(":")
+    return getattr(import_module(module), name)
 
 
 SOLVERS: tuple[SolverRow, ...] = (
@@ -95,6 +101,9 @@ SOLVERS: tuple[SolverRow, ...] = (
 )
 """Families, best first; a chain gets the first that has no obstacle."""
 
+SEARCHED = "dh2urdf.ik.redundant.searched:SearchedSolver"
+"""What helps the solver of an arm that hardly moves in some direction."""
+
 
 def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
     """Build the best solver that covers the chain for the task.
@@ -125,5 +134,5 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
 
 def _searched(solver: Solver) -> Solver:
     """The solver, helped by a search for poses that it loses."""
-    helped: Solver = import_module("dh2urdf.ik.redundant.searched").SearchedSolver(solver)
+    helped: Solver = _load(SEARCHED)(solver)
     return helped
