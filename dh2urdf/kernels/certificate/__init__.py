@@ -29,22 +29,11 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.families import (
-    MOVES,
-    SINGULAR,
-    WALK,
-    free_joints,
-    null_direction,
-    one_of_each_family,
-    work_array,
-)
-from dh2urdf.kernels.certificate.finish import finish_batch
-from dh2urdf.kernels.certificate.merging import NEAR, merge_solutions
+from dh2urdf.kernels.certificate.families import free_joints, null_direction, work_array
+from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
 from dh2urdf.kernels.certificate.newton import (
-    HOPELESS,
     MAX_TURN,
     POLISH,
-    damped_step,
     normal_equations,
     polish,
     pose_residual,

@@ -1,15 +1,37 @@
-"""From the candidates of a batch to its solutions: limits, free joints, one of each family."""
+"""From candidates to solutions: limits, free joints, one of each family."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
-from dh2urdf.kernels.certificate.families import free_joints
+from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family
 from dh2urdf.kernels.certificate.merging import merge_solutions
-from dh2urdf.kernels.numbers import kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
-__all__ = ["finish_batch"]
+__all__ = ["ALL_MEMBERS", "finish_batch", "finish_families"]
+
+ALL_MEMBERS = np.empty(0)
+"""In the place of rest values: all members of a family stay."""
+
+
+@inner_kernel
+def finish_families(
+    links, joints, T, rest, within_limits, q, residual, branch, free, count, trial, work
+):
+    """:func:`.certify.finish_pose` of candidates whose free joints are yet to be found.
+
+    Of each family the member at the rest values (n,) stays. ``trial`` (2, n) is scratch.
+    """
+    count = finish_pose(links, joints, T, ANYWHERE, q, residual, branch, free, count, work)
+    count = merge_solutions(links, joints, T, q, residual, branch, free, count, trial, work)
+    for k in range(count):
+        free[k] = free_joints(links, joints, T, q[k], trial[0], work)
+    if rest.shape[0] > 0:
+        count = one_of_each_family(joints, rest, q, residual, branch, free, count)
+    if within_limits:
+        count = finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work)
+    return count
 
 
 @kernel
@@ -28,13 +50,9 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
     n = q.shape[2]
     work, trial = np.empty((n, n + 8)), np.empty((2, n))
     for i in range(Ts.shape[0]):
-        found, rows = count[i], (q[i], residual[i], branch[i], free[i])
-        for k in range(found):
+        for k in range(count[i]):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
-        found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, found, work)
-        found = merge_solutions(links, joints, Ts[i], *rows, found, trial, work)
-        for k in range(found):
-            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial[0], work)
-        if within_limits:
-            found = finish_pose(links, joints, Ts[i], within_limits, *rows, found, work)
-        count[i] = found
+        rows = q[i], residual[i], branch[i], free[i]
+        count[i] = finish_families(
+            links, joints, Ts[i], ALL_MEMBERS, within_limits, *rows, count[i], trial, work
+        )

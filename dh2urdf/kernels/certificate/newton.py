@@ -1,7 +1,8 @@
 """Newton's method on the exact chain, and the residual that it works on.
 
 A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joint: 1.0 where it
-slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none).
+slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none). A target T
+is a pose (4, 4), or a point (3,) for the tool's origin: then only the position counts.
 """
 
 from __future__ import annotations
@@ -55,17 +56,27 @@ def new_work(n: int) -> NDArray[np.float64]:
 
 @helper_kernel
 def residual_of(r, T):
-    """Residual of a pose r (twelve scalars) against a target T (4, 4).
+    """Residual of a pose r (twelve scalars) against a target T.
 
     The larger of the position error [m] and the angle between the orientations [rad],
     ``|sum_i r_i x t_i| / 2 = sin(angle)`` over the columns of the rotations; pi where the angle is
     over 90 degrees. Stretching T (six-digit input) does not enter to first order.
     """
-    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    x, y, z = way_between(r, T)
+    if T.ndim == 1:
+        return math.sqrt(x * x + y * y + z * z)
     ex, ey, ez, cosine = turn_between(r, T)
     if cosine <= 1.0:
         return math.pi
     return math.sqrt(max(x * x + y * y + z * z, ex * ex + ey * ey + ez * ez))
+
+
+@helper_kernel
+def way_between(r, T):
+    """Way from the origin of r to that of T."""
+    if T.ndim == 1:
+        return T[0] - r[3], T[1] - r[7], T[2] - r[11]
+    return T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
 
 
 @helper_kernel
@@ -85,7 +96,7 @@ def turn_between(r, T):
 
 @inner_kernel
 def pose_residual(links, joints, T, q):
-    """Residual of one configuration q (n,) on the exact chain against T (4, 4)."""
+    """Residual of one configuration q (n,) on the exact chain against T."""
     r = load_pose(links[0])
     for i in range(q.shape[0]):
         r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
@@ -105,13 +116,16 @@ def normal_equations(links, joints, T, q, work):
         work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
         work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
         r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
-    ex, ey, ez, _ = turn_between(r, T)
-    px, py, pz = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
+    px, py, pz = way_between(r, T)
+    ex, ey, ez = 0.0, 0.0, 0.0
+    if T.ndim == 2:
+        ex, ey, ez, _ = turn_between(r, T)
     for i in range(n):
         zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
+        if joints[i, 0] != 0.0 or T.ndim == 1:
+            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
         if joints[i, 0] != 0.0:
             work[i, 0], work[i, 1], work[i, 2] = zx, zy, zz
-            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
         else:
             x, y, z = r[3] - work[i, 0], r[7] - work[i, 1], r[11] - work[i, 2]
             work[i, 0] = zy * z - zz * y

@@ -1,8 +1,8 @@
 """One to five joints of any kind, planar arms, sliding arms, and the task ``position``.
 
-`poses` solves the closed loop as a linear system (`loop`, then `candidates`); `position` and
-`position_task` put the tool's origin at a point; `planar` are the notes' RR and RRR arms (8.2),
-`three_slides` arms with three sliding joints.
+`poses` solves the closed loop as a linear system (`loop`, then `candidates`); `position` puts
+the tool's origin at a point; `planar` are the notes' RR and RRR arms (8.2), `three_slides` arms
+with three sliding joints.
 """
 
 from dh2urdf.kernels.short_chains.loop import loop_columns, loop_matrix

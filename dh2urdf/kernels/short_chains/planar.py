@@ -9,10 +9,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import finish_pose, work_array
+from dh2urdf.kernels.certificate import ALL_MEMBERS, finish_families, finish_pose, work_array
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
 from dh2urdf.kernels.short_chains.position import applied
-from dh2urdf.kernels.short_chains.position_task import finish_position
 
 __all__ = ["planar_rr", "solve_planar"]
 
@@ -100,7 +99,7 @@ def solve_planar(
     """
     n = joints.shape[0]
     work = work_array(n)
-    trial, pairs = np.empty(n), np.empty((2, 2))
+    trial, pairs = np.empty((2, n)), np.empty((2, 2))
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -120,7 +119,9 @@ def solve_planar(
         if pose:
             count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)
         else:
-            count[i] = finish_position(links, joints, T, within_limits, *out, rows, trial, work)
+            count[i] = finish_families(
+                links, joints, T[:3, 3], ALL_MEMBERS, within_limits, *out, rows, trial, work
+            )
 
 
 @inner_kernel

@@ -15,10 +15,8 @@ import numpy as np
 from dh2urdf.kernels.certificate import (
     ANYWHERE,
     copy_rows,
+    finish_families,
     finish_pose,
-    free_joints,
-    merge_solutions,
-    one_of_each_family,
     work_array,
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
@@ -182,10 +180,5 @@ def solve_short_chains(
             found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
             if not doubt:
                 break
-        found = merge_solutions(links, joints, T, *many, found, trial, work)
-        for k in range(found):
-            many_free[k] = free_joints(links, joints, T, many_q[k], trial[0], work)
-        found = one_of_each_family(joints, rest, *many, found)
-        if within_limits:
-            found = finish_pose(links, joints, T, within_limits, *many, found, work)
+        found = finish_families(links, joints, T, rest, within_limits, *many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

@@ -17,10 +17,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import copy_rows, work_array
+from dh2urdf.kernels.certificate import ALL_MEMBERS, copy_rows, finish_families, work_array
 from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
-from dh2urdf.kernels.short_chains.position_task import finish_position
 
 __all__ = ["applied", "solve_short_positions"]
 
@@ -223,10 +222,10 @@ def _third_joint(slides, frames, tip, p, rest, unit, roots):
 
 
 @inner_kernel
-def _candidates(slides, frames, tip, T, rest, unit, roots, pairs, q):
+def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
     """Candidate configurations of one point, to q (FEW, n); how many."""
     n = q.shape[1]
-    p = applied(frames[0], (T[0, 3], T[1, 3], T[2, 3]))
+    p = applied(frames[0], (target[0], target[1], target[2]))
     if n == 1:
         q[0, 0] = p[2] - tip[2] if slides[0] else _turn(tip, p, rest[0])
         return 1
@@ -272,10 +271,13 @@ def solve_short_positions(
     slides = joints[:, 0] != 0.0
     rest, unit = rest_unit[:n], rest_unit[n]
     point = tip[0], tip[1], tip[2]
-    roots, pairs, trial = np.empty((3, SAMPLES)), np.empty((2, 2)), np.empty(n)
+    roots, pairs, trial = np.empty((3, SAMPLES)), np.empty((2, 2)), np.empty((2, n))
     many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.zeros(FEW, np.int64)
     for i in range(Ts.shape[0]):
-        T = Ts[i]
-        found = _candidates(slides, frames, point, T, rest, unit, roots, pairs, many[0])
-        found = finish_position(links, joints, T, within_limits, *many, found, trial, work)
+        p = Ts[i, :3, 3]
+        found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
+        many[1][:found], many[3][:found] = -1.0, 0
+        found = finish_families(
+            links, joints, p, ALL_MEMBERS, within_limits, *many, found, trial, work
+        )
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))
