@@ -20,4 +20,12 @@ from dh2urdf.kernels.chain.held_joint import (
     insert_held_batch,
 )
 from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
-from dh2urdf.kernels.chain.links import after_joint, after_link, wrist_circle, wrist_in_three
+from dh2urdf.kernels.chain.links import (
+    after_joint,
+    after_link,
+    applied,
+    applied_inverse,
+    turned_back,
+    wrist_circle,
+    wrist_in_three,
+)

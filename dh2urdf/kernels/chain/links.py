@@ -1,12 +1,41 @@
-"""Points and directions carried along the first three joints of an arm, some of which slide."""
+"""Points and directions carried by poses, and along the first three joints of an arm."""
 
 from __future__ import annotations
 
 import math
 
-from dh2urdf.kernels.numbers import inner_kernel
+from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
-__all__ = ["after_joint", "after_link", "wrist_circle", "wrist_in_three"]
+__all__ = ["after_joint", "after_link", "applied", "applied_inverse", "turned_back"]
+__all__ += ["wrist_circle", "wrist_in_three"]
+
+
+@helper_kernel
+def applied(A, v):
+    """The point ``A v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z + A[0, 3],
+        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z + A[1, 3],
+        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z + A[2, 3],
+    )
+
+
+@helper_kernel
+def applied_inverse(A, v):
+    """The point ``A^-1 v``."""
+    return turned_back(A, (v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]))
+
+
+@helper_kernel
+def turned_back(A, v):
+    """The direction ``A^-1 v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[1, 0] * y + A[2, 0] * z,
+        A[0, 1] * x + A[1, 1] * y + A[2, 1] * z,
+        A[0, 2] * x + A[1, 2] * y + A[2, 2] * z,
+    )
 
 
 @inner_kernel

@@ -35,12 +35,15 @@ from dh2urdf.kernels.certificate import (
     reverse_joints,
 )
 from dh2urdf.kernels.chain import (
+    applied,
+    applied_inverse,
     held_links,
     held_pose,
     insert_held,
     joint_times_link,
     load_pose,
     store_pose,
+    turned_back,
 )
 from dh2urdf.kernels.numbers import circle_pair, inner_kernel, kernel
 from dh2urdf.kernels.spherical_wrist import (
@@ -109,12 +112,9 @@ def _place_wrist(form, D, S, slack, scratch):
     M, N, d = equations[0], equations[1], equations[2, 0]
     S0, S1, reach = S[0], S[1], form[3, 3]
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
-    wx, wy = S[2, 0, 2] * reach + S[2, 0, 3], S[2, 1, 2] * reach + S[2, 1, 3]
-    wz = S[2, 2, 2] * reach + S[2, 2, 3]
+    wx, wy, wz = applied(S[2], (0.0, 0.0, reach))
     tx, ty, tz, ux, uy, uz = S0[0, 3], S0[1, 3], S0[2, 3], S1[0, 3], S1[1, 3], S1[2, 3]
-    nx = S1[0, 0] * ux + S1[1, 0] * uy + S1[2, 0] * uz
-    ny = S1[0, 1] * ux + S1[1, 1] * uy + S1[2, 1] * uz
-    nz = S1[0, 2] * ux + S1[1, 2] * uy + S1[2, 2] * uz
+    nx, ny, nz = turned_back(S1, (ux, uy, uz))
     gx, gy, gz, hx, hy, hz = S0[0, 2], S0[1, 2], S0[2, 2], S1[2, 0], S1[2, 1], S1[2, 2]
     M[0, 0], M[0, 1] = gx * px + gy * py, gx * py - gy * px
     N[0, 0], N[0, 1] = -hx * wx - hy * wy, hx * wy - hy * wx
@@ -131,12 +131,8 @@ def _place_wrist(form, D, S, slack, scratch):
         count = circle_pair(M, N, d, slack, series, pairs)
     for k in range(count):
         c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
-        x, y, z = c1 * px + s1 * py - tx, c1 * py - s1 * px - ty, pz - tz
-        yx = S0[0, 0] * x + S0[1, 0] * y + S0[2, 0] * z
-        yy = S0[0, 1] * x + S0[1, 1] * y + S0[2, 1] * z
-        x, y = c3 * wx - s3 * wy, s3 * wx + c3 * wy
-        vx = S1[0, 0] * x + S1[0, 1] * y + S1[0, 2] * wz + ux
-        vy = S1[1, 0] * x + S1[1, 1] * y + S1[1, 2] * wz + uy
+        yx, yy, _ = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
+        vx, vy, _ = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
         upper_free = vx * vx + vy * vy <= FREE * FREE
         arm[k, 0] = math.atan2(s1, c1)
         arm[k, 1] = 0.0 if upper_free else math.atan2(vx * yy - vy * yx, vx * yx + vy * yy)
@@ -153,13 +149,7 @@ def _orientation_left(D, S, values, R):
         x, y, z = D[0, j], D[1, j], D[2, j]
         for i in range(3):
             c, s = math.cos(values[i]), math.sin(values[i])
-            x, y = c * x + s * y, c * y - s * x
-            L = S[i]
-            x, y, z = (
-                L[0, 0] * x + L[1, 0] * y + L[2, 0] * z,
-                L[0, 1] * x + L[1, 1] * y + L[2, 1] * z,
-                L[0, 2] * x + L[1, 2] * y + L[2, 2] * z,
-            )
+            x, y, z = turned_back(S[i], (c * x + s * y, c * y - s * x, z))
         R[0, j], R[1, j], R[2, j] = x, y, z
 
 

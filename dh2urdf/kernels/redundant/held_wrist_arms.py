@@ -14,7 +14,18 @@ import math
 
 from dh2urdf.kernels.numbers import block_kernel
 from dh2urdf.kernels.redundant.held_wrist_load import LOADED, UPPER
-from dh2urdf.kernels.spherical_wrist import BLOCK, COS, DIRTY, MASK, MERGED, TURN, VALID, at
+from dh2urdf.kernels.spherical_wrist import (
+    BLOCK,
+    COS,
+    DIRTY,
+    MASK,
+    MERGED,
+    TURN,
+    VALID,
+    at,
+    column,
+    dot,
+)
 
 __all__ = ["FORE", "FREE_ROW", "T1", "T2", "T4", "place_elbows", "place_shoulders"]
 
@@ -39,12 +50,9 @@ def place_elbows(S2, reach, slack, n, S):
     ww = wx * wx + wy * wy + wz * wz
     M = at(UPPER)
     for i in range(n):
-        px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
-        tx, ty, tz = S[M + BLOCK * 9 + i], S[M + BLOCK * 10 + i], S[M + BLOCK * 11 + i]
-        nx = S[M + i] * tx + S[M + BLOCK * 3 + i] * ty + S[M + BLOCK * 6 + i] * tz
-        ny = S[M + BLOCK + i] * tx + S[M + BLOCK * 4 + i] * ty + S[M + BLOCK * 7 + i] * tz
-        nz = S[M + BLOCK * 2 + i] * tx + S[M + BLOCK * 5 + i] * ty + S[M + BLOCK * 8 + i] * tz
-        tt, pp = tx * tx + ty * ty + tz * tz, px * px + py * py + pz * pz
+        p, t = column(S, BLOCK * 9 + i, BLOCK), column(S, M + BLOCK * 9 + i, BLOCK)
+        nx, ny = dot(column(S, M + i, BLOCK * 3), t), dot(column(S, M + BLOCK + i, BLOCK * 3), t)
+        nz, tt, pp = dot(column(S, M + BLOCK * 2 + i, BLOCK * 3), t), dot(t, t), dot(p, p)
         a, b = -2.0 * (nx * wx + ny * wy), 2.0 * (nx * wy - ny * wx)
         d = ww + tt + 2.0 * nz * wz - pp
         square, size = a * a + b * b, (ww + tt + pp) * (ww + tt + pp)
@@ -69,13 +77,10 @@ def _carry(wx, wy, wz, moves, elbow, row, n, S):
     turn, target, M = at(T3 + elbow), at(FORE + row), at(UPPER)
     for i in range(n):
         c, s = S[turn + i], S[TURN + turn + i]
-        x, y, t = c * wx - s * wy, s * wx + c * wy, M + BLOCK * 9 + i
-        a = S[M + i] * x + S[M + BLOCK + i] * y + S[M + BLOCK * 2 + i] * wz
-        b = S[M + BLOCK * 3 + i] * x + S[M + BLOCK * 4 + i] * y + S[M + BLOCK * 5 + i] * wz
-        d = S[M + BLOCK * 6 + i] * x + S[M + BLOCK * 7 + i] * y + S[M + BLOCK * 8 + i] * wz
-        S[target + i] = a + moves * S[t]
-        S[target + BLOCK + i] = b + moves * S[t + BLOCK]
-        S[target + BLOCK * 2 + i] = d + moves * S[t + BLOCK * 2]
+        v, t = (c * wx - s * wy, s * wx + c * wy, wz), column(S, M + BLOCK * 9 + i, BLOCK)
+        S[target + i] = dot(column(S, M + i, BLOCK), v) + moves * t[0]
+        S[target + BLOCK + i] = dot(column(S, M + BLOCK * 3 + i, BLOCK), v) + moves * t[1]
+        S[target + BLOCK * 2 + i] = dot(column(S, M + BLOCK * 6 + i, BLOCK), v) + moves * t[2]
 
 
 @block_kernel
@@ -91,8 +96,8 @@ def place_shoulders(S0, slack, n, S):
     for elbow in range(2):
         e, point = BLOCK * 2 * elbow & MASK, at(FORE + 12 * elbow + 9)
         for i in range(n):
-            px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
-            ux, uy, uz = S[point + i], S[point + BLOCK + i], S[point + BLOCK * 2 + i]
+            px, py, pz = column(S, BLOCK * 9 + i, BLOCK)
+            ux, uy, uz = column(S, point + i, BLOCK)
             a, b, d = gx * px + gy * py, gx * py - gy * px, uz - gz * pz
             square, around, size = a * a + b * b, ux * ux + uy * uy, px * px + py * py + pz * pz
             gap = square - d * d

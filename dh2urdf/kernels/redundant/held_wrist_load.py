@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 
 from dh2urdf.kernels.chain import LARGEST, cosine_sine
-from dh2urdf.kernels.numbers import block_kernel, inner_kernel
+from dh2urdf.kernels.numbers import block_kernel, inner_kernel, lane_kernel
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
     FACTORS,
@@ -27,9 +27,9 @@ from dh2urdf.kernels.redundant.held_wrist import (
     SLIDES,
     VARIES,
 )
-from dh2urdf.kernels.spherical_wrist import BLOCK, MASK, WORK, at, load_poses
+from dh2urdf.kernels.spherical_wrist import BLOCK, MASK, WORK, at, column, dot, load_poses
 
-__all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "prepare_block"]
+__all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "pose_axes", "prepare_block"]
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""
@@ -106,19 +106,23 @@ def _links_and_levers(frames, n, S):
             S[row + i] = turned + (d * S[BLOCK * HELD_SLIDE + i] + t)
 
 
+@lane_kernel
+def pose_axes(S, i):
+    """Axes x, y, z of the pose of lane i."""
+    x, y = column(S, i, BLOCK * 3), column(S, BLOCK + i, BLOCK * 3)
+    return x, y, column(S, BLOCK * 2 + i, BLOCK * 3)
+
+
 @block_kernel
 def _invert(n, S):
     """The pose of every lane turned into its inverse."""
     for i in range(n):
-        x0, x1, x2 = S[i], S[BLOCK * 3 + i], S[BLOCK * 6 + i]
-        y0, y1, y2 = S[BLOCK + i], S[BLOCK * 4 + i], S[BLOCK * 7 + i]
-        z0, z1, z2 = S[BLOCK * 2 + i], S[BLOCK * 5 + i], S[BLOCK * 8 + i]
-        p0, p1, p2 = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
-        S[BLOCK + i], S[BLOCK * 2 + i], S[BLOCK * 5 + i] = x1, x2, y2
-        S[BLOCK * 3 + i], S[BLOCK * 6 + i], S[BLOCK * 7 + i] = y0, z0, z1
-        S[BLOCK * 9 + i] = -(x0 * p0 + x1 * p1 + x2 * p2)
-        S[BLOCK * 10 + i] = -(y0 * p0 + y1 * p1 + y2 * p2)
-        S[BLOCK * 11 + i] = -(z0 * p0 + z1 * p1 + z2 * p2)
+        x, y, z = pose_axes(S, i)
+        p = column(S, BLOCK * 9 + i, BLOCK)
+        S[BLOCK + i], S[BLOCK * 2 + i], S[BLOCK * 5 + i] = x[1], x[2], y[2]
+        S[BLOCK * 3 + i], S[BLOCK * 6 + i], S[BLOCK * 7 + i] = y[0], z[0], z[1]
+        S[BLOCK * 9 + i], S[BLOCK * 10 + i] = -dot(x, p), -dot(y, p)
+        S[BLOCK * 11 + i] = -dot(z, p)
 
 
 @block_kernel

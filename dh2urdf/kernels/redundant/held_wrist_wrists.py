@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 from dh2urdf.kernels.certificate import POLISH
-from dh2urdf.kernels.numbers import block_kernel
+from dh2urdf.kernels.numbers import block_kernel, lane_kernel
 from dh2urdf.kernels.redundant.held_wrist_arms import FORE, FREE_ROW, T1, T2, T4
-from dh2urdf.kernels.redundant.held_wrist_load import LEVER
+from dh2urdf.kernels.redundant.held_wrist_load import LEVER, pose_axes
 from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
     CLEAR,
@@ -24,6 +24,8 @@ from dh2urdf.kernels.spherical_wrist import (
     at,
     column,
     dot,
+    minus,
+    turned,
 )
 
 __all__ = ["finish_arm"]
@@ -106,41 +108,31 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
     of ``|R - R_target|_F = 2 sqrt(2) sin(angle / 2)``.
     """
     for i in range(n):
-        x0, x1, x2 = column(S, ARM + i, BLOCK)
-        y0, y1, y2 = column(S, ARM + BLOCK * 3 + i, BLOCK)
-        z0, z1, z2 = column(S, ARM + BLOCK * 6 + i, BLOCK)
-        c, s = S[WRIST + i], S[WRIST + BLOCK * 3 + i]
-        x0, y0, z0 = c * x0 + s * y0, sa4 * z0, sa4 * (s * x0 - c * y0)
-        x1, y1, z1 = c * x1 + s * y1, sa4 * z1, sa4 * (s * x1 - c * y1)
-        x2, y2, z2 = c * x2 + s * y2, sa4 * z2, sa4 * (s * x2 - c * y2)
-        c, s = S[WRIST + BLOCK + i], S[WRIST + BLOCK * 4 + i]
-        x0, y0, z0 = c * x0 + s * y0, sa5 * z0, sa5 * (s * x0 - c * y0)
-        x1, y1, z1 = c * x1 + s * y1, sa5 * z1, sa5 * (s * x1 - c * y1)
-        x2, y2, z2 = c * x2 + s * y2, sa5 * z2, sa5 * (s * x2 - c * y2)
-        c, s = S[WRIST + BLOCK * 2 + i], S[WRIST + BLOCK * 5 + i]
-        x0, y0 = c * x0 + s * y0, c * y0 - s * x0
-        x1, y1 = c * x1 + s * y1, c * y1 - s * x1
-        x2, y2 = c * x2 + s * y2, c * y2 - s * x2
-        f0, f1, f2 = x0 - S[i], x1 - S[BLOCK * 3 + i], x2 - S[BLOCK * 6 + i]
-        g0, g1, g2 = y0 - S[BLOCK + i], y1 - S[BLOCK * 4 + i], y2 - S[BLOCK * 7 + i]
-        h0, h1, h2 = z0 - S[BLOCK * 2 + i], z1 - S[BLOCK * 5 + i], z2 - S[BLOCK * 8 + i]
-        p0, p1, p2 = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
-        e0, e1 = S[ARM + BLOCK * 9 + i] - p0, S[ARM + BLOCK * 10 + i] - p1
-        e2 = S[ARM + BLOCK * 11 + i] - p2
-        a, b, d = S[BLOCK * LEVER + i], S[BLOCK * (LEVER + 1) + i], S[BLOCK * (LEVER + 2) + i]
+        x, y = column(S, ARM + i, BLOCK), column(S, ARM + BLOCK * 3 + i, BLOCK)
+        z = column(S, ARM + BLOCK * 6 + i, BLOCK)
+        x, y, z = _turned_upright(S[WRIST + i], S[WRIST + BLOCK * 3 + i], sa4, x, y, z)
+        x, y, z = _turned_upright(S[WRIST + BLOCK + i], S[WRIST + BLOCK * 4 + i], sa5, x, y, z)
+        x, y = turned(S[WRIST + BLOCK * 2 + i], S[WRIST + BLOCK * 5 + i], x, y)
+        x6, y6, z6 = pose_axes(S, i)
+        f, g, h = minus(x, x6), minus(y, y6), minus(z, z6)
+        p, lever = column(S, BLOCK * 9 + i, BLOCK), column(S, BLOCK * LEVER + i, BLOCK)
+        e = minus(column(S, ARM + BLOCK * 9 + i, BLOCK), p)
         if seen_from_tool:
-            a, b, d = a - p0, b - p1, d - p2
-            e0, e1, e2 = (
-                f0 * a + f1 * b + f2 * d - x0 * e0 - x1 * e1 - x2 * e2,
-                g0 * a + g1 * b + g2 * d - y0 * e0 - y1 * e1 - y2 * e2,
-                h0 * a + h1 * b + h2 * d - z0 * e0 - z1 * e1 - z2 * e2,
-            )
+            lever = minus(lever, p)
+            e = dot(f, lever) - dot(x, e), dot(g, lever) - dot(y, e), dot(h, lever) - dot(z, e)
         else:
-            e0, e1, e2 = (
-                e0 + f0 * a + g0 * b + h0 * d,
-                e1 + f1 * a + g1 * b + h1 * d,
-                e2 + f2 * a + g2 * b + h2 * d,
+            a, b, d = lever
+            e = (
+                e[0] + f[0] * a + g[0] * b + h[0] * d,
+                e[1] + f[1] * a + g[1] * b + h[1] * d,
+                e[2] + f[2] * a + g[2] * b + h[2] * d,
             )
-        turn = f0 * f0 + f1 * f1 + f2 * f2 + g0 * g0 + g1 * g1 + g2 * g2
-        turn += h0 * h0 + h1 * h1 + h2 * h2
-        S[WRIST + BLOCK * 6 + i] = math.sqrt(max(e0 * e0 + e1 * e1 + e2 * e2, 0.5 * turn))
+        turn = dot(f, f) + dot(g, g) + dot(h, h)
+        S[WRIST + BLOCK * 6 + i] = math.sqrt(max(dot(e, e), 0.5 * turn))
+
+
+@lane_kernel
+def _turned_upright(c, s, sa, x, y, z):
+    """The axes x, y, z of a frame after ``Rot_z Rot_x(alpha)`` with a right angle alpha."""
+    x, (y0, y1, y2) = turned(c, s, x, y)
+    return x, (sa * z[0], sa * z[1], sa * z[2]), (-sa * y0, -sa * y1, -sa * y2)

@@ -26,32 +26,21 @@ SLACK = 1e-6
 
 @inner_kernel
 def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
-    """Append the configurations that a null space holds.
+    """Append the configurations that a null space holds to q; the new count of its rows.
 
     Parameters
     ----------
     basis : array, shape (6, 8)
-        Null vectors in the first ``nullity`` rows, largest entry about 1; the rest is scratch.
-    nullity : int
-        1, 2 or 3.
+        Null vectors in the first ``nullity`` (1, 2 or 3) rows, largest entry about 1; the rest is
+        scratch.
     shape : int64 array, shape (7,)
         Joints a, b, x, c, d (-1: absent), and whether the left and the right pair have all four
         slots.
-    joints : array, shape (n, 3)
     x : tuple of float
         ``(u_x, v_x)``.
-    rest : array, shape (n,)
-        Value at which a joint is held to pick a member of a singular family.
-    unit : float
-        Length of one dual unit [m].
-    q : array, shape (most, n)
-    count : int
-        Rows of q in use.
-
-    Returns
-    -------
-    int
-        The new count.
+    joints, rest, unit
+        See :func:`dh2urdf.kernels.short_chains.poses.solve_short_chains`; a joint is held at rest
+        to pick a member of a singular family.
     """
     if nullity == 1:
         return _append(basis[0], shape, joints, x, unit, q, count)
@@ -133,20 +122,15 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
     """Append the points of the line between basis rows ``at`` and ``at + 1`` that are products.
 
     Each pair with four slots gives ``det W = 0``, a quadratic equation on the line; the roots of
-    both are appended, the residual tells which satisfy both.
-
-    Returns
-    -------
-    count, conditions : int
-        Number of pairs whose determinant does not vanish on the whole line.
+    both are appended, the residual tells which satisfy both. Returned are the count and the number
+    of pairs whose determinant does not vanish on the whole line.
     """
     p, r, point = basis[at], basis[at + 1], basis[at + 2]
     conditions = 0
     for side in range(2):
         if shape[5 + side] == 0:
             continue
-        square = _mixed(p, p, 4 * side)
-        half = _mixed(p, r, 4 * side)
+        square, half = _mixed(p, p, 4 * side), _mixed(p, r, 4 * side)
         constant = _mixed(r, r, 4 * side)
         scale = abs(square) + abs(half) + abs(constant)
         if scale <= VANISHING:
@@ -169,17 +153,9 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
 
 @inner_kernel
 def _hold(basis, nullity, shape, place, slides, value, unit):
-    """Vectors of the null space with one joint at a value, to rows 3, 4, 5 of the basis.
+    """Vectors of the null space with one joint at a value, to rows 3, 4, 5 of the basis; how many.
 
-    Parameters
-    ----------
-    place : int
-        0, 1, 3 or 4: joint a, b, c or d.
-
-    Returns
-    -------
-    int
-        Dimension that is left.
+    ``place`` is 0, 1, 3 or 4: joint a, b, c or d.
     """
     u, v = math.cos(0.5 * value), math.sin(0.5 * value)
     if slides:
@@ -189,9 +165,7 @@ def _hold(basis, nullity, shape, place, slides, value, unit):
     partner = shape[place - 1] if second else shape[place + 1]
     full = shape[5 if place < 2 else 6] != 0
     step, along = (1, 2) if second else (2, 1)
-    for k in range(nullity):
-        for i in range(8):
-            basis[3 + k, i] = basis[k, i]
+    basis[3 : 3 + nullity] = basis[:nullity]
     left = nullity
     for equation in range(2):
         if equation == 1 and (partner < 0 or not full):

@@ -41,9 +41,7 @@ def _pair_columns(loop, joints, first, second, out):
 
     Joint -1 is absent: its rows are not written.
     """
-    out[0, 0] = 1.0
-    for i in range(1, 8):
-        out[0, i] = 0.0
+    out[0], out[0, 0] = 0.0, 1.0
     if first >= 0:
         dual_times_joint(out[0], joints[first, 0] != 0.0, out[2])
         dual_product(out[0], loop[first], out[0])
@@ -57,16 +55,10 @@ def _pair_columns(loop, joints, first, second, out):
 
 @kernel
 def loop_columns(loop, joints, order, out):
-    """Columns of A_0 (rows 0 to 3 of out), A_1 (4 to 7) and -B (8 to 11).
+    """Columns of A_0 (rows 0 to 3 of out (12, 8)), A_1 (4 to 7) and -B (8 to 11).
 
-    Parameters
-    ----------
-    loop : array, shape (n, 8)
-        Links of the closed loop, L_n with the target.
-    joints : array, shape (n, 3)
-    order : int64 array, shape (5,)
-        Joints a, b, x, c, d; -1 where there is none.
-    out : array, shape (12, 8)
+    From the links of the closed loop (n, 8), L_n with the target, and its joints a, b, x, c, d in
+    ``order``; -1 where there is none.
     """
     x = order[2]
     _pair_columns(loop, joints, order[0], order[1], out[0:4])
@@ -77,8 +69,7 @@ def loop_columns(loop, joints, order, out):
             dual_product(out[k], loop[x], out[k])
             dual_product(out[4 + k], loop[x], out[4 + k])
         else:
-            for i in range(8):
-                out[4 + k, i] = 0.0
+            out[4 + k] = 0.0
         out[8 + k, 0], out[8 + k, 4] = -out[8 + k, 0], -out[8 + k, 4]
 
 
@@ -106,19 +97,8 @@ def loop_matrix(columns, used, u, v, M):
 def factor(M, size, order):
     """Householder's QR with column pivoting, in place; R in the leading entries of the rows.
 
-    Parameters
-    ----------
-    M : array, shape (>= size, 8)
-        A matrix by columns.
-    size : int
-        Columns.
-    order : int64 array, shape (>= size,), out
-        Which column each row holds afterwards.
-
-    Returns
-    -------
-    float
-        The determinant, where size is 8.
+    M (>= size, 8) is a matrix by columns, ``order`` (>= size,) says which of them each row holds
+    afterwards. Returns the determinant, where size is 8.
     """
     determinant = 1.0
     for k in range(size):
@@ -157,16 +137,10 @@ def factor(M, size, order):
 
 @inner_kernel
 def null_basis(M, size, order, nullity, basis):
-    """Vectors that a factored matrix takes to (nearly) zero, in the order of its columns.
+    """Vectors that a matrix from :func:`factor` takes to (nearly) zero, to basis (nullity, 8).
 
-    ``R_11 y = -R_12``, taking the last ``nullity`` columns for dependent on the others.
-
-    Parameters
-    ----------
-    M, order
-        From :func:`factor`.
-    size, nullity : int
-    basis : array, shape (nullity, 8), out
+    ``R_11 y = -R_12``, taking the last ``nullity`` columns for dependent on the others; entries in
+    the order of the columns.
     """
     rank = size - nullity
     for k in range(nullity):

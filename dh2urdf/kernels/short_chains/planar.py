@@ -10,8 +10,8 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import ALL_MEMBERS, finish_families, finish_pose, work_array
+from dh2urdf.kernels.chain import applied
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
-from dh2urdf.kernels.short_chains.position import applied
 
 __all__ = ["planar_rr", "solve_planar"]
 
@@ -71,9 +71,8 @@ def _one_link(l1, l2, x, y, slack, rest, out):
     length, distance = l1 + l2, math.hypot(x, y)
     if abs(distance - length) > slack * length:
         return 0, False
-    out[0, 0], out[0, 1] = math.atan2(y, x), rest
-    if l1 <= 0.0:
-        out[0, 0], out[0, 1] = rest, math.atan2(y, x) - rest
+    t = math.atan2(y, x)
+    out[0, 0], out[0, 1] = (t, rest) if l1 > 0.0 else (rest, t - rest)
     return 1, True
 
 

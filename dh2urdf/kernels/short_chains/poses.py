@@ -59,10 +59,7 @@ def close_loop(ends, T, unit, pose, loop):
 def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q, count):
     """Append the candidates of the matrix at x, for each nullity that it may have.
 
-    Returns
-    -------
-    count, nullity : int
-        Rows of q in use; largest nullity that was tried.
+    Returned are the rows of q in use and the largest nullity that was tried.
     """
     M, basis, raw = scratch[0:8], scratch[8:14], scratch[14:17]
     size = loop_matrix(columns, used, x[0], x[1], M)
@@ -73,8 +70,7 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
             break
         null_basis(M, size, order, nullity, raw)
         for k in range(nullity):
-            for i in range(8):
-                basis[k, i] = 0.0
+            basis[k] = 0.0
             for i in range(size):
                 basis[k, used[i]] = raw[k, i]
         count = add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count)
@@ -86,30 +82,19 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
 def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q, count):
     """Append all candidates that one cut of the loop gives.
 
-    Returns
-    -------
-    count : int
-    doubt : bool
-        The pose is singular for this cut, and another one may see more.
+    Returned are the rows of q in use, and a doubt: the pose is singular for this cut, and another
+    one may see more.
     """
     columns = scratch[17:29]
     loop_columns(loop, joints, shape, columns)
-    x = shape[2]
-    if x < 0:
-        count, nullity = _from_matrix(
-            columns, shape, used, joints, (1.0, 0.0), rest, unit, scratch, order, q, count
-        )
-        return count, nullity > shape[7]
-    series = roots[0]
-    determinant_series(columns, used, scratch[0:8], order, series)
-    doubt = vanishes(series, ZERO)
-    if doubt:
-        slides = joints[x, 0] != 0.0
-        y = 2.0 * math.atan(0.5 * rest[x] / unit) if slides else rest[x]
-        roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
-        found = 1
-    else:
-        found = trig_roots(series, 2, roots[1], roots[2])
+    x, y, found, doubt = shape[2], 0.0, 1, False
+    if x >= 0:
+        determinant_series(columns, used, scratch[0:8], order, roots[0])
+        doubt = vanishes(roots[0], ZERO)
+        y = 2.0 * math.atan(0.5 * rest[x] / unit) if joints[x, 0] != 0.0 else rest[x]
+    roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
+    if x >= 0 and not doubt:
+        found = trig_roots(roots[0], 2, roots[1], roots[2])
     for k in range(found):
         half = 0.5 * math.atan2(roots[2, k], roots[1, k])
         here = (math.cos(half), math.sin(half))
@@ -162,8 +147,8 @@ def solve_short_chains(
     loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, SAMPLES))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
-    many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
-    many_q, many_residual, many_branch, many_free = many
+    many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.empty(FEW, np.int64)
+    many_q, many_residual, _, many_free = many
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -175,8 +160,7 @@ def solve_short_chains(
             found, doubt = _candidates(
                 loop, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )
-            for k in range(before, found):
-                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
+            many_residual[before:found], many_free[before:found] = -1.0, 0
             found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
             if not doubt:
                 break

@@ -18,10 +18,11 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import ALL_MEMBERS, copy_rows, finish_families, work_array
+from dh2urdf.kernels.chain import applied, applied_inverse
 from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 
-__all__ = ["applied", "solve_short_positions"]
+__all__ = ["solve_short_positions"]
 
 FEW = 24
 """Room for the candidates of a point."""
@@ -37,28 +38,6 @@ TINY = 1e-13
 
 STEEP = 0.1
 """Cosine between a slide and the axis before it from which the height alone gives the slide."""
-
-
-@inner_kernel
-def applied(A, v):
-    """The point ``A v``."""
-    x, y, z = v
-    return (
-        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z + A[0, 3],
-        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z + A[1, 3],
-        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z + A[2, 3],
-    )
-
-
-@inner_kernel
-def _applied_inverse(A, v):
-    """The point ``A^-1 v``."""
-    x, y, z = v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]
-    return (
-        A[0, 0] * x + A[1, 0] * y + A[2, 0] * z,
-        A[0, 1] * x + A[1, 1] * y + A[2, 1] * z,
-        A[0, 2] * x + A[1, 2] * y + A[2, 2] * z,
-    )
 
 
 @inner_kernel
@@ -85,7 +64,7 @@ def _line(slides, A, p, v):
     """
     if slides[1]:
         return applied(A, v), (A[0, 2], A[1, 2], A[2, 2]), p
-    return _applied_inverse(A, p), (-A[2, 0], -A[2, 1], -A[2, 2]), v
+    return applied_inverse(A, p), (-A[2, 0], -A[2, 1], -A[2, 2]), v
 
 
 @inner_kernel

@@ -85,20 +85,9 @@ def _outer(M, B):
 
 @inner_kernel
 def _candidates(links, joints, T, q, turning, scratch):
-    """Candidate configurations of a pose, at most two, in the first rows of q.
+    """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
-    Parameters
-    ----------
-    links, joints, T
-        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
-    q : array, shape (>= 2, n), out
-    turning : int64 array, shape (3,), scratch
-    scratch : array, shape (ROWS, 4)
-
-    Returns
-    -------
-    int
-        Number of candidates.
+    ``turning`` (3,) and ``scratch`` (ROWS, 4) are scratch.
     """
     count = _turning_links(links, joints, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
@@ -196,6 +185,5 @@ def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, coun
     for i in range(Ts.shape[0]):
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
         found = _candidates(links, joints, T, q[i], turning, scratch)
-        for k in range(found):
-            residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
+        residual[i, :found], branch[i, :found], free[i, :found] = -1.0, -1, 0
         count[i] = finish_families(links, joints, T, rest, within_limits, *rows, found, trial, work)

@@ -24,7 +24,9 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     dot,
     load_poses,
     measure,
+    minus,
     planar_arm,
+    turned,
 )
 from dh2urdf.kernels.spherical_wrist.block_values import (
     HALF_TURN,

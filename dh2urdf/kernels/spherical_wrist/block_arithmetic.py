@@ -31,7 +31,7 @@ __all__ = [
     "VALUES",
 ]
 __all__ += ["WORK", "at", "column", "copy_residual", "dot", "load_poses", "measure"]
-__all__ += ["planar_arm", "turned_and_tilted"]
+__all__ += ["minus", "planar_arm", "turned", "turned_and_tilted"]
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -78,13 +78,24 @@ def dot(v, w):
 
 
 @lane_kernel
+def minus(v, w):
+    """Difference."""
+    return v[0] - w[0], v[1] - w[1], v[2] - w[2]
+
+
+@lane_kernel
+def turned(c, s, x, y):
+    """The axes x, y of a frame after ``Rot_z``, by cosine and sine."""
+    (x0, x1, x2), (y0, y1, y2) = x, y
+    x = c * x0 + s * y0, c * x1 + s * y1, c * x2 + s * y2
+    return x, (c * y0 - s * x0, c * y1 - s * x1, c * y2 - s * x2)
+
+
+@lane_kernel
 def turned_and_tilted(c, s, ca, sa, x, y, z):
     """The axes x, y, z of a frame after ``Rot_z Rot_x(alpha)``, by cosines and sines."""
-    x0, x1, x2 = x
-    y0, y1, y2 = y
+    x, (y0, y1, y2) = turned(c, s, x, y)
     z0, z1, z2 = z
-    x = c * x0 + s * y0, c * x1 + s * y1, c * x2 + s * y2
-    y0, y1, y2 = c * y0 - s * x0, c * y1 - s * x1, c * y2 - s * x2
     y = ca * y0 + sa * z0, ca * y1 + sa * z1, ca * y2 + sa * z2
     return x, y, (ca * z0 - sa * y0, ca * z1 - sa * y1, ca * z2 - sa * y2)
 
