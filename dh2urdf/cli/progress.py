@@ -1,4 +1,4 @@
-"""A progress bar on a terminal, after half a second; nothing elsewhere."""
+"""How far long work has come, on stderr: a bar on a terminal, a line now and then elsewhere."""
 
 from __future__ import annotations
 
@@ -15,9 +15,12 @@ T = TypeVar("T")
 PATIENCE = 0.5
 """Seconds before the bar appears."""
 
+QUIET, EVERY = 2.0, 5.0
+"""Seconds before the first line in a log, and from one to the next."""
+
 
 def track(items: Sequence[T], what: str) -> Iterator[T]:
-    """Yield the items, with a bar on stderr where that is a terminal and the work is long."""
+    """Yield the items, telling on stderr how many are done where the work is long."""
     with bar(what, len(items)) as report:
         for done, item in enumerate(items, 1):
             yield item
@@ -27,13 +30,21 @@ def track(items: Sequence[T], what: str) -> Iterator[T]:
 @contextmanager
 def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
     """A function to call with the number done and the total; it draws like :func:`track`."""
+    start = time.monotonic()
     if not sys.stderr.isatty():
-        yield lambda done, total: None
+        due = start + QUIET
+
+        def tell(done: int, total: int) -> None:
+            nonlocal due
+            if done < total and time.monotonic() >= due:
+                due = time.monotonic() + EVERY
+                sys.stderr.write(f"{what}: {done} of {total}\n")
+
+        yield tell
         return
     from rich.console import Console
     from rich.progress import Progress
 
-    start = time.monotonic()
     with Progress(console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         task = progress.add_task(what, total=total, visible=False)
 

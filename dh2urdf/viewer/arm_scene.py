@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.drawing.colours import BRANCH_COLOURS, rgb
-from dh2urdf.drawing.surfaces import Drawing
+from dh2urdf.drawing.surfaces import Drawing, Surface
 from dh2urdf.transforms import Array
 
-__all__ = ["ArmScene", "Ghosts", "quaternions"]
+__all__ = ["ArmScene", "Ghosts", "add_mesh", "quaternions", "set_poses"]
 
 TRANSLUCENT = 0.25
 """Opacity of the arm while a row is explained."""
@@ -21,7 +21,6 @@ GHOST_OPACITY = 0.32
 
 SLIM = 0.93
 """Size of a ghost's bodies against the arm's, so that coinciding surfaces do not flicker."""
-
 
 STAGGER = 0.004
 """How much smaller each ghost is than the one before it, for the same reason."""
@@ -45,6 +44,20 @@ def quaternions(R: Array) -> Array:
     return out
 
 
+def set_poses(handles: Sequence[Any], poses: Array) -> None:
+    """Bring handles of the scene to poses (k, 4, 4)."""
+    turns = quaternions(poses[:, :3, :3])
+    for handle, pose, turn in zip(handles, poses, turns, strict=True):
+        handle.wxyz, handle.position = turn, pose[:3, 3]
+
+
+def add_mesh(server: Any, name: str, surface: Surface, **options: Any) -> Any:
+    """A mesh that catches no shadow, under a scene name."""
+    vertices = surface.vertices.astype(np.float32)
+    options = {"color": surface.colour, "receive_shadow": False} | options
+    return server.scene.add_mesh_simple(name, vertices, surface.faces, **options)
+
+
 class ArmScene:
     """The solid arm."""
 
@@ -55,25 +68,14 @@ class ArmScene:
         ]
         self.translucent = False
         self.meshes = [
-            server.scene.add_mesh_simple(
-                f"/arm/{k}/{m}",
-                surface.vertices.astype(np.float32),
-                surface.faces,
-                color=surface.colour,
-                cast_shadow=True,
-                receive_shadow=False,
-                side="front",
-            )
+            add_mesh(server, f"/arm/{k}/{m}", surface, cast_shadow=True, side="front")
             for k, node in enumerate(drawing.nodes)
             for m, surface in enumerate(node.surfaces)
         ]
 
     def show(self, q: Array) -> None:
         """Place every node at q (n,)."""
-        poses = self.drawing.poses(q)
-        turns = quaternions(poses[:, :3, :3])
-        for frame, pose, turn in zip(self.frames, poses, turns, strict=True):
-            frame.wxyz, frame.position = turn, pose[:3, 3]
+        set_poses(self.frames, self.drawing.poses(q))
 
     def set_translucent(self, on: bool) -> None:
         """See through the arm, or not."""

@@ -13,7 +13,7 @@ from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb
 from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, row_picture, subscript, values
 from dh2urdf.drawing.surfaces import body_surface
 from dh2urdf.transforms import Array
-from dh2urdf.viewer.arm_scene import quaternions
+from dh2urdf.viewer.arm_scene import add_mesh, set_poses
 
 __all__ = ["FramesScene", "RowScene"]
 
@@ -38,18 +38,20 @@ TUBE = 1.7
 
 def _arrows(server: Any, name: str, length: float, size: float) -> None:
     """Three arrows along x, y and z under a scene name, in the colours of the axes."""
-    for k, letter in enumerate("xyz"):
-        tip = np.zeros(3)
-        tip[k] = length * (0.7 if letter == "y" else 1.0)
+    for letter, direction in zip("xyz", np.eye(3), strict=True):
         thin = 0.7 if letter == "y" else 1.0
         server.scene.add_arrows(
             f"{name}/{letter}",
-            np.array([[np.zeros(3), tip]], np.float32),
+            np.array([[np.zeros(3), length * thin * direction]], np.float32),
             rgb(AXIS[letter]),
             shaft_radius=thin * SHAFT * size,
             head_radius=thin * 2.4 * SHAFT * size,
             head_length=thin * 6.5 * SHAFT * size,
         )
+
+
+def _label(server: Any, name: str, text: str, place: Array, **options: Any) -> Any:
+    return server.scene.add_label(name, text, position=place, anchor="center-center", **options)
 
 
 def _on(segment: Array, point: Array) -> bool:
@@ -79,26 +81,18 @@ class FramesScene:
             self.roots.append(self.server.scene.add_frame(f"/dh/{i}", show_axes=False))
             _arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
             for letter, direction in (("x", 0), ("z", 2)):
-                place = np.zeros(3)
-                place[direction] = 1.15 * length
-                self.labels.append(
-                    self.server.scene.add_label(
-                        f"/dh/{i}/name_{letter}",
-                        subscript(letter, i),
-                        position=place,
-                        anchor="center-center",
-                        font_screen_scale=0.9,
-                    )
+                name, place = f"/dh/{i}/name_{letter}", 1.15 * length * np.eye(3)[direction]
+                label = _label(
+                    self.server, name, subscript(letter, i), place, font_screen_scale=0.9
                 )
+                self.labels.append(label)
 
     def show(self, q: Array) -> None:
         """Place the frames at q (n,)."""
         if not self.roots:
             return
         frames = self.arm.table.frames(q)
-        turns = quaternions(frames[:, :3, :3])
-        for root, frame, turn in zip(self.roots, frames, turns, strict=True):
-            root.wxyz, root.position = turn, frame[:3, 3]
+        set_poses(self.roots, frames)
         self._name(frames)
 
     def _name(self, frames: Array) -> None:
@@ -148,8 +142,7 @@ class RowScene:
         """Draw the row at q (n,)."""
         picture = row_picture(self.arm, q, self.i)
         self.picture = picture
-        for end, T in zip(self.ends, (picture.T_prev, picture.T_next), strict=True):
-            end.wxyz, end.position = quaternions(T[:3, :3]), T[:3, 3]
+        set_poses(self.ends, np.stack([picture.T_prev, picture.T_next]))
         words = values(self.arm.table, picture)
         self._axes(picture)
         for measure in (picture.d, picture.a):
@@ -181,15 +174,7 @@ class RowScene:
             pose[:3, :3] = frame_along((end - start) / length)
         size = (TUBE * 0.7 * SHAFT * self.arm.size, max(length, 1e-6))
         tube = body_surface(Body("cylinder", size, pose, "link"), rgb(QUANTITY[measure.key]))
-        self.server.scene.add_mesh_simple(
-            f"/row/{measure.key}",
-            tube.vertices.astype(np.float32),
-            tube.faces,
-            color=tube.colour,
-            cast_shadow=False,
-            receive_shadow=False,
-            visible=shown,
-        )
+        add_mesh(self.server, f"/row/{measure.key}", tube, cast_shadow=False, visible=shown)
         self._label(measure.key, text, (start + end) / 2, visible=shown)
 
     def _arc(self, arc: Arc, text: str) -> None:
@@ -227,9 +212,7 @@ class RowScene:
         )
 
     def _label(self, name: str, text: str, place: Array, *, visible: bool = True) -> None:
-        self.server.scene.add_label(
-            f"/row/label_{name}", text, position=place, anchor="center-center", visible=visible
-        )
+        _label(self.server, f"/row/label_{name}", text, place, visible=visible)
 
     def remove(self) -> None:
         """Take the row out of the scene."""

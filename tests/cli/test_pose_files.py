@@ -107,6 +107,10 @@ FAULTS = {
     "twice": ("x,x,y,z,roll,pitch,yaw\n1,1,2,3,0,0,0", "1: a second column 'x'"),
     "both": ("x,y,z,roll,pitch,yaw,qx,qy,qz,qw\n" + "0," * 9 + "1", "1: columns .* are needed"),
     "kind": ("x [deg],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'deg' for x; allowed: m"),
+    "unnamed": (
+        "x,,y,z,roll,pitch,yaw,\n1,,2,3,0,0,0,\n1,5,2,3,0,0,0,6",
+        "3: columns 2 and 8 have",
+    ),
     "unit": ("x [ell],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'ell' for x"),
     "nameless": ("0,0,0,0,0,0,1", "1: 6 or 12 or 16 .* name the columns of a quaternion"),
     "comma": ("x;y;z;roll;pitch;yaw\n0,4;1;2;0;0;0", "2: x: '0,4': .* a decimal point: 0.4"),
@@ -126,6 +130,13 @@ def test_what_a_file_of_poses_cannot_mean_is_named(file, case):
     text, message = FAULTS[case]
     with pytest.raises(PoseError, match=f"poses.csv:.*{message}"):
         read(file, text)
+
+
+def test_a_column_that_counts_the_poses_and_empty_ones_need_no_name(file):
+    """What a spreadsheet adds on either side does not change the poses."""
+    bare = read(file, "x,y,z,roll,pitch,yaw\n1,2,3,0.1,0.2,0.3\n4,5,6,0.4,0.5,0.6")
+    wide = read(file, ",x,y,z,,roll,pitch,yaw,\n1,1,2,3,,0.1,0.2,0.3,\n2,4,5,6,,0.4,0.5,0.6,")
+    np.testing.assert_array_equal(wide, bare)
 
 
 WORDS = """

@@ -365,6 +365,8 @@ GRID_HEAD = "# convention: standard\n# units: mm, deg\n"
         (f"{GRID_HEAD}theta,d,a,aplha\n0,1,2,3\n", "did you mean alpha?"),
         (f"{GRID_HEAD}theta,d,r,alpha\n0,1,2,3\n", "r is a (link length) in some books"),
         (f"{GRID_HEAD}theta,d,a,alpha,th\n0,1,2,3,4\n", "a second column for theta"),
+        (f"{GRID_HEAD},theta,d,,a,alpha\n1,0,1,7,2,3\n", "columns 1 and 4 have values but no name"),
+        (f"{GRID_HEAD}theta,d,a,alpha,\n0,1,2,3,7\n", "column 5 has values but no name"),
         (f"{GRID_HEAD}theta,d,a,alpha\n0,1,2\n", "found 3 cells; the header has 4"),
         (f"{GRID_HEAD}theta,d,a,alpha\n0,1,5,2,3\n", "a decimal comma?"),
         (f"{GRID_HEAD}theta;d;a;alpha\n0;1,5;2;3\n", "did you mean 1.5?"),
@@ -390,6 +392,13 @@ GRID_HEAD = "# convention: standard\n# units: mm, deg\n"
 def test_a_fault_of_a_csv_file(text: str, says: str) -> None:
     """Header, cells and comment lines are checked; the fault is told with its place."""
     assert [p for p in problems(text, "csv") if says in p]
+
+
+def test_a_column_that_counts_the_rows_and_empty_ones_need_no_name() -> None:
+    """What a spreadsheet adds on either side does not change the table."""
+    bare = f"{GRID_HEAD}theta,d,a,alpha\n0,1,2,3\n0,4,5,6\n"
+    wide = f"{GRID_HEAD},theta,d,,a,alpha,,\n1,0,1,,2,3,,\n2,0,4,-,5,6,,\n"
+    assert parse_table(wide, "csv").table == parse_table(bare, "csv").table
 
 
 def test_markdown_without_a_dh_table_is_refused() -> None:

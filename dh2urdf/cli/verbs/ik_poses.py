@@ -16,7 +16,7 @@ from dh2urdf.dh_io import Kind, Units
 from dh2urdf.dh_io.cells.document import Report
 from dh2urdf.dh_io.cells.units import UNIT_SIZES
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.dh_io.formats.grid import INDEX, heading, metadata, separator, unit_words
+from dh2urdf.dh_io.formats.grid import INDEX, heading, metadata, separator, unit_words, without_name
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off
@@ -107,6 +107,7 @@ def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
     text = read_text(stdin() if source == "-" else source, POSES_BYTES, PoseError)
     file = "<stdin>" if source == "-" else shown(source)
     units, columns = Units("m", "deg" if deg else "rad"), list[_Column]()
+    nameless = list[int]()
     poses, at, lines = list[Array](), list[int](), text.split("\n")
     first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
     rows = csv.reader(lines, delimiter=separator(first), skipinitialspace=True, strict=True)
@@ -121,7 +122,11 @@ def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
             if not columns:
                 columns = _columns(cells, units, where)
                 if columns[0].named:
+                    nameless = [k for k, cell in enumerate(cells) if not cell]
                     continue
+            filled = [k for k in nameless if k < len(cells) and cells[k]]
+            if filled not in ([], [0]):
+                raise PoseError(f"{where}: {without_name(filled)}")
             poses.append(_pose(cells, columns, where, nearest))
             at.append(rows.line_num)
     except csv.Error as error:

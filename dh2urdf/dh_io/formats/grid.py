@@ -40,6 +40,7 @@ __all__ = [
     "metadata",
     "separator",
     "unit_words",
+    "without_name",
 ]
 
 _META = re.compile(r"[\s#>*+`-]*([\w.]+)[*`]*\s*[:=]\s*[*`]*\s*(\S.*?)\s*$")
@@ -47,7 +48,7 @@ _GROUPS = ("units", "base", "tool", "constants")
 _PARAMETERS = ("theta", "d", "a", "alpha")
 INDEX = ("", "i", "#", "no", "no.", "nr", "n", "row", "index")
 _LABELS = ("joint", "link", "frame")
-_EMPTY = ("-", "–", "—", "−", "n/a")
+_EMPTY = ("", "-", "–", "—", "−", "n/a")
 _UNIT = re.compile(
     r"(.+?)\s*(?:\[(.*)\]|\((.*)\)|(?:/\s*|(?=[°º]))([a-zA-Z°º]+))$|(.+)_(mm|cm|m|deg|rad)$"
 )
@@ -174,6 +175,7 @@ def _columns(grid: Grid, report: Report) -> list[tuple[str, str]]:
             out.append(("", ""))
         else:
             out.append((key, _checked_unit(cell, key, unit, report)))
+    _refuse_nameless(grid, report)
     present = {k for k, _ in out}
     unclear = any(_column(cell)[0] in MISUSED_KEYS for cell in grid.header)
     missing = [k for k in _PARAMETERS if k not in present]
@@ -181,6 +183,22 @@ def _columns(grid: Grid, report: Report) -> list[tuple[str, str]]:
         mark = grid.header[0].mark if grid.header else Mark()
         report.fault(mark, "header", f"no column for {', '.join(missing)}")
     return out
+
+
+def _refuse_nameless(grid: Grid, report: Report) -> None:
+    """Only the first column, which then counts the rows, may hold values and have no name."""
+    nameless = [k for k, cell in enumerate(grid.header) if not _column(cell)[0]]
+    filled = [k for k in nameless if any(k < len(r) and r[k].text not in _EMPTY for r in grid.rows)]
+    if filled not in ([], [0]):
+        mark = grid.header[filled[-1]].mark
+        report.fault(mark, "header", without_name(filled), f"allowed: {', '.join(ROW_KEYS)}")
+
+
+def without_name(columns: list[int]) -> str:
+    """Fault of columns, counted from 0, that hold values and have no name."""
+    many = len(columns) > 1
+    numbers = " and ".join(str(k + 1) for k in columns)
+    return f"column{'s' * many} {numbers} {'have' if many else 'has'} values but no name"
 
 
 def _checked_unit(cell: Scalar, key: str, unit: str, report: Report) -> str:

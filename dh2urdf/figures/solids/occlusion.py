@@ -41,11 +41,15 @@ def occlusion(parts: list[Part], view: View) -> Occlusion:
     order = _order(parts, view, fronts)
     again = []
     rays, nearest = fronts.reshape(len(parts), -1), np.argmax(fronts, axis=0)
+    first, rest = fronts.max(axis=0), fronts.copy()
+    np.put_along_axis(rest, nearest[None], -np.inf, axis=0)
+    second = rest.max(axis=0)
     for place, k in enumerate(order):
         seen = np.flatnonzero((nearest == k) & np.isfinite(fronts[k]))
         covered = np.isfinite(rays[:, seen][order[place + 1 :]]).any(axis=0)
         if int(covered.sum()) >= WRONG:
-            again.append((k, _in_front(k, x, y, fronts)))
+            others = np.where(nearest == k, second, first)
+            again.append((k, _in_front(fronts[k], others, x, y)))
     return Occlusion(order, again)
 
 
@@ -67,8 +71,8 @@ def _order(parts: list[Part], view: View, fronts: Array) -> list[int]:
     return order
 
 
-def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Array]:
-    """Where part k is in front of all others: rings (m, 2) [m], those of holes turned round.
+def _in_front(front: Array, others: Array, x: Array, y: Array) -> list[Array]:
+    """Where a part is in front of all others: rings (m, 2) [m], those of holes turned round.
 
     The border between two surfaces is the zero of their difference in depth, which is found
     between the rays; where one of them ends, its depth is carried on by one ray.
@@ -76,12 +80,11 @@ def _in_front(k: int, x: Array, y: Array, fronts: Array) -> list[Array]:
     from contourpy import contour_generator
 
     step = float(x[1] - x[0])
-    others = np.delete(fronts, k, axis=0).max(axis=0, initial=-np.inf)
     others = np.where(np.isfinite(others), others, _neighbours(others).max(axis=0))
     with np.errstate(invalid="ignore"):
-        lead = np.clip((fronts[k] - others) / step, -3.0, 3.0)
+        lead = np.clip((front - others) / step, -3.0, 3.0)
     for _ in range(2):
-        known = _neighbours(np.where(np.isfinite(fronts[k]) | ~np.isnan(lead), lead, np.nan))
+        known = _neighbours(np.where(np.isfinite(front) | ~np.isnan(lead), lead, np.nan))
         count = np.maximum(np.isfinite(known).sum(axis=0), 1)
         lead = np.where(np.isnan(lead), np.nansum(known, axis=0) / count, lead)
     contours: Any = contour_generator(x, y, lead, fill_type="OuterOffset")

@@ -114,8 +114,7 @@ def branch_table(found: Answer, robot: Robot) -> str:
     Values outside the limits are red, joints that are free at a singularity underlined.
     """
     named = any(found.branch)
-    units = ["mm" if s else "°" for s in robot.slides]
-    joints = [f"q{i + 1} [{unit}]" for i, unit in enumerate(units)]
+    joints = [f"q{i} [{'mm' if slides else '°'}]" for i, slides in enumerate(robot.slides, 1)]
     head = ["", *(["branch"] if named else []), *joints, "residual"]
     header = "".join(f'<th style="{TIGHT}font-weight:600">{h}</th>' for h in head)
     lines = [_line(found, robot, k, named=named) for k in range(len(found.q))]

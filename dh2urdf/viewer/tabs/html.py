@@ -40,28 +40,21 @@ def pose(T: Array, what: str) -> str:
         ("rpy [°]", [round(math.degrees(v), 3) for v in matrix_to_rpy(T)]),
         ("quaternion xyzw", [round(float(v), 6) for v in (x, y, z, w)]),
     )
-    body = "".join(
-        f'<tr><td style="{CELL}text-align:left;color:#6b7280">{name}</td>'
-        + "".join(f'<td style="{CELL}{NUMBERS}">{number(v + 0.0)}</td>' for v in cells)
-        + "</tr>"
-        for name, cells in rows
-    )
+    body = ""
+    for name, values in rows:
+        cells = "".join(f'<td style="{CELL}{NUMBERS}">{number(v + 0.0)}</td>' for v in values)
+        body += f'<tr><td style="{CELL}text-align:left;color:#6b7280">{name}</td>{cells}</tr>'
     return f'<div style="{STYLE}"><b>{escape(what)}</b><table>{body}</table></div>'
 
 
 def matrix(T: Array, name: str) -> str:
     """A (4, 4) matrix, four digits after the point."""
-    faint = f"color:{FAINT}"
-    body = "".join(
-        "<tr>"
-        + "".join(
-            f'<td style="{CELL}{NUMBERS}{faint if abs(v) < 5e-5 else ""}">'
-            f"{number(round(float(v), 4) + 0.0)}</td>"
-            for v in row
-        )
-        + "</tr>"
-        for row in T
-    )
+    body = ""
+    for row in T.tolist():
+        faint = [f"color:{FAINT}" if abs(v) < 5e-5 else "" for v in row]
+        texts = zip(faint, (number(round(v, 4) + 0.0) for v in row), strict=True)
+        body += "<tr>" + "".join(f'<td style="{CELL}{NUMBERS}{f}">{t}</td>' for f, t in texts)
+        body += "</tr>"
     border = "border-left:1.5px solid #888;border-right:1.5px solid #888;border-radius:4px"
     return f'<div style="{STYLE}"><b>{name}</b> =<table style="{border}">{body}</table></div>'
 

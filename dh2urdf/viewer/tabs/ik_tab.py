@@ -12,7 +12,7 @@ from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix
-from dh2urdf.viewer.arm_scene import Ghosts, quaternions
+from dh2urdf.viewer.arm_scene import Ghosts, set_poses
 from dh2urdf.viewer.door import by_visitor, later
 from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.branches import Answer, answer, branch_table
@@ -72,10 +72,9 @@ class IKTab:
         """Prepare for another arm."""
         self.close()
         self.robot, self.q = robot, np.array(q)
-        if self.ghosts:
-            self.ghosts.remove()
-        if self.target:
-            self.target.remove()
+        for old in (self.ghosts, self.target):
+            if old:
+                old.remove()
         self.ghosts = Ghosts(self.server, drawing, MOST_GHOSTS, self._go)
         size = max(robot.chain.size, 1e-3)
         self.target = self.server.scene.add_transform_controls(
@@ -121,21 +120,19 @@ class IKTab:
         self._T = T
         if self.answer is None:
             self.status.content = html.message("Solving. The first time takes some seconds.")
-        found = answer(
-            self.robot,
-            T,
-            self.q,
-            task=self.task.value,
-            within=self.within.value,
-            locked=self.redundancy.locked,
-        )
+        task, within, locked = self.task.value, self.within.value, self.redundancy.locked
+        found = answer(self.robot, T, self.q, task=task, within=within, locked=locked)
         if follow and found.nearest is not None:
-            self.q = found.nearest
-            found = found.at(self.q)
-        self._show_answer(found)
-        if follow and found.nearest is not None:
-            self.redundancy.show(self.q)
-            self.on_move(self.q)
+            self._take(found, found.nearest)
+        else:
+            self._show_answer(found)
+
+    def _take(self, found: Answer, q: Array) -> None:
+        """Move the arm to a solution q (n,)."""
+        self.q = np.array(q)
+        self._show_answer(found.at(self.q))
+        self.redundancy.show(self.q)
+        self.on_move(self.q)
 
     def _show_answer(self, found: Answer | None) -> None:
         self.answer = found
@@ -155,7 +152,7 @@ class IKTab:
 
     def _place_target(self, T: Array) -> None:
         self._T = np.array(T)
-        self.target.position, self.target.wxyz = T[:3, 3], quaternions(T[:3, :3])
+        set_poses([self.target], T[None])
 
     def _switched(self, event: Any) -> None:
         with self.lock:
@@ -190,21 +187,16 @@ class IKTab:
     def _go(self, k: int) -> None:
         """Move the arm to solution k."""
         with self.lock, self.server.atomic():
-            if self.answer is None or not 0 <= k < len(self.answer.q):
-                return
-            self.q = np.array(self.answer.q[k])
-            self._show_answer(self.answer.at(self.q))
-            self.redundancy.show(self.q)
-            self.on_move(self.q)
+            if self.answer is not None and 0 <= k < len(self.answer.q):
+                self._take(self.answer, self.answer.q[k])
 
     def _held(self, locked: dict[int, float]) -> str:
         """Move the arm through its self-motion; a word where that is not possible."""
         with self.lock, self.server.atomic():
             T = self._T if self.active.value else self.robot.fk(self.q)
             try:
-                found = self.robot.ik(
-                    T, seed=self.q, within_limits=self.within.value, locked=locked
-                )
+                within = self.within.value
+                found = self.robot.ik(T, seed=self.q, within_limits=within, locked=locked)
             except Dh2UrdfError as error:
                 return str(error).partition("\n")[0]
             if not len(found):

@@ -22,6 +22,8 @@ NOTHING = "none"
 UNITS = Units("m", "deg")
 """Units of the cells: bare lengths are metres, bare angles degrees."""
 
+KINDS = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
+
 
 class TableTab:
     """Shows, explains and edits the table.
@@ -120,11 +122,14 @@ class TableTab:
         }
         for key, text in shown.items():
             self.cells[key].value = text.replace("\N{MINUS SIGN}", "-")
-        j = subscript("", length_index(self.table, self.row))
-        i = subscript("", self.row)
-        for key, label in (("theta", f"θ{i} [deg]"), ("d", f"d{i} [m]"), ("a", f"a{j} [m]")):
-            self.cells[key].label = label
-        self.cells["alpha"].label = f"α{j} [deg]"
+        i, j = self.row, length_index(self.table, self.row)
+        for key, sign, index in (
+            ("theta", "θ", i),
+            ("d", "d", i),
+            ("a", "a", j),
+            ("alpha", "α", j),
+        ):
+            self.cells[key].label = f"{subscript(sign, index)} [{UNITS.of(KINDS[key])}]"
 
     def _chosen(self, event: Any) -> None:
         self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
@@ -144,16 +149,15 @@ class TableTab:
     def _with_row_cells(self) -> DHTable:
         slides = self.cells["joint_type"].value == "prismatic"
         bound = Kind.LENGTH if slides else Kind.ANGLE
-        kinds = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
         found: dict[str, float | None] = {}
         problems: list[str] = []
-        for key, kind in {**kinds, "lower": bound, "upper": bound}.items():
+        for key in ("theta", "d", "a", "alpha", "lower", "upper"):
             text = self.cells[key].value.strip()
             if not text and key in {"lower", "upper"}:
                 found[key] = None
                 continue
             try:
-                found[key] = parse_cell(text, kind, UNITS)
+                found[key] = parse_cell(text, KINDS.get(key, bound), UNITS)
             except TableError as error:
                 problems.append(f"{self.cells[key].label}: {text!r}: {error}")
         if problems:
@@ -191,23 +195,21 @@ class TableTab:
         except Dh2UrdfError as error:
             self.say(str(error), "bad")
             return
-        name = f"{_file_name(self.table)}.urdf"
-        event.client.send_file_download(name, text.encode(), save_immediately=True)
+        name = self._send(event, "urdf", text)
         notes = "".join(f"\n{warning}" for warning in warnings)
         checked = f"largest difference between Pinocchio and the DH product {max_error:.1e}"
         self.say(f"{name}: {checked}{notes}", "good")
 
     def _save_table(self, event: Any) -> None:
-        name = f"{_file_name(self.table)}.yaml"
-        text = table_to_text(self.table, "yaml")
-        event.client.send_file_download(name, text.encode(), save_immediately=True)
+        name = self._send(event, "yaml", table_to_text(self.table, "yaml"))
         self.say(f"{name} was sent to your browser.", "good")
 
-
-def _file_name(table: DHTable) -> str:
-    """The table's name with only what file systems take."""
-    kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in table.name)
-    return kept.strip("_") or "robot"
+    def _send(self, event: Any, suffix: str, text: str) -> str:
+        """Send a file named after the table, with only what file systems take; its name."""
+        kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in self.table.name)
+        name = f"{kept.strip('_') or 'robot'}.{suffix}"
+        event.client.send_file_download(name, text.encode(), save_immediately=True)
+        return name
 
 
 def new_table() -> DHTable:

@@ -1,0 +1,41 @@
+"""What long work says of itself on stderr where that is no terminal."""
+
+import re
+
+import pytest
+
+from dh2urdf.cli import main, progress
+
+
+@pytest.mark.parametrize(
+    ("seconds", "told"), [(1, []), (2, []), (4, [2]), (20, [2, 7, 12, 17])], ids=str
+)
+def test_a_log_gets_a_line_every_five_seconds_of_long_work(seconds, told, monkeypatch, capsys):
+    """The first after two seconds, none of work that is short or done."""
+    now = 100.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    with progress.bar("mapping", 1) as report:
+        for done in range(1, seconds + 1):
+            now += 1.0
+            report(done, seconds)
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err == "".join(f"mapping: {second} of {seconds}\n" for second in told)
+
+
+def test_a_map_tells_how_far_it_is(tmp_path, monkeypatch, capsys):
+    """Poses done and their total, of one map after the other; stdout holds the result alone."""
+    monkeypatch.setattr(progress, "QUIET", 0.0)
+    monkeypatch.setattr(progress, "EVERY", 0.0)
+    monkeypatch.setattr("dh2urdf.workspace.maps.CHUNK", 100)
+    picture = tmp_path / "reach.svg"
+    with pytest.raises(SystemExit):
+        main(["workspace", "puma560", "-o", str(picture), "--points", "21", "--orientations", "3"])
+    out, err = capsys.readouterr()
+    assert out == f"{picture}\n"
+    lines = re.findall(r"^mapping: (\d+) of (\d+)$", err, re.MULTILINE)
+    branches, turned = 21 * 21, 9 * 9 * 3
+    assert lines == [
+        *((str(done), str(branches)) for done in range(100, branches, 100)),
+        *((str(done), str(turned)) for done in range(99, turned, 99)),
+    ]
