@@ -15,7 +15,7 @@ import numpy as np
 
 from dh2urdf.conversions.assign import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
-from dh2urdf.dh.print import degrees
+from dh2urdf.dh.print import degrees, plus
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, rotation
@@ -180,5 +180,5 @@ def _variable_words(row: DHRow, i: int) -> str:
     offset = row.d if slides else row.theta
     shown = rounded_length(offset) if slides else rounded_degrees(offset)
     sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
-    rest = f" + {shown}" if offset > 0 else f" \N{MINUS SIGN} {shown[1:]}" if offset < 0 else ""
-    return f"The joint moves {symbol} = {sign}{subscript('q', i)}{rest}."
+    value = plus(f"{sign}{subscript('q', i)}", shown if offset else "0")
+    return f"The joint moves {symbol} = {value}."

@@ -157,9 +157,26 @@ def text_box(text: str, size: float, weight: str = "normal") -> tuple[float, flo
     from matplotlib.font_manager import FontProperties
     from matplotlib.textpath import TextPath
 
+    if not text.strip():
+        return 0.0, 0.0, 0.0, 0.0
     font = FontProperties(family=mpl.rcParams["font.sans-serif"], weight=weight)
-    box = TextPath((0, 0), text or " ", size=size, prop=font).get_extents()
-    return float(box.x0), float(box.y0), float(box.width), float(box.height)
+    low, high = _ink_corners(TextPath((0, 0), text, size=size, prop=font))
+    return float(low[0]), float(low[1]), float(high[0] - low[0]), float(high[1] - low[1])
+
+
+def _ink_corners(path: Any) -> Array:
+    """Lower left and upper right corner of a path's ink, shape (2, 2).
+
+    A curve stays among its control points, and fonts have points where a glyph is widest: only
+    where the ends of its strokes do not span a path need its curves be searched.
+    """
+    drawn = path.codes != path.CLOSEPOLY
+    points, codes = path.vertices[drawn], path.codes[drawn]
+    ends = np.delete(points, np.flatnonzero(codes == path.CURVE3)[::2], axis=0)
+    low, high = ends.min(axis=0), ends.max(axis=0)
+    if (codes == path.CURVE4).any() or (points < low).any() or (points > high).any():
+        return np.asarray(path.get_extents().get_points())
+    return np.stack([low, high])
 
 
 def text_size(text: str, size: float, weight: str = "normal") -> tuple[float, float]:

@@ -56,18 +56,17 @@ def place_labels(labels: list[Label], lines: list[Line], bounds: Array) -> Array
         _fixed_cost(label, spots, samples, weights, bounds)
         for label, spots in zip(labels, places, strict=True)
     ]
-    chosen = [int(np.argmin(cost)) for cost in fixed]
+    centres = np.stack([spots[np.argmin(c)] for spots, c in zip(places, fixed, strict=True)])
     half = np.stack([label.size for label in labels]) / 2 + PADDING
     for _ in range(SWEEPS):
-        before = list(chosen)
+        before = centres.copy()
         for k, spots in enumerate(places):
-            others = np.array([places[m][chosen[m]] for m in range(len(labels)) if m != k])
-            halves = np.delete(half, k, axis=0)
-            cost = fixed[k] + _crowding(spots, half[k], others.reshape(-1, 2), halves)
-            chosen[k] = int(np.argmin(cost))
-        if chosen == before:
+            others, halves = np.delete(centres, k, axis=0), np.delete(half, k, axis=0)
+            cost = fixed[k] + _crowding(spots, half[k], others, halves)
+            centres[k] = spots[np.argmin(cost)]
+        if (centres == before).all():
             break
-    return np.stack([spots[k] for spots, k in zip(places, chosen, strict=True)])
+    return centres
 
 
 def _candidates(label: Label) -> Array:

@@ -9,7 +9,9 @@ from itertools import combinations
 import numpy as np
 import pinocchio as pin
 import pytest
+from matplotlib.font_manager import FontProperties
 from matplotlib.path import Path
+from matplotlib.textpath import TextPath
 
 import dh2urdf
 from dh2urdf import Robot, load_table
@@ -18,10 +20,12 @@ from dh2urdf.drawing.arm import drawn_arm, table_of
 from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
 from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
+from dh2urdf.figures.canvas import text_box
 from dh2urdf.figures.solids.ghosts import group_ghosts
 from dh2urdf.figures.solids.occlusion import front_depth, occlusion
 from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import Part, arm_parts, convex_hull
+from dh2urdf.figures.style import RC, mpl
 from dh2urdf.transforms import rot_x, rot_y, rot_z, trans
 
 ARMS = ("puma560", "ur5e", "stanford", "planar_rr", "franka_fr3", "fanuc_crx10ia", "gantry_wrist")
@@ -210,6 +214,27 @@ def test_labels_stay_apart_and_on_the_sheet(name, monkeypatch):
         for i, j in combinations(range(len(labels)), 2):
             apart = np.abs(centres[i] - centres[j]) >= half[i] + half[j]
             assert apart.any(), f"{labels[i].text} covers {labels[j].text}"
+
+
+TEXTS = (
+    r"$\theta_{12}$",
+    "$x_{1},\\,z_{2}$",
+    "$-q_{3}$ + 90°",
+    "0.089159",
+    "Puma 560, |DH|",
+    "Ωéß&@",
+)
+
+
+@pytest.mark.parametrize("weight", ["normal", "bold"])
+@pytest.mark.parametrize("text", TEXTS)
+def test_box_of_a_text_is_that_of_its_curves(text, weight):
+    """Matplotlib's search along every curve of the glyphs finds the same box; blanks have none."""
+    with mpl.rc_context(RC):
+        font = FontProperties(family=RC["font.sans-serif"], weight=weight)
+        box = TextPath((0, 0), text, size=14.0, prop=font).get_extents()
+        np.testing.assert_array_equal(text_box(text, 14.0, weight), box.bounds)
+        assert text_box(" ", 14.0, weight) == (0.0, 0.0, 0.0, 0.0)
 
 
 def test_svg_keeps_text_and_pdf_and_png_are_whole():

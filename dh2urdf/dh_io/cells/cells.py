@@ -127,10 +127,8 @@ class Context:
 
     def _units(self, cell: Scalar) -> Units:
         """Units of a cell, its column's where the header names one."""
-        kind = unit_kind(cell.unit) if cell.unit else None
-        if kind is Kind.LENGTH:
-            return self.units._replace(length=cell.unit)
-        return self.units._replace(angle=cell.unit) if kind is Kind.ANGLE else self.units
+        kind = unit_kind(cell.unit)
+        return self.units._replace(**{kind.value: cell.unit}) if kind else self.units
 
     def _one(self, kind: Kind) -> str:
         unit = f" [{self.units.of(kind)}]" if self.units.of(kind) else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from json import JSONDecodeError, JSONDecoder
-from typing import TypeVar
+from typing import NoReturn, TypeVar
 
 from dh2urdf.dh_io.cells.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
 
@@ -48,7 +48,7 @@ class _Reader:
     def mark(self) -> Mark:
         return self.lines.mark(self.at)
 
-    def stop(self, message: str) -> None:
+    def stop(self, message: str) -> NoReturn:
         self.report.stop(self.mark(), f"not JSON: {message}")
 
     def node(self, depth: int) -> Node:
@@ -72,7 +72,6 @@ class _Reader:
         if number is None:
             what = f"unexpected {character!r}" if character else "the text ends too early"
             self.stop(what + ("; a text takes double quotes" if character == "'" else ""))
-            return ""
         self.at = number.end()
         return number[0]
 
@@ -82,17 +81,16 @@ class _Reader:
         except JSONDecodeError as error:
             self.at = min(error.pos, len(self.text))
             self.stop(error.msg.lower().removesuffix(" at").removesuffix(" starting"))
-            return ""
         return str(text)
 
     def inside(self, end: str, entry: Callable[[int], Entry], depth: int) -> tuple[Entry, ...]:
         """Entries from a bracket to the one that closes it."""
         out: list[Entry] = []
         self.at += 1
-        more = self.peek() != end
-        while more:
+        while self.peek() != end:
+            if out:
+                self.comma(end)
             out.append(entry(depth))
-            more = self.separator(end)
         self.at += 1
         return tuple(out)
 
@@ -106,14 +104,11 @@ class _Reader:
         self.at += 1
         return key, self.node(depth)
 
-    def separator(self, end: str) -> bool:
-        """Step over a comma; False before the closing bracket."""
+    def comma(self, end: str) -> None:
+        """Step over the comma before another value."""
         character = self.peek()
-        if character == end:
-            return False
         if character != ",":
             self.stop(f"a comma or {end} is expected" if character else "the text ends too early")
         self.at += 1
         if self.peek() == end:
             self.stop("a comma after the last value")
-        return True

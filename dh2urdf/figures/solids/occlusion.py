@@ -11,6 +11,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.conversions.write import Body
 from dh2urdf.figures.solids.projection import View
@@ -41,9 +42,8 @@ def occlusion(parts: list[Part], view: View) -> Occlusion:
     order = _order(parts, view, fronts)
     again = []
     rays, nearest = fronts.reshape(len(parts), -1), np.argmax(fronts, axis=0)
-    first, rest = fronts.max(axis=0), fronts.copy()
-    np.put_along_axis(rest, nearest[None], -np.inf, axis=0)
-    second = rest.max(axis=0)
+    rest = np.where(nearest == np.arange(len(parts))[:, None, None], -np.inf, fronts)
+    first, second = fronts.max(axis=0), rest.max(axis=0)
     for place, k in enumerate(order):
         seen = np.flatnonzero((nearest == k) & np.isfinite(fronts[k]))
         covered = np.isfinite(rays[:, seen][order[place + 1 :]]).any(axis=0)
@@ -139,18 +139,19 @@ def _quadric(starts: Array, toward: Array, mask: Array, radius: float) -> tuple[
     s, v = starts * mask, toward * mask
     a, b, c = float(v @ v), s @ v, (s * s).sum(axis=1) - radius * radius
     if a < 1e-15:
-        inside = c <= 0
-        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
+        return _where(c <= 0, -np.inf, np.inf)
     root = np.sqrt(b * b - a * c)
-    low, high = (-b - root) / a, (-b + root) / a
-    hit = np.isfinite(root)
-    return np.where(hit, low, np.inf), np.where(hit, high, -np.inf)
+    return _where(np.isfinite(root), (-b - root) / a, (-b + root) / a)
 
 
 def _slab(start: Array, toward: float, half: float) -> tuple[Array, Array]:
     """Interval of t with ``|start + t toward| <= half``."""
     if abs(toward) < 1e-15:
-        inside = np.abs(start) <= half
-        return np.where(inside, -np.inf, np.inf), np.where(inside, np.inf, -np.inf)
-    ends = np.sort(np.stack([(-half - start) / toward, (half - start) / toward]), axis=0)
-    return ends[0], ends[1]
+        return _where(np.abs(start) <= half, -np.inf, np.inf)
+    low, high = np.sort(np.stack([(-half - start) / toward, (half - start) / toward]), axis=0)
+    return low, high
+
+
+def _where(hit: NDArray[np.bool_], low: Array | float, high: Array | float) -> tuple[Array, Array]:
+    """An interval where a ray hits, the empty one (inf, -inf) elsewhere."""
+    return np.where(hit, low, np.inf), np.where(hit, high, -np.inf)

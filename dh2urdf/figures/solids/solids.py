@@ -20,6 +20,10 @@ __all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points", "
 AROUND = 48
 """Corners of a circle."""
 
+ANGLES = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
+RIM = np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=1)
+"""The unit circle."""
+
 STRIP = (0.25, 0.75)
 """Angles [rad], from what faces the eye towards the light, between which a cylinder shines."""
 
@@ -69,9 +73,7 @@ def arm_parts(bodies: list[list[Body]], link_poses: Array) -> list[Part]:
 
 def _faces(body: Body, T: Array, view: View) -> list[Face]:
     if body.shape == "sphere":
-        angle = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
-        rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return [Face(view.flat(T[:3, 3]) + body.size[0] * rim, 0.0)]
+        return [Face(view.flat(T[:3, 3]) + body.size[0] * RIM, 0.0)]
     outline = convex_hull(view.flat(hull_points(body, T)))
     if body.shape == "box":
         return [Face(outline, 0.0), *_box_faces(body, T, view)]
@@ -92,7 +94,7 @@ def _sheen(body: Body, T: Array, view: View) -> list[Face]:
     rim = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     ends = [np.c_[rim, np.full(len(rim), z)] for z in (-length / 2, length / 2)]
     strip = np.concatenate([ends[0], ends[1][::-1]])
-    return [Face(view.flat(strip @ T[:3, :3].T + T[:3, 3]), SHEEN)]
+    return [Face(view.flat(_placed(strip, T)), SHEEN)]
 
 
 def _box_faces(body: Body, T: Array, view: View) -> list[Face]:
@@ -105,21 +107,21 @@ def _box_faces(body: Body, T: Array, view: View) -> list[Face]:
         axis, others = k // 2, [i for i in range(3) if i != k // 2]
         corners = np.zeros((4, 3))
         corners[:, axis] = normal[axis] * half[axis]
-        corners[:, others[0]] = np.array([-1, 1, 1, -1]) * half[others[0]]
-        corners[:, others[1]] = np.array([-1, -1, 1, 1]) * half[others[1]]
+        corners[:, others] = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half[others]
         lit = 0.15 + 0.85 * max(float(world[2]), 0.0) + 0.2 * max(float(-world @ view.axes[0]), 0.0)
-        out.append(Face(view.flat(corners @ T[:3, :3].T + T[:3, 3]), min(lit, 1.0)))
+        out.append(Face(view.flat(_placed(corners, T)), min(lit, 1.0)))
     return out
 
 
 def _circle(body: Body, T: Array, side: float) -> Array:
     """Rim of a cylinder's cap in base, shape (AROUND, 3)."""
     radius, length = body.size
-    angle = np.linspace(0.0, 2 * np.pi, AROUND, endpoint=False)
-    rim = np.stack(
-        [radius * np.cos(angle), radius * np.sin(angle), np.full(AROUND, side * length / 2)], axis=1
-    )
-    out: Array = rim @ T[:3, :3].T + T[:3, 3]
+    return _placed(np.c_[radius * RIM, np.full(AROUND, side * length / 2)], T)
+
+
+def _placed(points: Array, T: Array) -> Array:
+    """Points (m, 3) of a body in base."""
+    out: Array = points @ T[:3, :3].T + T[:3, 3]
     return out
 
 
@@ -129,8 +131,7 @@ def hull_points(body: Body, T: Array) -> Array:
         return np.concatenate([_circle(body, T, -1.0), _circle(body, T, 1.0)])
     if body.shape == "box":
         corners = np.array(np.meshgrid(*[(-s / 2, s / 2) for s in body.size])).reshape(3, -1).T
-        placed: Array = corners @ T[:3, :3].T + T[:3, 3]
-        return placed
+        return _placed(corners, T)
     poles: Array = T[:3, 3] + body.size[0] * NORMALS
     return poles
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from numpy.typing import ArrayLike
 
@@ -89,9 +90,6 @@ def workspace_figure(
     if flat is not None and not plane and rpy is at is points is None:
         return planar_picture(robot, flat, within_limits=within_limits)
 
-    def telling(what: str) -> Callable[[int, int], None] | None:
-        return None if progress is None else lambda done, total: progress(what, done, total)
-
     R = default_orientation(robot, task)
     if rpy is not None:
         if robot.n > 6 or task.name == "position":
@@ -101,12 +99,11 @@ def workspace_figure(
     held = held_values(robot, within_limits=within_limits) if robot.n > 6 else None
     if robot.n <= 6:
         grid = section(robot, plane, at, points or FINE)
-        told = telling("branches")
-        found = branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
-        counts = grid, found
+        told = partial(progress, "branches") if progress else None
+        counts = grid, branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
     if task.sides != "none":
         grid = section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
-        told = telling("orientations")
+        told = partial(progress, "orientations") if progress else None
         count = orientations or TRIED
         share = dexterity(robot, grid, count, within_limits=within_limits, held=held, progress=told)
         shares = grid, share, count
