@@ -4,8 +4,6 @@ Seeds from a nominal arm, and roots of a polynomial, lead to some of them only. 
 the others lie along the direction in which the pose hardly changes.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -26,8 +24,6 @@ from dh2urdf.kernels.certificate import (
     work_array,
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-
-__all__ = ["search_beside"]
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""

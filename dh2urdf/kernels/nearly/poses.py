@@ -7,8 +7,6 @@ candidate moves far, does not converge, falls together with another, is one of a
 has a nearly singular Jacobian, and where there is none.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.kernels.certificate import (
@@ -26,8 +24,6 @@ from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, sl
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
-
-__all__ = ["add_candidates", "solve_near_parallel", "solve_near_wrist"]
 
 
 @inner_kernel

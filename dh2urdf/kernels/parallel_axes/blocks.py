@@ -5,8 +5,6 @@ singularities and rims; all others go to the scalar kernel. Solution ``k`` has s
 elbow ``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -35,8 +33,6 @@ from dh2urdf.kernels.spherical_wrist import (
     planar_arm,
     tool_to_wrist,
 )
-
-__all__ = ["solve_common_parallel"]
 
 JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
 ROW_OF = np.array(

@@ -9,8 +9,6 @@ They fix e badly where its root is double, and t5 worse, by the quotient; at e =
 is left of t5 are arcs, on which the planar arm has to reach: each gives a pair of values.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -18,8 +16,6 @@ import numpy as np
 from dh2urdf.kernels.certificate import TWO_PI
 from dh2urdf.kernels.numbers import inner_kernel
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm
-
-__all__ = ["MOST_ARCS", "levels", "pairs_of_leaning"]
 
 TRIALS = 64
 """Values at which t5 is tried, none of them a right angle, where other singularities may be."""

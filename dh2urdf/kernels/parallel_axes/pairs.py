@@ -5,8 +5,6 @@ equations in two of the other joints, see :mod:`dh2urdf.kernels.parallel_axes.po
 row of ``pair`` (8, 5): cosine and sine of the first unknown, of t5, and whether t5 is free.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,8 +19,6 @@ from dh2urdf.kernels.numbers import (
 )
 from dh2urdf.kernels.parallel_axes.leaning import levels
 from dh2urdf.kernels.spherical_wrist import FREE
-
-__all__ = ["outer_pairs", "pairs_of_meeting"]
 
 EPSILON = 1e-15
 """Rounding of the equation for t4, near whose double root t4 is off by this over the distance from

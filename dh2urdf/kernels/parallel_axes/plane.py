@@ -1,13 +1,9 @@
 """An arm with three parallel axes, seen from the plane in which they turn."""
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.numbers import inner_kernel
 from dh2urdf.kernels.spherical_wrist import NICE
-
-__all__ = ["last_joint", "seen_arm", "seen_from_plane"]
 
 
 @inner_kernel

@@ -10,8 +10,6 @@ have alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first 
 whether t5 is free.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -22,8 +20,6 @@ from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
 from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, tool_to_wrist
-
-__all__ = ["add_pairs", "finish_pairs", "make_scratch", "solve_three_parallel"]
 
 ALL_FREE = 0b111111
 

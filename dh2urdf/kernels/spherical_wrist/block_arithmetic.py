@@ -7,31 +7,10 @@ lines up, a limit is nearly touched or a residual is not at rounding is marked a
 pose is solved again by the careful scalar kernel: here is no code for edges.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.certificate import POLISH
 from dh2urdf.kernels.numbers import block_kernel, lane_kernel
-
-__all__ = [
-    "BLOCK",
-    "CLEAR",
-    "COS",
-    "DIRTY",
-    "INSIDE",
-    "MASK",
-    "MERGED",
-    "POSE",
-    "RESIDUAL",
-    "ROWS",
-    "SIN",
-    "TURN",
-    "VALID",
-    "VALUES",
-]
-__all__ += ["WORK", "at", "column", "copy_residual", "dot", "load_poses", "measure"]
-__all__ += ["minus", "planar_arm", "turned", "turned_and_tilted"]
 
 BLOCK = 32
 CLEAR = 1e-6

@@ -4,8 +4,6 @@ Layout and lanes are those of :mod:`dh2urdf.kernels.spherical_wrist.block_arithm
 of an arm some are mirror images of others; only the others need an arctangent.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -23,8 +21,6 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     VALUES,
     at,
 )
-
-__all__ = ["HALF_TURN", "MIRRORS", "NEGATED", "OWN", "emit", "settle", "write"]
 
 ROUND = 1.5 * 2.0**52
 """Added to a number and taken away again, it rounds it to an integer."""

@@ -9,8 +9,6 @@ The other wrist, ``(q4 + pi, -q5, q6 + pi)``, changes signs that cancel in forwa
 that its residual is the same number.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -37,8 +35,6 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
 from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, emit
 from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
 from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist_in_plane
-
-__all__ = ["solve_common_wrist"]
 
 JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 ROW_OF = np.array(

@@ -5,8 +5,6 @@ The wrist centre fixes the first three joints; what is left of the orientation,
 alpha5 are right angles, and the same two steps (subproblem 4, then 1) where they are not.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -25,9 +23,6 @@ from dh2urdf.kernels.certificate import (
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel, root_of_gap
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist.position_slides import place_wrist_sliding
-
-__all__ = ["add_wrist", "append_wrist", "make_scratch", "middle_angle", "solve_pose"]
-__all__ += ["solve_sliding_arm", "solve_turning_arm"]
 
 MEETING = 1e-5
 """Distance [rad or m] of two position solutions that may be a double root: `MERGE` parts roots by

@@ -8,25 +8,12 @@ Each function writes rows to ``arm`` (8, 5): the three joint values as DH variab
 mask of free joints; and returns how many.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT
 from dh2urdf.kernels.numbers import circle_pair, elbow_angle, inner_kernel, linear_trig, root_of_gap
-
-__all__ = [
-    "FREE",
-    "NICE",
-    "ON_AXIS",
-    "SHOULDER_FREE",
-    "UPPER_FREE",
-    "place_wrist",
-    "place_wrist_in_plane",
-]
-__all__ += ["onto_axis_2", "seen_from_axis_2", "tool_to_wrist"]
 
 FREE = 5e-10
 """Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned

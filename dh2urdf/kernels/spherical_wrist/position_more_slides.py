@@ -3,15 +3,11 @@
 Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.chain import after_joint, after_link, wrist_circle, wrist_in_three
 from dh2urdf.kernels.numbers import inner_kernel, linear_trig
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, SHOULDER_FREE, UPPER_FREE
-
-__all__ = ["slide_slide_turn", "slide_turn_slide", "three_slides", "turn_slide_slide"]
 
 
 @inner_kernel

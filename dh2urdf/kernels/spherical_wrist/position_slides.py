@@ -6,8 +6,6 @@ degree 1 where the slide is square to a neighbour (Stanford arm, cylinder, gantr
 2.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -29,8 +27,6 @@ from dh2urdf.kernels.spherical_wrist.position_more_slides import (
     three_slides,
     turn_slide_slide,
 )
-
-__all__ = ["place_wrist_sliding"]
 
 OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
