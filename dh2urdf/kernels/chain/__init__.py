@@ -1,7 +1,7 @@
 """The serial chain: forward kinematics and Jacobian, one configuration and many.
 
 `forward` is the product of links and joints, `lanes` the same for a block of configurations side
-by side, `links` carries points along three joints, `held_joint` holds one joint at a value.
+by side, `links` carries points and directions, `held_joint` holds one joint at a value.
 """
 
 from dh2urdf.kernels.chain.forward import (
@@ -20,12 +20,4 @@ from dh2urdf.kernels.chain.held_joint import (
     insert_held_batch,
 )
 from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
-from dh2urdf.kernels.chain.links import (
-    after_joint,
-    after_link,
-    applied,
-    applied_inverse,
-    turned_back,
-    wrist_circle,
-    wrist_in_three,
-)
+from dh2urdf.kernels.chain.links import applied, applied_inverse, turned_back

@@ -1,9 +1,9 @@
 """Arms whose last three axes meet: position, then orientation (Pieper 1968, lecture notes 8.3).
 
-`poses` is the solver: `position_arm` puts the wrist centre by three turning joints,
-`position_slides` and `position_more_slides` by joints that slide, the wrist's ZYZ angles are in
-`poses`. `blocks` is the same for common arms, many poses side by side, in the arithmetic of
-`block_arithmetic` and `block_values`.
+`poses` is the solver, with the wrist's ZYZ angles; `position_arm` puts the wrist centre by the
+common three turning joints, `position_any` by any three that turn or slide. `blocks` is the same
+for common arms, many poses side by side, in the arithmetic of `block_arithmetic` and
+`block_values`.
 """
 
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
@@ -46,12 +46,11 @@ from dh2urdf.kernels.spherical_wrist.poses import (
     solve_sliding_arm,
     solve_turning_arm,
 )
+from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis, place_wrist
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     NICE,
     SHOULDER_FREE,
     UPPER_FREE,
-    elbow_on_axis,
-    place_wrist,
     tool_to_wrist,
 )

@@ -21,8 +21,8 @@ from dh2urdf.kernels.certificate import (
     same,
 )
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel, root_of_gap
-from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, place_wrist, tool_to_wrist
-from dh2urdf.kernels.spherical_wrist.position_slides import place_wrist_sliding
+from dh2urdf.kernels.spherical_wrist.position_any import place_wrist, place_wrist_sliding
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
 
 MEETING = 1e-5
 """Distance [rad or m] of two position solutions that may be a double root: `MERGE` parts roots by

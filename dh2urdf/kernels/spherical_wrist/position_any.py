@@ -1,0 +1,275 @@
+"""Where any three joints put a wrist centre, each of which turns or slides (Pieper 1968).
+
+The centre is seen from axis 2 twice: from the base, ``y = L1^-1 J1^-1 p``, and along the arm,
+``v = L2 J3 w``. Both are linear in what moves them, ``k + c C + s S`` with the cosine and sine of a
+joint that turns, or ``k + t C`` of one that slides, and kept as the three vectors (k, C, S), S = 0.
+Joint 2 keeps height and length of v where it turns, the other two coordinates where it slides: two
+equations in joints 1 and 3, whose solutions are rows (c, s or t, 0) of both. Joint 2 is what is
+left.
+
+Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
+"""
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.certificate import ACCEPT
+from dh2urdf.kernels.numbers import (
+    add_square,
+    circle_pair,
+    inner_kernel,
+    linear_trig,
+    root_of_gap,
+    trig_roots,
+)
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import dot
+from dh2urdf.kernels.spherical_wrist.position_arm import (
+    FREE,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    place_wrist_in_plane,
+)
+
+ON_AXIS = 1e-6
+"""Distance [m] of the wrist centre from axis 2 at which it may be on it, but for rounding."""
+
+OBLIQUE = 1e-9
+"""Cosine between a slide and a neighbouring axis up to which they count as square."""
+
+
+@inner_kernel
+def place_wrist(form, px, py, pz, slack, arm):
+    """All joint values of a turning arm that put the wrist centre at p (frame 0)."""
+    if form[1, 2] == 0.0:
+        return place_wrist_in_plane(form, px, py, pz, slack, arm)
+    Y, V, free = _from_base(form, px, py, pz), _along_arm(form), px * px + py * py <= FREE * FREE
+    pairs = np.empty((4, 4))
+    count = _two_turns(form, Y, V, free, slack, pairs)
+    return _write_rows(form, Y, V, free, slack, count, pairs, arm)
+
+
+@inner_kernel
+def place_wrist_sliding(form, px, py, pz, slack, arm):
+    """All joint values that put the wrist centre at p (frame 0) where some joints slide."""
+    first, second, third = form[0, 5] != 0.0, form[1, 5] != 0.0, form[2, 5] != 0.0
+    Y, V = _from_base(form, px, py, pz), _along_arm(form)
+    free = not first and px * px + py * py <= FREE * FREE
+    pairs = np.empty((8, 4))
+    if not first and not third:
+        count = _two_turns(form, Y, V, free, slack, pairs)
+    elif first and third:
+        count = _two_slides(form, Y, V, slack, pairs)
+    else:
+        turn, slide = (V, Y) if first else (Y, V)
+        count = _turn_and_slide(turn, slide, second, free, form[0, 4], slack, pairs)
+        for k in range(count if first else 0):
+            c, s = pairs[k, 0], pairs[k, 1]
+            pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], 0.0, c, s
+    return _write_rows(form, Y, V, free, slack, count, pairs, arm)
+
+
+@inner_kernel
+def _from_base(form, px, py, pz):
+    """The columns of y."""
+    a, ca, sa, d = form[0, 0], form[0, 1], form[0, 2], form[0, 3]
+    if form[0, 5] != 0.0:
+        c, s = math.cos(form[0, 4]), math.sin(form[0, 4])
+        x, y = c * px + s * py, c * py - s * px
+        return (x - a, ca * y + sa * pz, ca * pz - sa * y), (0.0, -sa, -ca), (0.0, 0.0, 0.0)
+    z = pz - d
+    return (-a, sa * z, ca * z), (px, ca * py, -sa * py), (py, -ca * px, sa * px)
+
+
+@inner_kernel
+def _along_arm(form):
+    """The columns of v, turned by theta_2 where joint 2 slides, lifted by d_2 where it turns."""
+    a, ca, sa, lift = form[1, 0], form[1, 1], form[1, 2], form[1, 3]
+    c, s = 1.0, 0.0
+    if form[1, 5] != 0.0:
+        c, s, lift = math.cos(form[1, 4]), math.sin(form[1, 4]), 0.0
+    x, y, z = form[2, 0], -form[2, 2] * form[3, 3], form[2, 1] * form[3, 3]
+    if form[2, 5] != 0.0:
+        e, f = math.cos(form[2, 4]), math.sin(form[2, 4])
+        k, C, S = (e * x - f * y, f * x + e * y, z), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
+    else:
+        k, C, S = (0.0, 0.0, z + form[2, 3]), (x, y, 0.0), (-y, x, 0.0)
+    k, C, S = _turned_up(k, ca, sa), _turned_up(C, ca, sa), _turned_up(S, ca, sa)
+    k = k[0] + a, k[1], k[2] + lift
+    return _turned(k, c, s), _turned(C, c, s), _turned(S, c, s)
+
+
+@inner_kernel
+def _turned(v, c, s):
+    """``Rot_z v``."""
+    return c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]
+
+
+@inner_kernel
+def _turned_up(v, c, s):
+    """``Rot_x v``."""
+    return v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]
+
+
+@inner_kernel
+def _at(columns, c, s):
+    """``k + c C + s S``."""
+    k, C, S = columns
+    return k[0] + c * C[0] + s * S[0], k[1] + c * C[1] + s * S[1], k[2] + c * C[2] + s * S[2]
+
+
+@inner_kernel
+def _two_turns(form, Y, V, free, slack, pairs):
+    """Joints 1 and 3 turn: a subproblem 6, of joint 3 alone where joint 1 is free."""
+    (k, C, S), (m, E, F) = Y, V
+    M, N, d = np.empty((2, 2)), np.empty((2, 2)), np.empty(2)
+    for i in range(2):
+        j = i if form[1, 5] != 0.0 else 2
+        M[i, 0], M[i, 1], N[i, 0], N[i, 1], d[i] = C[j], S[j], -E[j], -F[j], m[j] - k[j]
+    if form[1, 5] == 0.0:
+        M[1, 0], M[1, 1] = 2.0 * dot(k, C), 2.0 * dot(k, S)
+        N[1, 0], N[1, 1] = -2.0 * dot(m, E), -2.0 * dot(m, F)
+        d[1] = dot(m, m) + dot(E, E) - dot(k, k) - dot(C, C)
+    if free:
+        return elbow_on_axis(N, d, form[0, 4], slack, pairs)
+    return circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
+
+
+@inner_kernel
+def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
+    """One turns, one slides: the slide eliminated, rows (c, s, t, 0).
+
+    ``flat``: joint 2 slides; ``free``: the turning joint is free, and put to ``nice``.
+    """
+    (k, C, S), (m, E, _) = turn, slide
+    rows, cosines, sines, series = 0, np.empty(4), np.empty(4), np.zeros(5)
+    rise, steep, fall, slope = (k[2] - m[2], C[2], S[2], E[2])
+    if flat:
+        rise = E[0] * (k[1] - m[1]) - E[1] * (k[0] - m[0])
+        steep, fall, slope = E[0] * C[1] - E[1] * C[0], E[0] * S[1] - E[1] * S[0], 0.0
+    oblique, along = abs(slope) > OBLIQUE, dot(m, E)
+    size = dot(m, m) + dot(k, k) + dot(C, C)
+    length = 2.0 * dot(m, m) - size
+    if oblique:
+        rise, steep, fall = rise / slope, steep / slope, fall / slope
+    if free:
+        count, cosines[0], sines[0] = 1, math.cos(nice), math.sin(nice)
+    elif oblique:
+        series[0] = length + 2.0 * along * rise
+        series[1], series[2] = 2.0 * (along * steep - dot(k, C)), 2.0 * (along * fall - dot(k, S))
+        add_square(series, 1.0, rise, steep, fall)
+        count = trig_roots(series, 2, cosines, sines)
+    else:
+        count, c, s, e, f = linear_trig(steep, fall, -rise, slack)
+        cosines[0], sines[0], cosines[1], sines[1] = c, s, e, f
+    for j in range(count):
+        c, s = cosines[j], sines[j]
+        found, t, other = 1, rise + c * steep + s * fall, 0.0
+        if flat:
+            x, y, _ = _at(turn, c, s)
+            t = ((x - m[0]) * E[0] + (y - m[1]) * E[1]) / (E[0] * E[0] + E[1] * E[1])
+        elif not oblique:
+            rest = length - 2.0 * (c * dot(k, C) + s * dot(k, S))
+            root = root_of_gap(along * along - rest, size, slack)
+            found = 0 if root < 0.0 else (1 if root == 0.0 and slack > 0.0 else 2)
+            t, other = root - along, -root - along
+        for i in range(found):
+            pairs[rows, 0], pairs[rows, 1], pairs[rows, 3] = c, s, 0.0
+            pairs[rows, 2] = t if i == 0 else other
+            rows += 1
+    return rows
+
+
+@inner_kernel
+def _two_slides(form, Y, V, slack, pairs):
+    """Joints 1 and 3 slide: linear equations, or a subproblem 4 in the angle of joint 2.
+
+    That is what is left of y = v across slide 1 when d3 is eliminated.
+    """
+    (k, C, _), (m, E, _) = Y, V
+    if form[1, 5] != 0.0:
+        x, y, det = m[0] - k[0], m[1] - k[1], C[1] * E[0] - C[0] * E[1]
+        pairs[0, 0], pairs[0, 1] = (y * E[0] - x * E[1]) / det, 0.0
+        pairs[0, 2], pairs[0, 3] = (C[0] * y - C[1] * x) / det, 0.0
+        return 1
+    ca1, sa1, ca2, sa2 = form[0, 1], form[0, 2], form[1, 1], form[1, 2]
+    gx, gy, x, y = k[0], ca1 * k[1] - sa1 * k[2] + sa1 * m[2], m[0], m[1]
+    a, b = sa1 * ca2 * x - ca1 * sa2 * gx, -sa2 * gy - sa1 * ca2 * y
+    count, c, s, e, f = linear_trig(a, b, sa1 * ca2 * gx - ca1 * sa2 * x, slack)
+    rows = 0
+    for j in range(count):
+        c, s = (c, s) if j == 0 else (e, f)
+        fx, fy = s * sa2, -ca1 * c * sa2 - sa1 * ca2
+        square = fx * fx + fy * fy
+        if square <= 0.0:
+            continue
+        hx, hy = gx - c * x + s * y, gy - ca1 * (s * x + c * y)
+        t = (hx * fx + hy * fy) / square
+        u = _turned(_at(V, t, 0.0), c, s)
+        pairs[rows, 0] = dot(C, (u[0] - k[0], u[1] - k[1], u[2] - k[2]))
+        pairs[rows, 1], pairs[rows, 2], pairs[rows, 3] = 0.0, t, 0.0
+        rows += 1
+    return rows
+
+
+@inner_kernel
+def _nearest(columns, slides, c, s):
+    """The value of a joint, as a row has it, at which its point is nearest to axis 2; the distance.
+
+    For a point that is next to the axis: there its root is double, and rounding parts it by 1e-8.
+    """
+    _, C, S = columns
+    x, y, _ = _at(columns, c, s)
+    dx, dy = (C[0], C[1]) if slides else (c * S[0] - s * C[0], c * S[1] - s * C[1])
+    square = dx * dx + dy * dy
+    move = -(x * dx + y * dy) / square if square > 0.0 else 0.0
+    if slides:
+        c += move
+    else:
+        e, f = math.cos(move), math.sin(move)
+        c, s = c * e - s * f, s * e + c * f
+    x, y, _ = _at(columns, c, s)
+    return c, s, math.hypot(x, y)
+
+
+@inner_kernel
+def _write_rows(form, Y, V, free, slack, count, pairs, arm):
+    """Joint 2 of all pairs, and rows of ``arm``; where the centre is on axis 2, joint 2 is free."""
+    for k in range(count):
+        c, s, e, f = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
+        (x, y, z), (vx, vy, vz) = _at(Y, c, s), _at(V, e, f)
+        arm[k, 1], arm[k, 4] = z - vz, 0.0
+        if form[1, 5] == 0.0:
+            arm[k, 1] = math.atan2(vx * y - vy * x, vx * x + vy * y)
+            if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
+                near_c, near_s, off = _nearest(Y, form[0, 5] != 0.0, c, s)
+                near_e, near_f, miss = _nearest(V, form[2, 5] != 0.0, e, f)
+                off = max(off, miss)
+                if off <= ACCEPT or (slack > 0.0 and off <= ON_AXIS):
+                    c, s, e, f, arm[k, 1] = near_c, near_s, near_e, near_f, form[1, 4]
+                    arm[k, 4] = UPPER_FREE if off <= ACCEPT else 0.0
+        if free:
+            arm[k, 4] = SHOULDER_FREE
+        arm[k, 0] = c if form[0, 5] != 0.0 else math.atan2(s, c)
+        arm[k, 2] = e if form[2, 5] != 0.0 else math.atan2(f, e)
+        arm[k, 3] = -1.0
+    return max(count, 0)
+
+
+@inner_kernel
+def elbow_on_axis(N, d, nice, slack, pairs):
+    """The wrist centre on axis 1: q1 is free, and q3 alone has to satisfy both equations."""
+    det = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]
+    first, second = abs(N[0, 0]) + abs(N[0, 1]), abs(N[1, 0]) + abs(N[1, 1])
+    if abs(det) > 1e-12 * first * second:
+        c = (N[1, 1] * d[0] - N[0, 1] * d[1]) / det
+        s = (N[0, 0] * d[1] - N[1, 0] * d[0]) / det
+        r = math.hypot(c, s)
+        count, c1, s1, c2, s2 = (1, c / r, s / r, c, s) if r > 0.0 else (0, 1.0, 0.0, 1.0, 0.0)
+    else:
+        i = 0 if first >= second else 1
+        count, c1, s1, c2, s2 = linear_trig(N[i, 0], N[i, 1], d[i], slack)
+    for k in range(count):
+        pairs[k, 0], pairs[k, 1] = math.cos(nice), math.sin(nice)
+        pairs[k, 2], pairs[k, 3] = (c1, s1) if k == 0 else (c2, s2)
+    return count
