@@ -15,11 +15,11 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
-from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
-from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, planar, tool_to_wrist
 
 ALL_FREE = 0b111111
 
@@ -70,7 +70,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
 
 
 @inner_kernel
-def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, count):
+def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free, count):
     """Append the elbows of one set of outer joints; returns the new count."""
     in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
@@ -86,30 +86,20 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, q, branch, free, coun
         x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
     hx, hy, _ = seen_arm(form, first, D, cs, 1.0, 0.0)
     heading = math.atan2(hy, hx)
-    upper, fore = form[first, 0], form[first + 1, 0]
-    square = x * x + y * y
-    elbows, cosine, sine = elbow_angle(upper, fore, square, slack)
-    if square <= FREE * FREE:
+    if x * x + y * y <= FREE * FREE:
         mask |= 0b101 << first
-    up = form[0, 2] if first == 1 else -1.0
-    side = -1.0 if (up > 0.0) == (shoulder == 0) else 1.0
+    up = 1.0 if (first == 1 and form[0, 2] > 0.0) == (shoulder == 0) else -1.0
+    elbows = planar(form[first, 0], form[first + 1, 0], x, y, up, slack, arm, 0)
     for elbow in range(elbows):
-        s3 = side * sine
-        along, across = upper + fore * cosine, fore * s3
-        t_first = math.atan2(y * along - x * across, x * along + y * across)
-        t_next = math.atan2(s3, cosine)
         for i in range(6):
             t = math.atan2(cs[i, 1], cs[i, 0])
-            if i == first:
-                t = t_first
-            elif i == first + 1:
-                t = t_next
+            if first <= i < first + 2:
+                t = arm[elbow, 1 + i - first]
             elif i == first + 2:
-                t = heading - t_first - t_next
+                t = heading - arm[elbow, 1] - arm[elbow, 2]
             q[count, i] = form[i, 6] * (t - form[i, 4])
         branch[count] = shoulder + 2 * elbow + (4 if cs[4, 1] < 0.0 else 0)
         free[count] = mask
-        side = -side
         count += 1
     return count
 
@@ -129,10 +119,9 @@ def slope_of_last(form, D, cs, slack):
 def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
     """From ``pairs`` of outer joints of one pose to candidates in q (8, 6); their count.
 
-    ``first`` is the index of the first parallel axis; ``scratch``: frame 6 in frame 0 (3, 4), the
-    pairs (8, 5), cosines and sines (6, 2), certification.
+    ``first`` is the index of the first parallel axis.
     """
-    D, pair, cs, _, arcs, _ = scratch
+    D, pair, cs, _, arcs, _, arm = scratch
     outer = 0 if first == 1 else 3
     mask = ALL_FREE if pairs < 0 else 0
     found = 0
@@ -153,7 +142,7 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
             free_with = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
                 found = _add_planar(
-                    form, first, D, cs, shoulder, free_with, slack, q, branch, free, found
+                    form, first, D, cs, shoulder, free_with, slack, arm, q, branch, free, found
                 )
                 cs[4, 1] = -cs[4, 1]
     return found
@@ -176,13 +165,10 @@ def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out
 
 @inner_kernel
 def make_scratch():
-    """Scratch of :func:`add_pairs` and :func:`finish_pairs`, one for a batch.
-
-    Frame 6 in frame 0, pairs, cosines and sines, certification, arcs of t5, candidates.
-    """
+    """Frame 6 in frame 0, pairs, cosines and sines, certification, arcs, candidates, elbows."""
     many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
     D, cs, arcs = np.empty((3, 4)), np.zeros((6, 2)), np.empty((MOST_ARCS, 4))
-    return D, np.empty((8, 5)), cs, np.empty((6, 14)), arcs, many
+    return D, np.empty((8, 5)), cs, np.empty((6, 14)), arcs, many, np.empty((2, 5))
 
 
 @kernel

@@ -52,5 +52,6 @@ from dh2urdf.kernels.spherical_wrist.position_arm import (
     NICE,
     SHOULDER_FREE,
     UPPER_FREE,
+    planar,
     tool_to_wrist,
 )

@@ -84,19 +84,9 @@ def _above(z, level, square):
 
 @inner_kernel
 def add_wrist(form, D, values, R, slack, q, branch, free, count):
-    """Append the one or two wrists of a position solution; returns the new count.
+    """Append the one or two wrists of a position solution, a row of ``arm``; the new count.
 
-    Parameters
-    ----------
-    form : array, shape (6, 7)
-    D : array, shape (4, 4)
-        Frame 6 in frame 0.
-    values : array, shape (5,)
-        A row of ``arm``: joint values, branch code, mask of free joints.
-    R : array, shape (3, 3)
-        Scratch.
-    q, branch, free
-        Candidates, as in :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
+    D (3, 4) is frame 6 in frame 0, R (3, 3) scratch; the candidates are q, branch and free.
     """
     _orientation_left(form, D, values, R)
     return append_wrist(form, values, R, slack, q, branch, free, count)
@@ -121,17 +111,11 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
             c4, s4 = a * wx + b * wy, a * wy - b * wx
             r = math.hypot(c4, s4)
             c4, s4 = c4 / r, s4 / r
-        c6, s6 = 0.0, 0.0
-        for j in range(2):
-            first = c4 * R[0, j] + s4 * R[1, j]
-            second = ca4 * (c4 * R[1, j] - s4 * R[0, j]) + sa4 * R[2, j]
-            if j == 0:
-                c6 = c5 * first + s5 * second
-            else:
-                s6 = -(c5 * first + s5 * second)
+        x, y = c5 * c4 - s5 * ca4 * s4, c5 * s4 + s5 * ca4 * c4
+        c6 = x * R[0, 0] + y * R[1, 0] + s5 * sa4 * R[2, 0]
+        s6 = -(x * R[0, 1] + y * R[1, 1] + s5 * sa4 * R[2, 1])
         for i in range(3):
-            constant = form[i, 3] if form[i, 5] != 0.0 else form[i, 4]
-            q[count, i] = form[i, 6] * (values[i] - constant)
+            q[count, i] = form[i, 6] * (values[i] - form[i, 3 if form[i, 5] != 0.0 else 4])
         q[count, 3] = form[3, 6] * (math.atan2(s4, c4) - form[3, 4])
         q[count, 4] = form[4, 6] * (math.atan2(s5, c5) - form[4, 4])
         q[count, 5] = form[5, 6] * (math.atan2(s6, c6) - form[5, 4])
@@ -197,9 +181,7 @@ def hidden(joints, many, merged, k):
 def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out, scratch):
     """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
 
-    From ``rows`` position solutions and ``found`` candidates of :func:`add_merged`. ``scratch``:
-    frame 6 in frame 0 (3, 4), a rotation (3, 3), the position solutions (8, 5), certification,
-    candidates.
+    From ``rows`` position solutions and ``found`` candidates of :func:`add_merged`.
     """
     D, R, arm, work, many = scratch
     q, residual, branch, free = many
@@ -217,7 +199,7 @@ def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out
 
 @inner_kernel
 def make_scratch():
-    """Scratch of :func:`finish_wrists`, one for a batch."""
+    """Frame 6 in frame 0, a rotation, position solutions, certification, candidates."""
     many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
     return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
 

@@ -69,7 +69,7 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
         else:
             q1 = math.atan2(py * reach - px * offset, px * reach + py * offset)
         up = 1.0 if sa1 * reach > 0.0 or (reach == 0.0 and sa1 > 0.0) else -1.0
-        found = _planar(a2, forearm, x, y, up, slack, arm, rows)
+        found = planar(a2, forearm, x, y, up, slack, arm, rows)
         for k in range(rows, rows + found):
             arm[k, 0] = q1
             arm[k, 2] -= lean
@@ -84,7 +84,7 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
 
 
 @inner_kernel
-def _planar(upper, fore, x, y, up, slack, arm, row):
+def planar(upper, fore, x, y, up, slack, arm, row):
     """Planar RR arm (lecture notes 8.2): angles t2 and t3 in columns 1 and 2 from ``row`` on.
 
     ``up`` is the sign of sin t3 times -1 of the elbow-up branch.
