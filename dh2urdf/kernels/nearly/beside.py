@@ -31,7 +31,6 @@ SINGULAR = 1e-11
 WAYS = (1e-3, 1e-2, 0.1, 0.3)
 """How far along that direction Newton's method starts [rad], either way."""
 
-
 STEPS = 15
 """Newton steps; where they have not converged, there is nothing."""
 
@@ -50,16 +49,13 @@ def _solve(A, step):
             A[c, k], A[best, k] = A[best, k], A[c, k]
         if A[c, c] == 0.0:
             return math.inf
-        for r in range(c + 1, 6):
-            factor = A[r, c] / A[c, c]
+        for r in range(6):
+            factor = A[r, c] / A[c, c] if r != c else 0.0
             for k in range(c + 1, 7):
                 A[r, k] -= factor * A[c, k]
     longest = 0.0
-    for c in range(5, -1, -1):
-        total = A[c, 6]
-        for k in range(c + 1, 6):
-            total -= A[c, k] * step[k]
-        step[c] = total / A[c, c]
+    for c in range(6):
+        step[c] = A[c, 6] / A[c, c]
         longest = max(longest, abs(step[c]))
     return longest
 
@@ -105,8 +101,7 @@ def search_beside(links, joints, Ts, q, count):
             normal_equations(links, joints, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
-            for j in range(6):
-                start[j] = work[j, 6]
+            start[:] = work[:, 6]
             for way in WAYS:
                 for side in (-way, way):
                     for j in range(6):
@@ -114,6 +109,5 @@ def search_beside(links, joints, Ts, q, count):
                     if not _converges(links, joints, Ts[i], trial, A, step, damped):
                         continue
                     if count[i] < q.shape[1] and not _is_known(joints, q[i], count[i], trial):
-                        for j in range(6):
-                            q[i, count[i], j] = trial[j]
+                        q[i, count[i]] = trial
                         count[i] += 1

@@ -35,8 +35,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
     unit, most, regular = trust[0], trust[1], trust[2]
     doubt = doubt or found % 2 == 1 or found == 0
     for k in range(found):
-        for j in range(6):
-            start[j] = q[k, j]
+        start[:] = q[k]
         residual[k] = polish(links, joints, T, q[k], work)
         doubt = doubt or not residual[k] <= ACCEPT or free[k] != 0
         for j in range(6):
@@ -108,6 +107,5 @@ def add_candidates(rows, q, count, wide, wide_count):
     for d in range(rows.shape[0]):
         i = rows[d]
         for r in range(-1 - count[i]):
-            for j in range(q.shape[2]):
-                wide[d, wide_count[d], j] = q[i, r, j]
+            wide[d, wide_count[d]] = q[i, r]
             wide_count[d] += 1

@@ -81,7 +81,7 @@ def _beyond(form, D, cs, c4, e, c5, s5):
     cs[3, 0], cs[3, 1] = c4 * math.sqrt((1.0 - s4) * (1.0 + s4)), c4 * s4
     cs[4, 0], cs[4, 1] = c5, s5
     last_joint(form, 0, D, cs)
-    x, y, _ = seen_arm(form, 0, D, cs, 0.0, 1.0)
+    x, y, _ = seen_arm(form, 0, D, cs, 1.0)
     length = math.hypot(D[0, 3] - x, D[1, 3] - y)
     return max(abs(form[0, 0] - form[1, 0]) - length, length - form[0, 0] - form[1, 0])
 

@@ -17,12 +17,12 @@ def seen_from_plane(form, first, c1, s1, x, y, z):
 
 
 @inner_kernel
-def _to_frame_six(form, last, cs, x, origin):
-    """A vector of the frame after the last parallel axis, seen in frame 6.
+def _to_frame_six(form, last, cs, x, z, origin):
+    """The vector (x, 0, z) of the frame after the last parallel axis, seen in frame 6.
 
-    ``origin`` 1.0: the vector from that frame's origin to frame 6's; 0.0: the direction x.
+    ``origin`` 1.0: and on to frame 6's origin; 0.0: a direction.
     """
-    x, y, z = (form[last, 0], 0.0, 0.0) if origin != 0.0 else (x, 0.0, 0.0)
+    y = 0.0
     for i in range(last + 1, 6):
         ca, sa = form[i - 1, 1], form[i - 1, 2]
         y, z = ca * y + sa * z, ca * z - sa * y
@@ -34,9 +34,13 @@ def _to_frame_six(form, last, cs, x, origin):
 
 
 @inner_kernel
-def seen_arm(form, first, D, cs, x, origin):
-    """``_to_frame_six`` brought on into the plane of the parallel axes."""
-    x, y, z = _to_frame_six(form, first + 2, cs, x, origin)
+def seen_arm(form, first, D, cs, origin):
+    """The way from the last parallel axis to frame 6 (1.0), or that link's direction (0.0).
+
+    Seen in the plane of the parallel axes.
+    """
+    x = form[first + 2, 0] if origin != 0.0 else 1.0
+    x, y, z = _to_frame_six(form, first + 2, cs, x, 0.0, origin)
     u = D[0, 0] * x + D[0, 1] * y + D[0, 2] * z
     v = D[1, 0] * x + D[1, 1] * y + D[1, 2] * z
     w = D[2, 0] * x + D[2, 1] * y + D[2, 2] * z
@@ -44,23 +48,27 @@ def seen_arm(form, first, D, cs, x, origin):
 
 
 @inner_kernel
-def last_joint(form, first, D, cs):
-    """Cosine and sine of t6 into cs by subproblem 1; returns whether axis 6 is in line.
-
-    The common direction k has components ``r = k^T R`` in frame 6 and ``g`` before joint 6.
-    """
+def common_axis(form, first, D, cs):
+    """The direction k of the parallel axes, seen in frame 6: ``k^T R``."""
     kx, ky, kz = 0.0, 0.0, 1.0
     if first == 1:
         kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-    rx = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
-    ry = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
-    x, y, z = 0.0, 0.0, 1.0
-    for i in range(first + 3, 6):
-        ca, sa = form[i - 1, 1], form[i - 1, 2]
-        y, z = ca * y + sa * z, ca * z - sa * y
-        if i < 5:
-            c, s = cs[i, 0], cs[i, 1]
-            x, y = c * x + s * y, c * y - s * x
+    return (
+        kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0],
+        kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1],
+        kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2],
+    )
+
+
+@inner_kernel
+def last_joint(form, first, D, cs):
+    """Cosine and sine of t6 into cs: subproblem 1; the sine of axis 6 to the parallel axes.
+
+    It turns their direction as it is before joint 6 to where the pose has it.
+    """
+    rx, ry, _ = common_axis(form, first, D, cs)
+    cs[5, 0], cs[5, 1] = 1.0, 0.0
+    x, y, _ = _to_frame_six(form, first + 2, cs, 0.0, 1.0, 0.0)
     in_line = math.hypot(rx, ry)
     c6, s6 = x * rx + y * ry, y * rx - x * ry
     r = math.hypot(c6, s6)

@@ -18,7 +18,7 @@ from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
-from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm, seen_from_plane
+from dh2urdf.kernels.parallel_axes.plane import common_axis, last_joint, seen_arm, seen_from_plane
 from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, planar, tool_to_wrist
 
 ALL_FREE = 0b111111
@@ -44,7 +44,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     """
     upper, fore = form[first, 0], form[first + 1, 0]
     near, far = abs(upper - fore), upper + fore
-    bx, by, _ = seen_arm(form, first, D, cs, 0.0, 1.0)
+    bx, by, _ = seen_arm(form, first, D, cs, 1.0)
     cx, cy = x + bx, y + by
     distance, radius, length = math.hypot(cx, cy), math.hypot(bx, by), math.hypot(x, y)
     if near <= length <= far or distance * radius == 0.0:
@@ -78,13 +78,13 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free,
         pz -= form[0, 3]
     x, y, _ = seen_from_plane(form, first, cs[0, 0], cs[0, 1], px, py, pz)
     x -= form[0, 0] if first == 1 else 0.0
-    bx, by, _ = seen_arm(form, first, D, cs, 0.0, 1.0)
+    bx, by, _ = seen_arm(form, first, D, cs, 1.0)
     x, y = x - bx, y - by
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
     if in_line <= VAGUE:
         x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
-    hx, hy, _ = seen_arm(form, first, D, cs, 1.0, 0.0)
+    hx, hy, _ = seen_arm(form, first, D, cs, 0.0)
     heading = math.atan2(hy, hx)
     if x * x + y * y <= FREE * FREE:
         mask |= 0b101 << first
@@ -107,10 +107,7 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free,
 @inner_kernel
 def slope_of_last(form, D, cs, slack):
     """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
-    kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-    x = kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0]
-    y = kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1]
-    z = kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2]
+    x, y, z = common_axis(form, 1, D, cs)
     wrists, cs[4, 0], cs[4, 1] = middle_angle(form, x, y, z, slack)
     return min(wrists, 1) if math.hypot(x, y) <= FREE else wrists
 
