@@ -23,7 +23,7 @@ from dh2urdf.kernels.numbers import (
     root_of_gap,
     trig_roots,
 )
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import dot
+from dh2urdf.kernels.spherical_wrist.block_arithmetic import dot, minus
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,
@@ -206,7 +206,7 @@ def _two_slides(form, Y, V, slack, pairs):
         hx, hy = gx - c * x + s * y, gy - ca1 * (s * x + c * y)
         t = (hx * fx + hy * fy) / square
         u = _turned(_at(V, t, 0.0), c, s)
-        pairs[rows, 0] = dot(C, (u[0] - k[0], u[1] - k[1], u[2] - k[2]))
+        pairs[rows, 0] = dot(C, minus(u, k))
         pairs[rows, 1], pairs[rows, 2], pairs[rows, 3] = 0.0, t, 0.0
         rows += 1
     return rows
