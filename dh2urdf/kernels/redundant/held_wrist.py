@@ -176,14 +176,10 @@ def solve_held_pose(
     """All solutions of one pose at one held value, q (8, 7); returns the count."""
     work, links, rest = scratch[5], scratch[6], scratch[7]
     found = held_candidates(form, frames, which, slack, value, T, rest, branch, free, scratch)
-    for k in range(found):
-        residual[k] = -1.0
+    residual[:found] = -1.0
     held_links(frames[:8], which[SLIDES] != 0, which[HELD], value, links)
     found = finish_pose(links, joints, T, within_limits, rest, residual, branch, free, found, work)
-    for k in range(found):
-        for j in range(6):
-            q[k, j] = rest[k, j]
-    insert_held(which[HELD], value, q, free, found)
+    insert_held(which[HELD], value, rest, q, free, found)
     return found
 
 
@@ -230,11 +226,10 @@ def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, cou
         found = held_candidates(
             form, frames, which, slack, values[i], T, rest, branch, free, scratch
         )
+        insert_held(which[HELD], values[i], rest, q[i], free, found)
         kept = 0
         for k in range(found):
-            for j in range(7):
-                source = j if j < which[HELD] else j - 1
-                q[i, kept, j] = values[i] if j == which[HELD] else rest[k, source]
+            q[i, kept] = q[i, k]
             if restore(frames[:8], joints, POSE, T, unit, q[i, kept], work, damped) <= ACCEPT:
                 kept += 1
         count[i] = kept

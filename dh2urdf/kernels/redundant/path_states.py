@@ -8,7 +8,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-from dh2urdf.kernels.redundant.self_motion import HELD, enter_limits
+from dh2urdf.kernels.redundant.self_motion import HELD, distance2, enter_limits
 
 __all__ = ["onward", "step_length"]
 
@@ -16,11 +16,10 @@ __all__ = ["onward", "step_length"]
 @inner_kernel
 def step_length(a, b, jump, penalty):
     """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
-    total, largest = 0.0, 0.0
+    largest = 0.0
     for i in range(a.shape[0]):
-        total += (b[i] - a[i]) * (b[i] - a[i])
         largest = max(largest, abs(b[i] - a[i]))
-    return math.sqrt(total) + (penalty if largest > jump else 0.0)
+    return math.sqrt(distance2(a, b)) + (penalty if largest > jump else 0.0)
 
 
 @kernel

@@ -26,7 +26,8 @@ from dh2urdf.kernels.certificate import (
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 
-__all__ = ["enter_limits", "nearest_members", "walk_family"]
+__all__ = ["distance2", "dot", "enter_limits", "excess", "nearest_members", "part_inside"]
+__all__ += ["tangent_near", "walk_family"]
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -57,20 +58,14 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
     for i in range(n):
         step[i] = seed[i] - q[i]
     for a in range(6):
-        total = 0.0
-        for i in range(n):
-            total += J[i, a] * step[i]
-        e[a] = total
+        e[a] = dot(J[:, a], step)
     solve_damped(damped, 0.0)
     add_transposed(damped, -1.0, step)
-    total = 0.0
-    for i in range(n):
-        total += step[i] * step[i]
-    return math.sqrt(total)
+    return math.sqrt(dot(step, step))
 
 
 @inner_kernel
-def _distance2(q, seed):
+def distance2(q, seed):
     """Squared distance."""
     total = 0.0
     for i in range(q.shape[0]):
@@ -79,7 +74,16 @@ def _distance2(q, seed):
 
 
 @inner_kernel
-def _part_inside(joints, q, step, length):
+def dot(v, w):
+    """Scalar product."""
+    total = 0.0
+    for i in range(v.shape[0]):
+        total += v[i] * w[i]
+    return total
+
+
+@inner_kernel
+def part_inside(joints, q, step, length):
     """Part of ``length`` that a straight step can go inside the limits."""
     part = length
     for i in range(q.shape[0]):
@@ -105,17 +109,16 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     n = q.shape[0]
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
-    distance2 = _distance2(q, seed)
+    gap2 = distance2(q, seed)
     length = 1.0
     for move in range(MOST_STEPS):
         size = _project(links, joints, task, T, unit, q, seed, step, damped)
         if size <= ARRIVED:
             break
         if move > 0:
-            across, along = 0.0, 0.0
             for i in range(n):
-                across += scratch[4, i] * scratch[4, i]
-                along += scratch[4, i] * (before[i] - step[i])
+                before[i] -= step[i]
+            across, along = dot(scratch[4], scratch[4]), dot(scratch[4], before)
             length = across / along if along > 0.1 * across else 10.0
         largest = 0.0
         for i in range(n):
@@ -123,13 +126,13 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
             largest = max(largest, abs(step[i]))
         length = min(length, LONGEST / largest)
         if within_limits:
-            length = _part_inside(joints, q, step, length)
+            length = part_inside(joints, q, step, length)
         moved = False
         while length * size > SHORTEST:
             for i in range(n):
                 trial[i] = q[i] + length * step[i]
             good = restore(links, joints, task, T, unit, trial, work, damped) <= HELD
-            good = good and _distance2(trial, seed) < distance2
+            good = good and distance2(trial, seed) < gap2
             if good and not (within_limits and _outside(joints, trial)):
                 moved = True
                 break
@@ -139,7 +142,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         for i in range(n):
             scratch[4, i] = trial[i] - q[i]
             q[i] = trial[i]
-        distance2 = _distance2(q, seed)
+        gap2 = distance2(q, seed)
 
 
 @kernel
@@ -170,7 +173,7 @@ def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residu
 
 
 @inner_kernel
-def _excess(joints, q, i):
+def excess(joints, q, i):
     """How far joint i has to go to be inside its limits."""
     if q[i] > joints[i, 2]:
         return joints[i, 2] - INSIDE - q[i]
@@ -180,7 +183,7 @@ def _excess(joints, q, i):
 
 
 @inner_kernel
-def _tangent(links, joints, task, T, unit, q, guess, tangent, damped):
+def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
     for i in range(q.shape[0]):
         guess[i] += q[i]
@@ -195,14 +198,8 @@ def _tangent(links, joints, task, T, unit, q, guess, tangent, damped):
 def enter_limits(links, joints, T, unit, q, entered):
     """Move solutions q (k, n) along their curves into the limits; one joint to spare.
 
-    Parameters
-    ----------
-    links, joints, T, unit
-        As for :func:`nearest_members`.
-    q : array, shape (k, n)
-        Solutions in the turns nearest to their limits, in place.
-    entered : bool array, shape (k,), out
-        Whether the solution is inside; if not, its row means nothing.
+    They are in the turns nearest to their limits. Where ``entered`` (k,) says that one is not
+    inside, its row means nothing. The other arguments are those of :func:`nearest_members`.
     """
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((4, n))
@@ -214,11 +211,11 @@ def enter_limits(links, joints, T, unit, q, entered):
         last = math.inf
         for _ in range(MOST_STEPS):
             along, across, total = 0.0, 0.0, 0.0
-            if not _tangent(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
+            if not tangent_near(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
                 break
             for i in range(n):
                 guess[i] = tangent[i]
-                way = _excess(joints, q[k], i)
+                way = excess(joints, q[k], i)
                 if way != 0.0:
                     along += way * tangent[i]
                     across += tangent[i] * tangent[i]
@@ -241,22 +238,10 @@ def enter_limits(links, joints, T, unit, q, entered):
 
 @kernel
 def walk_family(links, joints, task, T, unit, length, q, members):
-    """Members of the family through q (n,), by walking away from it both ways.
+    """Members (2, k, n) of the family through q (n,), by walking away from it both ways.
 
-    Parameters
-    ----------
-    links, joints, task, T, unit
-        As for :func:`nearest_members`.
-    length : float
-        Length of a step [rad or m].
-    q : array, shape (n,)
-    members : array, shape (2, k, n), out
-        As many steps each way at most.
-
-    Returns
-    -------
-    int64 array, shape (2,)
-        Members found each way.
+    Steps have a ``length`` [rad or m]; the other arguments are those of :func:`nearest_members`.
+    Returns how many were found each way, int64 (2,).
     """
     n = q.shape[0]
     damped, scratch = make_damped(n), np.empty((3, n))
@@ -267,7 +252,7 @@ def walk_family(links, joints, task, T, unit, length, q, members):
         for i in range(n):
             guess[i] = (1.0 + 0.1 * i) * (1.0 - 2.0 * way)
         for k in range(members.shape[1]):
-            if not _tangent(links, joints, task, T, unit, at, guess, tangent, damped):
+            if not tangent_near(links, joints, task, T, unit, at, guess, tangent, damped):
                 break
             for i in range(n):
                 guess[i] = tangent[i]

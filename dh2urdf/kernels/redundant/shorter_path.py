@@ -16,7 +16,14 @@ import numpy as np
 from dh2urdf.kernels.certificate import POSE, make_damped, restore
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.path_states import step_length
-from dh2urdf.kernels.redundant.self_motion import HELD, LONGEST, _excess, _part_inside, _tangent
+from dh2urdf.kernels.redundant.self_motion import (
+    HELD,
+    LONGEST,
+    dot,
+    excess,
+    part_inside,
+    tangent_near,
+)
 
 __all__ = ["shorten"]
 
@@ -56,15 +63,14 @@ def _length(start, q, jump, penalty):
 @inner_kernel
 def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     """Add the step from a (row i - 1) to b (row i) to gradient and Hessian."""
-    length, along_a, along_b, across = KINK * KINK, 0.0, 0.0, 0.0
+    length, along_a, along_b = KINK * KINK, 0.0, 0.0
     for j in range(a.shape[0]):
         d = b[j] - a[j]
         length += d * d
         along_a += d * ta[j]
         along_b += d * tb[j]
-        across += ta[j] * tb[j]
     length = math.sqrt(length)
-    along_a, along_b = along_a / length, along_b / length
+    along_a, along_b, across = along_a / length, along_b / length, dot(ta, tb)
     if i > 0:
         g[i - 1] -= along_a
         diagonal[i - 1] += (1.0 - along_a * along_a) / length
@@ -129,9 +135,9 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
                 continue
             worst, change = 0.0, 0.0
             for j in range(q.shape[1]):
-                excess = _excess(joints, trial[i], j)
-                if abs(excess) > worst:
-                    worst, change = abs(excess), excess / tangent[i, j]
+                out = excess(joints, trial[i], j)
+                if abs(out) > worst:
+                    worst, change = abs(out), out / tangent[i, j]
             if worst == 0.0:
                 break
             way = way + change if abs(change) < 0.5 * abs(way) else 0.5 * way
@@ -157,10 +163,10 @@ def shorten(links, joints, Ts, unit, start, jump, penalty, q):
         for i in range(m):
             for j in range(n):
                 guess[j] = tangent[i, j] + 1e-3 * (1.0 + 0.1 * j)
-            if not _tangent(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
+            if not tangent_near(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
                 tangent[i] = 0.0
-            high[i] = _part_inside(joints, q[i], tangent[i], LONGEST)
-            low[i] = _part_inside(joints, q[i], tangent[i], -LONGEST)
+            high[i] = part_inside(joints, q[i], tangent[i], LONGEST)
+            low[i] = part_inside(joints, q[i], tangent[i], -LONGEST)
             if i > 0:
                 _add_step(q[i - 1], q[i], tangent[i - 1], tangent[i], g, diagonal, beside, i)
             elif start.shape[0] > 0:
