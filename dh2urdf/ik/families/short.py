@@ -74,16 +74,15 @@ class ShortChain(SolverBase):
         return _loop_links(self.links, self.unit)
 
     @cached_property
-    def plan(self) -> tuple[IntArray, IntArray]:
-        """Cuts of the loop, best first, and their slots: shapes (s, 8) and (s, 8)."""
+    def plan(self) -> IntArray:
+        """Cuts of the loop, best first, each with its shape and its slots, (s, 2, 8)."""
         cuts = range(CUTS[self.chain.n])
         shapes = np.array([_shape(self.chain.prismatic, s) for s in cuts], np.int64)
         used = np.array([_slots(self.chain.prismatic, shape) for shape in shapes], np.int64)
         qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
         best = sorted(cuts, key=lambda s: qualities[s])
-        rows = [[*shapes[s], qualities[s].nullity] for s in best]
-        slots = [used[s] for s in best]
-        return (np.array(rows, np.int64).reshape(-1, 8), np.array(slots, np.int64).reshape(-1, 8))
+        plan = [([*shapes[s], qualities[s].nullity], used[s]) for s in best]
+        return np.array(plan, np.int64).reshape(-1, 2, 8)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -101,12 +100,12 @@ class ShortChain(SolverBase):
     def details(self) -> str:
         """Name the pairs of joints and what is solved."""
         kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
-        a, b, x, c, d = (int(i) for i in self.plan[0][0, :5])
+        a, b, x, c, d = (int(i) for i in self.plan[0, 0, :5])
         pairs = [", ".join(str(i + 1) for i in pair if i >= 0) for pair in ((a, b), (c, d))]
         text = f"{kinds}; the closed loop cut into joints {' | '.join(p for p in pairs if p)}"
         if x >= 0:
             return f"{text}, joint {x + 1} from a quartic, the others from a null vector"
-        equation = ", a quadratic equation" if self.plan[0][0, 7] == 2 else ""
+        equation = ", a quadratic equation" if self.plan[0, 0, 7] == 2 else ""
         return f"{text}, linear in dual quaternions{equation}"
 
     def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
@@ -145,7 +144,7 @@ class ShortChain(SolverBase):
             self.joints,
             self.ends,
             self.loop,
-            *self.plan,
+            self.plan,
             self.rest_unit,
             Ts,
             within_limits,

@@ -1,14 +1,12 @@
 """Seven joints: one held, one swept, and the motion that leaves the tool where it is.
 
 `held_wrist` solves with a joint held, `held_wrist_blocks` does so for many poses side by side
-(`held_wrist_load`, `held_wrist_arms`, `held_wrist_wrists` are its steps); `sweep` holds it at many
-values; `self_motion` walks along solutions, `path_states` and `shorter_path` find the shortest
-path.
+(`held_wrist_load`, `held_wrist_arms` are its steps); `sweep` holds it at many values;
+`self_motion` walks along solutions, `paths` finds the shortest path.
 """
 
 from dh2urdf.kernels.redundant.held_wrist import points_on_curves, solve_held_wrist
 from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
-from dh2urdf.kernels.redundant.path_states import onward
+from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import enter_limits, nearest_members, walk_family
-from dh2urdf.kernels.redundant.shorter_path import shorten
 from dh2urdf.kernels.redundant.sweep import gather_samples, spread_samples

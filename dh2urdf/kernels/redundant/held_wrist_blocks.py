@@ -1,10 +1,9 @@
 """Seven joints, one held, vectorised: axes 1 and 2 meet, the wrist is orthogonal.
 
 The same mathematics as :mod:`dh2urdf.kernels.redundant.held_wrist` where axes 1 and 2 of the
-oriented arm meet: :mod:`~dh2urdf.kernels.redundant.held_wrist_arms` finds joints 3, 1 and 2 one
-after the other, :mod:`~dh2urdf.kernels.redundant.held_wrist_wrists` the rest. Poses near
-singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3 ``k >>
-1 & 1``, wrist ``k >> 2``.
+oriented arm meet, step by step in :mod:`~dh2urdf.kernels.redundant.held_wrist_arms`. Poses near
+singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k & 1``, joint 3
+``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
 from __future__ import annotations
@@ -13,9 +12,8 @@ import numpy as np
 
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
-from dh2urdf.kernels.redundant.held_wrist_arms import place_elbows, place_shoulders
+from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
-from dh2urdf.kernels.redundant.held_wrist_wrists import finish_arm
 from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, settle, write
 
 __all__ = ["solve_held_blocks"]

@@ -107,20 +107,7 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
 
 @kernel
 def solve_short_chains(
-    links,
-    joints,
-    ends,
-    loop_links,
-    shapes,
-    used,
-    rest_unit,
-    Ts,
-    within_limits,
-    q,
-    residual,
-    count,
-    branch,
-    free,
+    links, joints, ends, loop, plan, rest_unit, Ts, within_limits, q, residual, count, branch, free
 ):
     """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 
@@ -131,12 +118,11 @@ def solve_short_chains(
         Sliding, lower, upper.
     ends : array, shape (2, 4, 4)
         Inverses of the first and the last link.
-    loop_links : array, shape (n, 8)
+    loop : array, shape (n, 8)
         Dual quaternions of the links between the joints; the last row is written here.
-    shapes : int64 array, shape (s, 8)
-        Cuts of the loop, best first, see ``add_candidates``; last the nullity to expect.
-    used : int64 array, shape (s, columns)
-        Slots that each way has.
+    plan : int64 array, shape (s, 2, 8)
+        Cuts of the loop, best first: its shape, see ``add_candidates``, and the nullity to expect;
+        the slots that it has, -1 after the last.
     rest_unit : array, shape (n + 1,)
         Rest value of each joint, then the length of one dual unit [m].
     Ts, within_limits, q, residual, count, branch, free
@@ -144,7 +130,7 @@ def solve_short_chains(
     """
     n = joints.shape[0]
     work = work_array(n)
-    loop, scratch, roots = loop_links.copy(), np.empty((29, 8)), np.empty((3, SAMPLES))
+    loop, scratch, roots = loop.copy(), np.empty((29, 8)), np.empty((3, SAMPLES))
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
     many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.empty(FEW, np.int64)
@@ -154,9 +140,8 @@ def solve_short_chains(
         T = Ts[i]
         close_loop(ends, T, unit, pose, loop)
         found = 0
-        for s in range(shapes.shape[0]):
-            before = found
-            shape, slots = shapes[s], used[s]
+        for s in range(plan.shape[0]):
+            before, shape, slots = found, plan[s, 0], plan[s, 1]
             found, doubt = _candidates(
                 loop, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )

@@ -1,10 +1,11 @@
-"""A joint path of a chain with one joint to spare, made shorter while every pose is kept.
+"""Joint paths of a chain with one joint to spare: the next states, and the way made shorter.
 
-At each pose the solution q_i may move along its self-motion, by x_i along its unit tangent t_i. Of
-the length ``sum |q_i - q_(i-1)|`` as a function of the x the Hessian, but for the curvature of the
-self-motions, is positive and tridiagonal, as each x is in two steps only: a Newton step costs a few
-operations a pose. Limits, and a region of trust, bound each x; which bounds hold is found by the
-primal-dual active set method (Hintermueller, Ito and Kunisch 2002).
+A path is made shorter while every pose is kept. At each pose the solution q_i may move along its
+self-motion, by x_i along its unit tangent t_i. Of the length ``sum |q_i - q_(i-1)|`` as a function
+of the x the Hessian, but for the curvature of the self-motions, is positive and tridiagonal, as
+each x is in two steps only: a Newton step costs a few operations a pose. Limits, and a region of
+trust, bound each x; which bounds hold is found by the primal-dual active set method (Hintermueller,
+Ito and Kunisch 2002).
 """
 
 from __future__ import annotations
@@ -13,19 +14,20 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import POSE, make_damped, restore
+from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-from dh2urdf.kernels.redundant.path_states import step_length
 from dh2urdf.kernels.redundant.self_motion import (
     HELD,
     LONGEST,
+    distance2,
     dot,
+    enter_limits,
     excess,
     part_inside,
     tangent_near,
 )
 
-__all__ = ["shorten"]
+__all__ = ["onward", "shorten"]
 
 ROUNDS = 100
 """Newton steps; five to thirty are usual."""
@@ -47,6 +49,50 @@ PASSES = 30
 
 RETURNS = 10
 """Trials to move one pose without leaving its limits."""
+
+
+@inner_kernel
+def step_length(a, b, jump, penalty):
+    """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
+    largest = 0.0
+    for i in range(a.shape[0]):
+        largest = max(largest, abs(b[i] - a[i]))
+    return math.sqrt(distance2(a, b)) + (penalty if largest > jump else 0.0)
+
+
+@kernel
+def onward(links, joints, T, unit, jump, penalty, q, cost, solutions, q_out, cost_out, parent):
+    """Ways on from the states q (f, n) of one pose to the next pose T (4, 4).
+
+    First each state follows the arm by the shortest step, and into the limits if it has left
+    them; then come the solutions (s, n) of the pose, each by its cheapest way.
+
+    ``links``, ``joints``, ``unit`` are as for
+    :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
+    ``penalty`` more. Out come the states of the pose, q_out (f + s, n), their cost, infinite where
+    there is no way, and their parent.
+    """
+    f, n = q.shape
+    damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))
+    reached, inside = np.empty(f, np.bool_), np.empty(f, np.bool_)
+    q_out[:f] = q
+    for k in range(f):
+        reached[k] = restore(links, joints, POSE, T, unit, q_out[k], work, damped) <= HELD
+    enter_limits(links, joints, T, unit, q_out[:f], inside)
+    for k in range(f):
+        cost_out[k], parent[k] = math.inf, k
+        if reached[k] and inside[k]:
+            cost_out[k] = cost[k] + step_length(q[k], q_out[k], jump, penalty)
+    for k in range(f, q_out.shape[0]):
+        cost_out[k] = math.inf
+        for i in range(f):
+            if cost[i] >= cost_out[k]:
+                continue
+            trial[0] = solutions[k - f]
+            turn_to(joints, 0.0, q[i : i + 1], trial)
+            whole = cost[i] + step_length(q[i], trial[0], jump, penalty)
+            if whole < cost_out[k]:
+                cost_out[k], parent[k], q_out[k] = whole, i, trial[0]
 
 
 @inner_kernel
