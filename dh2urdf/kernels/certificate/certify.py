@@ -17,7 +17,7 @@ from dh2urdf.kernels.certificate.newton import POLISH, polish, pose_residual
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
 __all__ = ["ACCEPT", "ANYWHERE", "CLUSTER", "NO_JOINT", "ROUNDING", "TWO_PI", "copy_rows"]
-__all__ += ["finish_pose", "move", "principal", "same"]
+__all__ += ["finish_pose", "move", "principal", "same", "turn_inside"]
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -167,8 +167,14 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
             kept += 1
         elif residual[kept] < residual[twin] and residual[twin] > ROUNDING:
             move(q, residual, branch, free, kept, twin)
+    return turn_inside(links, joints, T, within_limits, q, residual, branch, free, kept)
+
+
+@inner_kernel
+def turn_inside(links, joints, T, within_limits, q, residual, branch, free, count):
+    """Turn solutions by full turns, near or into their limits; how many are left."""
     solutions = np.int64(0)
-    for k in range(kept):
+    for k in range(count):
         residual[k] = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
         if residual[k] <= ACCEPT:
             move(q, residual, branch, free, k, solutions)

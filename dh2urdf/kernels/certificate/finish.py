@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose
+from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose, turn_inside
 from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family
 from dh2urdf.kernels.certificate.merging import merge_solutions
 from dh2urdf.kernels.numbers import inner_kernel, kernel
@@ -30,7 +30,7 @@ def finish_families(
     if rest.shape[0] > 0:
         count = one_of_each_family(joints, rest, q, residual, branch, free, count)
     if within_limits:
-        count = finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work)
+        count = turn_inside(links, joints, T, within_limits, q, residual, branch, free, count)
     return count
 
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ALL_MEMBERS, finish_families, finish_pose, work_array
+from dh2urdf.kernels.certificate import finish_pose, work_array
 from dh2urdf.kernels.chain import applied
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
 
@@ -97,8 +97,7 @@ def solve_planar(
         See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
-    work = work_array(n)
-    trial, pairs = np.empty((2, n)), np.empty((2, 2))
+    work, pairs = work_array(n), np.empty((2, 2))
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -118,9 +117,7 @@ def solve_planar(
         if pose:
             count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)
         else:
-            count[i] = finish_families(
-                links, joints, T[:3, 3], ALL_MEMBERS, within_limits, *out, rows, trial, work
-            )
+            count[i] = finish_pose(links, joints, T[:3, 3], within_limits, *out, rows, work)
 
 
 @inner_kernel
