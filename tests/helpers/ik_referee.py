@@ -18,8 +18,15 @@ from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import JointType
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.families.general_6r import General6R
 
 HALF = math.pi / 2
+
+RESIDUAL = 1e-9
+"""What every solution keeps: distance from the pose [m], and sine of the angle from it."""
+
+GAP = 1e-6
+"""Joint distance [rad or m] from which on two solutions are two."""
 
 
 class Found(NamedTuple):
@@ -40,6 +47,15 @@ class Found(NamedTuple):
 @cache
 def shipped(name):
     return dh_to_chain(dh2urdf.load_table(name))
+
+
+CLOSED_FORMS = [
+    name
+    for name in dh2urdf.list_tables()
+    if shipped(name).n == 6
+    and not shipped(name).prismatic.any()
+    and not isinstance(select_solver(shipped(name)), General6R)
+]
 
 
 @cache
@@ -107,8 +123,18 @@ def error_vectors(T, T_target):
 
 
 def residuals(chain, q, T_target):
-    e = error_vectors(forward(chain, q), T_target)
+    return pose_errors(forward(chain, q), T_target)
+
+
+def pose_errors(T, T_target):
+    """Larger of distance and sine of the angle between poses, (...)."""
+    e = error_vectors(T, T_target)
     return np.maximum(np.linalg.norm(e[..., :3], axis=-1), np.linalg.norm(e[..., 3:], axis=-1))
+
+
+def by_pinocchio(robot, q):
+    """Poses of configurations (k, n), each by a call of its own, which is Pinocchio's."""
+    return np.array([robot.fk(row) for row in q]).reshape(-1, 4, 4)
 
 
 def jacobians(chain, q):
@@ -132,20 +158,39 @@ def gaps(chain, q, p):
     return np.where(chain.prismatic, np.abs(d), np.abs(np.arcsin(np.sin(d / 2)) * 2)).max(-1)
 
 
+def regularity(chain, q):
+    """Smallest singular value of the Jacobian at configurations (..., n), lengths relative."""
+    J = jacobians(chain, q)
+    J[..., :3, :] /= chain.size
+    return np.linalg.svd(J, compute_uv=False)[..., -1]
+
+
+def exists(found):
+    """Which rows of a batch are solutions, (m, k)."""
+    return np.arange(found.q.shape[1]) < found.count[:, None]
+
+
+def rows_of(found):
+    """All solutions (k, n) of a batch, and the poses (k,) that they are of."""
+    return found.q[exists(found)], np.repeat(np.arange(len(found.q)), found.count)
+
+
+def misses(chain, found, q):
+    """Distance of each configuration (m, n) from the nearest solution of its pose, (m,)."""
+    away = gaps(chain, np.nan_to_num(found.q), q[:, None])
+    return np.where(exists(found), away, np.inf).min(axis=1)
+
+
+def distances(chain, found):
+    """Distances between any two solutions of a pose, of all poses, (k,)."""
+    q = [np.nan_to_num(found.q[found.count > i, : i + 1]) for i in range(found.q.shape[1])]
+    return np.concatenate([gaps(chain, rows[:, -1:], rows[:, :-1]).ravel() for rows in q])
+
+
 def draw(chain, m, seed):
     q = np.random.default_rng(seed).uniform(-math.pi, math.pi, (m, chain.n))
     q[:, chain.prismatic] *= 0.2
     return q
-
-
-def near_one_singularity(chain, joint, value, rng):
-    """A configuration with one joint at a singular value, and no other singularity near."""
-    while True:
-        q = rng.uniform(-2, 2, chain.n)
-        q[joint] = value + 0.7
-        if np.linalg.svd(jacobians(chain, q), compute_uv=False)[-1] > 0.05:
-            q[joint] = value
-            return q
 
 
 def solve(chain, Ts, within_limits=False, solver=None):
@@ -161,21 +206,6 @@ def solve(chain, Ts, within_limits=False, solver=None):
     )
     solver.solve_batch(Ts, within_limits, Outputs(*found))
     return found
-
-
-def check_all(chain, q, found, Ts):
-    """Every solution reaches its pose, none is there twice, the generating one is among them."""
-    exists = np.arange(found.q.shape[1]) < found.count[:, None]
-    measured = residuals(chain, np.where(exists[..., None], found.q, 0.0), Ts[:, None])
-    assert measured[exists].max() <= 1e-12
-    assert found.residual[exists].max() <= 1e-12
-    assert found.free[exists].max(initial=0) == 0
-    away = np.where(exists, gaps(chain, np.nan_to_num(found.q), q[:, None]), np.inf)
-    assert away.min(axis=1).max() <= 1e-6
-    for i in range(found.q.shape[1]):
-        for j in range(i):
-            apart = gaps(chain, np.nan_to_num(found.q[:, i]), np.nan_to_num(found.q[:, j]))
-            assert apart[exists[:, i]].min(initial=1.0) > 1e-6
 
 
 def search(chain, T, seed, starts=400, steps=40):
@@ -194,23 +224,6 @@ def search(chain, T, seed, starts=400, steps=40):
         if not distinct or gaps(chain, candidate, np.array(distinct)).min() > 1e-4:
             distinct.append(candidate)
     return np.array(distinct).reshape(-1, chain.n)
-
-
-def check_family(chain, q, T, mask):
-    """The free joints, and only these, move along a curve of solutions through q."""
-    free = [i for i in range(chain.n) if mask >> i & 1]
-    J = jacobians(chain, q)
-    _, sigma, Vt = np.linalg.svd(J)
-    tangent = Vt[-1]
-    assert sigma[-1] < 1e-9
-    assert np.abs(tangent[free]).min() > 1e-9
-    assert np.abs(np.delete(tangent, free)).max(initial=0.0) < 1e-7
-    moved = q + 1e-3 * tangent
-    for _ in range(5):
-        e = error_vectors(forward(chain, moved), T)
-        moved = moved + np.linalg.pinv(jacobians(chain, moved), rcond=1e-6) @ e
-    assert residuals(chain, moved, T) < 1e-9
-    assert 5e-4 < gaps(chain, moved, q) < 2e-3
 
 
 def same_to_rounding(chain, found, q, T):

@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from ik_referee import draw, forward, gaps, jacobians, random_pose, shipped, solve
+from ik_referee import draw, forward, gaps, random_pose, regularity, shipped, solve
 
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
@@ -42,12 +42,6 @@ def draw_near_singularities(chain, m, seed):
         near = rng.random(m) < 1 / 6
         q[near, joint] = 10.0 ** rng.uniform(-4, -1, near.sum()) * rng.choice([-1, 1], near.sum())
     return q
-
-
-def regularity(chain, q):
-    J = jacobians(chain, q)
-    J[..., :3, :] /= chain.size
-    return np.linalg.svd(J, compute_uv=False)[..., -1]
 
 
 def check_noisy(chain, m, seed):

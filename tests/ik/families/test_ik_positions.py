@@ -8,6 +8,8 @@ import math
 import ik_referee as referee
 import numpy as np
 import pytest
+from ik_referee import GAP, RESIDUAL
+from margins import assert_apart, assert_margin
 from test_short_chains import HALF, chain_of
 
 import dh2urdf
@@ -25,7 +27,7 @@ KINDS = ["".join(k) for n in (1, 2, 3) for k in itertools.product("RP", repeat=n
 
 
 def distances(chain, q, T):
-    return np.linalg.norm(referee.forward(chain, q)[..., :3, 3] - T[:3, 3], axis=-1)
+    return np.linalg.norm(referee.forward(chain, q)[..., :3, 3] - T[..., :3, 3], axis=-1)
 
 
 @pytest.mark.parametrize("steps", STEPS)
@@ -36,17 +38,15 @@ def test_positions_of_any_three_joints(kinds, steps):
     if spare_joints(chain, Task.POSITION):
         pytest.skip("slides in a plane or a joint through the tool: covered by the spare joints")
     solver = select_solver(chain, Task.POSITION)
-    q = referee.draw(chain, 60, 3)
+    q = referee.draw(chain, 200, 3)
     Ts = referee.forward(chain, q)
     found = referee.solve(chain, Ts, solver=solver)
-    for i in range(len(q)):
-        solutions, residual, _, free = found.of(i)
-        assert residual.max() <= 1e-9
-        assert distances(chain, solutions, Ts[i]).max() <= 1e-9
-        assert referee.gaps(chain, solutions, q[i]).min() < 1e-6
-        assert not free.any()
-        for a, b in itertools.combinations(solutions, 2):
-            assert referee.gaps(chain, a, b) > 1e-6
+    solutions, owner = referee.rows_of(found)
+    assert_margin(found.residual[referee.exists(found)], RESIDUAL)
+    assert_margin(distances(chain, solutions, Ts[owner]), RESIDUAL)
+    assert_margin(referee.misses(chain, found, q), GAP)
+    assert not found.free[referee.exists(found)].any()
+    assert_apart(referee.distances(chain, found), GAP)
 
 
 @pytest.mark.parametrize("steps", STEPS)
@@ -67,8 +67,9 @@ def test_no_position_that_a_search_finds_is_missing(kinds, steps):
             A = J @ J.swapaxes(1, 2) + 1e-12 * np.eye(3)
             step = (J.swapaxes(1, 2) @ np.linalg.solve(A, e[..., None]))[..., 0]
             q += np.clip(step, -0.3, 0.3)
-        for other in q[distances(chain, q, T) < 1e-12]:
-            assert referee.gaps(chain, solutions, other).min() < 1e-5
+        others = q[distances(chain, q, T) < 1e-12]
+        if len(others):
+            assert_margin(referee.gaps(chain, solutions, others[:, None]).min(axis=1), 1e-5)
 
 
 def test_beyond_the_reach_of_a_position_arm_is_nothing():
@@ -125,17 +126,15 @@ def test_position_and_axis(name):
     kinds, rows = FIVE[name]
     chain = referee.arm(rows, kinds)
     solver = select_solver(chain, Task.POSITION_AXIS)
-    q = referee.draw(chain, 25, 6)
+    q = referee.draw(chain, 200, 6)
     Ts = referee.forward(chain, q)
     turn = np.eye(4)
     turn[:2, :2] = [[math.cos(0.7), -math.sin(0.7)], [math.sin(0.7), math.cos(0.7)]]
     found = referee.solve(chain, np.ascontiguousarray(Ts @ turn), solver=solver)
-    for i in range(len(q)):
-        solutions = found.of(i)[0]
-        T_found = referee.forward(chain, solutions)
-        assert np.abs(T_found[:, :3, 3] - Ts[i][:3, 3]).max() <= 1e-9
-        assert np.abs(T_found[:, :3, 2] - Ts[i][:3, 2]).max() <= 1e-9
-        assert referee.gaps(chain, solutions, q[i]).min() < 1e-6
+    solutions, owner = referee.rows_of(found)
+    error = referee.forward(chain, solutions) - Ts[owner]
+    assert_margin(np.abs(error[:, :3, 2:]).max(axis=(1, 2)), RESIDUAL)
+    assert_margin(referee.misses(chain, found, q), GAP)
 
 
 def test_joint_about_the_tool_is_free_for_the_axis():
@@ -149,14 +148,14 @@ def test_joint_about_the_tool_is_free_for_the_axis():
     straight = type(chain)(links, chain.joint_types, chain.names, chain.lower, chain.upper)
     solver = select_solver(straight, Task.POSITION_AXIS)
     assert solver.name == "joints to spare"
-    q = referee.draw(straight, 20, 7)
+    q = referee.draw(straight, 200, 7)
     Ts = referee.forward(straight, q)
     found = referee.solve(straight, Ts, solver=solver)
-    for i in range(len(q)):
-        solutions, _, _, free = found.of(i)
-        assert set(free.tolist()) == {0b10000}
-        assert np.abs(referee.forward(straight, solutions)[:, :3, 2] - Ts[i][:3, 2]).max() < 1e-9
-        assert referee.gaps(straight, solutions[:, :], q[i] * [1, 1, 1, 1, 0]).min() < 1e-6
+    solutions, owner = referee.rows_of(found)
+    assert set(found.free[referee.exists(found)].tolist()) == {0b10000}
+    error = referee.forward(straight, solutions) - Ts[owner]
+    assert_margin(np.abs(error[:, :3, 2:]).max(axis=(1, 2)), RESIDUAL)
+    assert_margin(referee.misses(straight, found, q * [1, 1, 1, 1, 0]), GAP)
 
 
 def test_task_error_counts_what_the_task_asks_for():

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+import ik_checks as checks
 import ik_referee as ref
 import numpy as np
 import pytest
-from ik_referee import HALF
+from ik_referee import GAP, HALF, RESIDUAL
+from margins import assert_margin
 
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.table import select_solver
@@ -43,7 +45,7 @@ SYNTHETIC = {
 def check_random_poses(chain, m, seed=1):
     q = ref.draw(chain, m, seed)
     Ts = ref.forward(chain, q)
-    ref.check_all(chain, q, ref.solve(chain, Ts), Ts)
+    checks.check_all(chain, q, ref.solve(chain, Ts), Ts)
 
 
 @pytest.mark.parametrize("name", SHIPPED)
@@ -89,7 +91,7 @@ def compare_with_search(chain, m):
     for i in range(m):
         q = found.of(i)[0]
         for other in ref.search(chain, Ts[i], i):
-            assert ref.gaps(chain, q, other).min() < 1e-4
+            assert_margin(ref.gaps(chain, q, other).min(), 1e-4)
 
 
 def test_block_and_scalar_kernels_agree():
@@ -100,7 +102,7 @@ def test_block_and_scalar_kernels_agree():
     chain = ref.with_limits(ref.shipped("ur5"), -2.5, 3.0)
     solver = ThreeParallel(chain)
     assert solver.kernel is solve_common_parallel
-    Ts = ref.forward(chain, ref.draw(chain, 1000, 8))
+    Ts, apart = ref.forward(chain, ref.draw(chain, 1000, 8)), []
     for within_limits in (False, True):
         fast = ref.solve(chain, Ts, within_limits, solver)
         solver.kernel = solve_three_parallel
@@ -110,7 +112,8 @@ def test_block_and_scalar_kernels_agree():
         for i in range(len(Ts)):
             a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
             assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
-            assert np.allclose(fast.of(i)[0][a], slow.of(i)[0][b], atol=1e-8, rtol=0)
+            apart.append(np.abs(fast.of(i)[0][a] - slow.of(i)[0][b]))
+    assert_margin(np.concatenate(apart), 1e-8)
 
 
 def test_ur5_home_has_its_solution():
@@ -119,8 +122,8 @@ def test_ur5_home_has_its_solution():
     home = np.array([0, -90, 0, -90, 0, 0]) * DEG
     T = ref.forward(chain, home)
     q, residual, _, free = ref.solve(chain, T[None]).of(0)
-    assert residual.max() <= 1e-12
-    assert ref.gaps(chain, q, home).min() <= 1e-6
+    assert_margin(residual, RESIDUAL, 1000)
+    assert_margin(ref.gaps(chain, q, home).min(), GAP)
     assert free[ref.gaps(chain, q, home).argmin()] == 0b101110
 
 
@@ -130,10 +133,10 @@ def test_ur5_with_a_straight_elbow_has_it_once():
     q = np.array([0.3, -1.0, 0.0, 0.4, 0.5, 0.6])
     T = ref.forward(chain, q)
     solutions, residual, _, _ = ref.solve(chain, T[None]).of(0)
-    assert residual.max() <= 1e-12
-    assert (ref.gaps(chain, solutions, q) < 1e-6).sum() == 1
+    assert_margin(residual, RESIDUAL, 1000)
+    assert (ref.gaps(chain, solutions, q) < 0.1 * GAP).sum() == 1
     for other in ref.search(chain, T, 3, starts=1500):
-        assert ref.gaps(chain, solutions, other).min() < 1e-4
+        assert_margin(ref.gaps(chain, solutions, other).min(), 1e-4)
 
 
 def test_ur5_wrist_in_line_names_the_free_joints():
@@ -145,13 +148,13 @@ def test_ur5_wrist_in_line_names_the_free_joints():
         q[4] = 0.0
         T = ref.forward(chain, q)
         solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
-        assert residual.max() <= 1e-12
+        assert_margin(residual, RESIDUAL, 1000)
         here = np.abs(np.sin((solutions[:, [0, 4]] - q[[0, 4]]) / 2)).max(axis=1) < 1e-7
         assert here.any()
         for k in range(len(solutions)):
             assert free[k] == (0b101110 if here[k] else 0)
             if here[k] and abs(math.sin(solutions[k, 2])) > 1e-3:
-                ref.check_family(chain, solutions[k], T, 0b101110)
+                checks.check_family(chain, solutions[k], T, 0b101110)
 
 
 def test_over_axis_1_every_joint_is_free():
@@ -166,10 +169,10 @@ def test_over_axis_1_every_joint_is_free():
         T = form.base @ D @ form.tool
         solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
         assert len(solutions) == 4
-        assert residual.max() <= 1e-12
+        assert_margin(residual, RESIDUAL, 1000)
         for q, mask in zip(solutions, free, strict=True):
             assert mask == 0b111111
-            ref.check_family(chain, q, T, mask)
+            checks.check_family(chain, q, T, mask)
 
 
 @pytest.mark.parametrize("joint", [3, 5])
@@ -178,18 +181,9 @@ def test_every_distance_from_a_singularity(name, joint):
     """Poses 1e-1 to 1e-12 from a straight elbow or wrist keep the generating configuration."""
     chain = ref.shipped(name)
     rows = ThreeParallel(chain).form.rows
+    edge = -rows[joint - 1, 6] * rows[joint - 1, 4]
     rng = np.random.default_rng(11)
-    for power in range(1, 13):
-        edge = -rows[joint - 1, 6] * rows[joint - 1, 4]
-        q = ref.near_one_singularity(chain, joint - 1, edge, rng)
-        q[joint - 1] += 10.0**-power
-        T = ref.forward(chain, q)
-        solutions, residual, _, free = ref.solve(chain, T[None]).of(0)
-        assert residual.max() <= 1e-12
-        away = np.abs(np.sin((solutions - q) / 2)) * 2
-        for i in range(6):
-            away[:, i] *= (free >> i & 1) == 0
-        assert away.max(axis=1).min() <= 1e-6
+    checks.check_distances_from_a_singularity(chain, joint - 1, edge, rng)
 
 
 def test_beyond_the_rims_there_is_nothing():
@@ -213,7 +207,7 @@ def test_beyond_the_rims_there_is_nothing():
         found, residual, _, _ = ref.solve(chain, moved[None]).of(0)
         near = np.abs(np.sin((found[:, [0, 4, 5]] - q[[0, 4, 5]]) / 2)).max(axis=1) < 1e-3
         assert near.sum() == expected
-        assert residual.max() <= 1e-9
+        assert_margin(residual, RESIDUAL, 5)  # what is 1e-10 beyond stays off by that
 
 
 def test_obstacles_say_what_is_in_the_way():

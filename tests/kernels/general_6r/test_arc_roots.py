@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from margins import assert_margin
 from numba import njit
 
 from dh2urdf.kernels.general_6r.arc_roots import (
@@ -26,7 +27,7 @@ CIRCLE = 2 * math.pi * np.arange(24) / 24
 def product(q, roots):
     """``prod sin((q - r) / 2)`` over sixteen roots, complex ones in pairs: degree 8."""
     values = np.prod([np.sin((q - r) / 2) for r in roots], axis=0)
-    assert np.abs(np.imag(values)).max() < 1e-12
+    assert_margin(np.imag(values), 1e-12)
     return np.real(values)
 
 
@@ -79,31 +80,36 @@ def found_roots(roots):
     """Roots and slopes that the arcs of the whole circle give."""
     q, slopes = np.zeros(24), np.zeros(24)
     count, noise, largest = roots_around(product(CIRCLE, roots), q, slopes)
-    assert noise < 1e-14 * largest
+    # The noise is the rounding of sixteen factors and of their sum, half of this: no ten times.
+    assert_margin(noise, 1e-14 * largest, 1)
     return np.mod(q[:count], 2 * math.pi), slopes[:count]
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_sixteen_real_roots_are_found(seed):
-    """Sixteen random real roots, at least 0.01 rad apart, are all found to 1e-6, and no other."""
-    rng = np.random.default_rng(seed)
-    roots = np.cumsum(rng.uniform(0.02, 1.0, 16))
-    roots *= 6.2 / roots[-1]
-    q, slopes = found_roots(roots)
-    assert len(q) == 16
-    assert (slopes > 0).all()
-    np.testing.assert_allclose(np.sort(q), np.sort(np.mod(roots, 2 * math.pi)), atol=1e-6)
+def test_sixteen_real_roots_are_found():
+    """Of 400 draws sixteen real roots, at least 0.01 rad apart, are all found, and no other."""
+    away = np.empty((400, 16))
+    for seed, row in enumerate(away):
+        roots = np.cumsum(np.random.default_rng(seed).uniform(0.02, 1.0, 16))
+        roots *= 6.2 / roots[-1]
+        q, slopes = found_roots(roots)
+        assert len(q) == 16
+        assert (slopes > 0).all()
+        row[:] = np.sort(q) - np.sort(np.mod(roots, 2 * math.pi))
+    assert_margin(np.abs(away), 1e-6)
 
 
-@pytest.mark.parametrize("seed", range(20))
-def test_complex_roots_are_not_reported(seed):
+def test_complex_roots_are_not_reported():
     """Six real roots among ten complex ones, 0.1 or more from the axis, are found alone."""
-    rng = np.random.default_rng(seed)
-    real = np.sort(rng.uniform(0, 2 * math.pi, 6))
-    pairs = rng.uniform(0, 2 * math.pi, 5) + 1j * rng.uniform(0.1, 1.0, 5)
-    q, slopes = found_roots([*real, *pairs, *pairs.conj()])
-    np.testing.assert_allclose(np.sort(q[slopes > 0]), real, atol=1e-6)
-    assert (slopes > 0).all()
+    away = np.empty((400, 6))
+    for seed, row in enumerate(away):
+        rng = np.random.default_rng(seed)
+        real = np.sort(rng.uniform(0, 2 * math.pi, 6))
+        pairs = rng.uniform(0, 2 * math.pi, 5) + 1j * rng.uniform(0.1, 1.0, 5)
+        q, slopes = found_roots([*real, *pairs, *pairs.conj()])
+        assert len(q) == 6
+        assert (slopes > 0).all()
+        row[:] = np.sort(q) - real
+    assert_margin(np.abs(away), 1e-6)
 
 
 @pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4, 1e-5])
@@ -115,8 +121,8 @@ def test_close_roots_are_told_apart(gap, place):
     close = [place - gap / 2, place + gap / 2]
     q, slopes = found_roots([*others, *close, *pairs, *np.conj(pairs)])
     near = np.sort(q[np.abs(q - place) < 0.02])
-    np.testing.assert_allclose(near, close, atol=0.05 * gap)
     assert len(q) == 8
+    assert_margin(np.abs(near - close), 0.05 * gap)
     assert (slopes > 0).all()
 
 
@@ -128,7 +134,7 @@ def test_complex_pairs_near_the_axis_count_as_double_roots(imaginary, place):
     pairs = [place + 1j * imaginary, 2.5 + 0.4j, 3.6 + 0.7j, 4.4 + 0.3j, 5.9 + 1.0j]
     q, slopes = found_roots([*others, *pairs, *np.conj(pairs)])
     assert (slopes > 0).sum() + 2 * (slopes == 0).sum() >= 8
-    assert np.abs(q - place).min() < 1e-2
+    assert_margin(np.abs(q - place).min(), 1e-2)
 
 
 def test_a_window_gives_the_same_polynomial():
@@ -139,5 +145,5 @@ def test_a_window_gives_the_same_polynomial():
     arcs, noise = arc_of(product(np.arctan2(s, c), roots), half_tan)
     ends = middle + 2 * np.arctan(np.array([-half_tan, half_tan]))
     expected = product(ends, roots) * (1 + half_tan**2) ** 8
-    np.testing.assert_allclose(arcs[[0, TERMS - 1], 0], expected, rtol=1e-9)
-    assert noise < 1e-12 * np.abs(arcs).max()
+    assert_margin(np.abs(arcs[[0, TERMS - 1], 0] / expected - 1.0), 1e-9)
+    assert_margin(noise, 1e-12 * np.abs(arcs).max())

@@ -7,8 +7,7 @@ the elimination, so that the general solver meets double roots at every pose.
 from __future__ import annotations
 
 import pytest
-from ik_referee import draw, forward, gaps, search, shipped, solve
-from test_ik_general import CLOSED_FORMS, regularity
+from ik_referee import CLOSED_FORMS, GAP, draw, forward, gaps, regularity, search, shipped, solve
 
 from dh2urdf.ik.families.general_6r import General6R
 
@@ -20,7 +19,7 @@ def missing(chain, q, found):
     """Which of the solutions q (k, n) are not among those found (j, n)."""
     if not len(found):
         return q
-    return q[gaps(chain, q[:, None], found[None]).min(axis=1) > 1e-6]
+    return q[gaps(chain, q[:, None], found[None]).min(axis=1) > 0.1 * GAP]
 
 
 def lost_by_elimination(name, poses, seed, starts):
