@@ -27,6 +27,8 @@ from dh2urdf.kernels.spherical_wrist import (
     VALID,
     WORK,
     at,
+    column,
+    dot,
     emit,
     load_poses,
     measure,
@@ -68,10 +70,9 @@ def _shoulders(form, slack, n, S):
             inverse = 1.0 / max(square, 1e-30)
             c, s = (a * d - b * t) * inverse, (b * d + a * t) * inverse
             exists = 1.0 if gap > 0.0 else 0.0
-            kx, ky = sa1 * s, -sa1 * c
-            rx = kx * S[i] + ky * S[BLOCK * 3 + i] + ca1 * S[BLOCK * 6 + i]
-            ry = kx * S[BLOCK + i] + ky * S[BLOCK * 4 + i] + ca1 * S[BLOCK * 7 + i]
-            rz = kx * S[BLOCK * 2 + i] + ky * S[BLOCK * 5 + i] + ca1 * S[BLOCK * 8 + i]
+            k = sa1 * s, -sa1 * c, ca1
+            rx, ry = dot(k, column(S, i, BLOCK * 3)), dot(k, column(S, BLOCK + i, BLOCK * 3))
+            rz = dot(k, column(S, BLOCK * 2 + i, BLOCK * 3))
             s5 = math.sqrt(rx * rx + ry * ry)
             c5 = -rz * sa4 * sa5
             inverse = sa4 / max(s5, 1e-30)
@@ -101,17 +102,12 @@ def _planes(form, n, S):
             c5, s5 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
             c6, s6 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
             x, y, z = c5 * a4, sa5 * d5, sa5 * s5 * a4
-            x, y = c6 * x + s6 * y, c6 * y - s6 * x
-            u, v, w = c6 * c5, -s6 * c5, sa5 * s5
-            r0, r1, r2 = S[i], S[BLOCK + i], S[BLOCK * 2 + i]
-            p0 = S[BLOCK * 9 + i] - r0 * x - r1 * y - r2 * z
-            h0 = r0 * u + r1 * v + r2 * w
-            r0, r1, r2 = S[BLOCK * 3 + i], S[BLOCK * 4 + i], S[BLOCK * 5 + i]
-            p1 = S[BLOCK * 10 + i] - r0 * x - r1 * y - r2 * z
-            h1 = r0 * u + r1 * v + r2 * w
-            r0, r1, r2 = S[BLOCK * 6 + i], S[BLOCK * 7 + i], S[BLOCK * 8 + i]
-            p2 = S[BLOCK * 11 + i] - r0 * x - r1 * y - r2 * z
-            h2 = r0 * u + r1 * v + r2 * w
+            lever, slope = (c6 * x + s6 * y, c6 * y - s6 * x, z), (c6 * c5, -s6 * c5, sa5 * s5)
+            r0, r1 = column(S, i, BLOCK), column(S, BLOCK * 3 + i, BLOCK)
+            r2 = column(S, BLOCK * 6 + i, BLOCK)
+            p0, h0 = S[BLOCK * 9 + i] - dot(r0, lever), dot(r0, slope)
+            p1, h1 = S[BLOCK * 10 + i] - dot(r1, lever), dot(r1, slope)
+            p2, h2 = S[BLOCK * 11 + i] - dot(r2, lever), dot(r2, slope)
             S[rows + i] = c1 * p0 + s1 * p1 - a1
             S[rows + BLOCK + i] = ca1 * (c1 * p1 - s1 * p0) + sa1 * p2
             S[rows + BLOCK * 2 + i] = c1 * h0 + s1 * h1

@@ -157,19 +157,13 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
         x, y, z = turned_and_tilted(S[t4 + i], S[TURN + t4 + i], ca4, sa4, x, y, z)
         p = stepped(p, a4, x, d5, z)
         x, y, z = turned_and_tilted(S[t5 + i], S[TURN + t5 + i], ca5, sa5, x, y, z)
-        p0, p1, p2 = p[0] + a5 * x[0], p[1] + a5 * x[1], p[2] + a5 * x[2]
-        c, s = S[t6 + i], S[TURN + t6 + i]
-        x0, x1, x2 = c * x[0] + s * y[0], c * x[1] + s * y[1], c * x[2] + s * y[2]
-        y0, y1, y2 = c * y[0] - s * x[0], c * y[1] - s * x[1], c * y[2] - s * x[2]
-        x0, x1, x2 = x0 - S[i], x1 - S[BLOCK * 3 + i], x2 - S[BLOCK * 6 + i]
-        y0, y1, y2 = y0 - S[BLOCK + i], y1 - S[BLOCK * 4 + i], y2 - S[BLOCK * 7 + i]
-        z0, z1, z2 = z[0] - S[BLOCK * 2 + i], z[1] - S[BLOCK * 5 + i], z[2] - S[BLOCK * 8 + i]
-        p0 += u * x0 + v * y0 + w * z0 - S[BLOCK * 9 + i]
-        p1 += u * x1 + v * y1 + w * z1 - S[BLOCK * 10 + i]
-        p2 += u * x2 + v * y2 + w * z2 - S[BLOCK * 11 + i]
-        turn = x0 * x0 + x1 * x1 + x2 * x2 + y0 * y0 + y1 * y1 + y2 * y2
-        turn += z0 * z0 + z1 * z1 + z2 * z2
-        error = math.sqrt(max(p0 * p0 + p1 * p1 + p2 * p2, 0.5 * turn))
+        e, f = turned(S[t6 + i], S[TURN + t6 + i], x, y)
+        e, f = minus(e, column(S, i, BLOCK * 3)), minus(f, column(S, BLOCK + i, BLOCK * 3))
+        g = minus(z, column(S, BLOCK * 2 + i, BLOCK * 3))
+        p = minus(stepped(p, a5, x, w, g), column(S, BLOCK * 9 + i, BLOCK))
+        p = stepped(p, u, e, v, f)
+        turn = dot(e, e) + dot(f, f) + dot(g, g)
+        error = math.sqrt(max(dot(p, p), 0.5 * turn))
         S[result + i] = error
         exists = S[valid + i] > 0.0
         rounding = error <= POLISH
