@@ -127,12 +127,22 @@ def _two_turns(form, Y, V, free, slack, pairs):
         j = i if form[1, 5] != 0.0 else 2
         M[i, 0], M[i, 1], N[i, 0], N[i, 1], d[i] = C[j], S[j], -E[j], -F[j], m[j] - k[j]
     if form[1, 5] == 0.0:
-        M[1, 0], M[1, 1] = 2.0 * dot(k, C), 2.0 * dot(k, S)
-        N[1, 0], N[1, 1] = -2.0 * dot(m, E), -2.0 * dot(m, F)
+        # k.C, k.S, m.E and m.F without what cancels in them, so that what vanishes is 0
+        d2 = form[1, 3]
+        M[1, 0], M[1, 1] = 2.0 * k[0] * C[0], 2.0 * k[0] * S[0]
+        N[1, 0] = -2.0 * (m[0] * E[0] + d2 * E[2])
+        N[1, 1] = -2.0 * (m[0] * F[0] + d2 * F[2])
         d[1] = dot(m, m) + dot(E, E) - dot(k, k) - dot(C, C)
     if free:
         return elbow_on_axis(N, d, form[0, 4], slack, pairs)
-    return circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
+    if form[1, 5] == 0.0:
+        return circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
+    # joint 3 first: where the slide is square to axis 1, one equation is its alone
+    count = circle_pair(N, M, d, slack, np.empty((3, 5)), pairs)
+    for k in range(count):
+        e, f = pairs[k, 0], pairs[k, 1]
+        pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], pairs[k, 3], e, f
+    return count
 
 
 @inner_kernel
