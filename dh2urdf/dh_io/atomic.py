@@ -53,7 +53,9 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
         raise OutputError(f"{shown(where)}: cannot write {sign!r} as UTF-8") from None
     try:
         target = Path(os.path.realpath(where))
-        mode = _mode(where)
+        mode = None
+        with contextlib.suppress(FileNotFoundError):
+            mode = where.stat().st_mode
         if mode is not None and stat.S_ISDIR(mode):
             raise IsADirectoryError(errno.EISDIR, "")
         if mode is not None and not stat.S_ISREG(mode):
@@ -81,14 +83,6 @@ def refuse_foreign(path: Path, *marks: str) -> None:
             f"{shown(path)}: exists and was not written by dh2urdf; --force (force=True) "
             "replaces it"
         )
-
-
-def _mode(target: Path) -> int | None:
-    """Kind and permissions of what stands at the path, None where nothing does."""
-    try:
-        return target.stat().st_mode
-    except FileNotFoundError:
-        return None
 
 
 def _replace(target: Path, data: bytes, mode: int | None) -> None:

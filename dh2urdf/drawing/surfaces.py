@@ -89,16 +89,12 @@ def _by_material(bodies: list[Body]) -> list[Surface]:
 
 def merged(surfaces: list[Surface]) -> Surface:
     """Several surfaces as one, in the colour of the first."""
-    offsets = np.cumsum([0, *[len(s.vertices) for s in surfaces[:-1]]])
-    faces = [s.faces + np.uint32(at) for s, at in zip(surfaces, offsets, strict=True)]
+    offsets = np.cumsum([0, *[len(s.vertices) for s in surfaces[:-1]]]).tolist()
+    placed = list(zip(surfaces, offsets, strict=True))
     vertices = np.concatenate([s.vertices for s in surfaces])
-    ends = [
-        int(at) + end
-        for s, at in zip(surfaces, offsets, strict=True)
-        for end in (s.solids or (len(s.vertices),))
-    ]
-    triangles = np.concatenate(faces).astype(np.uint32)
-    return Surface(vertices, triangles, surfaces[0].colour, tuple(ends))
+    faces = np.concatenate([s.faces + np.uint32(at) for s, at in placed])
+    ends = [at + end for s, at in placed for end in s.solids or (len(s.vertices),)]
+    return Surface(vertices, faces, surfaces[0].colour, tuple(ends))
 
 
 def body_surface(body: Body, colour: tuple[int, int, int]) -> Surface:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from typing import Literal
 
 import numpy as np
@@ -124,10 +125,10 @@ class _ArmPicture:
 
     def _lay_out(self, dh_frames: Array) -> None:
         """Choose scale and sheet so that the arm fills its panel."""
-        points = [*outlines(self.parts, self.view)]
-        points += [o for parts in self.ghost_parts for o in outlines(parts, self.view)]
         if self.style == "schematic":
             points = [schematic_points(self.arm, self.q, self.view)]
+        else:
+            points = outlines(chain(self.parts, *self.ghost_parts), self.view)
         flat = np.concatenate([*points, *self.floor])
         side = float(np.ptp(flat, axis=0).max())
         self.arrow = ARROW * side

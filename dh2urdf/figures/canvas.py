@@ -50,16 +50,8 @@ class Canvas:
         """Fill a polygon (m, 2); its outline has round corners."""
         from matplotlib.patches import Polygon
 
-        patch = Polygon(
-            points,
-            closed=True,
-            facecolor=face,
-            edgecolor=edge,
-            linewidth=width,
-            alpha=alpha,
-            joinstyle="round",
-            zorder=self._next(),
-        )
+        style: Any = {"facecolor": face, "edgecolor": edge, "linewidth": width, "alpha": alpha}
+        patch = Polygon(points, closed=True, joinstyle="round", zorder=self._next(), **style)
         self.axes.add_patch(patch)
         if self._clip is not None:
             patch.set_clip_path(self._clip, self.axes.transData)

@@ -28,6 +28,8 @@ END_ON = 0.22
 SAME = 1e-6
 """Arrows closer than this share of the arm's size are one arrow with two names."""
 
+LEADER = 13.0
+"""Gap [pt] between a label and its anchor from which a thin line joins them."""
 
 OUTLINE = 0.16
 """How much a body's outline minds being covered by a label, against 1 for an arrow."""
@@ -179,7 +181,3 @@ class DHMarks:
                 self.canvas.line(np.stack([edge, label.anchor]), mix(colour, 0.55), 0.7)
         for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
             self.canvas.label(centre, label.text, LABEL, colour)
-
-
-LEADER = 13.0
-"""Gap [pt] between a label and its anchor from which a thin line joins them."""

@@ -47,8 +47,8 @@ class DHPanel:
         j = "{i-1}" if table.convention is DHConvention.MODIFIED else "i"
         m = r"\,/\,\mathrm{m}"
         signs = ("$i$", r"$\theta_i$", f"$d_i{m}$", f"$a_{j}{m}$", rf"$\alpha_{j}$")
-        pairs = zip(KEYS, signs, strict=True)
-        self.header = [Cell(sign, QUANTITY.get(key, INK)) for key, sign in pairs]
+        colours = (QUANTITY.get(key, INK) for key in KEYS)
+        self.header = list(map(Cell, signs, colours))
         self.title = f"{plain(table.name)}, {table.convention} DH"
         ends = {"frame 0 in base": table.base, "tool in the last frame": table.tool}
         notes = [f"{k}: {step(T)}" for k, T in ends.items() if not T.is_identity] + notes

@@ -184,10 +184,8 @@ def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
     header = ["#", *(f"{name} [{unit}]" for name, unit in zip(arm.joint_names, units, strict=True))]
     rows = []
     outside = _outside(arm, found.q)
-    remarks = zip(found.branch, found.free_joints, outside, strict=True)
-    for i, (q, residual, (branch, free, over)) in enumerate(
-        zip(found.q, found.verify(), remarks, strict=True)
-    ):
+    lines = zip(found.q, found.verify(), found.branch, found.free_joints, outside, strict=True)
+    for i, (q, residual, branch, free, over) in enumerate(lines, 1):
         cells = [_shown(v, slides=s, deg=deg) for v, s in zip(q, slides, strict=True)]
         parts = [branch] if branch else []
         if free:
@@ -197,7 +195,7 @@ def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
             for j in np.flatnonzero(over)
         ]
         parts += [f"outside limits: {', '.join(far)}"] if far else []
-        rows.append([str(i + 1), *cells, f"{residual:.1e}", "; ".join(parts)])
+        rows.append([str(i), *cells, f"{residual:.1e}", "; ".join(parts)])
     return grid_text([*header, "residual", "branch"], rows, left={len(header) + 1})
 
 

@@ -194,16 +194,9 @@ def _annulus(axes: Any, bar: Any, arm: PlanarArm, within_limits: bool) -> None:
         kept = [arm.inside(arm.shoulder(x, y, s * flat), s * flat) for s in (1.0, -1.0)]
         reached &= kept[0] | kept[1]
     shown = np.where(reached, np.abs(np.sin(bend)), np.nan)
-    extent = (line[0], line[-1], line[0], line[-1])
-    image = axes.imshow(
-        shown,
-        extent=extent,
-        origin="lower",
-        cmap="cividis",
-        vmin=0,
-        vmax=1,
-        interpolation="bilinear",
-    )
+    place = {"extent": (line[0], line[-1], line[0], line[-1]), "origin": "lower"}
+    colours = {"cmap": "cividis", "vmin": 0, "vmax": 1, "interpolation": "bilinear"}
+    image = axes.imshow(shown, **place, **colours)
     for radius, colour in ((reach, RIM), (hole, FOLDED)):
         if radius > 1e-9:
             axes.add_patch(Circle((0, 0), radius, fill=False, edgecolor=colour, lw=2.0))

@@ -6,7 +6,7 @@ import textwrap
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.drawing.arm import zero_configuration
 from dh2urdf.exceptions import Dh2UrdfError
@@ -109,10 +109,8 @@ def _counts(axes: Any, bar: Any, grid: Section, counts: Counts, task: Task, R: A
     mesh = axes.pcolormesh(grid.u, grid.v, index, cmap=colours, norm=norm, rasterized=True)
     for number in numbers[1:]:
         axes.contour(grid.u, grid.v, counts >= number, levels=[0.5], colors="white", linewidths=1.2)
-    drawn = axes.figure.colorbar(mesh, cax=bar, ticks=np.arange(len(numbers)))
-    drawn.ax.set_yticklabels([str(n) for n in numbers])
+    drawn = _key(mesh, bar, np.arange(len(numbers)), [str(n) for n in numbers])
     drawn.ax.tick_params(length=0, which="both")
-    drawn.outline.set_visible(False)
     axes.set_title(f"IK branches, {_turned(task, R)}", weight="bold", size=11, loc="left")
 
 
@@ -135,12 +133,19 @@ def _shares(axes: Any, bar: Any, grid: Section, share: Array, tried: int, task: 
     if len(reached) and np.mean(reached < LEVELS[-1]) > GRADUAL:
         lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
         axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
-    drawn = axes.figure.colorbar(filled, cax=bar, ticks=[SEEN, 0.25, 0.5, 0.75, 1.0])
-    drawn.ax.set_yticklabels([f"{100 * SEEN:g}", "25", "50", "75", "100"])
+    shown = [SEEN, 0.25, 0.5, 0.75, 1.0]
+    drawn = _key(filled, bar, shown, [f"{100 * share:g}" for share in shown])
     drawn.set_label("orientations reached / %")
-    drawn.outline.set_visible(False)
     what = "turns" if task.sides == "turns" else "uniform rotations"
     axes.set_title(f"Dexterity ({tried} {what})", weight="bold", size=11, loc="left")
+
+
+def _key(drawn: Any, bar: Any, ticks: ArrayLike, names: list[str]) -> Any:
+    """What the colours mean."""
+    key = bar.figure.colorbar(drawn, cax=bar, ticks=ticks)
+    key.ax.set_yticklabels(names)
+    key.outline.set_visible(False)
+    return key
 
 
 def _silhouette(axes: Any, robot: Robot, grid: Section, R: Array, within_limits: bool) -> None:
