@@ -7,7 +7,7 @@ import numpy as np
 from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose, turn_inside
 from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family
 from dh2urdf.kernels.certificate.merging import merge_solutions
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import inlined_kernel, kernel
 
 __all__ = ["ALL_MEMBERS", "finish_batch", "finish_families"]
 
@@ -15,15 +15,14 @@ ALL_MEMBERS = np.empty(0)
 """In the place of rest values: all members of a family stay."""
 
 
-@inner_kernel
-def finish_families(
-    links, joints, T, rest, within_limits, q, residual, branch, free, count, trial, work
-):
-    """:func:`.certify.finish_pose` of candidates whose free joints are yet to be found.
+@inlined_kernel
+def finish_families(links, joints, T, rest, within_limits, rows, count, trial, work):
+    """Solutions of :func:`.certify.finish_pose` without limits, merged, with their free joints.
 
-    Of each family the member at the rest values (n,) stays. ``trial`` (2, n) is scratch.
+    ``rows`` are q, residual, branch, free. Of each family the member at the rest values (n,) stays.
+    ``trial`` (2, n) is scratch.
     """
-    count = finish_pose(links, joints, T, ANYWHERE, q, residual, branch, free, count, work)
+    q, residual, branch, free = rows
     count = merge_solutions(links, joints, T, q, residual, branch, free, count, trial, work)
     for k in range(count):
         free[k] = free_joints(links, joints, T, q[k], trial[0], work)
@@ -53,6 +52,7 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
         for k in range(count[i]):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         rows = q[i], residual[i], branch[i], free[i]
+        found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, count[i], work)
         count[i] = finish_families(
-            links, joints, Ts[i], ALL_MEMBERS, within_limits, *rows, count[i], trial, work
+            links, joints, Ts[i], ALL_MEMBERS, within_limits, rows, found, trial, work
         )

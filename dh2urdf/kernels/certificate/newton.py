@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.kernels.chain import jacobian_rows, joint_times_link, load_pose
+from dh2urdf.kernels.chain import joint_times_link, load_pose
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
 __all__ = [
@@ -107,15 +107,29 @@ def pose_residual(links, joints, T, q):
 def normal_equations(links, joints, T, q, work):
     """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
 
-    J is that of :func:`dh2urdf.kernels.chain.jacobian_rows`. Written to ``work[:, 8:]`` (lower
-    triangle) and ``work[:, 6]``.
+    J is the geometric Jacobian at the tip in base axes (Spong, eqs. 4.57 to 4.60). Written to
+    ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
     """
-    r = jacobian_rows(links, joints[:, 0], q, work)
+    n = q.shape[0]
+    r = load_pose(links[0])
+    for i in range(n):
+        work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
+        work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     px, py, pz = way_between(r, T)
     ex, ey, ez = 0.0, 0.0, 0.0
     if T.ndim == 2:
         ex, ey, ez, _ = turn_between(r, T)
-    for i in range(q.shape[0]):
+    for i in range(n):
+        zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
+        if joints[i, 0] != 0.0:
+            work[i, 0], work[i, 1], work[i, 2] = zx, zy, zz
+            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
+        else:
+            x, y, z = r[3] - work[i, 0], r[7] - work[i, 1], r[11] - work[i, 2]
+            work[i, 0] = zy * z - zz * y
+            work[i, 1] = zz * x - zx * z
+            work[i, 2] = zx * y - zy * x
         work[i, 6] = (
             work[i, 0] * px
             + work[i, 1] * py

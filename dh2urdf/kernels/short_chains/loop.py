@@ -41,7 +41,9 @@ def _pair_columns(loop, joints, first, second, out):
 
     Joint -1 is absent: its rows are not written.
     """
-    out[0], out[0, 0] = 0.0, 1.0
+    out[0, 0] = 1.0
+    for i in range(1, 8):
+        out[0, i] = 0.0
     if first >= 0:
         dual_times_joint(out[0], joints[first, 0] != 0.0, out[2])
         dual_product(out[0], loop[first], out[0])

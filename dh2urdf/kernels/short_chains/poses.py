@@ -70,7 +70,8 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
             break
         null_basis(M, size, order, nullity, raw)
         for k in range(nullity):
-            basis[k] = 0.0
+            for i in range(8):
+                basis[k, i] = 0.0
             for i in range(size):
                 basis[k, used[i]] = raw[k, i]
         count = add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count)
@@ -87,14 +88,21 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     """
     columns = scratch[17:29]
     loop_columns(loop, joints, shape, columns)
-    x, y, found, doubt = shape[2], 0.0, 1, False
-    if x >= 0:
-        determinant_series(columns, used, scratch[0:8], order, roots[0])
-        doubt = vanishes(roots[0], ZERO)
+    x = shape[2]
+    if x < 0:
+        count, nullity = _from_matrix(
+            columns, shape, used, joints, (1.0, 0.0), rest, unit, scratch, order, q, count
+        )
+        return count, nullity > shape[7]
+    series = roots[0]
+    determinant_series(columns, used, scratch[0:8], order, series)
+    doubt = vanishes(series, ZERO)
+    if doubt:
         y = 2.0 * math.atan(0.5 * rest[x] / unit) if joints[x, 0] != 0.0 else rest[x]
-    roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
-    if x >= 0 and not doubt:
-        found = trig_roots(roots[0], 2, roots[1], roots[2])
+        roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
+        found = 1
+    else:
+        found = trig_roots(series, 2, roots[1], roots[2])
     for k in range(found):
         half = 0.5 * math.atan2(roots[2, k], roots[1, k])
         here = (math.cos(half), math.sin(half))
@@ -145,9 +153,10 @@ def solve_short_chains(
             found, doubt = _candidates(
                 loop, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )
-            many_residual[before:found], many_free[before:found] = -1.0, 0
+            for k in range(before, found):
+                many_residual[k], many_free[k] = -1.0, 0
             found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
             if not doubt:
                 break
-        found = finish_families(links, joints, T, rest, within_limits, *many, found, trial, work)
+        found = finish_families(links, joints, T, rest, within_limits, many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

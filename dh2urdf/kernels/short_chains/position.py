@@ -17,7 +17,14 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ALL_MEMBERS, copy_rows, finish_families, work_array
+from dh2urdf.kernels.certificate import (
+    ALL_MEMBERS,
+    ANYWHERE,
+    copy_rows,
+    finish_families,
+    finish_pose,
+    work_array,
+)
 from dh2urdf.kernels.chain import applied, applied_inverse
 from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
@@ -256,7 +263,8 @@ def solve_short_positions(
         p = Ts[i, :3, 3]
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
         many[1][:found], many[3][:found] = -1.0, 0
+        found = finish_pose(links, joints, p, ANYWHERE, *many, found, work)
         found = finish_families(
-            links, joints, p, ALL_MEMBERS, within_limits, *many, found, trial, work
+            links, joints, p, ALL_MEMBERS, within_limits, many, found, trial, work
         )
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import finish_families, work_array
+from dh2urdf.kernels.certificate import ANYWHERE, finish_families, finish_pose, work_array
 from dh2urdf.kernels.chain import inverse_pose, joint_times_link, load_pose, store_pose, times_link
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
@@ -167,4 +167,5 @@ def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, coun
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
         found = _candidates(links, joints, T, q[i], turning, scratch)
         residual[i, :found], branch[i, :found], free[i, :found] = -1.0, -1, 0
-        count[i] = finish_families(links, joints, T, rest, within_limits, *rows, found, trial, work)
+        found = finish_pose(links, joints, T, ANYWHERE, *rows, found, work)
+        count[i] = finish_families(links, joints, T, rest, within_limits, rows, found, trial, work)
