@@ -27,6 +27,7 @@ __all__ = [
     "ROBOT_BYTES",
     "ROWS",
     "SAMPLES",
+    "SNAP",
     "STARTS",
     "TABLE_BYTES",
     "TEXT_CHARACTERS",
@@ -60,6 +61,9 @@ ROWS = 500
 LINKS = 2_000
 """Links of a robot description, ten times a humanoid with both hands: Pinocchio's reader descends
 a level per link, and ends the process some thousand further on."""
+
+SNAP = 0.1
+"""Tolerance [rad and m] within which numbers are set right; a larger one would make another arm."""
 
 # Files
 

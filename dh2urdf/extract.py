@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from dh2urdf.conversions.assign import XRule
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.dh.motions import convention_of
+from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import pose_error
 
@@ -60,7 +61,7 @@ class Extraction:
     def explain(self) -> str:
         """The assignment like a worked solution, a paragraph a frame, then the table."""
         head = (
-            f"DH frames of {self.table.name} from {self.base} to {self.tip}, "
+            f"DH frames of {self.table.name} from {shown(self.base)} to {shown(self.tip)}, "
             f"{self.table.convention} convention."
         )
         steps = list(map(str, self.steps)) or [
@@ -72,7 +73,7 @@ class Extraction:
         lines = [str(self.table)]
         lines += [f"set right: {change}" for change in self.changes]
         largest = _largest(self.max_error, self.configurations)
-        lines.append(f"{self.base} to {self.tip}: {largest} (Pinocchio)")
+        lines.append(f"{shown(self.base)} to {shown(self.tip)}: {largest} (Pinocchio)")
         return "\n".join(lines)
 
 

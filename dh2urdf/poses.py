@@ -22,7 +22,7 @@ NEAR = 0.05
 NEAREST = "nearest=True, ik --nearest or transforms.nearest_rotation takes the nearest rotation"
 
 
-def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
+def check_pose(T: ArrayLike, *, what: str = "pose", rounded: bool = False) -> Array:
     """Return poses as a float array after checking that they are rigid.
 
     Parameters
@@ -31,6 +31,8 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
         Homogeneous matrices, rotation orthonormal within 1e-6.
     what : str
         Name of the argument in messages.
+    rounded : bool
+        The nearest rotations stand where there were any; messages say how far the others are.
 
     Raises
     ------
@@ -45,18 +47,18 @@ def check_pose(T: ArrayLike, *, what: str = "pose") -> Array:
     with np.errstate(all="ignore"):
         off = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-2, -1))
         worst = f"{off.max(initial=0.0):.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e}); {NEAREST}"
+        skewed = ~(off <= ORTHONORMAL_TOLERANCE)
         faults = {
             "NaN or infinity": ~np.isfinite(m).all(axis=(-2, -1)),
-            f"rotation part is not orthonormal, R^T R differs from 1 by {worst}": ~(
-                off <= ORTHONORMAL_TOLERANCE
-            ),
+            f"rotation part is not orthonormal, R^T R differs from 1 by {worst}": skewed,
             "rotation part is a reflection (determinant -1)": _determinant(R) < 0,
             "last row must be 0 0 0 1": (np.abs(m[..., 3, :] - np.eye(4)[3]) > 1e-12).any(axis=-1),
         }
     for fault, bad in faults.items():
         if bad.any():
             first = np.argwhere(bad)[0].tolist()
-            raise PoseError(f"{what}{first or ''}: {fault}")
+            far = _far(R[tuple(first)]) if rounded and bad is skewed else fault
+            raise PoseError(f"{what}{first or ''}: {far}")
     return m
 
 
@@ -90,7 +92,7 @@ def nearest_rotation(T: ArrayLike, *, what: str = "pose") -> tuple[Array, Array]
     if m.shape[-2:] != (4, 4):
         raise PoseError(f"{what}: expected shape (..., 4, 4) or (..., 3, 3), got {m.shape}")
     m, change = rounded_off(m)
-    check_pose(m, what=what)
+    check_pose(m, what=what, rounded=True)
     k = given.shape[-1]
     return m[..., :k, :k], change
 
@@ -105,6 +107,15 @@ def rounded_off(m: Array) -> tuple[Array, Array]:
     near = (moved <= NEAR) & (_determinant(U) * _determinant(Vt) > 0.0)
     poses[rows[near], :3, :3], change[rows[near]] = (U @ Vt)[near], moved[near]
     return m, change.reshape(m.shape[:-2])
+
+
+def _far(R: Array) -> str:
+    """How far a matrix (3, 3) is from the nearest rotation, in words."""
+    S = np.linalg.svd(R, compute_uv=False)
+    if _determinant(R) < 0:
+        S[-1] *= -1.0
+    away = np.abs(S - 1.0).max()
+    return f"rotation part is {away:.2g} away from the nearest rotation (allowed {NEAR:g})"
 
 
 def _determinant(R: Array) -> Array:

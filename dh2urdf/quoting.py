@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from itertools import groupby
 
-__all__ = ["latex", "markdown", "matlab", "one_line"]
+__all__ = ["XML_FORBIDDEN", "latex", "markdown", "matlab", "one_line"]
 
 _LATEX = {
     **{character: f"\\{character}" for character in "{}$&#%_"},
@@ -18,6 +18,10 @@ _LATEX = {
 }
 
 _MARKDOWN = re.compile(r"[\\`*<>&\[\]~$!:@]|(?<![^\W_])_|_(?![^\W_])")
+
+
+XML_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
+"""A character that no XML document holds, written out or by its number."""
 
 
 def one_line(text: str) -> str:

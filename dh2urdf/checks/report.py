@@ -5,6 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from dh2urdf.checks.findings import Effect, Finding
+from dh2urdf.dh_io.files import shown
 
 __all__ = ["Found"]
 
@@ -26,10 +27,11 @@ def _label(element: etree._Element) -> str:
     tag = etree.QName(element).localname
     name = element.get("name")
     if name is not None:
-        return f'<{tag} name="{name}">'
+        return f'<{tag} name="{shown(name)}">'
     owner = element.getparent()
     while owner is not None and owner.get("name") is None:
         owner = owner.getparent()
     if owner is None or owner.getparent() is None:
         return f"<{tag}>"
-    return f'<{tag}> of <{etree.QName(owner).localname} name="{owner.get("name")}">'
+    name = shown(owner.get("name"))
+    return f'<{tag}> of <{etree.QName(owner).localname} name="{name}">'

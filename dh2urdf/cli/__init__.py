@@ -14,6 +14,7 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 
+from dh2urdf.cli.notes import note
 from dh2urdf.exceptions import Dh2UrdfError, UnreachedError
 
 __all__ = ["main"]
@@ -48,7 +49,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     except Dh2UrdfError as error:
         if debug:
             raise
-        sys.stderr.write(f"dh2urdf: {error}\n")
+        note(f"dh2urdf: {error}")
         status = 1 if isinstance(error, UnreachedError) else 2
     except OSError as error:
         if debug:
@@ -57,7 +58,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     except BaseException as error:
         if not _is_interrupt(error):
             raise
-        sys.stderr.write("interrupted\n")
+        note("interrupted")
         status = 130
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
@@ -141,5 +142,5 @@ def _lost_output(error: OSError) -> int:
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
     if isinstance(error, BrokenPipeError):
         return 0
-    sys.stderr.write(f"dh2urdf: {error.filename or 'standard output'}: {error.strerror}\n")
+    note(f"dh2urdf: {error.filename or 'standard output'}: {error.strerror}")
     return 2

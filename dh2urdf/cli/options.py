@@ -6,6 +6,7 @@ A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, 
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -140,7 +141,7 @@ def whole(low: int, high: int) -> Parameter:
 
     def read(_: object, tokens: Sequence[Any]) -> int:
         cell = plain(tokens[0].value)
-        value = read_number(cell, "", Kind.NUMBER)
+        value = read_number(cell, "", Kind.NUMBER, bounds=(-math.inf, math.inf))
         if value.is_integer() and low <= value <= high:
             return int(value)
         raise ArgumentError(f"expected a whole number from {low} to {high}, got {found(cell)}")

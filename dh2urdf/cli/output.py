@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from dh2urdf.bounds import TABLE_BYTES
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import read_numbers
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Units
@@ -52,11 +53,6 @@ def emit_json(verb: str, **values: Any) -> None:
     data = {"schema": SCHEMA, "verb": verb, **values}
     spelt = "utf" not in (sys.stdout.encoding or "").lower()
     sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=spelt, indent=2) + "\n")
-
-
-def note(text: str) -> None:
-    """Anything that is not the result, on stderr."""
-    sys.stderr.write(text.rstrip("\n") + "\n")
 
 
 def _plain(value: Any) -> Any:

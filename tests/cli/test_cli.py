@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -11,6 +12,7 @@ from dh_product import dh_frames, difference
 
 import dh2urdf
 from dh2urdf.cli import main
+from dh2urdf.dh_io import Units
 
 RPR = """
 name: rpr
@@ -44,6 +46,48 @@ def test_convert_writes_a_verified_urdf(run, tmp_path):
     assert (status, "arm.urdf  largest difference" in out) == (0, True)
     assert "no limits in the table" in err
     assert dh2urdf.load_table(tmp_path / "arm.urdf").n == 3
+
+
+@pytest.mark.parametrize("suffix", ["yaml", "toml", "json", "csv", "md"])
+def test_a_table_that_we_wrote_is_written_over_and_an_edited_one_is_not(run, tmp_path, suffix):
+    """A file that is what we write of some table is ours; a comment of somebody makes it his."""
+    target = tmp_path / f"arm.{suffix}"
+    for table in ("planar_rr", "stanford", "stanford"):
+        assert run("convert", table, "-o", target)[0] == 0
+    table = dh2urdf.load_table("puma560")
+    dh2urdf.save_table(table, target, units=Units("mm", "deg"))
+    assert run("convert", "planar_rr", "-o", target)[0] == 0
+    for foreign in (target.read_text().replace(" 0,", " 0 ,", 1) + " \n", "not a table\n"):
+        target.write_text(foreign)
+        status, _, err = run("convert", "planar_rr", "-o", target)
+        assert (status, "was not written by dh2urdf" in err) == (2, True)
+        assert target.read_text() == foreign
+    assert run("convert", "planar_rr", "-o", target, "--force")[0] == 0
+
+
+def test_a_name_that_no_urdf_can_hold_is_told_with_its_place(run, tmp_path):
+    """The message of convert and fk has file, line and column of the name."""
+    (tmp_path / "arm.yaml").write_text(
+        RPR.replace("{theta: theta_1", '{name: "a\\x01", theta: theta_1')
+    )
+    for argv in (["convert", "arm.yaml"], ["fk", "arm.yaml", "0", "0", "0"]):
+        status, _, err = run(*argv)
+        assert status == 2
+        place = re.search(r"arm\.yaml:(\d+):(\d+): joints\[1\]\.name", err)
+        line = (tmp_path / "arm.yaml").read_text().splitlines()[int(place[1]) - 1]
+        assert line[int(place[2]) - 1 :].startswith('"a')
+
+
+def test_a_link_called_a_line_end_is_printed_in_one_line(run, tmp_path):
+    """fk, extract and check show the name as it is written."""
+    (tmp_path / "arm.urdf").write_text(
+        '<robot name="r"><link name="base"/><link name="&#10;"/><joint name="j" type="revolute">'
+        '<parent link="base"/><child link="&#10;"/><axis xyz="0 0 1"/>'
+        '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>'
+    )
+    assert run("fk", "arm.urdf", "0")[1].startswith("\\n in base:\n")
+    assert "base to \\n: largest FK difference" in run("extract", "arm.urdf")[1]
+    assert '<link name="\\n">' in run("check", "arm.urdf")[1]
 
 
 def test_convert_to_stdout_prints_only_the_urdf(run):

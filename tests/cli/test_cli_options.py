@@ -93,8 +93,8 @@ BEYOND = [
     (["workspace", "ur5", "-o", "x.png", "--points"], ["-1", "0", "1", "1e6", "2.5", "nan"]),
     (["workspace", "ur5", "-o", "x.png", "--orientations"], ["0", "-3", "100000000", "1.5", "inf"]),
     (["workspace", "ur5", "-o", "x.png", "--dpi"], ["-1", "1e9", "nan"]),
-    (["convert", "ur5", "-o", "x.urdf", "--digits"], ["-1", "1.5", "99", "nan", "x"]),
-    (["extract", "x.urdf", "--snap"], ["-1", "nan", "inf", "1e30", "x"]),
+    (["convert", "ur5", "-o", "x.urdf", "--digits"], ["-1", "1.5", "99", "nan", "x", "1e308"]),
+    (["extract", "x.urdf", "--snap"], ["-1", "nan", "inf", "1e30", "x", "1"]),
     (["view", "ur5", "--port"], ["-1", "65536", "1.5", "nan", "1e400"]),
     (["ik", "ur5", "--matrix"], ["1e308 " * 12, "nan " * 16, "1 2 3"]),
     (
@@ -123,6 +123,22 @@ def test_what_no_option_can_mean_is_one_message(argv, values):
         assert (status, out, left) == (2, "", []), value
         assert argv[-1].lstrip("-") in err
         assert err.count("\n") == 1
+        assert "cell" not in err
+
+
+@pytest.mark.parametrize(
+    ("argv", "allowed"),
+    [
+        (["convert", "ur5", "-o", "x.urdf", "--digits", "1e308"], "a whole number from 0 to 17"),
+        (["workspace", "ur5", "-o", "x.png", "--points", "1e308"], "a whole number from 2 to 1000"),
+        (["extract", "x.urdf", "--snap", "1"], "a number from 0 to 0.1"),
+    ],
+)
+def test_a_number_beyond_the_bounds_of_its_option_is_told_those_bounds(argv, allowed):
+    """The message has what the option takes, not what any number may be."""
+    status, _, err, _ = call(*argv)
+    assert status == 2
+    assert f"{argv[-2]}: expected {allowed}, got {argv[-1]!r}\n" in err
 
 
 TOGETHER = [

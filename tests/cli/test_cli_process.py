@@ -80,7 +80,7 @@ def test_the_command_line_is_imported_before_anything_heavy():
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout.split()
     ours = {name for name in loaded if name.startswith("dh2urdf")}
-    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.exceptions"}
+    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.cli.notes", "dh2urdf.exceptions"}
     assert not {"numpy", "cyclopts", "rich", "pinocchio"} & set(loaded)
 
 
@@ -92,6 +92,17 @@ def test_a_stdout_that_cannot_be_written_is_one_message(verb, place):
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.startswith("dh2urdf: standard output: ")
     assert done.stderr.count("\n") == 1
+
+
+def test_a_stderr_that_cannot_be_written_changes_no_status(tmp_path):
+    """A message that nobody can read is lost, and the status says what happened."""
+    arm, urdf = tmp_path / "arm.yaml", tmp_path / "arm.urdf"
+    arm.write_text("convention: standard\nunits: {length: m, angle: deg}\njoints: [{a: 30}]\n")
+    assert "warning" in shell(f"dh2urdf convert {arm} -o {urdf}").stderr
+    urdf.unlink()
+    for line, status in (("fk nope", 2), (f"convert {arm} -o {urdf}", 0), ("fk ur5 x", 2)):
+        assert shell(f"dh2urdf {line} 2> /dev/full").returncode == status
+    assert urdf.exists()
 
 
 def test_closed_stdin_and_stderr_do_not_disturb():

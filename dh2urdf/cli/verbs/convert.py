@@ -4,16 +4,24 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, note, read_source
 from dh2urdf.conversions.write import UrdfOptions
-from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io import (
+    FORMATS,
+    atomic_write,
+    is_as_written,
+    parse_table,
+    refuse_foreign,
+    table_to_text,
+)
 from dh2urdf.dh_io.files import shown
-from dh2urdf.exceptions import Dh2UrdfError, VerificationError
+from dh2urdf.exceptions import Dh2UrdfError, TableError, VerificationError
 
 __all__ = ["convert_"]
 
@@ -92,31 +100,39 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
     return (out_dir or Path()) / f"{stem}.urdf"
 
 
-def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, object]:
+def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, Any]:
+    """What was written, as JSON has it."""
+    table, warnings = read_source(source)
+    try:
+        made = _made(table, target, options, force)
+    except TableError as error:  # a warning of the reader may tell where
+        raise TableError((*warnings, *error.problems)) from None
+    made["warnings"] = [*warnings, *made["warnings"]]
+    return {"source": source, "path": target, **made}
+
+
+def _made(table: DHTable, target: Path, options: UrdfOptions, force: bool) -> dict[str, Any]:
     """Text of the target's kind, checked, and written unless it is for stdout."""
     from dh2urdf.conversions.write import verified_urdf, write_urdf
 
-    table, warnings = read_source(source)
-    result: dict[str, object] = {"source": source, "path": target, "max_error": 0.0}
+    result: dict[str, Any] = {"max_error": 0.0, "warnings": ()}
     suffix = target.suffix.lower()
     if str(target) == "-":
-        result["text"], result["max_error"], more = verified_urdf(table, options)
-        warnings += more
+        result["text"], result["max_error"], result["warnings"] = verified_urdf(table, options)
     elif suffix in FORMATS:
         text = table_to_text(table, FORMATS[suffix])
         if parse_table(text, FORMATS[suffix]).table != table:
             raise VerificationError(f"{shown(target)}: the text reads back as another table")
-        if not force:
+        if not force and not (target.is_file() and is_as_written(target)):
             refuse_foreign(target)
         atomic_write(target, text)
     elif suffix in (".urdf", ".xml") or (os.path.exists(target) and not os.path.isfile(target)):
         report = write_urdf(table, target, options=options, force=force)
-        result["max_error"] = report.max_error
-        warnings += report.warnings
+        result |= {"max_error": report.max_error, "warnings": report.warnings}
     else:
         known = ", ".join([".urdf", *FORMATS])
         raise Dh2UrdfError(f"{shown(target)}: the suffix decides what convert writes: {known}")
-    return result | {"warnings": list(warnings)}
+    return result
 
 
 def _show_one(result: dict[str, object], *, json: bool) -> None:
@@ -159,12 +175,12 @@ def _convert_many(
         emit_json("convert", files=done, failed=failed)
         return 2 if failed else 0
     for item in done:
-        for warning in item["warnings"]:  # type: ignore[attr-defined]
+        for warning in item["warnings"]:
             note(f"warning: {item['source']}: {warning}")
     for bad in failed:
         note(f"dh2urdf: {bad['error']}")
     if done:
-        worst = max(done, key=lambda item: float(item["max_error"]))  # type: ignore[arg-type]
+        worst = max(done, key=lambda item: float(item["max_error"]))
         emit(f"{len(done)} files written to {out_dir}; {_checked(worst)} ({worst['source']})")
     if failed:
         note(f"{len(failed)} of {len(done) + len(failed)} tables were not converted")

@@ -9,11 +9,11 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from dh2urdf.bounds import ROBOT_BYTES
+from dh2urdf.bounds import ROBOT_BYTES, SNAP
 from dh2urdf.cli.options import Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, note, stdin
 from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
-from dh2urdf.dh_io.files import read_text
+from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 from dh2urdf.quoting import one_line
@@ -32,7 +32,7 @@ def extract_(
     base: str | None = None,
     tip: str | None = None,
     convention: Literal["standard", "modified"] = "standard",
-    snap: Annotated[float | None, real(0.0, 1.0)] = None,
+    snap: Annotated[float | None, real(0.0, SNAP)] = None,
     explain: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     format: Format | None = None,
@@ -144,6 +144,6 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
         refuse_foreign(output, SIGNATURE)
     atomic_write(output, text)
     note(
-        f"{output}: {found.base} to {found.tip}, largest FK difference {found.max_error:.2g} "
-        f"m or rad (Pinocchio)"
+        f"{output}: {shown(found.base)} to {shown(found.tip)}, largest FK difference "
+        f"{found.max_error:.2g} m or rad (Pinocchio)"
     )

@@ -16,6 +16,7 @@ from dh2urdf.cli.output import (
     robot_of,
     ten_digits,
 )
+from dh2urdf.dh_io.files import shown
 from dh2urdf.transforms import matrix_to_rpy
 
 __all__ = ["fk_"]
@@ -61,9 +62,9 @@ def fk_(
         )
         return 0
     if outside:
-        note(f"warning: outside the joint limits: {', '.join(outside)}")
+        note(f"warning: outside the joint limits: {', '.join(map(shown, outside))}")
     angles = [math.degrees(a) for a in rpy] if deg else list(rpy)
-    emit(f"{arm.tip} in {arm.base}:\n{matrix_text(T)}")
+    emit(f"{shown(arm.tip)} in {shown(arm.base)}:\n{matrix_text(T)}")
     emit(f"xyz [m]: {'  '.join(map(ten_digits, T[:3, 3]))}")
     emit(f"rpy [{'deg' if deg else 'rad'}]: {'  '.join(map(ten_digits, angles))}")
     return 0

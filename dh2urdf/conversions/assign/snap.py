@@ -14,12 +14,14 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.bounds import SNAP
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.assign.rounding import near_angle
 from dh2urdf.conversions.chains import table_poses
 from dh2urdf.dh import DHConvention, DHTable, Origin
+from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error
 
@@ -36,9 +38,6 @@ PARTS = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
 DECIMALS = 6
 NANOMETRE = 1e-9
 """A length that misses a whole micrometre by a nanometre [m] was computed from a rounded angle."""
-
-LARGEST_SNAP = 0.1
-"""Tolerance above which snapping would make another arm."""
 
 
 @dataclass(frozen=True)
@@ -70,13 +69,7 @@ def snap_tolerance(snap: float | bool | None) -> float:
         return 0.0
     if snap is True:
         return DEFAULT_SNAP
-    try:
-        value = float(snap)
-    except (TypeError, ValueError):
-        value = math.nan
-    if not 0 <= value <= LARGEST_SNAP:
-        raise UrdfError(f"snap: {snap!r} is not a tolerance between 0 and {LARGEST_SNAP} rad and m")
-    return value
+    return number(snap, "snap", 0.0, SNAP, UrdfError, "rad and m")
 
 
 def chain_poses(chain: SerialChain, qs: Array) -> Array:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -24,6 +23,7 @@ from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
+from dh2urdf.quoting import XML_FORBIDDEN
 from dh2urdf.transforms import Array, matrix_to_rpy
 
 __all__ = ["MARK", "UrdfOptions", "default_limits", "urdf_text_and_warnings"]
@@ -40,8 +40,6 @@ DEFAULT_EFFORT = 1000.0
 
 DEFAULT_VELOCITY = 10.0
 """Velocity limit written where the table has none [rad/s or m/s]; URDF requires it."""
-
-XML_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 
 MARK = " written from a DH table "
 """Comment in a file without its table, by which its writer knows it again."""

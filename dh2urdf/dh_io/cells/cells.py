@@ -13,6 +13,7 @@ from dh2urdf.dh_io.cells.schema import MISUSED_KEYS, canonical, did_you_mean, ne
 from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
 from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
+from dh2urdf.quoting import XML_FORBIDDEN
 
 __all__ = ["Cells", "Context", "found"]
 
@@ -88,6 +89,9 @@ class Context:
         if not isinstance(node, Scalar):
             self.report.fault(node.mark, path, f"found {found(node)}; expected a text")
             return ""
+        if path.endswith("name") and XML_FORBIDDEN.search(node.text):
+            message = f"{node.text!r} holds a character that XML forbids; no URDF can be written"
+            self.report.warn(node.mark, path, message)
         return node.text
 
     def lookup(self, name: str) -> Value:

@@ -63,6 +63,8 @@ def parse_cell(text: str, kind: Kind | str = Kind.NUMBER, units: Units = SI) -> 
     ``"-90"``, ``"pi/2"``, ``"90deg"``, ``"100 mm"``; bare numbers are in ``units``. A `TableError`
     says why it is no finite number.
     """
+    if _NOT_FINITE.fullmatch(text.strip()):
+        raise ExpressionError("not a finite number")
     return to_float(evaluate(text, Kind(kind), units, _no_names).number)
 
 

@@ -38,12 +38,12 @@ def one_pose(
     if m.shape != (1, 4, 4):
         shape = check_pose(given).shape
         raise PoseError(f"pose: expected shape (4, 4), got {shape}; ik_batch takes many")
-    change = 0.0
-    if nearest is not False and flag(nearest, "nearest"):
+    change, rounded = 0.0, nearest is not False and flag(nearest, "nearest")
+    if rounded:
         m, moved = rounded_off(m)
         change = float(moved[0])
     if first_bad is None or first_bad(m) >= 0:
-        check_pose(m[0])
+        check_pose(m[0], rounded=rounded)
     return m, change
 
 
@@ -65,7 +65,7 @@ def many_poses(
         m, change = rounded_off(m)
     last = first_bad(m.reshape(-1, 4, 4))
     if last >= 0 and not skip:
-        check_pose(m, what="poses")
+        check_pose(m, what="poses", rounded=nearest)
     if last >= 0:
         m = m.copy()
         flat = m.reshape(-1, 4, 4)

@@ -419,7 +419,7 @@ def test_screws_points_and_frames_agree(convention):
         ([[0, 0, 1, 0, 0, 0]], {"names": ["a", "b"]}, "names: 2 for 1 joints"),
         ([[0, 0, 1, 0, 0, 0]], {"tip": "x"}, "base and tip: typed axes"),
         (UR5, {"tool": np.eye(4)}, "tool: only for joint axes typed by hand"),
-        (UR5, {"snap": 3.0}, "snap: 3.0 is not a tolerance"),
+        (UR5, {"snap": 3.0}, "snap: expected a number from 0 to 0.1 rad and m, got 3.0"),
     ],
 )
 def test_axes_that_make_no_arm(source, options, message):
