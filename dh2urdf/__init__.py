@@ -37,36 +37,23 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 
 _LATE = {
-    **{
-        name: ("dh2urdf.dh", name)
-        for name in (
-            *("DHConvention", "DHRow", "DHTable", "JointType", "Origin"),
-            *("dh_factors", "dh_transform"),
-        )
-    },
-    "dh_parameters": ("dh2urdf.dh.reach", "dh_parameters"),
-    "transforms": ("dh2urdf.transforms", ""),
-    "ConversionReport": ("dh2urdf.conversions.write", "ConversionReport"),
-    "Extraction": ("dh2urdf.extract", "Extraction"),
-    "IKBatch": ("dh2urdf.ik.problem", "IKBatch"),
-    "IKPath": ("dh2urdf.ik.problem", "IKPath"),
-    "IKSolutions": ("dh2urdf.ik.problem", "IKSolutions"),
-    "Robot": ("dh2urdf.robot", "Robot"),
-    "SerialChain": ("dh2urdf.chain", "SerialChain"),
-    "UrdfOptions": ("dh2urdf.conversions.write", "UrdfOptions"),
-    "check_urdf": ("dh2urdf.checks.rules", "check_urdf"),
-    "extract_dh": ("dh2urdf.extract", "extract_dh"),
-    "list_tables": ("dh2urdf.robots", "list_tables"),
-    "load_table": ("dh2urdf.robots", "load_table"),
-    "planar_reach": ("dh2urdf.ik.families", "planar_reach"),
-    "planar_rr_ik": ("dh2urdf.ik.families", "planar_rr_ik"),
-    "planar_rrr_ik": ("dh2urdf.ik.families", "planar_rrr_ik"),
-    "save_table": ("dh2urdf.dh_io", "write_table"),
-    "to_convention": ("dh2urdf.conversions.assign", "to_convention"),
-    "urdf_text": ("dh2urdf.conversions.write", "urdf_text"),
-    "wrist_centre": ("dh2urdf.ik.families", "wrist_centre"),
-    "write_urdf": ("dh2urdf.conversions.write", "write_urdf"),
+    name: (f"dh2urdf.{module}", name)
+    for module, names in {
+        "chain": "SerialChain",
+        "checks.rules": "check_urdf",
+        "conversions.assign": "to_convention",
+        "conversions.write": "ConversionReport UrdfOptions urdf_text write_urdf",
+        "dh": "DHConvention DHRow DHTable JointType Origin dh_factors dh_transform",
+        "dh.reach": "dh_parameters",
+        "extract": "Extraction extract_dh",
+        "ik.families": "planar_reach planar_rr_ik planar_rrr_ik wrist_centre",
+        "ik.problem": "IKBatch IKPath IKSolutions",
+        "robot": "Robot",
+        "robots": "list_tables load_table",
+    }.items()
+    for name in names.split()
 }
+_LATE |= {"save_table": ("dh2urdf.dh_io", "write_table"), "transforms": ("dh2urdf.transforms", "")}
 """Public names whose modules are imported when they are first asked for."""
 
 __all__ = [

@@ -52,14 +52,7 @@ TASKS = tuple(Task)
 
 
 class InverseKinematics:
-    """Inverse kinematics of one chain.
-
-    Parameters
-    ----------
-    chain : SerialChain
-    referee : callable
-        Configurations (k, n) to poses (k, 4, 4), independent of the kernels; ``verify`` uses it.
-    """
+    """Inverse kinematics of one chain; its methods are documented at :class:`dh2urdf.Robot`."""
 
     def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
@@ -69,13 +62,7 @@ class InverseKinematics:
         self._run_once: set[int] = set()
 
     def __getstate__(self) -> dict[str, Any]:
-        fresh: dict[str, Any] = {
-            "_solvers": {},
-            "_problems": {},
-            "_plain": None,
-            "_run_once": set(),
-        }
-        return {**self.__dict__, **fresh}
+        return InverseKinematics(self.chain, self.referee).__dict__
 
     @property
     def solver(self) -> Solver:
@@ -117,7 +104,6 @@ class InverseKinematics:
     def solve_batch(
         self,
         Ts: ArrayLike,
-        *,
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
@@ -150,7 +136,6 @@ class InverseKinematics:
     def solve_path(
         self,
         Ts: ArrayLike,
-        *,
         start: ArrayLike | None = None,
         within_limits: bool = True,
         locked: Locked | None = None,
@@ -175,7 +160,6 @@ class InverseKinematics:
     def why_none(
         self,
         T: ArrayLike,
-        *,
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = Task.POSE,
@@ -188,9 +172,7 @@ class InverseKinematics:
         _check_held(problem, 1)
         return problem.why_none(pose[0], inside)
 
-    def intervals(
-        self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False
-    ) -> Array:
+    def intervals(self, T: ArrayLike, within_limits: bool = True, nearest: bool = False) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
         inside = flag(within_limits, "within_limits")
         problem = self._compiled(Task.POSE, None, inside)

@@ -1,8 +1,4 @@
-"""The inverse kinematics of a robot: solver and referee meet here.
-
-Solutions come from jitted kernels on the serial chain; ``verify`` measures them again with the
-frame placements of Pinocchio.
-"""
+"""The inverse kinematics of a robot: kernels solve on the chain, Pinocchio is the referee."""
 
 from __future__ import annotations
 
@@ -13,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.robot.poses import RobotPoses
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -21,14 +16,14 @@ if TYPE_CHECKING:
 
     from dh2urdf.ik.arm import Solver, Task
     from dh2urdf.ik.families import NumericProblem, NumericSolutions
-    from dh2urdf.ik.problem import IKSolutions
+    from dh2urdf.ik.problem import IKBatch, IKPath, IKSolutions, Progress
     from dh2urdf.ik.redundant import HeldSolver
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
 __all__ = ["RobotIK"]
 
 
-class RobotIK(RobotPoses):
+class RobotIK:
     """What :class:`dh2urdf.Robot` knows of inverse kinematics."""
 
     chain: SerialChain
@@ -98,6 +93,78 @@ class RobotIK(RobotPoses):
         """
         return self._ik.solve(T, seed, within_limits, locked, task, turns, samples, nearest)
 
+    def ik_batch(
+        self,
+        Ts: ArrayLike,
+        *,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+        samples: int | None = None,
+        threads: int | None = None,
+        progress: Progress | None = None,
+        nearest: bool = False,
+        on_bad: str = "raise",
+    ) -> IKBatch:
+        """All configurations for many poses, in a few arrays.
+
+        Parameters
+        ----------
+        Ts : array_like, shape (m, 4, 4) or (..., 4, 4)
+            ``T_base_tip``, lengths in [m]; one pose is a row of one.
+        within_limits, locked, task, samples, nearest
+            As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
+        threads : int, optional
+            Threads to use; by default one per processor.
+        progress : callable, optional
+            Called with the number of poses done and their total.
+        on_bad : {"raise", "skip"}
+            Poses that are none (NaN, no rotation): refuse them all, or leave them without
+            solutions; ``batch.bad`` lists them.
+
+        Returns
+        -------
+        IKBatch
+            NaN-padded; ``batch[i]`` are the solutions of pose i. Its arrays have the leading axes
+            of Ts.
+
+        Raises
+        ------
+        PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
+        """
+        return self._ik.solve_batch(
+            Ts, within_limits, locked, task, samples, threads, progress, nearest, on_bad
+        )
+
+    def ik_path(
+        self,
+        Ts: ArrayLike,
+        *,
+        start: ArrayLike | None = None,
+        within_limits: bool = True,
+        locked: Locked | None = None,
+        task: Task | str = "pose",
+        max_jump: float | None = None,
+        nearest: bool = False,
+    ) -> IKPath:
+        """A joint path through a sequence of poses: fewest breaks, then least joint motion.
+
+        Joint motion is the sum of ``sqrt(dq_1^2 + ... + dq_n^2)`` over the steps. With seven joints
+        the posture at each pose is chosen so as to make it small.
+
+        Parameters
+        ----------
+        Ts : array_like, shape (m, 4, 4)
+        start : array_like, shape (n,), optional
+            Configuration before the first pose.
+        within_limits, locked, task, nearest
+            As for :meth:`ik`.
+        max_jump : float, optional
+            Motion of a joint between neighbouring poses that counts as a break [rad or m];
+            0.5 without it.
+        """
+        return self._ik.solve_path(Ts, start, within_limits, locked, task, max_jump, nearest)
+
     def ik_intervals(
         self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False
     ) -> Array:
@@ -124,7 +191,7 @@ class RobotIK(RobotPoses):
         PoseError, ConfigurationError
             Also for an arm without a joint to spare.
         """
-        return self._ik.intervals(T, within_limits=within_limits, nearest=nearest)
+        return self._ik.intervals(T, within_limits, nearest)
 
     def ik_numeric(
         self,
@@ -171,16 +238,7 @@ class RobotIK(RobotPoses):
         ------
         PoseError, ConfigurationError
         """
-        return self._numeric.solve(
-            T,
-            seed=seed,
-            within_limits=within_limits,
-            task=task,
-            solutions=solutions,
-            starts=starts,
-            rng=rng,
-            nearest=nearest,
-        )
+        return self._numeric.solve(T, seed, within_limits, task, solutions, starts, rng, nearest)
 
     def why_unreachable(
         self,
@@ -200,9 +258,7 @@ class RobotIK(RobotPoses):
         T, within_limits, locked, task, nearest
             As for :meth:`ik`.
         """
-        return self._ik.why_none(
-            T, within_limits=within_limits, locked=locked, task=task, nearest=nearest
-        )
+        return self._ik.why_none(T, within_limits, locked, task, nearest)
 
     @cached_property
     def _numeric(self) -> NumericProblem:

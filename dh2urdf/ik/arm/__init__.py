@@ -6,8 +6,8 @@ move freely; `chains` makes chains of a chain, `limits` full turns, `outputs` th
 solvers fill; `given` checks what callers give, `notice` says that kernels compile.
 """
 
-from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, without_end
-from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely
+from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
+from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely, pose_along, row_motion
 from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
 from dh2urdf.ik.arm.limits import (
     TWO_PI,
@@ -27,6 +27,7 @@ from dh2urdf.ik.arm.solver import (
     BRANCH_WORDS,
     BatchKernel,
     BranchWords,
+    Others,
     Solver,
     SolverBase,
     Task,

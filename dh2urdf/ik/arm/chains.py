@@ -16,7 +16,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.transforms import Array, rot_z, trans
 
-__all__ = ["hold", "in_own_unit", "lengths_in", "without_end"]
+__all__ = ["hold", "in_own_unit", "lengths_in", "part", "without_end"]
 
 NORMAL = (2.0**-4, 2.0**4)
 """Lengths [m] of arms whose unit is the metre."""
@@ -49,16 +49,16 @@ def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
             links[-1] = links[-1] @ Z @ chain.links[i + 1]
         else:
             links.append(chain.links[i + 1])
-    return _part(chain, np.stack(links), [i for i in range(chain.n) if i not in held])
+    return part(chain, np.stack(links), [i for i in range(chain.n) if i not in held])
 
 
 def without_end(chain: SerialChain, joint: int) -> SerialChain:
     """The chain without its first or last joint and the link beyond it, the same at any value."""
     rest = [i for i in range(chain.n) if i != joint]
-    return _part(chain, chain.links[1:] if joint == 0 else chain.links[:-1], rest)
+    return part(chain, chain.links[1:] if joint == 0 else chain.links[:-1], rest)
 
 
-def _part(chain: SerialChain, links: Array, joints: list[int]) -> SerialChain:
+def part(chain: SerialChain, links: Array, joints: list[int]) -> SerialChain:
     """Some of the joints of a chain between other links."""
     return replace(
         chain,

@@ -19,7 +19,7 @@ from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
 from dh2urdf.transforms import Array, inverse, pose_error
 
-__all__ = ["AxisLines", "DHForm", "moves_freely"]
+__all__ = ["AxisLines", "DHForm", "moves_freely", "pose_along", "row_motion"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,8 +165,8 @@ class DHForm:
             if i > 0:
                 x, origin = self._normal(i - 1, x, origin)
             if i == 1:
-                frames[0] = _frame(x, axes[0], frames[0][:3, 3])
-            frames.append(_frame(x - axes[i] * (axes[i] @ x), axes[i], origin))
+                frames[0] = pose_along(x, axes[0], frames[0][:3, 3])
+            frames.append(pose_along(x - axes[i] * (axes[i] @ x), axes[i], origin))
         if len(axes) > 1:
             frames[0][:3, 3] += axes[0] * (axes[0] @ (frames[1][:3, 3] - frames[0][:3, 3]))
         return np.stack(frames)
@@ -232,17 +232,8 @@ class DHForm:
     def fk(self, q: Array) -> Array:
         """Forward kinematics of the snapped arm at q (n,), shape (4, 4)."""
         T = self.base
-        for qi, (a, ca, sa, d, theta, slides, sign) in zip(q, self.rows, strict=True):
-            t, s = (theta, sign * qi + d) if slides else (sign * qi + theta, d)
-            ct, st = math.cos(t), math.sin(t)
-            T = T @ np.array(
-                [
-                    [ct, -st * ca, st * sa, a * ct],
-                    [st, ct * ca, -ct * sa, a * st],
-                    [0.0, sa, ca, s],
-                    [0.0, 0.0, 0.0, 1.0],
-                ]
-            )
+        for row, qi in zip(self.rows, q, strict=True):
+            T = T @ row_motion(row, float(qi))
         return T @ self.tool
 
     @cached_property
@@ -256,6 +247,21 @@ class DHForm:
     def exact(self) -> bool:
         """Whether the snapped arm is the exact one up to rounding."""
         return self.error <= FORM_ERROR * max(1.0, self.lines.chain.size)
+
+
+def row_motion(row: Array, q: float) -> Array:
+    """The displacement of a row of :class:`DHForm` with its joint at q, shape (4, 4)."""
+    a, ca, sa, d, theta, slides, sign = row
+    t, s = (theta, sign * q + d) if slides else (sign * q + theta, d)
+    ct, st = math.cos(t), math.sin(t)
+    return np.array(
+        [
+            [ct, -st * ca, st * sa, a * ct],
+            [st, ct * ca, -ct * sa, a * st],
+            [0.0, sa, ca, s],
+            [0.0, 0.0, 0.0, 1.0],
+        ]
+    )
 
 
 def _unit(c: float, s: float) -> tuple[float, float]:
@@ -275,7 +281,7 @@ def _any_normal(axes: Array, points: Array) -> Array:
     return x / np.linalg.norm(x)
 
 
-def _frame(x: Array, z: Array, origin: Array) -> Array:
+def pose_along(x: Array, z: Array, origin: Array) -> Array:
     """Frame with the given z, the direction of x, and origin, shape (4, 4)."""
     T = np.eye(4)
     x = x / np.linalg.norm(x)

@@ -71,19 +71,7 @@ def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
 
 
 class Family:
-    """The solutions of one pose that a representative can slide to.
-
-    Parameters
-    ----------
-    chain : SerialChain
-    task : Task
-    T : array, shape (4, 4)
-        Target.
-    free : tuple of int
-        Indices of the joints that move along the family.
-    q : array, shape (n,)
-        The representative.
-    """
+    """The solutions of a pose T that a representative q (n,) reaches by its free joints alone."""
 
     def __init__(
         self, chain: SerialChain, task: Task, T: Array, free: tuple[int, ...], q: Array
@@ -93,15 +81,9 @@ class Family:
         self.moving = hold(chain, {i: float(q[i]) for i in range(chain.n) if i not in free})
 
     def nearest(self, seed: Array, within_limits: bool, full_turns: bool = True) -> Array | None:
-        """The member of the family with the least motion from the seed (n,).
+        """The member (n,) with the least motion from the seed; None if none keeps the limits.
 
-        ``full_turns``: start also from the representative with a free joint a turn to either
-        side.
-
-        Returns
-        -------
-        array, shape (n,), or None
-            None where no member keeps the limits and ``within_limits`` is asked for.
+        ``full_turns``: start also from where a free joint is a turn to either side.
         """
         start = limits.turned_to(self.chain, self.q, seed)
         turns = np.diag(np.where(self.moving.prismatic, 0.0, limits.TWO_PI)) * full_turns

@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from enum import StrEnum
-from typing import ClassVar, Protocol
+from functools import cached_property
+from importlib import import_module
+from typing import Any, ClassVar, Protocol
 
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.arm.outputs import Outputs
@@ -19,10 +21,12 @@ __all__ = [
     "BRANCH_WORDS",
     "BatchKernel",
     "BranchWords",
+    "Others",
     "Solver",
     "SolverBase",
     "Task",
     "branch_words_of",
+    "imported",
 ]
 
 
@@ -38,6 +42,10 @@ BRANCH_WORDS = (
 """Names of the bits of a branch code, value 0 first."""
 
 
+Others = tuple[tuple[str, str], ...]
+"""Names of the better solvers, and what kept them from a chain."""
+
+
 BranchWords = Sequence[tuple[str, str] | None]
 
 
@@ -45,6 +53,12 @@ def branch_words_of(solver: object) -> BranchWords:
     """Names of the bits of a solver's branch codes; None for a bit without meaning."""
     words: BranchWords = getattr(solver, "branch_words", BRANCH_WORDS)
     return words
+
+
+def imported(where: str) -> Any:
+    """What a ``module:name`` stands for."""
+    module, _, name = where.partition(":")
+    return getattr(import_module(module), name)
 
 
 class Task(StrEnum):
@@ -98,16 +112,16 @@ class SolverBase:
     chain : SerialChain
     task : Task
     others : tuple of (str, str)
-        Names of the better solvers and what kept them from this chain.
+        As :data:`Others`.
     """
 
     name: ClassVar[str] = ""
     kmax: int = 0
+    where: ClassVar[str]
+    """Module and name of the kernel, where there is one."""
     __getstate__ = settled_state
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         self.chain, self.task, self.others = chain, task, others
         self.links, self.joints = chain.tables
 
@@ -118,6 +132,17 @@ class SolverBase:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
+        self.kernel(*self.constants, Ts, within_limits, *out)
+
+    @cached_property
+    def kernel(self) -> BatchKernel:
+        """The jitted function that solves poses, imported when it is first needed."""
+        kernel: BatchKernel = imported(self.where)
+        return kernel
+
+    @cached_property
+    def constants(self) -> tuple[Any, ...]:
+        """First arguments of the kernel: what it knows of the arm."""
         raise NotImplementedError
 
     def details(self) -> str:

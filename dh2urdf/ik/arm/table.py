@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module
-from typing import Any
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm.mobility import hardly_moves
-from dh2urdf.ik.arm.solver import Solver, SolverBase, Task
+from dh2urdf.ik.arm.solver import Others, Solver, SolverBase, Task, imported
 
 __all__ = ["SOLVERS", "SolverRow", "select_solver"]
 
@@ -24,14 +22,8 @@ class SolverRow:
 
     def load(self) -> type[SolverBase]:
         """Import the class, when it is first wanted."""
-        family: type[SolverBase] = _load(self.where)
+        family: type[SolverBase] = imported(self.where)
         return family
-
-
-def _load(where: str) -> Any:
-    """A class by ``module:name``, imported when it is first wanted."""
-    module, _, name = where.partition(":")
-    return getattr(import_module(module), name)
 
 
 SOLVERS: tuple[SolverRow, ...] = (
@@ -114,14 +106,14 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
         No family covers it; the message lists each with what stood in its way.
     """
     task = Task(task)
-    others: list[tuple[str, str]] = []
+    others: Others = ()
     for row in SOLVERS:
         family = row.load()
         obstacle = family.obstacle(chain, task)
         if obstacle is None:
-            solver = family(chain, task, tuple(others))
+            solver = family(chain, task, others)
             return _searched(solver) if hardly_moves(chain, task) else solver
-        others.append((row.name, obstacle))
+        others += ((row.name, obstacle),)
     listing = "\n".join(
         f"  {row.name} ({row.needs}): {obstacle}"
         for row, (_, obstacle) in zip(SOLVERS, others, strict=True)
@@ -134,5 +126,5 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
 
 def _searched(solver: Solver) -> Solver:
     """The solver, helped by a search for poses that it loses."""
-    helped: Solver = _load(SEARCHED)(solver)
+    helped: Solver = imported(SEARCHED)(solver)
     return helped

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import AxisLines, Outputs, SolverBase, Task, moves_freely, notice_if_slow
+from dh2urdf.ik.arm import (
+    AxisLines,
+    Others,
+    Outputs,
+    SolverBase,
+    Task,
+    moves_freely,
+    notice_if_slow,
+)
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -33,7 +41,7 @@ class General6R(SolverBase):
         self,
         chain: SerialChain,
         task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        others: Others = (),
         plan: Arm | None = None,
     ) -> None:
         super().__init__(chain, task, others)

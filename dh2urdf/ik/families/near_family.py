@@ -17,6 +17,7 @@ from dh2urdf.ik.arm import (
     SLACK_OF_NEAR,
     AxisLines,
     IntArray,
+    Others,
     Outputs,
     SolverBase,
     Task,
@@ -46,9 +47,7 @@ class NearFamily(SolverBase):
 
     kmax = 16
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         match = _match(chain)
         assert match is not None

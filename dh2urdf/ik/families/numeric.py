@@ -91,18 +91,7 @@ class NumericSolutions:
 
 @dataclass(frozen=True, eq=False)
 class NumericProblem:
-    """A chain whose joints follow the values ``joints = coupling q + offset``.
-
-    Parameters
-    ----------
-    chain : SerialChain
-    coupling : array, shape (chain.n, n)
-    offset : array, shape (chain.n,)
-    slides : bool array, shape (n,)
-        True where a value is a length.
-    lower, upper : array, shape (n,)
-        Bounds of the values, infinite where there are none.
-    """
+    """A chain with ``joints = coupling q + offset``; which values slide, and their bounds."""
 
     chain: SerialChain
     coupling: Array
@@ -114,7 +103,6 @@ class NumericProblem:
     def solve(
         self,
         T: ArrayLike,
-        *,
         seed: ArrayLike | None = None,
         within_limits: bool = True,
         task: Task | str = Task.POSE,

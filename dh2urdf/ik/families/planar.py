@@ -8,7 +8,6 @@ same kernels on arms with two or three parallel axes (:class:`PlanarArm`).
 from __future__ import annotations
 
 import math
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +16,7 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
-from dh2urdf.ik.arm import NOMINAL, SNAP, BatchKernel, Outputs, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.transforms import Array, check_pose, inverse
 
@@ -111,11 +110,10 @@ class PlanarArm(SolverBase):
 
     name = "planar arm"
     kmax = 2
+    where = "dh2urdf.kernels.short_chains:solve_planar"
     branch_words = (None, ("elbow up", "elbow down"))
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         frames = axis_frames(chain)
         T_first_base = inverse(frames[0])
@@ -124,7 +122,7 @@ class PlanarArm(SolverBase):
         link1 = (T_first_base @ frames[1])[0, 3]
         link2 = ((T_first_base @ last)[:3, 3])[:2] - (link1, 0.0)
         signs = np.sign(chain.axes @ chain.axes[0])
-        self.plane = np.stack([T_first_base, inverse(chain.tool) @ frames[0]])
+        plane = np.stack([T_first_base, inverse(chain.tool) @ frames[0]])
         self.form = np.array(
             [
                 link1,
@@ -136,12 +134,7 @@ class PlanarArm(SolverBase):
                 float(np.clip(0.0, chain.lower[0], chain.upper[0])),
             ]
         )
-
-    @cached_property
-    def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains import solve_planar
-
-        return solve_planar  # type: ignore[no-any-return]
+        self.constants = self.links, self.joints, plane, self.form, task is Task.POSE
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -167,19 +160,6 @@ class PlanarArm(SolverBase):
         return (
             f"parallel axes (lecture notes 8.2), l1 = {l1:.4g} m, l2 = {l2:.4g} m; "
             f"{what} reaches an annulus from {inner:.4g} to {outer:.4g} m"
-        )
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        self._kernel(
-            self.links,
-            self.joints,
-            self.plane,
-            self.form,
-            self.task is Task.POSE,
-            Ts,
-            within_limits,
-            *out,
         )
 
 

@@ -11,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import Outputs, SolverBase, Task
+from dh2urdf.ik.arm import Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
@@ -24,9 +24,7 @@ class ReversedSolver(SolverBase):
 
     inner_class: ClassVar[type[SolverBase]]
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.inner = self.inner_class(chain.reversed(), task)
         self.kmax = self.inner.kmax

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import BatchKernel, IntArray, Outputs, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task, spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortChain"]
@@ -53,20 +53,18 @@ class ShortChain(SolverBase):
 
     name = "short chain"
     kmax = 8
+    where = "dh2urdf.kernels.short_chains:solve_short_chains"
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.ends = inverse(self.links[[0, -1]])
         self.unit = chain.size
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
 
     @cached_property
-    def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains import solve_short_chains
-
-        return solve_short_chains  # type: ignore[no-any-return]
+    def constants(self) -> tuple[Any, ...]:
+        """Links, joints and the cuts of the loop, as the kernel takes them."""
+        return self.links, self.joints, self.ends, self.loop, self.plan, self.rest_unit
 
     @cached_property
     def loop(self) -> Array:
@@ -136,20 +134,6 @@ class ShortChain(SolverBase):
             here = int((sigma < VANISHED).sum())
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
         return _Quality(blind, nullity, -gap)
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        self._kernel(
-            self.links,
-            self.joints,
-            self.ends,
-            self.loop,
-            self.plan,
-            self.rest_unit,
-            Ts,
-            within_limits,
-            *out,
-        )
 
 
 def _loop_links(links: Array, unit: float) -> Array:

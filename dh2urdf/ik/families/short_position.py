@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import itertools
-from functools import cached_property
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import BatchKernel, Outputs, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along, spare_joints
 from dh2urdf.transforms import Array, inverse
 
 __all__ = ["ShortPosition", "axis_frames"]
@@ -21,25 +20,15 @@ class ShortPosition(SolverBase):
 
     name = "position arm"
     kmax = 4
+    where = "dh2urdf.kernels.short_chains:solve_short_positions"
 
-    def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSITION,
-        others: tuple[tuple[str, str], ...] = (),
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSITION, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         frames = axis_frames(chain)
-        self.tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
+        tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
         steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
-        self.frames = np.ascontiguousarray(np.stack(steps))
-        self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
-
-    @cached_property
-    def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains import solve_short_positions
-
-        return solve_short_positions  # type: ignore[no-any-return]
+        rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
+        self.constants = self.links, self.joints, np.stack(steps), tip, rest_unit
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION) -> str | None:
@@ -56,12 +45,6 @@ class ShortPosition(SolverBase):
         if self.chain.n < MOST_JOINTS:
             return f"{kinds}; the distance and the height over an axis"
         return f"{kinds}; joint 3 from Pieper's quartic, joints 1 and 2 from distance and height"
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        self._kernel(
-            self.links, self.joints, self.frames, self.tip, self.rest_unit, Ts, within_limits, *out
-        )
 
 
 def axis_frames(chain: SerialChain) -> list[Array]:
@@ -88,13 +71,6 @@ def _on_common_normal(first: Array, second: Array) -> tuple[Array, Array]:
     if np.linalg.norm(x) <= 1e-12 * max(1.0, float(np.linalg.norm(gap))):
         x = normal
     x = x / np.linalg.norm(x)
-    return _frame(x, z1, foot1), _frame(x, z2, foot2)
-
-
-def _frame(x: Array, z: Array, origin: Array) -> Array:
-    """Right-handed frame with the given z and, as near as it can be, x."""
-    x = x - z * float(x @ z)
-    x = x / np.linalg.norm(x)
-    out = np.eye(4)
-    out[:3, 0], out[:3, 1], out[:3, 2], out[:3, 3] = x, np.cross(z, x), z, origin
-    return out
+    lines = (z1, foot1), (z2, foot2)
+    first, second = (pose_along(x - z * float(x @ z), z, foot) for z, foot in lines)
+    return first, second

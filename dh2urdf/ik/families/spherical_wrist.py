@@ -15,13 +15,13 @@ from dh2urdf.ik.arm import (
     AxisLines,
     BatchKernel,
     DHForm,
-    Outputs,
+    Others,
     SolverBase,
     Task,
     moves_freely,
     plain_ranges,
+    row_motion,
 )
-from dh2urdf.transforms import Array
 
 __all__ = ["SphericalWrist"]
 
@@ -40,7 +40,7 @@ class SphericalWrist(SolverBase):
         self,
         chain: SerialChain,
         task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        others: Others = (),
         tolerance: float = NOMINAL,
     ) -> None:
         super().__init__(chain, task, others)
@@ -110,10 +110,6 @@ class SphericalWrist(SolverBase):
         fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_wrist if fast else solve_turning_arm  # type: ignore[no-any-return]
 
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) in one jitted call."""
-        self.kernel(*self.constants, Ts, within_limits, *out)
-
 
 def _places_wrist(form: DHForm) -> bool:
     """Whether the first three joints move the wrist centre in three directions somewhere."""
@@ -122,17 +118,7 @@ def _places_wrist(form: DHForm) -> bool:
         T, screws = np.eye(4), []
         for i in range(3):
             screws.append((T[:3, 2], T[:3, 3]))
-            a, ca, sa, d, theta, slides, sign = rows[i]
-            t, s = (theta, sign * q[i] + d) if slides else (sign * q[i] + theta, d)
-            c, n = np.cos(t), np.sin(t)
-            T = T @ np.array(
-                [
-                    [c, -n * ca, n * sa, a * c],
-                    [n, c * ca, -c * sa, a * n],
-                    [0, sa, ca, s],
-                    [0, 0, 0, 1],
-                ]
-            )
+            T = T @ row_motion(rows[i], float(q[i]))
         centre = T[:3, 3] + rows[3, 3] * T[:3, 2]
         J = np.stack(
             [

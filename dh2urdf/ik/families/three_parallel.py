@@ -12,13 +12,12 @@ from dh2urdf.ik.arm import (
     AxisLines,
     BatchKernel,
     DHForm,
-    Outputs,
+    Others,
     SolverBase,
     Task,
     moves_freely,
     plain_ranges,
 )
-from dh2urdf.transforms import Array
 
 __all__ = ["ThreeParallel"]
 
@@ -33,7 +32,7 @@ class ThreeParallel(SolverBase):
         self,
         chain: SerialChain,
         task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        others: Others = (),
         tolerance: float = NOMINAL,
     ) -> None:
         super().__init__(chain, task, others)
@@ -79,7 +78,3 @@ class ThreeParallel(SolverBase):
         common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0
         fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_parallel if fast else solve_three_parallel  # type: ignore[no-any-return]
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) in one jitted call."""
-        self.kernel(*self.constants, Ts, within_limits, *out)

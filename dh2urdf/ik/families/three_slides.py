@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import BatchKernel, Outputs, SolverBase, Task, spare_joints
-from dh2urdf.transforms import Array
+from dh2urdf.ik.arm import Others, SolverBase, Task, spare_joints
 
 __all__ = ["ThreeSlides"]
 
@@ -20,18 +17,11 @@ class ThreeSlides(SolverBase):
 
     name = "three slides"
     kmax = 2
+    where = "dh2urdf.kernels.short_chains:solve_three_slides"
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
-        self.rest = np.clip(0.0, chain.lower, chain.upper)
-
-    @cached_property
-    def _kernel(self) -> BatchKernel:
-        from dh2urdf.kernels.short_chains import solve_three_slides
-
-        return solve_three_slides  # type: ignore[no-any-return]
+        self.constants = self.links, self.joints, np.clip(0.0, chain.lower, chain.upper)
 
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
@@ -52,7 +42,3 @@ class ThreeSlides(SolverBase):
             f"{kinds}; joints {', '.join(turning)} from the orientation alone, "
             "the slides from three linear equations"
         )
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) into the caller's arrays."""
-        self._kernel(self.links, self.joints, self.rest, Ts, within_limits, *out)

@@ -13,6 +13,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import (
+    Others,
     Outputs,
     Solver,
     SolverBase,
@@ -44,10 +45,7 @@ class ToolAxis(SolverBase):
     name = "tool axis"
 
     def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSITION_AXIS,
-        others: tuple[tuple[str, str], ...] = (),
+        self, chain: SerialChain, task: Task = Task.POSITION_AXIS, others: Others = ()
     ) -> None:
         super().__init__(chain, task, others)
         self.inner: Solver = select_solver(with_tool_joint(chain), Task.POSE)

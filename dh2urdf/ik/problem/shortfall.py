@@ -7,12 +7,11 @@ empty result and is no part of finding solutions.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import ACCEPT, AxisLines, Task
+from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part
 from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
@@ -70,14 +69,7 @@ def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:
 def _arm_to(chain: SerialChain, joints: int, point: Array) -> SerialChain:
     """The first joints of a chain, with a point of the next link at q = 0 as the tool's origin."""
     last = inverse(chain.joint_frames[joints - 1]) @ _at(point)
-    return replace(
-        chain,
-        links=np.concatenate([chain.links[:joints], last[None]]),
-        joint_types=chain.joint_types[:joints],
-        names=chain.names[:joints],
-        lower=chain.lower[:joints],
-        upper=chain.upper[:joints],
-    )
+    return part(chain, np.concatenate([chain.links[:joints], last[None]]), list(range(joints)))
 
 
 def _at(point: Array) -> Array:

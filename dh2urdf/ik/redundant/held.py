@@ -15,18 +15,7 @@ __all__ = ["HeldJoints"]
 
 
 class HeldJoints:
-    """Solver of a chain some of whose joints are held: the solver of the rest, columns put back.
-
-    Parameters
-    ----------
-    chain : SerialChain
-        The whole chain.
-    held : mapping of int to float
-        Value of each held joint [rad] or [m].
-    task : Task
-    inner : Solver, optional
-        Solver of the chain without the held joints; the best one without it.
-    """
+    """Solver of a chain with joints held at values: that of the rest, columns put back."""
 
     def __init__(
         self, chain: SerialChain, held: Mapping[int, float], task: Task, inner: Solver | None = None

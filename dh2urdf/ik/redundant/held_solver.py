@@ -12,15 +12,7 @@ __all__ = ["HeldSolver"]
 
 
 class HeldSolver:
-    """All solutions of many poses of a chain, each pose with its own values of the held joints.
-
-    Parameters
-    ----------
-    chain : SerialChain
-        The whole chain.
-    held : tuple of int
-        Indices of the held joints.
-    """
+    """All solutions of many poses of a chain, each pose with its own values of the held joints."""
 
     name: str
     kmax: int

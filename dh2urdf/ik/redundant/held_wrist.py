@@ -80,17 +80,7 @@ class _Oriented(NamedTuple):
 
 
 class HeldWrist(HeldSolver):
-    """Spherical wrist or shoulder of a chain with one held joint, at any value of it.
-
-    Parameters
-    ----------
-    chain : SerialChain
-        The whole chain.
-    joint : int
-        Index of the held joint.
-    oriented : _Oriented
-        How the family sees them, see :meth:`of`.
-    """
+    """Spherical wrist or shoulder of a chain with one held joint, at any value; see :meth:`of`."""
 
     kmax = 8
 
@@ -169,17 +159,8 @@ class HeldWrist(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one jitted call."""
-        self.kernel(
-            self.frames,
-            self.which,
-            self.rows,
-            self.joints,
-            SLACK,
-            values.ravel(),
-            Ts,
-            within_limits,
-            *out,
-        )
+        constants = self.frames, self.which, self.rows, self.joints, SLACK
+        self.kernel(*constants, values.ravel(), Ts, within_limits, *out)
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""

@@ -19,6 +19,7 @@ from dh2urdf.ik.arm import (
     FAMILY_RANK,
     TRIALS,
     IntArray,
+    Others,
     Outputs,
     SolverBase,
     Task,
@@ -52,9 +53,7 @@ class RedundantChain(SolverBase):
     idle: int
     """Bits of the joints that take part in the motion to spare."""
 
-    def __init__(
-        self, chain: SerialChain, task: Task = Task.POSE, others: tuple[tuple[str, str], ...] = ()
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.held = _joints_to_hold(chain, task)
         anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))

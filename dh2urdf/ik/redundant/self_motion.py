@@ -87,13 +87,7 @@ def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: b
 
 
 def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tuple[Array, Array]:
-    """Some solutions of a pose (4, 4) on curves that a coarse sweep has missed.
-
-    Returns
-    -------
-    q : array, shape (k, n)
-    residual : array, shape (k,)
-    """
+    """Solutions (k, n) of a pose on curves that a coarse sweep has missed; their residuals."""
     chain = solver.chain
     values = sample_values(chain, solver.joint, GRID, within_limits)
     outputs = Outputs.of(1, GRID * solver.held.kmax, chain.n)
@@ -120,22 +114,11 @@ def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
 
 
 def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int = VALUES) -> Array:
-    """Members inside the limits of the curves of a pose, shape (k, n).
+    """Members (k, n) inside the limits of the curves of a pose, those nearest to a goal first.
 
     The curves are looked for in sweeps of two joints over a whole turn, for one that is short in
-    one joint is seldom short in the other; those found outside the limits are followed inwards.
-
-    Parameters
-    ----------
-    solver : Sweep
-    T : array, shape (4, 4)
-    goal : array, shape (n,)
-        Configuration by which full turns are chosen; members come in the order of their
-        distance from it.
-    most : int
-        Most solutions that are followed inwards: those nearest to the goal and the limits.
-    values : int
-        Values of each joint at which curves are looked for.
+    one joint is seldom short in the other. Those found outside the limits are followed inwards,
+    at ``most`` so many, the nearest to the goal and the limits.
     """
     from dh2urdf.kernels.redundant import enter_limits
 
@@ -169,19 +152,9 @@ def _on_curves(solver: Sweep, T: Array, values: int) -> Array:
 
 
 def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -> Array:
-    """Solutions of a pose that are nearer to a seed than their neighbours on the self-motion.
+    """Solutions (k, n) that are nearer to a seed (n,) than their neighbours on the self-motion.
 
-    Parameters
-    ----------
-    solver : Sweep
-    T : array, shape (4, 4)
-    seed : array, shape (n,)
-    within_limits : bool
-
-    Returns
-    -------
-    array, shape (k, n)
-        Nearest first; the first is the nearest of all, on every curve that was found.
+    The first is the nearest of all, on every curve that was found.
     """
     from dh2urdf.kernels.certificate import POSE
     from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
@@ -210,13 +183,6 @@ def reach_intervals(solver: Sweep, T: Array, within_limits: bool) -> Array:
 
     Reach is tried at ``GRID`` values a turn and at the members of narrow curves; between a value
     that has a solution and one that has none the end is found by halving.
-
-    Parameters
-    ----------
-    solver : Sweep
-    T : array, shape (4, 4)
-    within_limits : bool
-        The whole range of the joint, with all joints inside their limits; without it one turn.
     """
     values = _grid(solver, within_limits)
     reached = _reached(solver, T, values, within_limits)

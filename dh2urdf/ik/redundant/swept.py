@@ -9,7 +9,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.arm import Outputs, SolverBase, Task, near_ranges, task_jacobian
+from dh2urdf.ik.arm import Others, Outputs, SolverBase, Task, near_ranges, task_jacobian
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
@@ -42,7 +42,7 @@ class SweptJoint(SolverBase):
         self,
         chain: SerialChain,
         task: Task = Task.POSE,
-        others: tuple[tuple[str, str], ...] = (),
+        others: Others = (),
         samples: int = SAMPLES,
     ) -> None:
         super().__init__(chain, task, others)
