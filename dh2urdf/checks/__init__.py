@@ -4,7 +4,7 @@
 :func:`ask_all` loads the file in every consumer that is installed.
 """
 
-from dh2urdf.checks.consumers import Testimony, ask, ask_all, installed
+from dh2urdf.checks.consumers import Testimony, ask, ask_all, installed, why_not_asked
 from dh2urdf.checks.findings import Consumer, Effect, Finding, Severity, Verdict
 from dh2urdf.checks.rules import RULES, check_urdf
 
@@ -20,4 +20,5 @@ __all__ = [
     "ask_all",
     "check_urdf",
     "installed",
+    "why_not_asked",
 ]

@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -30,8 +30,12 @@ MODULES = {
     Consumer.IKPY: "ikpy",
 }
 
-PATIENCE = 60.0
-"""Seconds after which a consumer counts as hanging."""
+PATIENCE = 20.0
+"""Seconds after which a consumer counts as hanging: four times the slowest over a large arm."""
+
+ASKED = 200
+"""Joints beyond which `dh2urdf check` asks no consumer: Pinocchio's time grows with their cube,
+from 2 s here to more than a minute for 1,000."""
 
 LONGEST = 8
 """Lines of a consumer's words that are kept."""
@@ -72,12 +76,29 @@ def installed() -> tuple[Consumer, ...]:
 
 
 def ask_all(
-    path: str | os.PathLike[str], consumers: Iterable[Consumer] | None = None
+    path: str | os.PathLike[str],
+    consumers: Iterable[Consumer] | None = None,
+    answered: Callable[[], None] = lambda: None,
 ) -> tuple[Testimony, ...]:
-    """What each consumer makes of a file; by default all that are installed."""
+    """What each consumer makes of a file; by default all that are installed.
+
+    ``answered`` is called whenever one has.
+    """
+
+    def one(consumer: Consumer) -> Testimony:
+        testimony = ask(consumer, path)
+        answered()
+        return testimony
+
     chosen = installed() if consumers is None else tuple(consumers)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return tuple(pool.map(lambda consumer: ask(consumer, path), chosen))
+        return tuple(pool.map(one, chosen))
+
+
+def why_not_asked(path: str | os.PathLike[str]) -> str:
+    """Why it would take too long to ask about a file; empty where it would not."""
+    count = len(Document.read(path).joints)
+    return f"{count} joints; they are asked about up to {ASKED}" if count > ASKED else ""
 
 
 def ask(consumer: Consumer, path: str | os.PathLike[str]) -> Testimony:

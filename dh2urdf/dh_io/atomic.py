@@ -24,6 +24,7 @@ _REASONS = {
     errno.EDQUOT: "the disk quota is used up",
     errno.ENAMETOOLONG: "the name is too long",
     errno.EISDIR: "it is a folder",
+    errno.ENXIO: "it is a link to a named pipe that nobody reads",
 }
 
 
@@ -33,7 +34,7 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     The content goes to a temporary file in the same folder, which then takes the place of the
     old one. Text is written as UTF-8. An older file keeps its permissions, and stays as it was
     where anything fails. A symbolic link is followed, not replaced. A device or pipe, such as
-    ``/dev/stdout``, is written to directly.
+    ``/dev/stdout``, is written to directly; a named pipe behind a link must have a reader.
 
     Returns
     -------
@@ -43,7 +44,8 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     Raises
     ------
     OutputError
-        The folder is missing, the path is a folder, no permission, the disk is full.
+        The folder is missing, the path is a folder or a link to a pipe that nobody reads, no
+        permission, the disk is full.
     """
     where = path_of(path)
     try:
@@ -59,7 +61,9 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
         if mode is not None and stat.S_ISDIR(mode):
             raise IsADirectoryError(errno.EISDIR, "")
         if mode is not None and not stat.S_ISREG(mode):
-            where.write_bytes(data)
+            opener = _with_reader if where.is_symlink() and stat.S_ISFIFO(mode) else None
+            with open(where, "wb", opener=opener) as stream:
+                stream.write(data)
             return where
         if mode is not None and not os.access(target, os.W_OK):
             raise PermissionError(errno.EACCES, "")
@@ -83,6 +87,13 @@ def refuse_foreign(path: Path, *marks: str) -> None:
             f"{shown(path)}: exists and was not written by dh2urdf; --force (force=True) "
             "replaces it"
         )
+
+
+def _with_reader(path: str, flags: int) -> int:
+    """Open a pipe, an error where there is nobody to read it yet."""
+    handle = os.open(path, flags | os.O_NONBLOCK)
+    os.set_blocking(handle, True)
+    return handle
 
 
 def _replace(target: Path, data: bytes, mode: int | None) -> None:

@@ -3,11 +3,13 @@
 import io
 import json
 import sys
+import time
 
 import pytest
 from urdf_faults import BODY, SOUND, arm, joint
 
 import dh2urdf
+from dh2urdf.checks import consumers
 from dh2urdf.cli import main
 
 
@@ -48,6 +50,35 @@ def test_findings_name_line_element_consumers_and_cure(run, tmp_path):
     assert 'arm.urdf:5: error: <link name="fore"> moves, and has no <inertial>' in out
     assert "arm.urdf: 2 errors" in out
     assert "Joint [elbow] is of type REVOLUTE but it does not specify limits" in out
+
+
+def test_no_program_is_asked_about_very_many_joints(run, tmp_path):
+    """Of 1,000 joints the rules tell in seconds, and a line that nobody else was asked."""
+    link = f'<link name="l{{0}}">{BODY}</link>'
+    hinge = '<joint name="j{0}" type="revolute"><parent link="l{1}"/><child link="l{0}"/>'
+    hinge += '<axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="9" velocity="1"/></joint>'
+    text = "".join(link.format(k) + hinge.format(k, k - 1) for k in range(1, 1001))
+    (tmp_path / "long.urdf").write_text(f'<robot name="long"><link name="l0"/>{text}</robot>')
+    start = time.monotonic()
+    status, out, err = run("check", "long.urdf")
+    assert time.monotonic() - start < 10
+    assert (status, err) == (0, "")
+    assert out == (
+        "long.urdf: nothing to mend\n"
+        "    no program was asked: 1000 joints; they are asked about up to 200\n"
+    )
+    _, out, _ = run("check", "long.urdf", "--json")
+    (file,) = json.loads(out)["files"]
+    assert (file["consumers"], "1000 joints" in file["not_asked"]) == ([], True)
+
+
+def test_a_program_that_hangs_is_left_in_time(run, tmp_path, monkeypatch):
+    """A joint from a link to itself, on which check_urdf does not come back, ends all the same."""
+    monkeypatch.setattr(consumers, "PATIENCE", 3.0)
+    loop = '<joint name="j" type="fixed"><parent link="a"/><child link="a"/></joint>'
+    (tmp_path / "loop.urdf").write_text(f'<robot name="r"><link name="a"/>{loop}</robot>')
+    status, out, _ = run("check", "loop.urdf")
+    assert (status, "no answer within 3 s" in out) == (1, True)
 
 
 def test_advice_alone_is_no_failure(run, tmp_path):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -62,6 +64,22 @@ def test_a_pipe_is_written_to_not_replaced(tmp_path: Path) -> None:
     assert os.read(reader, 100) == b"content"
     os.close(reader)
     assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_a_link_to_a_named_pipe_is_refused(tmp_path: Path) -> None:
+    """A link that hides a pipe without a reader is refused at once; with one it is written to."""
+    os.mkfifo(tmp_path / "pipe")
+    for name, goal in (("link", "pipe"), ("further", "link")):
+        (tmp_path / name).symlink_to(goal)
+        with pytest.raises(OutputError, match=f"{name}: cannot write: it is a link to a named"):
+            atomic_write(tmp_path / name, "content")
+    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    atomic_write(tmp_path / "further", "content")
+    assert os.read(reader, 100) == b"content"
+    os.close(reader)
+    write = "from dh2urdf.dh_io import atomic_write; atomic_write('/dev/stdout', 'content')"
+    run = subprocess.run([sys.executable, "-c", write], capture_output=True, check=True)
+    assert run.stdout == b"content"
 
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EIO])

@@ -112,6 +112,11 @@ def _main(reader: str, source: str, folder: str) -> int:
         {"xacro": _xacro, "mjcf": _mjcf}[reader](source, Path(folder))
     except Exception as error:
         words = " ".join(str(error).rpartition("message:")[2].split()) or type(error).__name__
+        cause = error
+        while isinstance(inner := getattr(cause, "exc", None), Exception):  # xacro wraps them
+            cause = inner
+        if isinstance(cause, MemoryError):
+            words = f"asks for more than {APART_BYTES // 10**6} MB of memory {words}"
         told = f"{reader}: {words}".encode(errors="replace")
         (Path(folder) / "error").write_bytes(told)
         return 1
