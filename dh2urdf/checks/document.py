@@ -10,17 +10,13 @@ from pathlib import Path
 from lxml import etree
 
 from dh2urdf.bounds import NUMBER as LARGEST
-from dh2urdf.conversions.read import FLOAT, count_elements, description_bytes
+from dh2urdf.conversions.read import FLOAT, MOVING, count_elements, description_bytes
+from dh2urdf.conversions.write import TENSOR
 from dh2urdf.dh_io.files import shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 
 __all__ = ["MOVING", "NUMBERS", "TENSOR", "Document"]
-
-MOVING = ("revolute", "continuous", "prismatic")
-"""Joint types of one degree of freedom."""
-
-TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 NUMBERS = {
     ("origin", "xyz"): 3,
@@ -165,12 +161,15 @@ class Document:
     @cached_property
     def moved(self) -> set[str]:
         """Links that some joint moves, directly or from afar."""
-        todo, seen = list(self.moving), set(self.moving)
+        return self.below(self.moving)
+
+    def below(self, links: list[str]) -> set[str]:
+        """Links and all that hangs on them."""
+        todo, seen = list(links), set(links)
         for name in todo:
-            for child, _ in self.children[name]:
-                if child not in seen:
-                    seen.add(child)
-                    todo.append(child)
+            below = [child for child, _ in self.children[name] if child not in seen]
+            seen.update(below)
+            todo += below
         return seen
 
     def geometries(self) -> Iterator[tuple[etree._Element, etree._Element]]:

@@ -5,20 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-__all__ = [
-    "STRICT",
-    "URDFDOM",
-    "Consumer",
-    "Effect",
-    "Finding",
-    "Severity",
-    "Verdict",
-    "accept",
-    "complain",
-    "misread",
-    "refuse",
-]
-
 
 class Consumer(StrEnum):
     """A program that reads URDF files."""
@@ -37,17 +23,13 @@ class Consumer(StrEnum):
     RVIZ = "RViz"
 
 
-URDFDOM = (
-    Consumer.CHECK_URDF,
-    Consumer.PINOCCHIO,
-    Consumer.KDL,
-    Consumer.GAZEBO,
-    Consumer.MOVEIT,
-    Consumer.RVIZ,
-)
+PINOCCHIO, CHECK_URDF, YOURDFPY, MUJOCO, PYBULLET, DRAKE = list(Consumer)[:6]
+IKPY, KDL, GAZEBO, MOVEIT, IKFAST, RVIZ = list(Consumer)[6:]
+
+URDFDOM = (CHECK_URDF, PINOCCHIO, KDL, GAZEBO, MOVEIT, RVIZ)
 """Those that read a file through the library urdfdom, and so refuse the same ones."""
 
-STRICT = (*URDFDOM, Consumer.MUJOCO, Consumer.PYBULLET, Consumer.DRAKE)
+STRICT = (*URDFDOM, MUJOCO, PYBULLET, DRAKE)
 """Those that look at a tree closely before they take it."""
 
 

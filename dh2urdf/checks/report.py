@@ -11,10 +11,16 @@ __all__ = ["Found"]
 
 
 class Found:
-    """A finding before it is placed in its file; the arguments are the fields of ``Finding``."""
+    """A finding before it is placed in its file; the arguments are the fields of ``Finding``.
 
-    def __init__(self, at: etree._Element, message: str, *effects: Effect, mend: str) -> None:
-        self.at, self.message, self.effects, self.mend = at, message, effects, mend
+    Effects that are None are left out.
+    """
+
+    def __init__(
+        self, at: etree._Element, message: str, *effects: Effect | None, mend: str
+    ) -> None:
+        self.at, self.message, self.mend = at, message, mend
+        self.effects = tuple(effect for effect in effects if effect)
 
     def placed(self, rule: str) -> Finding:
         """The finding of a rule."""

@@ -10,8 +10,10 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import Consumer, misread
+from dh2urdf.checks.findings import IKFAST, MOVEIT, misread
 from dh2urdf.checks.report import Found
+from dh2urdf.conversions.chains import turn_slide
+from dh2urdf.conversions.write import frame_along
 from dh2urdf.transforms import Array
 
 __all__ = ["meant_angle", "rounded_angle"]
@@ -59,8 +61,8 @@ def rounded_angle(doc: Document) -> Iterator[Found]:
         first.find("origin"),
         f'rpy="{text}" is rounded; joints: {shown}. {_cost(doc, mended)}',
         misread(
-            Consumer.IKFAST,
-            Consumer.MOVEIT,
+            IKFAST,
+            MOVEIT,
             text="see axes that are nearly parallel or nearly meet; they look for ones that do",
         ),
         mend=f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such "
@@ -136,7 +138,12 @@ def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Arra
     length = float(np.linalg.norm(axis))
     if not length:
         return None
-    return T @ _motion(doc.kind(joint) == "prismatic", axis / length, _within(doc, joint, q))
+    turn, still = np.eye(4), np.zeros(len(q))
+    turn[:3, :3] = frame_along(axis / length)
+    values = _within(doc, joint, q)
+    slides = doc.kind(joint) == "prismatic"
+    motion = turn_slide(still, values) if slides else turn_slide(values, still)
+    return np.asarray(T @ turn @ motion @ turn.T)
 
 
 def _within(doc: Document, joint: etree._Element, q: Array) -> Array:
@@ -146,17 +153,3 @@ def _within(doc: Document, joint: etree._Element, q: Array) -> Array:
     if lower is None or upper is None or doc.kind(joint) == "continuous":
         return q
     return lower + (q + math.pi) / (2 * math.pi) * (upper - lower)
-
-
-def _motion(slides: bool, axis: Array, q: Array) -> Array:
-    """Turn about or slide along a unit axis, shape (m, 4, 4) (Rodrigues' formula)."""
-    out = np.zeros((len(q), 4, 4))
-    out[:] = np.eye(4)
-    if slides:
-        out[:, :3, 3] = q[:, None] * axis
-        return out
-    x, y, z = axis
-    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    s, c = np.sin(q)[:, None, None], np.cos(q)[:, None, None]
-    out[:, :3, :3] += s * K + (1 - c) * (K @ K)
-    return out

@@ -8,22 +8,21 @@ import numpy as np
 from lxml import etree
 
 from dh2urdf.checks.document import MOVING, TENSOR, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, Effect, complain, misread, refuse
+from dh2urdf.checks.findings import (
+    DRAKE,
+    GAZEBO,
+    KDL,
+    MUJOCO,
+    PINOCCHIO,
+    PYBULLET,
+    URDFDOM,
+    complain,
+    misread,
+    refuse,
+)
 from dh2urdf.checks.report import Found
 from dh2urdf.conversions.write import tensor, why_impossible
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "inertia_not_positive",
-    "inertia_triangle",
-    "inertia_zero",
-    "inertial_incomplete",
-    "mass_negative",
-    "massless",
-    "massless_frame",
-    "massless_part",
-    "root_inertia",
-]
 
 ESTIMATE = "dh2urdf convert estimates masses from the drawn bodies of a DH table"
 
@@ -63,32 +62,22 @@ def massless(doc: Document) -> Iterator[Found]:
             continue
         empty = link.find("inertial") is None
         shells = any(doc.link_by_name[m].find("collision") is not None for m in part)
-        effects = [
-            *([] if shells else [refuse(Consumer.MUJOCO)]),
-            *(
-                [complain(Consumer.PINOCCHIO, text="forward dynamics give NaN")]
-                if name not in laden
-                else []
-            ),
-            misread(Consumer.GAZEBO, text="drops the link and all that hangs on it"),
-        ]
-        if empty:
-            effects.append(complain(Consumer.PYBULLET, text="takes it for 1 kg"))
+        nan = complain(PINOCCHIO, text="forward dynamics give NaN")
         yield Found(
             link,
             "moves, and has no <inertial>" if empty else "moves, and has no mass",
-            *tuple(effects),
+            None if shells else refuse(MUJOCO),
+            None if name in laden else nan,
+            misread(GAZEBO, text="drops the link and all that hangs on it"),
+            complain(PYBULLET, text="takes it for 1 kg") if empty else None,
             mend=f"give it a mass and a tensor; {ESTIMATE}",
         )
 
 
 def _unreadable(doc: Document, part: list[str]) -> bool:
     """True where an <inertial> is there but incomplete or no number, which other rules say."""
-    for member in part:
-        inertial = doc.link_by_name[member].find("inertial")
-        if inertial is not None and _mass(doc, member) is None:
-            return True
-    return False
+    there = (m for m in part if doc.link_by_name[m].find("inertial") is not None)
+    return any(_mass(doc, member) is None for member in there)
 
 
 def massless_part(doc: Document) -> Iterator[Found]:
@@ -100,8 +89,8 @@ def massless_part(doc: Document) -> Iterator[Found]:
             yield Found(
                 link,
                 f"has no <inertial>; its mass is in {', '.join(map(repr, others))}",
-                complain(Consumer.PYBULLET, text="adds 1 kg"),
-                misread(Consumer.GAZEBO, text="may drop the link"),
+                complain(PYBULLET, text="adds 1 kg"),
+                misread(GAZEBO, text="may drop the link"),
                 mend="move the mass to this link",
             )
 
@@ -116,16 +105,13 @@ def massless_frame(doc: Document) -> Iterator[Found]:
         and doc.link_by_name[name].find("inertial") is None
     ]
     if silent:
+        others = f"; nor has {', '.join(map(repr, silent[1:]))}" if len(silent) > 1 else ""
         yield Found(
             doc.link_by_name[silent[0]],
-            f"has no <inertial>{_and_others(silent)}",
-            complain(Consumer.PYBULLET, text="takes each for 1 kg"),
+            f"has no <inertial>{others}",
+            complain(PYBULLET, text="takes each for 1 kg"),
             mend="give it an <inertial> with mass 0 and a zero tensor",
         )
-
-
-def _and_others(names: list[str]) -> str:
-    return f"; nor has {', '.join(map(repr, names[1:]))}" if len(names) > 1 else ""
 
 
 def mass_negative(doc: Document) -> Iterator[Found]:
@@ -136,16 +122,11 @@ def mass_negative(doc: Document) -> Iterator[Found]:
             yield Found(
                 link,
                 f"has a mass of {mass:g} kg",
-                *_by_mujoco(doc, name),
-                complain(Consumer.DRAKE),
-                misread(Consumer.PINOCCHIO, text="computes with it"),
+                refuse(MUJOCO) if name in doc.moving else None,  # it looks at what moves
+                complain(DRAKE),
+                misread(PINOCCHIO, text="computes with it"),
                 mend="mend the sign",
             )
-
-
-def _by_mujoco(doc: Document, link: str) -> list[Effect]:
-    """MuJoCo looks at the mass of what moves."""
-    return [refuse(Consumer.MUJOCO)] if link in doc.moving else []
 
 
 def inertial_incomplete(doc: Document) -> Iterator[Found]:
@@ -156,18 +137,16 @@ def inertial_incomplete(doc: Document) -> Iterator[Found]:
             continue
         mass, element = inertial.find("mass"), inertial.find("inertia")
         missing = [] if mass is not None and mass.get("value") is not None else ["mass"]
-        if element is None:
-            missing.append("tensor")
-        else:
-            missing += [key for key in TENSOR if element.get(key) is None]
+        none = element is None
+        missing += ["tensor"] if none else [key for key in TENSOR if element.get(key) is None]
         if missing:
             yield Found(
                 inertial,
                 f"has no {', '.join(missing)}",
-                refuse(Consumer.PYBULLET),
-                *([] if missing[0] in ("ixy", "ixz", "iyz") else [refuse(Consumer.MUJOCO)]),
+                refuse(PYBULLET),
+                None if missing[0] in ("ixy", "ixz", "iyz") else refuse(MUJOCO),
                 complain(*URDFDOM, text="leave the whole <inertial> out"),
-                *([complain(Consumer.DRAKE)] if missing[0] == "mass" else []),
+                complain(DRAKE) if missing[0] == "mass" else None,
                 mend="write what is missing, zeros where they are meant",
             )
 
@@ -182,15 +161,12 @@ def inertia_zero(doc: Document) -> Iterator[Found]:
         alone = not any(_mass(doc, member) for member in doc.rigid_part(name)[1:])
         inertia = _tensor(doc, inertial)
         if alone and inertia is not None and not inertia.any():
+            idle = name not in laden and _on_axis(doc, name, inertial)
             yield Found(
                 inertial,
                 "is a point: a mass without a tensor",
-                refuse(Consumer.MUJOCO),
-                *(
-                    [complain(Consumer.PINOCCHIO, text="may compute NaN")]
-                    if name not in laden and _on_axis(doc, name, inertial)
-                    else []
-                ),
+                refuse(MUJOCO),
+                complain(PINOCCHIO, text="may compute NaN") if idle else None,
                 mend=f"write the tensor of a body of that size; {ESTIMATE}",
             )
 
@@ -205,48 +181,37 @@ def _on_axis(doc: Document, name: str, inertial: etree._Element) -> bool:
     return bool(np.allclose(np.cross(com, axis), 0.0))
 
 
-def _impossible(doc: Document) -> Iterator[tuple[etree._Element, Array, str]]:
-    """``(inertial, tensor, why)`` of the tensors, but zeros, that no body has."""
+def _impossible(doc: Document, *, positive: bool, mend: str) -> Iterator[Found]:
+    """Tensors, but zeros, that no body has, those with positive principal moments or the rest."""
     for link in doc.links:
         inertial = link.find("inertial")
         inertia = None if inertial is None else _tensor(doc, inertial)
-        if inertia is not None and inertia.any():
-            why = why_impossible(inertia)
-            if why:
-                yield inertial, inertia, why
-
-
-TENSOR_READERS = (
-    refuse(Consumer.MUJOCO),
-    complain(Consumer.DRAKE),
-    complain(Consumer.PYBULLET, text="takes the tensor for zero"),
-    misread(Consumer.PINOCCHIO, text="computes with it"),
-)
+        if inertia is None or not inertia.any():
+            continue
+        why = why_impossible(inertia)
+        if why and (np.linalg.eigvalsh(inertia)[0] > 0) == positive:
+            yield Found(
+                inertial,
+                f"no body has this tensor: {why}",
+                refuse(MUJOCO),
+                complain(DRAKE),
+                complain(PYBULLET, text="takes the tensor for zero"),
+                misread(PINOCCHIO, text="computes with it"),
+                mend=mend,
+            )
 
 
 def inertia_not_positive(doc: Document) -> Iterator[Found]:
     """The principal moments of a tensor are positive."""
-    for inertial, inertia, why in _impossible(doc):
-        if np.linalg.eigvalsh(inertia)[0] <= 0:
-            yield Found(
-                inertial,
-                f"no body has this tensor: {why}",
-                *TENSOR_READERS,
-                mend="mend the signs of the products of inertia, or the units",
-            )
+    mend = "mend the signs of the products of inertia, or the units"
+    yield from _impossible(doc, positive=False, mend=mend)
 
 
 def inertia_triangle(doc: Document) -> Iterator[Found]:
     """No principal moment of a tensor exceeds the sum of the other two."""
-    for inertial, inertia, why in _impossible(doc):
-        if np.linalg.eigvalsh(inertia)[0] > 0:
-            yield Found(
-                inertial,
-                f"no body has this tensor: {why}",
-                *TENSOR_READERS,
-                mend="raise the smaller moments; MuJoCo does it itself with "
-                '<mujoco><compiler balanceinertia="true"/></mujoco>',
-            )
+    mend = "raise the smaller moments; MuJoCo does it itself with "
+    mend += '<mujoco><compiler balanceinertia="true"/></mujoco>'
+    yield from _impossible(doc, positive=True, mend=mend)
 
 
 def root_inertia(doc: Document) -> Iterator[Found]:
@@ -256,8 +221,6 @@ def root_inertia(doc: Document) -> Iterator[Found]:
             yield Found(
                 doc.link_by_name[name],
                 "is the root and has an <inertial>",
-                complain(
-                    Consumer.KDL, text="takes no root with inertia: leaves it out with a warning"
-                ),
+                complain(KDL, text="takes no root with inertia: leaves it out with a warning"),
                 mend="hang the mass on a child of the root by a fixed joint",
             )

@@ -3,112 +3,106 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+
+from lxml import etree
 
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import URDFDOM, Consumer, accept, complain, misread, refuse
+from dh2urdf.checks.findings import (
+    CHECK_URDF,
+    DRAKE,
+    GAZEBO,
+    IKFAST,
+    IKPY,
+    KDL,
+    MOVEIT,
+    MUJOCO,
+    PINOCCHIO,
+    PYBULLET,
+    URDFDOM,
+    YOURDFPY,
+    accept,
+    complain,
+    misread,
+    refuse,
+)
 from dh2urdf.checks.report import Found
 
-__all__ = [
-    "axis_missing",
-    "axis_not_unit",
-    "axis_zero",
-    "continuous",
-    "damping_negative",
-    "limit_incomplete",
-    "limit_missing",
-    "limit_reversed",
-    "limit_without_bounds",
-    "limit_zero",
-]
+_Pair = tuple[etree._Element, etree._Element | None]
 
 BOUNDED = ("revolute", "prismatic")
 
 UNIT = 1e-6
 """How far from 1 the length of an axis may be: six written digits."""
 
+INVALID = complain(YOURDFPY, text="does not validate it")
+
+UNLIMITED = misread(MUJOCO, DRAKE, IKPY, text="take the joint as unlimited")
+
+
+def _parts(doc: Document, tag: str, kinds: Sequence[str] = MOVING) -> Iterator[_Pair]:
+    """``(joint, part)`` of the joints of some kinds; the part is None where there is none."""
+    for joint in doc.joints:
+        if doc.kind(joint) in kinds:
+            yield joint, joint.find(tag)
+
+
+def _missing(limit: etree._Element | None, keys: Sequence[str]) -> list[str]:
+    return [] if limit is None else [key for key in keys if limit.get(key) is None]
+
 
 def limit_missing(doc: Document) -> Iterator[Found]:
     """Revolute and prismatic joints have a <limit>."""
-    for joint in doc.joints:
-        if doc.kind(joint) in BOUNDED and joint.find("limit") is None:
-            yield Found(
-                joint,
-                "has no <limit>",
-                refuse(*URDFDOM, Consumer.PYBULLET),
-                complain(Consumer.YOURDFPY, text="does not validate it"),
-                misread(
-                    Consumer.MUJOCO,
-                    Consumer.DRAKE,
-                    Consumer.IKPY,
-                    text="take the joint as unlimited",
-                ),
-                mend='write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide '
-                "ones rather than none",
-            )
+    for joint, limit in _parts(doc, "limit", BOUNDED):
+        if limit is None:
+            mend = 'write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide '
+            refused = refuse(*URDFDOM, PYBULLET)
+            effects = (refused, INVALID, UNLIMITED)
+            yield Found(joint, "has no <limit>", *effects, mend=f"{mend}ones rather than none")
 
 
 def limit_incomplete(doc: Document) -> Iterator[Found]:
     """A <limit> has effort and velocity."""
-    for joint in doc.joints:
-        limit = joint.find("limit")
-        if doc.kind(joint) not in MOVING or limit is None:
-            continue
-        missing = [key for key in ("effort", "velocity") if limit.get(key) is None]
+    for _, limit in _parts(doc, "limit"):
+        missing = _missing(limit, ("effort", "velocity"))
         if missing:
             yield Found(
                 limit,
                 f"has no {' and no '.join(missing)}",
                 refuse(*URDFDOM),
-                complain(Consumer.YOURDFPY, text="does not validate it"),
-                misread(Consumer.PYBULLET, text="reads 0: motors without force"),
+                INVALID,
+                misread(PYBULLET, text="reads 0: motors without force"),
                 mend=f"add {' '.join(f'{key}=...' for key in missing)}; URDF requires both",
             )
 
 
 def limit_without_bounds(doc: Document) -> Iterator[Found]:
     """A <limit> of a revolute or prismatic joint has lower and upper."""
-    for joint in doc.joints:
-        limit = joint.find("limit")
-        if doc.kind(joint) not in BOUNDED or limit is None:
-            continue
-        missing = [key for key in ("lower", "upper") if limit.get(key) is None]
+    for _, limit in _parts(doc, "limit", BOUNDED):
+        missing = _missing(limit, ("lower", "upper"))
         if missing:
             both = len(missing) == 2
+            text = "read 0: the joint cannot move" if both else "read 0 for it"
             yield Found(
                 limit,
                 f"has no {' and no '.join(missing)}",
-                misread(
-                    *URDFDOM, text="read 0: the joint cannot move" if both else "read 0 for it"
-                ),
-                complain(Consumer.YOURDFPY, text="does not validate it"),
-                *(
-                    [
-                        misread(
-                            Consumer.MUJOCO,
-                            Consumer.DRAKE,
-                            Consumer.IKPY,
-                            text="take the joint as unlimited",
-                        )
-                    ]
-                    if both
-                    else []
-                ),
+                misread(*URDFDOM, text=text),
+                INVALID,
+                UNLIMITED if both else None,
                 mend="write both bounds",
             )
 
 
 def limit_reversed(doc: Document) -> Iterator[Found]:
     """The lower bound is not above the upper one."""
-    for joint in doc.joints:
-        limit = joint.find("limit")
+    for _, limit in _parts(doc, "limit", BOUNDED):
         lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
-        if doc.kind(joint) in BOUNDED and lower is not None and upper is not None and lower > upper:
+        if lower is not None and upper is not None and lower > upper:
             yield Found(
                 limit,
                 f"lower {lower:g} lies above upper {upper:g}",
-                refuse(Consumer.DRAKE, text="aborts"),
-                misread(Consumer.MUJOCO, text="takes the joint as unlimited"),
+                refuse(DRAKE, text="aborts"),
+                misread(MUJOCO, text="takes the joint as unlimited"),
                 misread(*URDFDOM, text="keep an empty range"),
                 mend="exchange them, or mend the signs",
             )
@@ -116,100 +110,126 @@ def limit_reversed(doc: Document) -> Iterator[Found]:
 
 def limit_zero(doc: Document) -> Iterator[Found]:
     """Effort, velocity and range are not zero."""
-    for joint in doc.joints:
-        limit = joint.find("limit")
-        if doc.kind(joint) not in MOVING:
-            continue
+    still = "may hold the joint still: a limit of 0 is a limit"
+    for joint, limit in _parts(doc, "limit"):
         zero = [key for key in ("effort", "velocity") if doc.number(limit, key) == 0]
         lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
         if doc.kind(joint) in BOUNDED and lower is not None and lower == upper:
             yield Found(
                 limit,
                 f"lower and upper are both {lower:g}",
-                complain(Consumer.MUJOCO, text="takes the joint as unlimited"),
+                complain(MUJOCO, text="takes the joint as unlimited"),
                 mend="write a range, or make the joint a fixed one",
             )
         if zero:
             yield Found(
                 limit,
                 f"{' and '.join(zero)} 0",
-                accept(
-                    Consumer.MOVEIT,
-                    Consumer.GAZEBO,
-                    Consumer.PYBULLET,
-                    text="may hold the joint still: a limit of 0 is a limit",
-                ),
+                accept(MOVEIT, GAZEBO, PYBULLET, text=still),
                 mend="write the maker's figures, or large ones",
             )
 
 
 def continuous(doc: Document) -> Iterator[Found]:
     """No joint is continuous."""
-    for joint in doc.joints:
-        if doc.kind(joint) == "continuous":
-            yield Found(
-                joint,
-                "turns without end",
-                accept(
-                    Consumer.PINOCCHIO,
-                    text="q has two numbers for it, cosine and sine: model.nq exceeds model.nv",
-                ),
-                accept(Consumer.IKFAST, text="takes it with a range of one turn"),
-                mend="if programs expect one number a joint, write a revolute one with limits of "
-                "+-6.283185307179586",
-            )
+    two = "q has two numbers for it, cosine and sine: model.nq exceeds model.nv"
+    for joint, _ in _parts(doc, "limit", ("continuous",)):
+        yield Found(
+            joint,
+            "turns without end",
+            accept(PINOCCHIO, text=two),
+            accept(IKFAST, text="takes it with a range of one turn"),
+            mend="if programs expect one number a joint, write a revolute one with limits of "
+            "+-6.283185307179586",
+        )
 
 
 def axis_missing(doc: Document) -> Iterator[Found]:
     """Moving joints say what their axis is."""
-    for joint in doc.joints:
-        axis = joint.find("axis")
-        if doc.kind(joint) in MOVING and (axis is None or axis.get("xyz") is None):
+    for joint, axis in _parts(doc, "axis"):
+        if axis is None or axis.get("xyz") is None:
             yield Found(
                 joint,
                 "has no <axis>; that means x",
-                complain(Consumer.PYBULLET, text="says that it takes x"),
+                complain(PYBULLET, text="says that it takes x"),
                 mend='write <axis xyz="1 0 0"/> if x is meant; most arms turn about z',
             )
 
 
 def axis_zero(doc: Document) -> Iterator[Found]:
     """The axis of a moving joint has a direction."""
-    for joint in doc.joints:
-        values = doc.numbers(joint.find("axis"), "xyz")
-        if doc.kind(joint) in MOVING and values is not None and not any(values):
+    for _, axis in _parts(doc, "axis"):
+        values = doc.numbers(axis, "xyz")
+        if values is not None and not any(values):
             yield Found(
-                joint.find("axis"),
+                axis,
                 "is a zero vector",
-                refuse(Consumer.MUJOCO, Consumer.DRAKE),
-                complain(Consumer.PINOCCHIO, Consumer.YOURDFPY, text="compute NaN"),
-                misread(Consumer.CHECK_URDF, Consumer.IKPY, text="take it as it is"),
+                refuse(MUJOCO, DRAKE),
+                complain(PINOCCHIO, YOURDFPY, text="compute NaN"),
+                misread(CHECK_URDF, IKPY, text="take it as it is"),
                 mend="write the direction",
             )
 
 
 def axis_not_unit(doc: Document) -> Iterator[Found]:
     """The axis of a moving joint has length 1."""
-    for joint in doc.joints:
-        values = doc.numbers(joint.find("axis"), "xyz")
-        if doc.kind(joint) not in MOVING or values is None or not any(values):
-            continue
+    for joint, axis in _parts(doc, "axis"):
+        values = doc.numbers(axis, "xyz") or (0.0,)
         length = math.hypot(*values)
-        if abs(length - 1) > UNIT and math.isfinite(length):
-            slides = doc.kind(joint) == "prismatic"
-            movers = (Consumer.YOURDFPY, Consumer.IKPY) if slides else (Consumer.IKPY,)
-            text = (
-                f"move {length:.4g} times as far"
-                if slides
-                else "gives a matrix that is no rotation"
-            )
+        if any(values) and abs(length - 1) > UNIT and math.isfinite(length):
+            effect = misread(IKPY, text="gives a matrix that is no rotation")
+            if doc.kind(joint) == "prismatic":
+                effect = misread(YOURDFPY, IKPY, text=f"move {length:.4g} times as far")
             unit = " ".join(repr(v / length + 0.0) for v in values)
+            mend = f'write <axis xyz="{unit}"/>'
+            yield Found(axis, f"has length {length:.6g}", effect, mend=mend)
+
+
+def mimic_leader(doc: Document) -> Iterator[Found]:
+    """A <mimic> names another moving joint."""
+    for joint, element in _followers(doc):
+        leader = element.get("joint")
+        known = doc.joint_by_name.get(leader)
+        itself = leader is not None and leader == joint.get("name")
+        if leader is None:
             yield Found(
-                joint.find("axis"),
-                f"has length {length:.6g}",
-                misread(*movers, text=text),
-                mend=f'write <axis xyz="{unit}"/>',
+                element,
+                "names no joint",
+                refuse(*URDFDOM, MUJOCO, DRAKE),
+                complain(YOURDFPY),
+                mend='write <mimic joint="..."/>',
             )
+        elif itself or known is None or doc.kind(known) not in MOVING:
+            what = "the joint itself" if itself else f"{leader!r}, which is no moving joint"
+            yield Found(
+                element,
+                f"follows {what}",
+                refuse(DRAKE),
+                (refuse if itself else complain)(MUJOCO),
+                complain(YOURDFPY, text="takes the leader as 0"),
+                accept(PINOCCHIO, CHECK_URDF, IKPY, text="do not look at it"),
+                mend="mend the name of the joint that it follows",
+            )
+
+
+def mimic(doc: Document) -> Iterator[Found]:
+    """No joint follows another."""
+    own = "move it on its own; Pinocchio follows when asked (mimic=True)"
+    for joint, element in _followers(doc):
+        leader = doc.joint_by_name.get(element.get("joint", ""))
+        if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
+            yield Found(
+                element,
+                f"follows {leader.get('name')!r}",
+                accept(PINOCCHIO, PYBULLET, KDL, IKPY, text=own),
+                mend="couple the joints in your own program",
+            )
+
+
+def _followers(doc: Document) -> Iterator[tuple[etree._Element, etree._Element]]:
+    """Joints with a <mimic>, and that."""
+    pairs = ((joint, joint.find("mimic")) for joint in doc.joints)
+    return ((joint, element) for joint, element in pairs if element is not None)
 
 
 def damping_negative(doc: Document) -> Iterator[Found]:
@@ -219,11 +239,10 @@ def damping_negative(doc: Document) -> Iterator[Found]:
         for key in ("damping", "friction"):
             value = doc.number(dynamics, key)
             if value is not None and value < 0:
-                refusing = (Consumer.DRAKE,) if key == "damping" else ()
                 yield Found(
                     dynamics,
                     f"{key} {value:g} drives the joint",
-                    *(refuse(c) for c in refusing),
-                    misread(Consumer.MUJOCO, Consumer.PYBULLET, text="simulate it as it stands"),
+                    refuse(DRAKE) if key == "damping" else None,
+                    misread(MUJOCO, PYBULLET, text="simulate it as it stands"),
                     mend="mend the sign",
                 )

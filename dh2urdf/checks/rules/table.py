@@ -4,75 +4,33 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator
+from inspect import isfunction
+from types import ModuleType
 
 from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.report import Found
 from dh2urdf.checks.rounding import rounded_angle
-from dh2urdf.checks.rules import geometry, inertia, joints, names, numbers, reading, tree
+from dh2urdf.checks.rules import geometry, inertia, joints, reading, tree
 
 __all__ = ["RULES", "check_urdf"]
 
-RULES: dict[str, Callable[[Document], Iterator[Found]]] = {
-    "robot-name": names.robot_name,
-    "version": names.version,
-    "no-links": tree.no_links,
-    "no-name": names.no_name,
-    "duplicate-link": names.duplicate_link,
-    "duplicate-joint": names.duplicate_joint,
-    "joint-named-as-link": names.joint_named_as_link,
-    "joint-ends": tree.joint_ends,
-    "unknown-child": tree.unknown_child,
-    "unknown-parent": tree.unknown_parent,
-    "joins-itself": tree.joins_itself,
-    "two-parents": tree.two_parents,
-    "loop": tree.loop,
-    "several-roots": tree.several_roots,
-    "joint-type": tree.joint_type,
-    "many-degrees": tree.many_degrees,
-    "name-characters": names.name_characters,
-    "side-frame-first": tree.side_frame_first,
-    "repeated-element": reading.repeated_element,
-    "fused-frames": reading.fused_frames,
-    "xacro": numbers.xacro,
-    "number": numbers.number,
-    "number-count": numbers.number_count,
-    "not-finite": numbers.not_finite,
-    "negative-zero": numbers.negative_zero,
+Rule = Callable[[Document], Iterator[Found]]
+
+
+def _rules(module: ModuleType) -> dict[str, Rule]:
+    """The public functions of a module in its order, ``limit_zero`` as ``limit-zero``."""
+    own = {name: f for name, f in vars(module).items() if isfunction(f) and name[0] != "_"}
+    return {n.replace("_", "-"): f for n, f in own.items() if f.__module__ == module.__name__}
+
+
+RULES: dict[str, Rule] = {
+    **_rules(tree),
+    **_rules(reading),
     "rounded-angle": rounded_angle,
-    "limit-missing": joints.limit_missing,
-    "limit-incomplete": joints.limit_incomplete,
-    "limit-without-bounds": joints.limit_without_bounds,
-    "limit-reversed": joints.limit_reversed,
-    "limit-zero": joints.limit_zero,
-    "continuous": joints.continuous,
-    "axis-missing": joints.axis_missing,
-    "axis-zero": joints.axis_zero,
-    "axis-not-unit": joints.axis_not_unit,
-    "mimic-leader": reading.mimic_leader,
-    "mimic": reading.mimic,
-    "damping-negative": joints.damping_negative,
-    "massless": inertia.massless,
-    "massless-part": inertia.massless_part,
-    "massless-frame": inertia.massless_frame,
-    "mass-negative": inertia.mass_negative,
-    "inertial-incomplete": inertia.inertial_incomplete,
-    "inertia-zero": inertia.inertia_zero,
-    "inertia-not-positive": inertia.inertia_not_positive,
-    "inertia-triangle": inertia.inertia_triangle,
-    "root-inertia": inertia.root_inertia,
-    "geometry-empty": geometry.geometry_empty,
-    "geometry-unknown": geometry.geometry_unknown,
-    "geometry-size": geometry.geometry_size,
-    "mesh-missing": geometry.mesh_missing,
-    "mesh-path": geometry.mesh_path,
-    "mesh-package": geometry.mesh_package,
-    "mesh-format": geometry.mesh_format,
-    "mesh-scale": geometry.mesh_scale,
-    "mesh-units": geometry.mesh_units,
-    "material-undefined": geometry.material_undefined,
-    "material-name": geometry.material_name,
-    "material-twice": geometry.material_twice,
+    **_rules(joints),
+    **_rules(inertia),
+    **_rules(geometry),
 }
 """Every rule by its name; its docstring says what holds in a sound file."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.frame_assignment import Assignment, FrameAssigner, XRule
@@ -90,12 +90,7 @@ def turned_round(links: Array, signs: Sequence[int]) -> Array:
 
 
 def flip_signs(chain: SerialChain, flip: Sequence[str]) -> tuple[int, ...]:
-    """Signs of the rows, -1 for the joints named.
-
-    Raises
-    ------
-    NameNotFoundError
-    """
+    """Signs of the rows, -1 for the joints named."""
     for name in flip:
         if name not in chain.names:
             raise NameNotFoundError(
@@ -123,8 +118,10 @@ def _rows(found: Assignment, chain: SerialChain, signs: Sequence[int]) -> tuple[
             joint_type=chain.joint_types[i],
             sign=signs[i],
             name=chain.names[i],
+            lower=_finite(chain.lower[i]),
+            upper=_finite(chain.upper[i]),
         )
-        rows.append(_bounded(row, float(chain.lower[i]), float(chain.upper[i])))
+        rows.append(row)
         beta = found.normals[i].beta if i < found.n - 1 else 0.0
         if beta != 0:
             step = Origin(rpy=(0.0, beta, 0.0))
@@ -132,9 +129,5 @@ def _rows(found: Assignment, chain: SerialChain, signs: Sequence[int]) -> tuple[
     return tuple(rows)
 
 
-def _bounded(row: DHRow, lower: float, upper: float) -> DHRow:
-    return replace(
-        row,
-        lower=lower if math.isfinite(lower) else None,
-        upper=upper if math.isfinite(upper) else None,
-    )
+def _finite(bound: float) -> float | None:
+    return float(bound) if math.isfinite(bound) else None

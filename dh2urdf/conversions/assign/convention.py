@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.write import Inertial, tensor
+from dh2urdf.conversions.write import Inertial, six_of, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io import TableLike, as_table
@@ -113,10 +113,8 @@ def _with_inertial(row: DHRow, T_new_old: Array) -> DHRow:
     inertia = np.zeros((3, 3)) if row.inertia is None else tensor(row.inertia)
     moved = Inertial(row.mass or 0.0, com, inertia).moved(T_new_old)
     x, y, z = (float(v) for v in moved.com)
-    m = moved.inertia
-    six = (m[0, 0], m[0, 1], m[0, 2], m[1, 1], m[1, 2], m[2, 2])
     return replace(
         row,
         com=None if row.com is None else (x, y, z),
-        inertia=None if row.inertia is None else tuple(float(v) for v in six),  # type: ignore[arg-type]
+        inertia=None if row.inertia is None else six_of(moved.inertia),
     )

@@ -19,7 +19,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.assign.rounding import near_angle
-from dh2urdf.conversions.chains import table_poses
+from dh2urdf.conversions.chains import table_poses, turn_slide
 from dh2urdf.dh import DHConvention, DHTable, Origin
 from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
@@ -76,15 +76,7 @@ def chain_poses(chain: SerialChain, qs: Array) -> Array:
     """``T_base_tool`` of a chain at many configurations, shape (m, 4, 4)."""
     T = np.broadcast_to(chain.links[0], (len(qs), 4, 4))
     for q, slides, link in zip(qs.T, chain.prismatic, chain.links[1:], strict=True):
-        Z = np.zeros((len(qs), 4, 4))
-        Z[:] = np.eye(4)
-        if slides:
-            Z[:, 2, 3] = q
-        else:
-            Z[:, 0, 0] = Z[:, 1, 1] = np.cos(q)
-            Z[:, 1, 0] = np.sin(q)
-            Z[:, 0, 1] = -Z[:, 1, 0]
-        T = T @ Z @ link
+        T = T @ turn_slide(0 * q if slides else q, q if slides else 0 * q) @ link
     poses: Array = T
     return poses
 

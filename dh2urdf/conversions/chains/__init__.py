@@ -17,4 +17,4 @@ from dh2urdf.conversions.chains.model_chain import (
     model_to_chain,
     with_locked,
 )
-from dh2urdf.conversions.chains.referee import configurations, table_poses
+from dh2urdf.conversions.chains.referee import configurations, table_poses, turn_slide

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
 from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource
-from dh2urdf.conversions.write import Inertial
+from dh2urdf.conversions.write import Inertial, six_of
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
 
@@ -30,13 +30,7 @@ def carry(table: DHTable, source: ChainSource) -> DHTable:
 def _carried(
     row: DHRow, T_base_joint: Array, T_base_dh: Array, body: Inertial | None, drive: Actuation
 ) -> DHRow:
-    row = replace(
-        row,
-        velocity=drive.velocity,
-        effort=drive.effort,
-        damping=drive.damping,
-        friction=drive.friction,
-    )
+    row = replace(row, **asdict(drive))
     return row if body is None else _with_body(row, body, inverse(T_base_dh) @ T_base_joint)
 
 
@@ -45,10 +39,7 @@ def _with_body(row: DHRow, body: Inertial, T_dh_joint: Array) -> DHRow:
     moved = body.moved(T_dh_joint)
     x, y, z = (float(v) for v in _cleared(moved.com, 1e-3))
     m = _cleared(0.5 * (moved.inertia + moved.inertia.T), 0.0)
-    ixx, ixy, ixz, iyy, iyz, izz = (
-        float(m[i, j]) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
-    )
-    return replace(row, mass=body.mass, com=(x, y, z), inertia=(ixx, ixy, ixz, iyy, iyz, izz))
+    return replace(row, mass=body.mass, com=(x, y, z), inertia=six_of(m))
 
 
 def _cleared(values: Array, least: float) -> Array:

@@ -52,12 +52,7 @@ def read_source(
     tool: Any = None,
     names: Sequence[str] | None = None,
 ) -> Source:
-    """The chain between two frames of a source, and Pinocchio's FK of it.
-
-    Raises
-    ------
-    UrdfError, NameNotFoundError, PoseError, MissingExtraError
-    """
+    """The chain between two frames of a source, and Pinocchio's FK of it."""
     typed = {"joint_types": joint_types, "tool": tool, "names": names}
     if isinstance(source, (str, os.PathLike, pin.Model)):
         extra = [key for key, value in typed.items() if value is not None]
@@ -113,12 +108,7 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
 
 
 def _embedded(root: etree._Element, where: str, found: ChainSource) -> DHTable | None:
-    """The table in the ``<dh2urdf>`` element, where it spans the same two links.
-
-    Raises
-    ------
-    TableFileError
-    """
+    """The table in the ``<dh2urdf>`` element, where it spans the same two links."""
     element = root.find("dh2urdf")
     if element is None or not element.text or (found.base, found.tip) != WRITTEN_ENDS:
         return None

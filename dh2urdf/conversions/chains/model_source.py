@@ -27,12 +27,7 @@ __all__ = ["model_source"]
 def model_source(
     model: pin.Model, base: str | None, tip: str | None
 ) -> tuple[ChainSource, ChainPath]:
-    """The chain between two frames of a model; without names its root and its longest chain.
-
-    Raises
-    ------
-    NameNotFoundError, UrdfError
-    """
+    """The chain between two frames of a model; without names its root and its longest chain."""
     links = frame_names(model)
     if model.njoints > LINKS:
         raise UrdfError(f"{model.name}: {model.njoints} joints; up to {LINKS} are read")
@@ -43,31 +38,23 @@ def model_source(
     path = chain_path(model, base_id, tip_id)
     with np.errstate(all="ignore"):  # of numbers that the chain refuses
         chain = model_to_chain(model, path)
-    T_world_base = _neutral_frames(model, base_id)
-    frames = [T_world_base @ T for T in chain.joint_frames]
     source = ChainSource(
         chain,
         model.name or "robot",
         model.frames[base_id].name,
         model.frames[tip_id].name,
-        bodies=_bodies(model, path, frames),
+        bodies=_bodies(model, path, chain.joint_frames),
         drives=tuple(_drive(model, i) for i in path.ids),
         origin="a Pinocchio model",
     )
     return source, path
 
 
-def _neutral_frames(model: pin.Model, frame: int) -> Array:
-    data = model.createData()
-    pin.framesForwardKinematics(model, data, pin.neutral(model))
-    T_world_frame: Array = data.oMf[frame].homogeneous
-    return T_world_frame
-
-
-def _bodies(model: pin.Model, path: ChainPath, frames: list[Array]) -> tuple[Inertial | None, ...]:
+def _bodies(model: pin.Model, path: ChainPath, joint_frames: Array) -> tuple[Inertial | None, ...]:
     """All bodies that move with each joint of the path, other joints at neutral."""
     data = model.createData()
-    pin.forwardKinematics(model, data, pin.neutral(model))
+    pin.framesForwardKinematics(model, data, pin.neutral(model))
+    frames = data.oMf[path.base].homogeneous @ joint_frames
     on_path = set(path.ids)
     groups: dict[int, list[int]] = {}
     for body in range(model.njoints):

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pinocchio as pin
 
+from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.transforms import Array
@@ -24,6 +25,7 @@ __all__ = [
     "model_referee",
     "screw_referee",
     "table_poses",
+    "turn_slide",
 ]
 
 FAR = 100.0
@@ -101,6 +103,16 @@ def configurations(chain: SerialChain, count: int, size: float) -> Array:
     return qs
 
 
+def turn_slide(theta: Array, d: Array) -> Array:
+    """``Rot_z(theta) Trans_z(d)`` of many angles [rad] and lengths [m], shape (m, 4, 4)."""
+    out = np.tile(np.eye(4), (len(theta), 1, 1))
+    out[:, 0, 0] = out[:, 1, 1] = np.cos(theta)
+    out[:, 1, 0] = np.sin(theta)
+    out[:, 0, 1] = -out[:, 1, 0]
+    out[:, 2, 3] = d
+    return out
+
+
 def table_poses(table: DHTable, qs: Array) -> Array:
     """``T_base_tool`` of a table at many configurations: the DH product, shape (m, 4, 4)."""
     T = np.broadcast_to(table.base.matrix, (len(qs), 4, 4))
@@ -112,13 +124,8 @@ def table_poses(table: DHTable, qs: Array) -> Array:
         q = row.sign * next(columns)
         slides = row.joint_type is JointType.PRISMATIC
         theta, d = (row.theta + 0 * q, row.d + q) if slides else (row.theta + q, row.d + 0 * q)
-        c, s, zero, one = np.cos(theta), np.sin(theta), 0 * q, 0 * q + 1
-        Z = np.array([[c, -s, zero, zero], [s, c, zero, zero], [zero, zero, one, d]])
-        motion = np.zeros((len(qs), 4, 4))
-        motion[:, :3] = np.moveaxis(Z, -1, 0)
-        motion[:, 3, 3] = 1.0
-        ca, sa = math.cos(row.alpha), math.sin(row.alpha)
-        X = np.array([[1, 0, 0, row.a], [0, ca, -sa, 0], [0, sa, ca, 0], [0, 0, 0, 1.0]])
+        motion = turn_slide(theta, d)
+        X = tf.trans(row.a, 0, 0) @ tf.rot_x(row.alpha)
         T = T @ (motion @ X if table.convention is DHConvention.STANDARD else X @ motion)
     poses: Array = T @ table.tool.matrix
     return poses

@@ -61,10 +61,6 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
     q stays the file's. Joints off the way are held at 0, and what hangs on them is part of the
     body that carries them. The product of each link is made on its own, from the file's numbers
     alone, so that no rounding of the rest of the tree is in it.
-
-    Raises
-    ------
-    NameNotFoundError, UrdfError
     """
     steps = find_path(tree, base, tip)
     moving = [step for step in steps if step.joint.kind in MOVING]

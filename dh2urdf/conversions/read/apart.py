@@ -37,12 +37,7 @@ NEEDS = {"xacro": ("xacro", "xacro"), "mjcf": ("mujoco", "mjcf")}
 
 @contextmanager
 def read_apart(reader: str, source: Path) -> Iterator[Path]:
-    """The folder in which a reader leaves what it read: ``text``, or ``mjb`` and ``pin``.
-
-    Raises
-    ------
-    MissingExtraError, UrdfError
-    """
+    """The folder in which a reader leaves what it read: ``text``, or ``mjb`` and ``pin``."""
     module, extra = NEEDS[reader]
     if find_spec(module) is None:
         raise MissingExtraError(extra, f"reading {source.name}")
@@ -83,12 +78,7 @@ def _xacro(source: str, folder: Path) -> None:
 
 
 def check_expression(expr: str) -> None:
-    """Refuse names by which an expression could leave arithmetic.
-
-    Raises
-    ------
-    UrdfError
-    """
+    """Refuse names by which an expression could leave arithmetic."""
     for node in ast.walk(ast.parse(expr.strip(), mode="eval")):
         attribute, name = getattr(node, "attr", ""), getattr(node, "id", "")
         if FORBIDDEN.fullmatch(attribute) or name.startswith("__"):

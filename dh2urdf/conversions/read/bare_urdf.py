@@ -10,15 +10,13 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.conversions.read.kinematic_tree import KinematicTree
-from dh2urdf.conversions.write import Inertial
+from dh2urdf.conversions.write import inertial_element
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
 __all__ = ["as_pinocchio_takes", "bare_model"]
 
 NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
-
-TENSOR = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
 
 SNAP = 1e-12
 """Distance from x, y or z up to which Pinocchio takes an axis to be that one."""
@@ -56,16 +54,12 @@ def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]
         The document, as :func:`~dh2urdf.conversions.read.read_urdf.read_urdf` leaves it.
     chain : collection of str
         Joints that move; all others are held at 0.
-
-    Raises
-    ------
-    UrdfError
     """
     robot = etree.Element("robot", name=tree.name)
     for name, link in tree.links.items():
         element = etree.SubElement(robot, "link", name=name)
         if link.inertial is not None:
-            _inertial(element, link.inertial)
+            inertial_element(element, link.inertial)
     for joint in root.iterchildren("joint"):
         _joint(robot, joint, chain)
     try:
@@ -99,15 +93,3 @@ def _joint(robot: etree._Element, joint: etree._Element, chain: Collection[str])
 def _plain(text: str) -> str:
     """The same numbers in digits that every program reads."""
     return " ".join(repr(float(word)) for word in text.split())
-
-
-def _inertial(link: etree._Element, body: Inertial) -> None:
-    element = etree.SubElement(link, "inertial")
-    etree.SubElement(element, "origin", xyz=_words(body.com))
-    etree.SubElement(element, "mass", value=repr(float(body.mass)))
-    tensor = {key: repr(float(body.inertia[at])) for key, at in TENSOR.items()}
-    etree.SubElement(element, "inertia", tensor)
-
-
-def _words(values: Array) -> str:
-    return " ".join(repr(float(value)) for value in values)

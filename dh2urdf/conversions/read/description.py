@@ -58,12 +58,7 @@ class Description(NamedTuple):
 
 
 def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
-    """Bytes of a file, a xacro expanded, or of a text that is a URDF; and its name in messages.
-
-    Raises
-    ------
-    UrdfError, MissingExtraError
-    """
+    """Bytes of a file, a xacro expanded, or of a text that is a URDF; and its name in messages."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return source.encode(errors="replace"), TEXT
     if not isinstance(source, str | os.PathLike):

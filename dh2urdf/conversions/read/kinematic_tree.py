@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import takewhile
 from typing import NamedTuple
 
 import numpy as np
@@ -154,12 +155,7 @@ class KinematicTree:
         return joints
 
     def check_link(self, name: str) -> str:
-        """The name, if the file has such a link.
-
-        Raises
-        ------
-        NameNotFoundError
-        """
+        """The name, if the file has such a link."""
         if name in self.links:
             return name
         wrong = no_such(name, self.links, "the file")
@@ -225,8 +221,9 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
         usual = [name for name in TIP_NAMES if name in tips]
         deepest = max(tips, key=lambda tip: (len(tree.above(tip)), tips.index(tip)))
         return start, usual[0] if usual else deepest
-    trunk = _shared(list(longest))
-    if len(trunk) > most - len(trunk):
+    alike = takewhile(lambda names: len(set(names)) == 1, zip(*longest, strict=True))
+    trunk = sum(1 for _ in alike)  # joints that all chains begin with
+    if trunk > most - trunk:
         return start, _fork(tree, start, [tips[0] for tips in longest.values()])
     offered = listed(tip for tips in longest.values() for tip in tips)
     raise UrdfError(
@@ -252,16 +249,6 @@ def _way(tree: KinematicTree, base: str, tip: str) -> list[Step]:
         up.pop()
         down.pop()
     return [Step(joint, False) for joint in up] + [Step(joint, True) for joint in reversed(down)]
-
-
-def _shared(chains: list[tuple[str, ...]]) -> tuple[str, ...]:
-    """Joints that all chains begin with."""
-    trunk = []
-    for names in zip(*chains, strict=False):
-        if len(set(names)) > 1:
-            break
-        trunk.append(names[0])
-    return tuple(trunk)
 
 
 def _fork(tree: KinematicTree, base: str, tips: list[str]) -> str:

@@ -30,12 +30,7 @@ def no_such(name: object, names: Iterable[str], owner: str) -> str:
 
 
 def link_name(name: object, what: str) -> str | None:
-    """The name of an end of the chain, in characters that a file can have.
-
-    Raises
-    ------
-    ArgumentError
-    """
+    """The name of an end of the chain, in characters that a file can have."""
     if name is None or isinstance(name, str):
         return None if name is None else name.encode(errors="replace").decode()
     raise ArgumentError(f"{what}: expected the name of a link, got {found(name)}")

@@ -44,10 +44,6 @@ def read_mjcf(path: Path) -> tuple[KinematicTree, dict[str, int], pin.Model]:
     A body with several joints becomes a row of links; a joint off its body's origin or with a
     reference value gets the steps that say so, so that q is MuJoCo's ``qpos``. The model is
     Pinocchio's own reading.
-
-    Raises
-    ------
-    MissingExtraError, UrdfError
     """
     with read_apart("mjcf", path) as folder:
         import mujoco
@@ -157,12 +153,7 @@ class _Bodies:
 
 def _pose(position: Array, wxyz: Array) -> Array:
     """A pose from MuJoCo's position and quaternion (w first)."""
-    w, x, y, z = (float(v) for v in wxyz)
     T = np.eye(4)
-    T[:3, :3] = [
-        [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-    ]
+    T[:3, :3] = tf.quaternion_to_matrix(np.roll(wxyz, -1))
     T[:3, 3] = position
     return T

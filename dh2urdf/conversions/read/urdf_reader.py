@@ -14,7 +14,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER, TEXT_CHARACTERS
 from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import MOVING, TreeJoint, TreeLink
-from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, Inertial, tensor
+from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, TENSOR, Inertial, tensor
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
@@ -25,8 +25,6 @@ KINDS = (*MOVING, "fixed", "floating", "planar", "spherical")
 
 UNIT = 1e-6
 """How far from 1 the length of an axis may be without a remark: six written digits."""
-
-TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 PARTS, BOUNDS = ("limit", "dynamics"), ("lower", "upper")
 

@@ -5,15 +5,22 @@
 `constructors` writes tables as code of other toolboxes.
 """
 
-from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along, link_frames
+from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along
 from dh2urdf.conversions.write.constructors import CONSTRUCTORS
 from dh2urdf.conversions.write.dh_to_urdf import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,
     urdf_text_and_warnings,
 )
-from dh2urdf.conversions.write.inertia import Inertial, tensor, why_impossible
-from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain
+from dh2urdf.conversions.write.inertia import (
+    TENSOR,
+    Inertial,
+    inertial_element,
+    six_of,
+    tensor,
+    why_impossible,
+)
+from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain, link_frames
 from dh2urdf.conversions.write.urdf_file import (
     ConversionReport,
     urdf_text,

@@ -16,11 +16,12 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.inertia import Inertial
-from dh2urdf.conversions.write.link_paths import LinkFrames, link_frames, link_paths
+from dh2urdf.conversions.write.link_paths import link_paths
+from dh2urdf.conversions.write.table_chain import link_frames
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.transforms import Array
 
-__all__ = ["Body", "LinkFrames", "draw_bodies", "frame_along", "link_frames"]
+__all__ = ["Body", "draw_bodies", "frame_along"]
 
 LINK_RADIUS = 0.042
 """Radius of the first link's capsule, as a share of the arm's length."""

@@ -11,15 +11,16 @@ from lxml import etree
 
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.write.bodies import Body, LinkFrames, draw_bodies, link_frames
+from dh2urdf.conversions.write.bodies import Body, draw_bodies
 from dh2urdf.conversions.write.inertia import (
     Inertial,
     balanced,
+    inertial_element,
     tensor,
     why_impossible,
     without_noise,
 )
-from dh2urdf.conversions.write.table_chain import dh_to_chain
+from dh2urdf.conversions.write.table_chain import LinkFrames, dh_to_chain, link_frames
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
@@ -158,7 +159,7 @@ class _Writer:
 
     def _link(self, name: str, inertial: Inertial, bodies: list[Body]) -> None:
         link = etree.SubElement(self.robot, "link", name=name)
-        self._inertial_element(link, inertial)
+        inertial_element(link, inertial)
         for tag in ("visual", "collision") if self.options.collision else ("visual",):
             for body in bodies:
                 self._body(link, tag, body)
@@ -231,16 +232,6 @@ class _Writer:
             return f"{beyond[0]:.6g} {'m' if slides else 'rad'}, beyond the one that is given"
         reach = f"+-{far:.6g} m, as far as the table's lengths sum to"
         return reach if slides else "+-2 pi rad"
-
-    def _inertial_element(self, link: etree._Element, body: Inertial) -> None:
-        inertial = etree.SubElement(link, "inertial")
-        etree.SubElement(inertial, "origin", xyz=_whole(body.com), rpy="0.0 0.0 0.0")
-        etree.SubElement(inertial, "mass", value=_whole([body.mass]))
-        six = {
-            f"i{'xyz'[r]}{'xyz'[c]}": _whole([body.inertia[r, c]])
-            for r, c in zip(*np.triu_indices(3), strict=True)
-        }
-        etree.SubElement(inertial, "inertia", **six)
 
     def _origin(self, parent: etree._Element, T: Array) -> None:
         xyz, rpy = (" ".join(map(self._number, v)) for v in (T[:3, 3], matrix_to_rpy(T)))

@@ -7,12 +7,25 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
+from lxml import etree
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import INERTIA, NUMBER
 from dh2urdf.transforms import Array
 
-__all__ = ["Inertial", "balanced", "tensor", "why_impossible", "without_noise"]
+__all__ = [
+    "TENSOR",
+    "Inertial",
+    "balanced",
+    "inertial_element",
+    "six_of",
+    "tensor",
+    "why_impossible",
+    "without_noise",
+]
+
+TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+"""Attributes of an ``<inertia>``: the upper triangle of the tensor, row by row."""
 
 TRIANGLE_MARGIN = 1e-6
 """Relative margin by which a balanced tensor satisfies the triangle inequality: a consumer
@@ -89,6 +102,22 @@ def tensor(six: ArrayLike) -> Array:
     """Symmetric tensor of ``(ixx, ixy, ixz, iyy, iyz, izz)``, shape (3, 3)."""
     ixx, ixy, ixz, iyy, iyz, izz = np.asarray(six, float)
     return np.array([[ixx, ixy, ixz], [ixy, iyy, iyz], [ixz, iyz, izz]])
+
+
+def six_of(inertia: Array) -> tuple[float, float, float, float, float, float]:
+    """``(ixx, ixy, ixz, iyy, iyz, izz)`` of a symmetric tensor, shape (3, 3)."""
+    ixx, ixy, ixz, iyy, iyz, izz = inertia[np.triu_indices(3)].tolist()
+    return ixx, ixy, ixz, iyy, iyz, izz
+
+
+def inertial_element(link: etree._Element, body: Inertial) -> None:
+    """Write the ``<inertial>`` of a link, with every digit."""
+    inertial = etree.SubElement(link, "inertial")
+    mass, *six = (repr(v + 0.0) for v in (float(body.mass), *six_of(body.inertia)))
+    com = " ".join(repr(v + 0.0) for v in body.com.tolist())
+    etree.SubElement(inertial, "origin", xyz=com, rpy="0.0 0.0 0.0")
+    etree.SubElement(inertial, "mass", value=mass)
+    etree.SubElement(inertial, "inertia", dict(zip(TENSOR, six, strict=True)))
 
 
 def why_impossible(inertia: Array) -> str:

@@ -8,57 +8,18 @@ any fixed step.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.write.table_chain import split_row
+from dh2urdf.conversions.write.table_chain import LinkFrames
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["LinkFrames", "link_frames", "link_paths"]
+__all__ = ["link_paths"]
 
 FAR = 2.5
 """A table whose lengths sum to this many times the arm's size has common normals far outside
 the arm (calibrated arms); its links are drawn straight from axis to axis."""
-
-
-@dataclass(frozen=True, eq=False)
-class LinkFrames:
-    """Where the URDF puts its links.
-
-    Parameters
-    ----------
-    origins : tuple of n arrays (4, 4)
-        ``T_parent_link`` of each joint's ``<origin>``: base_link to link 1, link 1 to link 2, ...
-    dh : tuple of n + 1 arrays (4, 4)
-        DH frame i in the frame of link i (frame 0 in base_link).
-    tool : array, shape (4, 4)
-        ``tool0`` in the frame of link n.
-    """
-
-    origins: tuple[Array, ...]
-    dh: tuple[Array, ...]
-    tool: Array
-
-
-def link_frames(table: DHTable) -> LinkFrames:
-    """Split the DH product into URDF origins and DH frames.
-
-    Standard DH: the tail ``Trans_x(a) Rot_x(alpha)`` of a row goes into the next joint's origin,
-    the last one into the tool. Modified DH: the link frames are the DH frames.
-    """
-    origins: list[Array] = []
-    dh = [table.base.matrix]
-    for row in table.rows:
-        if row.is_joint:
-            before, after = split_row(row, table.convention)
-            origins.append(dh[-1] @ before)
-            dh.append(after)
-        else:
-            dh[-1] = dh[-1] @ row.transform(0.0, table.convention)
-    return LinkFrames(tuple(origins), tuple(dh), dh[-1] @ table.tool.matrix)
 
 
 def link_paths(table: DHTable, chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:

@@ -1,22 +1,24 @@
-"""From a DH table to a serial chain."""
+"""From a DH table to a serial chain, and to the frames in which the URDF puts its links."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHRow, DHTable
+from dh2urdf.transforms import Array
 
-__all__ = ["dh_to_chain", "split_row"]
+__all__ = ["FLIP", "LinkFrames", "dh_to_chain", "link_frames"]
 
 FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
 """``Rot_x(pi)`` exactly: turns an axis round, ``FLIP Z(q) FLIP = Z(-q)``."""
 
 
-def split_row(row: DHRow, convention: DHConvention) -> tuple[tf.Array, tf.Array]:
+def _split_row(row: DHRow, convention: DHConvention) -> tuple[Array, Array]:
     """A joint's row at q = 0 as ``(before, after)``: ``T(q) = before Z(sign q) after``.
 
     Standard: ``before = Rot_z(theta) Trans_z(d)``, ``after = Trans_x(a) Rot_x(alpha)``.
@@ -31,21 +33,52 @@ def split_row(row: DHRow, convention: DHConvention) -> tuple[tf.Array, tf.Array]
     return before, after
 
 
+@dataclass(frozen=True, eq=False)
+class LinkFrames:
+    """Where the URDF puts its links.
+
+    Parameters
+    ----------
+    origins : tuple of n arrays (4, 4)
+        ``T_parent_link`` of each joint's ``<origin>``: base_link to link 1, link 1 to link 2, ...
+    dh : tuple of n + 1 arrays (4, 4)
+        DH frame i in the frame of link i (frame 0 in base_link).
+    tool : array, shape (4, 4)
+        ``tool0`` in the frame of link n.
+    """
+
+    origins: tuple[Array, ...]
+    dh: tuple[Array, ...]
+    tool: Array
+
+
+def link_frames(table: DHTable) -> LinkFrames:
+    """Split the DH product into URDF origins and DH frames.
+
+    Standard DH: the tail ``Trans_x(a) Rot_x(alpha)`` of a row goes into the next joint's origin,
+    the last one into the tool. Modified DH: the link frames are the DH frames.
+    """
+    origins: list[Array] = []
+    dh = [table.base.matrix]
+    for row in table.rows:
+        if row.is_joint:
+            before, after = _split_row(row, table.convention)
+            origins.append(dh[-1] @ before)
+            dh.append(after)
+        else:
+            dh[-1] = dh[-1] @ row.transform(0.0, table.convention)
+    return LinkFrames(tuple(origins), tuple(dh), dh[-1] @ table.tool.matrix)
+
+
 def dh_to_chain(table: DHTable) -> SerialChain:
     """The chain whose product equals the DH product of the table, factor by factor."""
-    links = [table.base.matrix]
-    for row in table.rows:
-        if not row.is_joint:
-            links[-1] = links[-1] @ row.transform(0.0, table.convention)
-            continue
-        before, after = split_row(row, table.convention)
-        flip = np.eye(4) if row.sign > 0 else FLIP
-        links[-1] = links[-1] @ before @ flip
-        links.append(flip @ after)
-    links[-1] = links[-1] @ table.tool.matrix
-    joints = table.joints
+    joints, frames = table.joints, link_frames(table)
+    links = np.stack([*frames.origins, frames.tool])
+    for i, row in enumerate(joints):
+        if row.sign < 0:
+            links[i], links[i + 1] = links[i] @ FLIP, FLIP @ links[i + 1]
     return SerialChain(
-        links=np.stack(links),
+        links=links,
         joint_types=tuple(row.joint_type for row in joints),
         names=table.joint_names,
         lower=np.array([-math.inf if r.lower is None else r.lower for r in joints]),
