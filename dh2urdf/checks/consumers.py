@@ -122,19 +122,16 @@ def ask(consumer: Consumer, path: str | os.PathLike[str]) -> Testimony:
             )
         except subprocess.TimeoutExpired:
             return Testimony(consumer, "", Verdict.REFUSES, f"no answer within {PATIENCE:.0f} s")
-    version = run.stdout.rstrip().rpartition("\n")[2] if run.returncode == 0 else ""
     text = run.stderr
     if consumer is Consumer.PYBULLET:
         text = f"{_pybullet_words(run.stdout, _root_of(file))}\n{text}"
     words = _words(text)
-    if run.returncode < 0:
-        return Testimony(
-            consumer, "", Verdict.REFUSES, f"crashes (signal {-run.returncode})\n{words}".rstrip()
-        )
     if run.returncode:
-        return Testimony(consumer, "", Verdict.REFUSES, words)
-    verdict = Verdict.COMPLAINS if words else Verdict.ACCEPTS
-    return Testimony(consumer, "" if consumer is Consumer.CHECK_URDF else version, verdict, words)
+        crash = f"crashes (signal {-run.returncode})\n" if run.returncode < 0 else ""
+        return Testimony(consumer, "", Verdict.REFUSES, f"{crash}{words}".rstrip())
+    last = run.stdout.rstrip().rpartition("\n")[2]
+    version = "" if consumer is Consumer.CHECK_URDF else last
+    return Testimony(consumer, version, Verdict.COMPLAINS if words else Verdict.ACCEPTS, words)
 
 
 def _words(text: str) -> str:

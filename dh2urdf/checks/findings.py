@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -105,21 +106,15 @@ class Finding:
         return tuple(dict.fromkeys(c for effect in self.effects for c in effect.consumers))
 
 
-def refuse(*consumers: Consumer, text: str = "") -> Effect:
-    """Some consumers give no model."""
-    return Effect(consumers, Verdict.REFUSES, text)
+def _said(verdict: Verdict) -> Callable[..., Effect]:
+    def effect(*consumers: Consumer, text: str = "") -> Effect:
+        return Effect(consumers, verdict, text)
+
+    return effect
 
 
-def complain(*consumers: Consumer, text: str = "") -> Effect:
-    """Some consumers take the file, with words of their own."""
-    return Effect(consumers, Verdict.COMPLAINS, text)
-
-
-def misread(*consumers: Consumer, text: str) -> Effect:
-    """Some consumers take the file for something else."""
-    return Effect(consumers, Verdict.MISREADS, text)
-
-
-def accept(*consumers: Consumer, text: str) -> Effect:
-    """Some consumers take the file as it is meant, and something follows from it."""
-    return Effect(consumers, Verdict.ACCEPTS, text)
+refuse = _said(Verdict.REFUSES)
+complain = _said(Verdict.COMPLAINS)
+misread = _said(Verdict.MISREADS)
+accept = _said(Verdict.ACCEPTS)
+"""What some consumers make of a file, and in what words."""

@@ -11,6 +11,7 @@ import os
 import sys
 import warnings
 from collections.abc import Callable
+from importlib.metadata import version
 from pathlib import Path
 
 from dh2urdf.checks.findings import Consumer
@@ -38,8 +39,6 @@ def _pinocchio(path: str) -> str:
 
 
 def _yourdfpy(path: str) -> str:
-    from importlib.metadata import version
-
     import yourdfpy
 
     logging.basicConfig(format="%(message)s", level=logging.WARNING)
@@ -67,8 +66,6 @@ def _mujoco(path: str) -> str:
 
 
 def _pybullet(path: str) -> str:
-    from importlib.metadata import version
-
     import pybullet
 
     client = pybullet.connect(pybullet.DIRECT)
@@ -80,8 +77,6 @@ def _pybullet(path: str) -> str:
 
 
 def _drake(path: str) -> str:
-    from importlib.metadata import version
-
     from pydrake.multibody.parsing import Parser
     from pydrake.multibody.plant import MultibodyPlant
 
@@ -93,8 +88,6 @@ def _drake(path: str) -> str:
 
 
 def _ikpy(path: str) -> str:
-    from importlib.metadata import version
-
     import numpy as np
     from ikpy.chain import Chain
     from lxml import etree
@@ -125,11 +118,11 @@ PROBES: dict[Consumer, Callable[[str], str]] = {
 def probe(name: str, path: str) -> int:
     """Load a file in a consumer; the version goes to stdout, complaints to stderr."""
     try:
-        version = PROBES[Consumer(name)](path)
+        known = PROBES[Consumer(name)](path)
     except BaseException as error:
         _say(f"{type(error).__name__}: {error}")
         return 1
-    sys.stdout.write(f"\n{version}\n")
+    sys.stdout.write(f"\n{known}\n")
     return 0
 
 

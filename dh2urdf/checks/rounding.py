@@ -100,38 +100,35 @@ def _poses(
 ) -> dict[str, Array] | None:
     """Pose of every link at many configurations, (m, 4, 4) each; None for no sound tree.
 
-    Parameters
-    ----------
-    mended : mapping of joint elements to rpy
-        Angles to take in place of those in the file.
-    q : array, shape (joints, m)
-        Values within the limits are drawn from these by folding.
+    ``mended`` are angles to take in place of the file's; values within the limits are drawn by
+    folding from ``q``, shape (joints, m).
     """
     index = {id(joint): k for k, (_, _, joint) in enumerate(doc.edges)}
     if len(doc.roots) != 1 or len(doc.edges) != len(doc.links) - 1:
         return None
     poses = {doc.roots[0]: np.broadcast_to(np.eye(4), (q.shape[1], 4, 4))}
-    for name in list(poses):
-        todo = [name]
-        for parent in todo:
-            for child, joint in doc.children[parent]:
-                step = _step(doc, joint, mended.get(joint), q[index[id(joint)]])
-                if step is None:
-                    return None
-                poses[child] = poses[parent] @ step
-                todo.append(child)
+    todo = list(doc.roots)
+    for parent in todo:
+        for child, joint in doc.children[parent]:
+            step = _step(doc, joint, mended.get(joint), q[index[id(joint)]])
+            if step is None:
+                return None
+            poses[child] = poses[parent] @ step
+            todo.append(child)
     return poses
 
 
 def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Array) -> Array | None:
     """``T_parent_child`` of a joint, shape (m, 4, 4)."""
     origin = joint.find("origin")
-    xyz = [0.0] * 3 if origin is None or not origin.get("xyz") else doc.numbers(origin, "xyz")
-    if rpy is None:
-        rpy = [0.0] * 3 if origin is None or not origin.get("rpy") else doc.numbers(origin, "rpy")
-    if xyz is None or rpy is None:
-        return None
-    T = tf.origin_matrix(xyz, rpy)
+    placed = {"rpy": rpy} if rpy else {}
+    for key in ("xyz", "rpy"):
+        given = None if origin is None else origin.get(key)
+        values = placed.get(key) or (doc.numbers(origin, key) if given else [0.0] * 3)
+        if values is None:
+            return None
+        placed[key] = values
+    T = tf.origin_matrix(placed["xyz"], placed["rpy"])
     if doc.kind(joint) not in MOVING:
         return np.broadcast_to(T, (len(q), 4, 4))
     axis = np.array(doc.numbers(joint.find("axis"), "xyz") or (1.0, 0.0, 0.0))

@@ -87,19 +87,19 @@ def _candidates(links: Array, i: int) -> Iterator[tuple[float, float]]:
     Seen along the joint, the neighbouring axes are lines or points: the next axis and its own
     origin, the axis before, where the two cross, and the foot from one on the other.
     """
-    after = _seen(links[i + 1])
-    inv = tf.inverse(links[i])
-    before = _seen(inv)
-    (p, u), (r, v) = after, before
+    (p, u), (r, v) = _seen(links[i + 1]), _seen(tf.inverse(links[i]))
     yield p[0], p[1]
     if u is not None:
-        yield from _foot(r, p, u)
-        yield from _foot(np.zeros(2), p, u)
+        yield _foot(r, p, u)
+        yield _foot(np.zeros(2), p, u)
     if u is not None and v is not None:
-        yield from _crossing(p, u, r, v)
+        det = float(u[0] * v[1] - u[1] * v[0])
+        if abs(det) > 1e-6:  # where the two cross
+            t = float((r - p)[0] * v[1] - (r - p)[1] * v[0]) / det
+            yield float(p[0] + t * u[0]), float(p[1] + t * u[1])
     if v is not None:
-        yield from _foot(p, r, v)
-        yield from _foot(np.zeros(2), r, v)
+        yield _foot(p, r, v)
+        yield _foot(np.zeros(2), r, v)
     yield r[0], r[1]
 
 
@@ -110,13 +110,6 @@ def _seen(L: Array) -> tuple[Array, Array | None]:
     return L[:2, 3], along / norm if norm > PARALLEL else None
 
 
-def _foot(point: Array, origin: Array, direction: Array) -> Iterator[tuple[float, float]]:
+def _foot(point: Array, origin: Array, direction: Array) -> tuple[float, float]:
     foot = origin + direction * float(direction @ (point - origin))
-    yield float(foot[0]), float(foot[1])
-
-
-def _crossing(p: Array, u: Array, r: Array, v: Array) -> Iterator[tuple[float, float]]:
-    det = float(u[0] * v[1] - u[1] * v[0])
-    if abs(det) > 1e-6:
-        t = float((r - p)[0] * v[1] - (r - p)[1] * v[0]) / det
-        yield float(p[0] + t * u[0]), float(p[1] + t * u[1])
+    return float(foot[0]), float(foot[1])

@@ -8,9 +8,9 @@ that axes made parallel are treated as parallel; then on what is left in the tab
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -20,12 +20,14 @@ from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, co
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.assign.rounding import near_angle
 from dh2urdf.conversions.chains import table_poses, turn_slide
-from dh2urdf.dh import DHConvention, DHTable, Origin
+from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error
 
 __all__ = ["DEFAULT_SNAP", "Change", "chain_poses", "snap_chain", "snap_table", "snap_tolerance"]
+
+_T = TypeVar("_T")
 
 DEFAULT_SNAP = 2e-5
 """Angle [rad] and length [m] within which numbers are set right when no tolerance is given.
@@ -134,56 +136,38 @@ def snap_table(table: DHTable, tolerance: float, qs: Array) -> tuple[DHTable, li
     """Round what is left: angles at multiples of 15 degrees, lengths at 0 or whole micrometres."""
     changes: list[Change] = []
     poses = table_poses(table, qs)
-    for where, before, after, put in _roundings(table, tolerance):
-        candidate = put(table)
-        moved = table_poses(candidate, qs)
+    for where, before, after, rounded in _roundings(table, tolerance):
+        moved = table_poses(rounded, qs)
         changes.append(Change(where, before, after, pose_error(moved, poses)))
-        table, poses = candidate, moved
+        table, poses = rounded, moved
     return table, changes
 
 
-Put = Callable[[DHTable], DHTable]
-"""Sets one number of a table, whatever the others are by then."""
-
-
-def _in_row(i: int, key: str, value: float) -> Put:
-    def put(table: DHTable) -> DHTable:
-        rows = list(table.rows)
-        change: dict[str, Any] = {key: value}
-        rows[i] = replace(rows[i], **change)
-        return replace(table, rows=tuple(rows))
-
-    return put
-
-
-def _in_origin(part: str, key: str, value: tuple[float, ...]) -> Put:
-    def put(table: DHTable) -> DHTable:
-        change: dict[str, Any] = {key: value}
-        whole: dict[str, Any] = {part: replace(getattr(table, part), **change)}
-        return replace(table, **whole)
-
-    return put
-
-
-def _roundings(table: DHTable, tolerance: float) -> Iterator[tuple[str, float, float, Put]]:
+def _roundings(table: DHTable, tolerance: float) -> Iterator[tuple[str, float, float, DHTable]]:
+    """Each number that is set right, and the table with it and those before."""
+    rows = list(table.rows)
     for i, row in enumerate(table.rows):
-        if not row.is_joint:
-            continue
-        for key in ("theta", "alpha", "d", "a"):
+        for key in ("theta", "alpha", "d", "a") if row.is_joint else ():
             before = getattr(row, key)
             after = _rounded(before, key in ("theta", "alpha"), tolerance)
             if after != before:
-                yield f"{key} of {row.name}", before, after, _in_row(i, key, after)
+                rows[i] = _with(rows[i], key, after)
+                table = replace(table, rows=tuple(rows))
+                yield f"{key} of {row.name}", before, after, table
     for part in ("base", "tool"):
-        origin: Origin = getattr(table, part)
-        for key in ("xyz", "rpy"):
-            old: tuple[float, ...] = getattr(origin, key)
+        for key, names in PARTS.items():
+            old: tuple[float, ...] = getattr(getattr(table, part), key)
             new = tuple(_rounded(v, key == "rpy", tolerance) for v in old)
             for k, (before, after) in enumerate(zip(old, new, strict=True)):
                 if before != after:
                     partly = (*new[: k + 1], *old[k + 1 :])
-                    where = f"{PARTS[key][k]} of {part}"
-                    yield where, before, after, _in_origin(part, key, partly)
+                    table = _with(table, part, _with(getattr(table, part), key, partly))
+                    yield f"{names[k]} of {part}", before, after, table
+
+
+def _with(thing: _T, key: str, value: object) -> _T:
+    change: dict[str, Any] = {key: value}
+    return replace(thing, **change)  # type: ignore[type-var]
 
 
 def _rounded(value: float, angle: bool, tolerance: float) -> float:
