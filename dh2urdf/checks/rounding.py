@@ -137,9 +137,9 @@ def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Arra
         return None
     turn, still = np.eye(4), np.zeros(len(q))
     turn[:3, :3] = frame_along(axis / length)
-    values = _within(doc, joint, q)
+    variable = _within(doc, joint, q)
     slides = doc.kind(joint) == "prismatic"
-    motion = turn_slide(still, values) if slides else turn_slide(values, still)
+    motion = turn_slide(still, variable) if slides else turn_slide(variable, still)
     return np.asarray(T @ turn @ motion @ turn.T)
 
 

@@ -107,14 +107,9 @@ def wrap(angle: float) -> float:
 
 
 def classify(L: Array, length: float) -> AxisPair:
-    """The case of the axes z and ``L z``.
+    """The case of the axes z and ``L z``, L the frame of the second in that of the first.
 
-    Parameters
-    ----------
-    L : array, shape (4, 4)
-        Frame of the second axis in the frame of the first.
-    length : float
-        Size of the arm [m], against which a distance may be a rounding of zero.
+    ``length`` is the size of the arm [m], against which a distance may be a rounding of zero.
     """
     zx, zy, zz = (float(v) for v in L[:3, 2])
     px, py, pz = (float(v) for v in L[:3, 3])
@@ -158,14 +153,8 @@ def across(
 
     Exact for every pair whose axes are not perpendicular; beta is 0 for parallel ones. In the
     standard order the plane in which x lies is normal to the first axis, in the modified order
-    to the second: the one is the other of the inverse.
-
-    Parameters
-    ----------
-    height : float
-        Where x leaves the first axis, along z from the origin [m].
-    turn : float
-        Direction of x about z [rad] where the axes are one line and leave it free.
+    to the second: the one is the other of the inverse. ``height`` is along z from the origin [m],
+    ``turn`` the direction of x about z [rad] where the axes are one line and leave it free.
     """
     if convention is DHConvention.STANDARD:
         return _across_first(L, pair, height, turn)

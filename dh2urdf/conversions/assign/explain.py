@@ -67,13 +67,7 @@ def length_words(length: float) -> str:
 
 
 def explain_frames(found: AssignedTable, chain: SerialChain) -> tuple[FrameStep, ...]:
-    """One step a frame, 0 to n.
-
-    Parameters
-    ----------
-    chain : SerialChain
-        Its names; joint types decide which axes have no place of their own.
-    """
+    """One step a frame, 0 to n; axes of sliding joints have no place of their own."""
     frames = found.table.frames(np.zeros(found.table.n))
     rows = found.table.joints
     standard = found.assignment.convention is DHConvention.STANDARD
@@ -107,21 +101,17 @@ def _first(found: AssignedTable, chain: SerialChain) -> str:
     if start.choice is BaseChoice.BASE:
         return text + "It is the base's own z axis, so frame 0 is the base frame."
     place = _point(table.base.xyz)
-    if start.choice is BaseChoice.BESIDE:
-        return text + (
-            "It is parallel to the base's z axis, so frame 0 keeps the base's axes and moves to "
-            f"the foot of z_0, {place}."
-        )
-    if start.choice is BaseChoice.TURNED:
-        return text + (
-            "It is antiparallel to the base's z axis, so frame 0 is the base frame turned by pi "
-            f"about x and moved to the foot of z_0, {place}."
-        )
     rpy = ", ".join(angle_words(v) for v in table.base.rpy)
-    return text + (
-        "It is not parallel to the base's z axis; frame 0 is put on it so that theta_1 = 0 and "
-        f"d_1 = 0. The base transform takes up the way there: xyz {place}, rpy ({rpy})."
-    )
+    beside = "It is parallel to the base's z axis, so frame 0 keeps the base's axes and moves to "
+    turned = "It is antiparallel to the base's z axis, so frame 0 is the base frame turned by pi "
+    free = "It is not parallel to the base's z axis; frame 0 is put on it so that theta_1 = 0 and "
+    why = {
+        BaseChoice.BESIDE: f"{beside}the foot of z_0, {place}.",
+        BaseChoice.TURNED: f"{turned}about x and moved to the foot of z_0, {place}.",
+        BaseChoice.FREE: f"{free}d_1 = 0. The base transform takes up the way there: xyz "
+        f"{place}, rpy ({rpy}).",
+    }
+    return text + why[start.choice]
 
 
 def _between(
@@ -214,8 +204,8 @@ def _direction(normal: Normal, i: int, z1: str) -> str:
 
 def _variable(row: DHRow, i: int) -> str:
     """How the joint variable enters its row."""
-    kind = "d" if row.joint_type is JointType.PRISMATIC else "theta"
-    constant = row.d if kind == "d" else row.theta
+    slides = row.joint_type is JointType.PRISMATIC
+    kind, constant = ("d", row.d) if slides else ("theta", row.theta)
     if constant == 0 and row.sign > 0:
         return f" ({kind}_{i} is the joint's variable q_{i})"
     sign = "-" if row.sign < 0 else "+"
@@ -236,15 +226,13 @@ def _last(found: AssignedTable, row: DHRow) -> str:
     else:
         rpy = ", ".join(angle_words(v) for v in table.tool.rpy)
         rest = f"The tool transform takes up the rest: xyz {_point(table.tool.xyz)}, rpy ({rpy})."
+    text = f"Only z_{n}, the axis of the last joint, is given; o_{n} is that joint's own origin."
     if end.choice is ToolChoice.TOOL_POINT:
-        return (
+        text = (
             f"o_{n} is the tool's origin and z_{n} points along the last joint's axis; the tool "
-            f"frame itself is out of reach of the four DH motions. {numbers} {rest}"
+            "frame itself is out of reach of the four DH motions."
         )
-    return (
-        f"Only z_{n}, the axis of the last joint, is given; o_{n} is that joint's own origin. "
-        f"{numbers} {rest}"
-    )
+    return f"{text} {numbers} {rest}"
 
 
 def _point(xyz: Sequence[float] | Array) -> str:

@@ -58,14 +58,9 @@ def choose_directions(
 ) -> Directions:
     """Turn the factorisations of all pairs so that the table gets simplest.
 
-    Parameters
-    ----------
-    phi : float or None
-        Turn about axis 1 that the base leaves [rad]; None where frame 0 is free to turn.
-    ends : callable
-        The choices of frame n for a given turn left over about the last axis.
-    strict : bool
-        Keep x away from the axis before it even where that costs theta a half turn.
+    ``phi`` is the turn about axis 1 that the base leaves [rad], None where frame 0 is free to
+    turn; ``ends`` gives the choices of frame n for a turn left over about the last axis;
+    ``strict`` keeps x away from the axis before it even where that costs theta a half turn.
     """
     paths = [_Path((), (), phi, phi is None)]
     for i, (pair, normal) in enumerate(zip(pairs, normals, strict=True)):

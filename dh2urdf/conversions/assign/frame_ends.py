@@ -70,15 +70,7 @@ def slide_turn(phi: float, s: float) -> Array:
 
 
 def first_frame(L: Array, convention: DHConvention, size: float) -> Start:
-    """Place frame 0 (step 2 of the notes).
-
-    Parameters
-    ----------
-    L : array, shape (4, 4)
-        Frame of joint 1 in base, z along its axis.
-    size : float
-        Length of the arm [m].
-    """
+    """Place frame 0 (step 2 of the notes); L is the frame of joint 1 in base, z along its axis."""
     pair = classify(L, size)
     x, y, z = (float(v) for v in L[:3, 3])
     turn = math.atan2(float(L[1, 0]), float(L[0, 0]))
@@ -100,14 +92,8 @@ def first_frame(L: Array, convention: DHConvention, size: float) -> Start:
 class EndPlacer:
     """Frame n (step 4 of the notes), for whatever turn the frames before it leave.
 
-    Parameters
-    ----------
-    M : array, shape (4, 4)
-        Tool in the frame of the last joint.
-    own : float
-        Height of the last joint's own origin [m], modified convention only.
-    size : float
-        Length of the arm [m].
+    M is the tool in the frame of the last joint, ``own`` the height of that joint's own origin
+    [m] (modified convention only), ``size`` the length of the arm [m].
     """
 
     def __init__(self, M: Array, convention: DHConvention, own: float, size: float) -> None:

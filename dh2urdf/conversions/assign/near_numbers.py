@@ -20,10 +20,7 @@ NEAR = 1e-4
 def near_misses(assigned: AssignedTable, chain: SerialChain, qs: Array) -> list[str]:
     """Warnings: what is nearly round, and what setting it right would cost; far common normals.
 
-    Parameters
-    ----------
-    qs : array, shape (m, n)
-        Configurations at which the cost is measured.
+    The cost is measured at the configurations ``qs``, shape (m, n).
     """
     warnings = list(_far_normals(assigned))
     snapped, changes = snap_chain(chain, NEAR, qs)

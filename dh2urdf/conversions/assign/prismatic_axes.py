@@ -33,19 +33,8 @@ def place_prismatic_axes(
 ) -> Array:
     """Move the axes of sliding joints to where the table becomes simplest.
 
-    Parameters
-    ----------
-    links : array, shape (n + 1, 4, 4)
-    prismatic : sequence of n bool
-    lengths : callable
-        All lengths [m] of the table that given links lead to.
-    size : float
-        Length of the arm [m].
-
-    Returns
-    -------
-    array, shape (n + 1, 4, 4)
-        Links of the same arm.
+    Links, shape (n + 1, 4, 4), in and out; ``lengths`` gives all lengths [m] of the table that
+    given links lead to, ``size`` is the length of the arm [m].
     """
     sliding = [i for i, slides in enumerate(prismatic) if slides]
     if not sliding:

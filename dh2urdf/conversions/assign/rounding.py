@@ -35,13 +35,7 @@ def tidy_angle(angle: float) -> float:
 
 
 def tidy_length(length: float, size: float) -> float:
-    """The shortest decimal that is the length [m] within rounding error.
-
-    Parameters
-    ----------
-    size : float
-        Size of the arm [m], whose last digit is the error.
-    """
+    """The shortest decimal that is the length [m] within the last digits of the arm's size [m]."""
     tolerance = ULPS * float(np.spacing(max(abs(length), size)))
     for digits in range(13):
         short = round(length, digits)

@@ -86,12 +86,8 @@ def chain_poses(chain: SerialChain, qs: Array) -> Array:
 def snap_chain(chain: SerialChain, tolerance: float, qs: Array) -> tuple[SerialChain, list[Change]]:
     """Set neighbouring axes right: parallel, at multiples of 15 degrees, intersecting.
 
-    Parameters
-    ----------
-    tolerance : float
-        For angles [rad] and lengths [m].
-    qs : array, shape (m, n)
-        Configurations at which costs are measured.
+    The tolerance is for angles [rad] and lengths [m]; costs are measured at the configurations
+    ``qs``, shape (m, n).
     """
     ref = references(chain.links)
     names = ("base", *chain.names, "tip")

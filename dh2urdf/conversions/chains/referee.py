@@ -47,10 +47,7 @@ def addressed_referee(
 ) -> Referee:
     """FK between two frames of a model, by the places of the chain's joints in its q.
 
-    Parameters
-    ----------
-    circles : sequence of int
-        Joints of the chain that the model keeps as cosine and sine.
+    ``circles`` are joints of the chain that the model keeps as cosine and sine.
     """
     data = model.createData()
 

@@ -261,13 +261,9 @@ def _fork(tree: KinematicTree, base: str, tips: list[str]) -> str:
 def rigid_part(
     tree: KinematicTree, link: str, cut: frozenset[str]
 ) -> Iterator[tuple[str, Step | None, Array]]:
-    """All links that hang together with a link when some joints are cut.
+    """All links that hang together with a link when some joints (by name) are cut.
 
     Each with the step that leads to it and its pose in the first link's frame, joints at 0.
-
-    Parameters
-    ----------
-    cut : frozenset of joint names
     """
     todo: list[tuple[str, Step | None, Array]] = [(link, None, np.eye(4))]
     seen = {link}

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from dh2urdf.conversions.write.inertia import tensor
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import matlab, one_line
 from dh2urdf.transforms import Array
@@ -23,29 +23,37 @@ def rtb_python(table: DHTable) -> str:
     """Python source of a ``DHRobot``; of a ``Robot`` by elementary transforms with fixed rows."""
     lines = ["import roboticstoolbox as rtb", "from spatialmath import SE3", ""]
     lines += [*(f"# {line}" for line in _head(table)), ""]  # a comment on top may name a coding
-    if all(row.is_joint for row in table.rows):
-        return "\n".join([*lines, *_rtb_links(table)]) + "\n"
-    return "\n".join([*lines, *_rtb_ets(table)]) + "\n"
+    robot = _rtb_links if all(row.is_joint for row in table.rows) else _rtb_ets
+    return "\n".join([*lines, *robot(table)]) + "\n"
+
+
+def _se3(origin: Origin) -> str:
+    return f"SE3({origin.matrix.tolist()}, check=False)"
+
+
+def _parameters(row: DHRow, put: Callable[[str, float], str]) -> list[str]:
+    """The three constants of a joint's row and the offset of its variable."""
+    slides = row.joint_type is JointType.PRISMATIC
+    other, offset = ("theta", "d") if slides else ("d", "theta")
+    cells = [put(key, getattr(row, key)) for key in (other, "a", "alpha")]
+    return [*cells, put("offset", getattr(row, offset))]
 
 
 def _rtb_links(table: DHTable) -> list[str]:
     suffix = "DH" if table.convention is DHConvention.STANDARD else "MDH"
     lines = ["robot = rtb.DHRobot(", "    ["]
     for row in table.joints:
-        slides = row.joint_type is JointType.PRISMATIC
-        other, offset = ("theta", "d") if slides else ("d", "theta")
-        cells = [f"{key}={getattr(row, key)!r}" for key in (other, "a", "alpha")]
-        cells.append(f"offset={getattr(row, offset)!r}")
+        cells = _parameters(row, lambda key, value: f"{key}={value!r}")
         if row.sign < 0:
             cells.append("flip=True")
         cells += _optional(row, lambda key, values: f"{key}={values!r}")
-        kind = "Prismatic" if slides else "Revolute"
+        kind = str(row.joint_type).capitalize()
         lines.append(f"        rtb.{kind}{suffix}({', '.join(cells)}),")
     lines += ["    ],", f"    name={table.name!r},"]
     for key in ("base", "tool"):
         origin = getattr(table, key)
         if not origin.is_identity:
-            lines.append(f"    {key}=SE3({origin.matrix.tolist()}, check=False),")
+            lines.append(f"    {key}={_se3(origin)},")
     return [*lines, ")"]
 
 
@@ -53,10 +61,10 @@ def _rtb_ets(table: DHTable) -> list[str]:
     """Elementary transforms, which take the steps that a DH link cannot."""
     steps = []
     if not table.base.is_identity:
-        steps.append(f"rtb.ET.SE3(SE3({table.base.matrix.tolist()}, check=False))")
+        steps.append(f"rtb.ET.SE3({_se3(table.base)})")
     for row in table.rows:
         if row.origin is not None:
-            steps.append(f"rtb.ET.SE3(SE3({row.origin.matrix.tolist()}, check=False))")
+            steps.append(f"rtb.ET.SE3({_se3(row.origin)})")
             continue
         crossing = [f"rtb.ET.tx({row.a!r})", f"rtb.ET.Rx({row.alpha!r})"]
         along = [f"rtb.ET.Rz({row.theta!r})", f"rtb.ET.tz({row.d!r})"]
@@ -69,7 +77,7 @@ def _rtb_ets(table: DHTable) -> list[str]:
         standard = table.convention is DHConvention.STANDARD
         steps += [*along, *crossing] if standard else [*crossing, *along]
     if not table.tool.is_identity:
-        steps.append(f"rtb.ET.SE3(SE3({table.tool.matrix.tolist()}, check=False))")
+        steps.append(f"rtb.ET.SE3({_se3(table.tool)})")
     body = "\n    * ".join(steps)
     return [f"ets = (\n    {body}\n)", f"robot = rtb.Robot(ets, name={table.name!r})"]
 
@@ -89,11 +97,8 @@ def matlab_corke(table: DHTable) -> str:
         )
     lines = [f"% {line}" for line in _head(table)]
     for i, row in enumerate(table.joints, 1):
-        slides = row.joint_type is JointType.PRISMATIC
-        other, offset = ("theta", "d") if slides else ("d", "theta")
         cells = [f"'{row.joint_type}'"]
-        cells += [f"'{key}', {getattr(row, key)!r}" for key in (other, "a", "alpha")]
-        cells.append(f"'offset', {getattr(row, offset)!r}")
+        cells += _parameters(row, lambda key, value: f"'{key}', {value!r}")
         cells += _optional(row, lambda key, values: f"'{key}', {_matlab(values)}")
         if row.sign < 0:
             cells.append("'flip'")
@@ -123,10 +128,8 @@ def matlab_rst(table: DHTable) -> str:
     standard = table.convention is DHConvention.STANDARD
     for name, (joint, steps) in zip(table.joint_names, groups, strict=True):
         slides = joint.joint_type is JointType.PRISMATIC
-        fixed = JointType.FIXED
-        kept = (
-            DHRow(d=joint.d, joint_type=fixed) if slides else DHRow(joint.theta, joint_type=fixed)
-        )
+        theta, d = (0.0, joint.d) if slides else (joint.theta, 0.0)
+        kept = DHRow(theta, d, joint_type=JointType.FIXED)
         offset = [(f"{name}_offset", kept)] if kept.d or kept.theta else []
         extra = [(f"{name}_step_{k}", row) for k, row in enumerate(steps, 1)]
         for label, row in offset if standard else []:
@@ -206,17 +209,13 @@ def _rst_inertial(row: DHRow | None) -> list[str]:
 
 def _optional(row: DHRow, put: Callable[[str, list[float]], str]) -> list[str]:
     """Limits and inertial parameters in the order of Corke's toolboxes."""
-    out = []
-    if row.lower is not None and row.upper is not None:
-        out.append(put("qlim", [row.lower, row.upper]))
-    if row.mass is not None:
-        out.append(put("m", [row.mass]))
-    if row.com is not None:
-        out.append(put("r", list(row.com)))
-    if row.inertia is not None:
-        ixx, ixy, ixz, iyy, iyz, izz = row.inertia
-        out.append(put("I", [ixx, iyy, izz, ixy, iyz, ixz]))
-    return out
+    values: dict[str, Sequence[float] | None] = {
+        "qlim": None if row.lower is None or row.upper is None else (row.lower, row.upper),
+        "m": None if row.mass is None else (row.mass,),
+        "r": row.com,
+        "I": row.inertia and [row.inertia[k] for k in (0, 3, 5, 1, 4, 2)],  # diagonal, xy, yz, xz
+    }
+    return [put(key, list(value)) for key, value in values.items() if value is not None]
 
 
 def _head(table: DHTable) -> list[str]:
