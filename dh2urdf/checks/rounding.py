@@ -10,8 +10,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.checks.document import MOVING, Document
-from dh2urdf.checks.findings import IKFAST, MOVEIT, misread
-from dh2urdf.checks.report import Found
+from dh2urdf.checks.findings import IKFAST, MOVEIT, Found, misread
 from dh2urdf.conversions.chains import turn_slide
 from dh2urdf.conversions.write import frame_along
 from dh2urdf.transforms import Array

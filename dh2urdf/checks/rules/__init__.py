@@ -1,5 +1,59 @@
-"""Rules of URDF files, a module a subject, and the table of them all."""
+"""Rules of URDF files, a module a subject: every public function of one is a rule."""
 
-from dh2urdf.checks.rules.table import RULES, check_urdf
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from inspect import isfunction
+from types import ModuleType
+
+from dh2urdf.checks.document import Document
+from dh2urdf.checks.findings import Finding, Found
+from dh2urdf.checks.rounding import rounded_angle
+from dh2urdf.checks.rules import geometry, inertia, joints, reading, tree
 
 __all__ = ["RULES", "check_urdf"]
+
+Rule = Callable[[Document], Iterator[Found]]
+
+
+def _rules(module: ModuleType) -> dict[str, Rule]:
+    """The public functions of a module in its order, ``limit_zero`` as ``limit-zero``."""
+    own = {name: f for name, f in vars(module).items() if isfunction(f) and name[0] != "_"}
+    return {n.replace("_", "-"): f for n, f in own.items() if f.__module__ == module.__name__}
+
+
+RULES: dict[str, Rule] = {
+    **_rules(tree),
+    **_rules(reading),
+    "rounded-angle": rounded_angle,
+    **_rules(joints),
+    **_rules(inertia),
+    **_rules(geometry),
+}
+"""Every rule by its name; its docstring says what holds in a sound file."""
+
+
+def check_urdf(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
+    """What the consumers of a URDF would break on, by rule, in the order of the file.
+
+    No consumer needs to be installed for it; :func:`dh2urdf.checks.ask_all` asks those that are.
+
+    Parameters
+    ----------
+    path : path
+        Any URDF.
+
+    Returns
+    -------
+    tuple of Finding
+        Empty for a file that every consumer takes.
+
+    Raises
+    ------
+    UrdfError
+        No such file, not XML, a document type or entities, or no ``<robot>``.
+    """
+    doc = Document.read(path)
+    found = [item.placed(name) for name, rule in RULES.items() for item in rule(doc)]
+    return tuple(sorted(found, key=lambda finding: finding.line))

@@ -20,13 +20,13 @@ from dh2urdf.checks.findings import (
     RVIZ,
     URDFDOM,
     YOURDFPY,
+    Found,
     accept,
     complain,
     misread,
     refuse,
 )
 from dh2urdf.checks.meshes import is_remote, locate, stl_extent
-from dh2urdf.checks.report import Found
 
 SHAPES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "mesh": ()}
 

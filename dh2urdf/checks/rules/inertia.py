@@ -16,11 +16,11 @@ from dh2urdf.checks.findings import (
     PINOCCHIO,
     PYBULLET,
     URDFDOM,
+    Found,
     complain,
     misread,
     refuse,
 )
-from dh2urdf.checks.report import Found
 from dh2urdf.conversions.write import tensor, why_impossible
 from dh2urdf.transforms import Array
 

@@ -21,12 +21,12 @@ from dh2urdf.checks.findings import (
     PYBULLET,
     URDFDOM,
     YOURDFPY,
+    Found,
     accept,
     complain,
     misread,
     refuse,
 )
-from dh2urdf.checks.report import Found
 
 _Pair = tuple[etree._Element, etree._Element | None]
 

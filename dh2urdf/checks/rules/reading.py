@@ -24,12 +24,12 @@ from dh2urdf.checks.findings import (
     YOURDFPY,
     Consumer,
     Effect,
+    Found,
     accept,
     complain,
     misread,
     refuse,
 )
-from dh2urdf.checks.report import Found
 
 XACRO = "http://www.ros.org/wiki/xacro"
 

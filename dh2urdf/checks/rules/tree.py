@@ -22,12 +22,12 @@ from dh2urdf.checks.findings import (
     URDFDOM,
     YOURDFPY,
     Effect,
+    Found,
     accept,
     complain,
     misread,
     refuse,
 )
-from dh2urdf.checks.report import Found
 
 KINDS = (*MOVING, "fixed", "floating", "planar")
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from dh2urdf.bounds import SNAP
 from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.assign.assigned_table import AssignedTable, chain_to_dh
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.assign.rounding import near_angle
@@ -25,7 +26,7 @@ from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error
 
-__all__ = ["DEFAULT_SNAP", "Change", "chain_poses", "snap_chain", "snap_table", "snap_tolerance"]
+__all__ = ["DEFAULT_SNAP", "Change", "near_misses", "snap_chain", "snap_table", "snap_tolerance"]
 
 _T = TypeVar("_T")
 
@@ -34,6 +35,9 @@ DEFAULT_SNAP = 2e-5
 
 Takes multiples of pi / 4 written with four decimals, 4.7124 among them (off by 1.1e-5).
 """
+
+NEAR = 1e-4
+"""Angle [rad] and length [m] within which a number looks like a miswritten round one."""
 
 PARTS = {"xyz": ("x", "y", "z"), "rpy": ("roll", "pitch", "yaw")}
 
@@ -174,3 +178,44 @@ def _rounded(value: float, angle: bool, tolerance: float) -> float:
         return 0.0
     short = round(value, DECIMALS)
     return short if abs(short - value) <= min(tolerance, NANOMETRE) else value
+
+
+def near_misses(assigned: AssignedTable, chain: SerialChain, qs: Array) -> list[str]:
+    """Warnings: what is nearly round, and what setting it right would cost; far common normals.
+
+    The cost is measured at the configurations ``qs``, shape (m, n).
+    """
+    warnings = list(_far_normals(assigned))
+    snapped, changes = snap_chain(chain, NEAR, qs)
+    again = chain_to_dh(snapped, assigned.table.convention) if changes else assigned
+    table, rounded = snap_table(again.table, NEAR, qs)
+    changes += rounded
+    if changes:
+        off = max(abs(change.after - change.before) for change in changes)
+        tolerance = _above(off)
+        cost = pose_error(table_poses(table, qs), table_poses(assigned.table, qs))
+        named = "; ".join(f"{c.where} = {c.before!r}" for c in changes[:3])
+        more = f" and {len(changes) - 3} more" if len(changes) > 3 else ""
+        warnings.append(
+            f"nearly round: {named}{more}. Kept as given; snap={tolerance:.0e} sets them right "
+            f"and moves the tip by at most {cost:.2g} m or rad (measured)"
+        )
+    return warnings
+
+
+def _above(value: float) -> float:
+    """The next larger power of ten times 1, 2 or 5."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (2.0, 5.0, 10.0) if value < step * power)
+
+
+def _far_normals(assigned: AssignedTable) -> Iterator[str]:
+    found = assigned.assignment
+    joints = assigned.table.joint_names
+    for i, (pair, slid) in enumerate(zip(found.pairs, found.compact, strict=True)):
+        if slid and pair.tilt > NEAR:
+            yield (
+                f"the axes of {joints[i]} and {joints[i + 1]} are {pair.tilt:.3g} rad from "
+                f"parallel and meet their common normal far away; the fixed row after {joints[i]} "
+                "stands in for it (compact=False for four parameters a row)"
+            )

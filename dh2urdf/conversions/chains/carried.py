@@ -1,17 +1,20 @@
-"""What a source says of its drives and bodies, carried into a DH table."""
+"""What rides on the joints: drives, bodies and frames of a source, carried into a DH table."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, replace
 
 import numpy as np
+import pinocchio as pin
 
+from dh2urdf.chain import SerialChain
+from dh2urdf.conversions.chains.model_chain import ChainPath
 from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource
-from dh2urdf.conversions.write import Inertial, six_of
+from dh2urdf.conversions.write import FLIP, Inertial, link_frames, six_of
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["carry"]
+__all__ = ["carried_dh_frames", "carried_joint_frames", "carry"]
 
 NOISE = 1e-15
 """What a product of rotations leaves of an exact zero, relative to the largest entry."""
@@ -46,3 +49,25 @@ def _cleared(values: Array, least: float) -> Array:
     """Values without the rounding noise of turning them, relative to the largest."""
     noise = NOISE * max(float(np.abs(values).max(initial=0.0)), least)
     return np.where(np.abs(values) <= noise, 0.0, values)
+
+
+def carried_dh_frames(table: DHTable) -> Array:
+    """Frame 0 in base, then DH frame i in the moved z frame of joint i, shape (n + 1, 4, 4)."""
+    frames = np.stack(link_frames(table).dh)
+    for i, row in enumerate(table.joints, 1):
+        if row.sign < 0:
+            frames[i] = FLIP @ frames[i]
+    frames[0] = table.base_frame
+    return frames
+
+
+def carried_joint_frames(model: pin.Model, path: ChainPath, chain: SerialChain) -> Array:
+    """The base, then Pinocchio's frame of joint i in the chain's, shape (n + 1, 4, 4)."""
+    frames = np.tile(np.eye(4), (chain.n + 1, 1, 1))
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, pin.neutral(model))
+    M_base_world = data.oMf[path.base].inverse()
+    for k, i in enumerate(path.ids):
+        T_base_joint = (M_base_world * data.oMi[i]).homogeneous
+        frames[k + 1] = inverse(chain.joint_frames[k]) @ T_base_joint
+    return frames
