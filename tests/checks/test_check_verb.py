@@ -2,6 +2,7 @@
 
 import io
 import json
+import math
 import sys
 import time
 
@@ -17,6 +18,7 @@ from dh2urdf.cli import main
 def run(capsys, tmp_path, monkeypatch):
     """Run the command line in an empty folder: status, stdout, stderr."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("dh2urdf.cli.progress.QUIET", math.inf)  # no lines of progress
 
     def call(*argv):
         with pytest.raises(SystemExit) as stop:
