@@ -11,7 +11,6 @@ from dh2urdf.kernels.chain.forward import (
     joint_times_link,
     load_pose,
     store_pose,
-    times_link,
 )
 from dh2urdf.kernels.chain.held_joint import (
     held_links,
@@ -19,7 +18,6 @@ from dh2urdf.kernels.chain.held_joint import (
     held_poses,
     insert_held,
     insert_held_batch,
-    inverse_pose,
 )
 from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
 from dh2urdf.kernels.chain.links import applied, applied_inverse, turned_back

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import ANYWHERE, finish_families, finish_pose, work_array
-from dh2urdf.kernels.chain import inverse_pose, joint_times_link, load_pose, store_pose, times_link
+from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
 __all__ = ["solve_three_slides"]
@@ -50,6 +50,27 @@ def _turning_links(links, joints, turning, scratch):
 
 
 @inner_kernel
+def _between(A, T, C, B):
+    """``B = A^T R C^T`` of rotations, to the upper left of B (4, 4)."""
+    for i in range(3):
+        u0 = A[0, i] * T[0, 0] + A[1, i] * T[1, 0] + A[2, i] * T[2, 0]
+        u1 = A[0, i] * T[0, 1] + A[1, i] * T[1, 1] + A[2, i] * T[2, 1]
+        u2 = A[0, i] * T[0, 2] + A[1, i] * T[1, 2] + A[2, i] * T[2, 2]
+        for j in range(3):
+            B[i, j] = u0 * C[j, 0] + u1 * C[j, 1] + u2 * C[j, 2]
+
+
+@inner_kernel
+def _turned(first, cosine, sine, second, out):
+    """``first Rz second`` of rotations, to the upper left of out."""
+    for i in range(3):
+        a = first[i, 0] * cosine + first[i, 1] * sine
+        b = first[i, 1] * cosine - first[i, 0] * sine
+        for j in range(3):
+            out[i, j] = a * second[0, j] + b * second[1, j] + first[i, 2] * second[2, j]
+
+
+@inner_kernel
 def _outer(M, B):
     """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
     across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
@@ -72,9 +93,7 @@ def _candidates(links, joints, T, q, turning, scratch):
     B, M = scratch[16:20], scratch[12:16]
     found = 1
     if count > 0:
-        store_pose(inverse_pose(scratch[4 * count : 4 * count + 4]), M)
-        r = times_link(inverse_pose(scratch[0:4]), T)
-        store_pose(times_link(r, M), B)
+        _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
     if count == 1:
         q[0, turning[0]] = math.atan2(B[1, 0], B[0, 0])
     elif count == 2:
@@ -88,9 +107,9 @@ def _candidates(links, joints, T, q, turning, scratch):
             SLACK,
         )
         for k in range(found):
-            middle = math.atan2(s1, c1) if k == 0 else math.atan2(s2, c2)
-            store_pose(joint_times_link(load_pose(first), False, middle, second), M)
-            q[k, turning[1]] = middle
+            c, s = (c1, s1) if k == 0 else (c2, s2)
+            _turned(first, c, s, second, M)
+            q[k, turning[1]] = math.atan2(s, c)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
         _slides(links, joints, T, q[k], scratch[18:26])
