@@ -47,17 +47,18 @@ def check_pose(T: ArrayLike, *, what: str = "pose", rounded: bool = False) -> Ar
     with np.errstate(all="ignore"):
         off = np.abs(np.swapaxes(R, -1, -2) @ R - np.eye(3)).max(axis=(-2, -1))
         worst = f"{off.max(initial=0.0):.2g} (allowed {ORTHONORMAL_TOLERANCE:.0e}); {NEAREST}"
-        skewed = ~(off <= ORTHONORMAL_TOLERANCE)
+        skewed = f"rotation part is not orthonormal, R^T R differs from 1 by {worst}"
         faults = {
             "NaN or infinity": ~np.isfinite(m).all(axis=(-2, -1)),
-            f"rotation part is not orthonormal, R^T R differs from 1 by {worst}": skewed,
+            skewed: ~(off <= ORTHONORMAL_TOLERANCE),
             "rotation part is a reflection (determinant -1)": _determinant(R) < 0,
             "last row must be 0 0 0 1": (np.abs(m[..., 3, :] - np.eye(4)[3]) > 1e-12).any(axis=-1),
         }
     for fault, bad in faults.items():
         if bad.any():
             first = np.argwhere(bad)[0].tolist()
-            far = _far(R[tuple(first)]) if rounded and bad is skewed else fault
+            with np.errstate(all="ignore"):
+                far = _far(R[tuple(first)]) if rounded and fault == skewed else fault
             raise PoseError(f"{what}{first or ''}: {far}")
     return m
 

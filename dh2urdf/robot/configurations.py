@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.chains import ChainPath, Coupling, is_continuous
-from dh2urdf.doors import finite_array, generator
+from dh2urdf.doors import finite_array, generator, real_array
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.transforms import Array
 
@@ -63,9 +63,13 @@ class RobotConfigurations:
         index = range(self.n) if self._coupling is None else self._coupling.first
         return self.chain.prismatic[list(index)]
 
-    def _flat(self, q: ArrayLike) -> tuple[Array, tuple[int, ...]]:
-        """Chain configurations (m, chain.n) as kernels take them, and the leading shape."""
-        config = finite_array(q, "q", "finite numbers", ConfigurationError)
+    def _flat(self, q: ArrayLike, finite: bool = True) -> tuple[Array, tuple[int, ...]]:
+        """Chain configurations (m, chain.n) as kernels take them, and the leading shape.
+
+        Where they need not be ``finite``, the caller asks the result.
+        """
+        door = finite_array if finite else real_array
+        config = door(q, "q", "finite numbers", ConfigurationError)
         if config.ndim == 0 or config.shape[-1] != self.n:
             raise ConfigurationError(
                 f"q: expected {self.n} values ({', '.join(self.joint_names)}) on the last axis, "

@@ -184,9 +184,11 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
                 return T_base_tip
         from dh2urdf.kernels.chain import chain_fk_batch
 
-        flat, shape = self._flat(config)
+        flat, shape = self._flat(config, finite=False)
         T = np.empty((len(flat), 4, 4))
         chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T)
+        if not np.isfinite(T[:, 0, 3]).all():  # as above
+            self._flat(config)
         return T.reshape(*shape, 4, 4)
 
     def frames(self, q: ArrayLike) -> Array:

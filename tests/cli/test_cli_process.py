@@ -14,6 +14,9 @@ LONG = ["workspace", "ur5", "-o", "x.png", "--points", "200", "--orientations", 
 START = "import sys; from dh2urdf.cli import main; print(end='go', flush=True); main(sys.argv[1:])"
 
 
+HEAD = "convention: standard\nunits: {length: m, angle: deg}\n"
+
+
 def shell(command, **environment):
     """Run a command of the shell, in which ``dh2urdf`` stands for the command line."""
     command = command.replace("dh2urdf", f"{sys.executable} -m dh2urdf")
@@ -97,7 +100,7 @@ def test_a_stdout_that_cannot_be_written_is_one_message(verb, place):
 def test_a_stderr_that_cannot_be_written_changes_no_status(tmp_path):
     """A message that nobody can read is lost, and the status says what happened."""
     arm, urdf = tmp_path / "arm.yaml", tmp_path / "arm.urdf"
-    arm.write_text("convention: standard\nunits: {length: m, angle: deg}\njoints: [{a: 30}]\n")
+    arm.write_text(HEAD + "joints: [{d: 0, a: 30, alpha: 0}]\n")
     assert "warning" in shell(f"dh2urdf convert {arm} -o {urdf}").stderr
     urdf.unlink()
     for line, status in (("fk nope", 2), (f"convert {arm} -o {urdf}", 0), ("fk ur5 x", 2)):

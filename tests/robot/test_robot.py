@@ -207,3 +207,15 @@ def test_shipped_tables_load_by_name():
         robot = Robot.from_dh(name)
         q = robot.random_configuration(0)
         assert difference(robot.fk(q), dh_frames(robot.table, q)[-1]) < 1e-13
+
+
+@pytest.mark.parametrize("name", ["puma560", "stanford", "franka_fer"])
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_one_bad_number_of_a_stack_is_named(name, bad):
+    """Whatever the joint is and wherever in the stack it stands, fk gives its index."""
+    robot = Robot.from_dh(name)
+    for k in range(robot.n):
+        q = np.random.default_rng(k).uniform(-1.0, 1.0, (100, robot.n))
+        q[37 + k, k] = bad
+        with pytest.raises(ConfigurationError, match=rf"q\[{37 + k}, {k}\]: expected finite"):
+            robot.fk(q)
