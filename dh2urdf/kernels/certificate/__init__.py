@@ -29,7 +29,12 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.families import free_joints, null_direction, work_array
+from dh2urdf.kernels.certificate.families import (
+    free_joints,
+    null_direction,
+    one_of_each_family,
+    work_array,
+)
 from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
 from dh2urdf.kernels.certificate.newton import (
     MAX_TURN,

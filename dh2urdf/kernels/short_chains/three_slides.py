@@ -10,7 +10,13 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ANYWHERE, finish_families, finish_pose, work_array
+from dh2urdf.kernels.certificate import (
+    ANYWHERE,
+    finish_pose,
+    free_joints,
+    one_of_each_family,
+    work_array,
+)
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
@@ -180,11 +186,17 @@ def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, coun
         See :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
-    work, trial = work_array(n), np.empty((2, n))
+    work, trial = work_array(n), np.empty(n)
     turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))
     for i in range(Ts.shape[0]):
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
         found = _candidates(links, joints, T, q[i], turning, scratch)
-        residual[i, :found], branch[i, :found], free[i, :found] = -1.0, -1, 0
+        for k in range(found):
+            residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         found = finish_pose(links, joints, T, ANYWHERE, *rows, found, work)
-        count[i] = finish_families(links, joints, T, rest, within_limits, rows, found, trial, work)
+        for k in range(found):
+            free[i, k] = free_joints(links, joints, T, q[i, k], trial, work)
+        found = one_of_each_family(joints, rest, *rows, found)
+        if within_limits:
+            found = finish_pose(links, joints, T, within_limits, *rows, found, work)
+        count[i] = found
