@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dh2urdf.kernels.certificate import copy_rows
 from dh2urdf.kernels.numbers import kernel
 
 __all__ = ["gather_samples", "spread_samples"]
@@ -36,7 +35,11 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
         total = 0
         for k in range(samples):
             row = (i - first) * samples + k
-            source = some_q[row], some_residual[row], some_branch[row], some_free[row]
-            rest = q[i, total:], residual[i, total:], branch[i, total:], free[i, total:]
-            total += copy_rows(source, some_count[row], rest)
+            for r in range(some_count[row]):
+                for j in range(q.shape[2]):
+                    q[i, total, j] = some_q[row, r, j]
+                residual[i, total] = some_residual[row, r]
+                branch[i, total] = some_branch[row, r]
+                free[i, total] = some_free[row, r]
+                total += 1
         count[i] = total
