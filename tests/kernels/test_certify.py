@@ -61,7 +61,7 @@ def finish(links, joints, T, candidates, *, within_limits=True, residual=None):
     k, n = q.shape
     residual = np.full(k, -1.0) if residual is None else np.array(residual, float)
     branch, free = np.arange(k), np.zeros(k, np.int64)
-    work = newton.new_work(n)
+    work = newton.work_array(n)
     count = finish_pose(
         links, joints, np.ascontiguousarray(T), within_limits, q, residual, branch, free, k, work
     )

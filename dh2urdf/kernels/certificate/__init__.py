@@ -29,12 +29,7 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.families import (
-    free_joints,
-    null_direction,
-    one_of_each_family,
-    work_array,
-)
+from dh2urdf.kernels.certificate.families import free_joints, null_direction, one_of_each_family
 from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
 from dh2urdf.kernels.certificate.newton import (
     MAX_TURN,
@@ -42,6 +37,7 @@ from dh2urdf.kernels.certificate.newton import (
     normal_equations,
     polish,
     pose_residual,
+    work_array,
 )
 from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.certificate.numeric import find_solutions

@@ -19,16 +19,8 @@ def turn_to(joints, slack, reference, q):
     """Bring each angle of q (k, n) into the turn nearest to the reference (k or 1, n), in place.
 
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
-    nearest one is kept. What is beyond a limit by no more than ``slack`` is put onto it.
-
-    Parameters
-    ----------
-    joints : array, shape (n, 3)
-        Sliding, lower, upper.
-    slack : float
-        Excess [rad or m] that is the rounding of a full turn.
-    reference : array, shape (k, n) or (1, n)
-    q : array, shape (k, n)
+    nearest one is kept. What is beyond a limit by no more than ``slack`` [rad or m], the rounding
+    of a full turn, is put onto it.
     """
     for k in range(q.shape[0]):
         for i in range(q.shape[1]):
@@ -79,18 +71,8 @@ def measure_all(links, joints, task, Ts, q, count, residual):
 def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
     """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
 
-    Parameters
-    ----------
-    links, joints
-        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
-    task : int
-        What of the pose counts, see :mod:`dh2urdf.kernels.certificate.damped`.
-    T : array, shape (4, 4)
-    seed : array, shape (n,)
-    q : array, shape (k, n)
-        Solutions, sorted in place with their branch codes and masks of free joints.
-    residual : array, shape (k,), out
-    branch, free : int64 array, shape (k,)
+    They are sorted in place, with their branch codes and masks of free joints; residuals go to
+    ``residual``. The task is one of :mod:`dh2urdf.kernels.certificate.damped`.
     """
     damped, distance = make_damped(q.shape[1]), np.empty(q.shape[0])
     for k in range(q.shape[0]):

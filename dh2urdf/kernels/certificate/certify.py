@@ -139,7 +139,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
         Branch code and mask of free joints; moved along with their candidate.
     count : int
     work : array
-        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
+        From :func:`dh2urdf.kernels.certificate.newton.work_array`.
 
     Notes
     -----

@@ -11,20 +11,12 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.newton import residual_of, turn_between
-from dh2urdf.kernels.chain import joint_times_link, load_pose
+from dh2urdf.kernels.certificate.newton import damped_step, residual_of, turn_between, work_array
+from dh2urdf.kernels.chain import jacobian_rows
 from dh2urdf.kernels.numbers import inner_kernel
 
-__all__ = [
-    "POSE",
-    "add_transposed",
-    "error_and_jacobian",
-    "make_damped",
-    "pose_and_jacobian",
-    "reduce_to_task",
-    "restore",
-    "solve_damped",
-]
+__all__ = ["POSE", "add_transposed", "error_and_jacobian", "make_damped", "pose_and_jacobian"]
+__all__ += ["reduce_to_task", "restore", "solve_damped"]
 
 RESTORED = 1e-13
 """Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""
@@ -41,8 +33,9 @@ POSE, POSITION, POSITION_AXIS = 0, 1, 2
 
 @inner_kernel
 def make_damped(n):
-    """Scratch for n joints: Jacobian (n, 6), triangle (6, 6), error (6,), solution (6,)."""
-    return np.empty((n, 6)), np.empty((6, 6)), np.empty(6), np.empty(6)
+    """Scratch for n joints: Jacobian (n, 6), `work_array` of six, its right side and solution."""
+    work = work_array(6)
+    return np.empty((n, 6)), work, work[:, 6], work[:, 7]
 
 
 @inner_kernel
@@ -53,28 +46,14 @@ def pose_and_jacobian(links, joints, T, q, unit, damped):
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
     """
     J, _, e, _ = damped
-    n = q.shape[0]
-    r = load_pose(links[0])
-    for i in range(n):
-        J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
-        J[i, 3], J[i, 4], J[i, 5] = r[2], r[6], r[10]
-        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
-    ex, ey, ez, trace = turn_between(r, T)
-    if trace < 1.0:
-        size = max(math.sqrt(ex * ex + ey * ey + ez * ez), 1e-6)
-        ex, ey, ez = ex / size, ey / size, ez / size
+    r = jacobian_rows(links, joints[:, 0], q, J)
     e[0], e[1], e[2] = (T[0, 3] - r[3]) / unit, (T[1, 3] - r[7]) / unit, (T[2, 3] - r[11]) / unit
-    e[3], e[4], e[5] = ex, ey, ez
-    for i in range(n):
-        zx, zy, zz = J[i, 3], J[i, 4], J[i, 5]
-        if joints[i, 0] != 0.0:
-            J[i, 0], J[i, 1], J[i, 2] = zx / unit, zy / unit, zz / unit
-            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
-        else:
-            x, y, z = (r[3] - J[i, 0]) / unit, (r[7] - J[i, 1]) / unit, (r[11] - J[i, 2]) / unit
-            J[i, 0] = zy * z - zz * y
-            J[i, 1] = zz * x - zx * z
-            J[i, 2] = zx * y - zy * x
+    e[3], e[4], e[5], trace = turn_between(r, T)
+    if trace < 1.0:
+        size = max(math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]), 1e-6)
+        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
+    for i in range(q.shape[0]):
+        J[i, 0], J[i, 1], J[i, 2] = J[i, 0] / unit, J[i, 1] / unit, J[i, 2] / unit
     return r
 
 
@@ -117,37 +96,17 @@ def error_and_jacobian(links, joints, task, T, q, unit, damped):
 
 @inner_kernel
 def solve_damped(damped, damping):
-    """``y = (J J^T + damping)^-1 e`` by Cholesky, e and y in ``damped``."""
-    J, A, e, y = damped
-    n = J.shape[0]
+    """``y = (J J^T + damping)^-1 e``, e and y in ``damped``."""
+    J, work, _, _ = damped
     trace = 0.0
     for a in range(6):
         for b in range(a + 1):
             total = 0.0
-            for i in range(n):
+            for i in range(J.shape[0]):
                 total += J[i, a] * J[i, b]
-            A[a, b] = total
-        trace += A[a, a]
-    shift = damping + FLOOR * trace
-    for a in range(6):
-        total = e[a]
-        for b in range(a):
-            part = A[a, b]
-            for k in range(b):
-                part -= A[a, k] * A[b, k]
-            part /= A[b, b]
-            A[a, b] = part
-            total -= part * y[b]
-        pivot = A[a, a] + shift
-        for k in range(a):
-            pivot -= A[a, k] * A[a, k]
-        A[a, a] = math.sqrt(max(pivot, shift))
-        y[a] = total / A[a, a]
-    for a in range(5, -1, -1):
-        total = y[a]
-        for b in range(a + 1, 6):
-            total -= A[b, a] * y[b]
-        y[a] = total / A[a, a]
+            work[a, 8 + b] = total
+        trace += work[a, 8 + a]
+    damped_step(work, damping + FLOOR * trace)
 
 
 @inner_kernel

@@ -7,10 +7,16 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
-from dh2urdf.kernels.certificate.newton import damped_step, normal_equations, polish
+from dh2urdf.kernels.certificate.newton import (
+    damped_step,
+    factor,
+    normal_equations,
+    polish,
+    substitute,
+)
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
 
-__all__ = ["free_joints", "null_direction", "one_of_each_family", "work_array"]
+__all__ = ["free_joints", "null_direction", "one_of_each_family"]
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
@@ -24,12 +30,6 @@ family the Jacobian has its rank, and a plain step may go anywhere."""
 
 MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
-
-
-@inner_kernel
-def work_array(n):
-    """Scratch as :func:`.newton.new_work` makes it, for jitted callers."""
-    return np.empty((n, n + 8))
 
 
 @inlined_kernel
@@ -47,34 +47,18 @@ def null_direction(work):
         for i in range(n):
             work[i, 6] = 1.0 / math.sqrt(n)
         return 0.0
-    shift = 1e-14 * trace
+    factor(work, 1e-14 * trace)
     for i in range(n):
         work[i, 6] = 1.0 + 0.3 * i
-        for j in range(i + 1):
-            part = work[i, 8 + j] + (shift if i == j else 0.0)
-            for k in range(j):
-                part -= work[i, 8 + k] * work[j, 8 + k]
-            if i == j:
-                work[i, 8 + i] = math.sqrt(max(part, shift))
-            else:
-                work[i, 8 + j] = part / work[j, 8 + j]
     size = 1.0
     for _ in range(3):
-        for i in range(n):
-            total = work[i, 6]
-            for k in range(i):
-                total -= work[i, 8 + k] * work[k, 6]
-            work[i, 6] = total / work[i, 8 + i]
+        substitute(work)
         size = 0.0
-        for i in range(n - 1, -1, -1):
-            total = work[i, 6]
-            for k in range(i + 1, n):
-                total -= work[k, 8 + i] * work[k, 6]
-            work[i, 6] = total / work[i, 8 + i]
-            size += work[i, 6] * work[i, 6]
+        for i in range(n):
+            size += work[i, 7] * work[i, 7]
         size = math.sqrt(size)
         for i in range(n):
-            work[i, 6] /= size
+            work[i, 6] = work[i, 7] / size
     return 1.0 / (size * trace)
 
 
@@ -83,17 +67,8 @@ def free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 
     Where the Jacobian loses rank, a step is taken along its null direction and polished on the
-    exact chain. At a double root Newton comes back to q; on a family it stays away.
-
-    Parameters
-    ----------
-    links, joints, T
-        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
-    q : array, shape (n,)
-        A solution.
-    trial : array, shape (n,), scratch
-    work : array
-        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
+    exact chain. At a double root Newton comes back to q; on a family it stays away. ``trial`` (n,)
+    is scratch.
     """
     n = q.shape[0]
     normal_equations(links, joints, T, q, work)
@@ -131,10 +106,8 @@ def one_of_each_family(joints, rest, q, residual, branch, free, count):
         for j in range(count):
             if j == k or free[k] == 0 or free[j] != free[k]:
                 continue
-            mine, other = (
-                _at_rest(joints, rest, q[k], free[k]),
-                _at_rest(joints, rest, q[j], free[k]),
-            )
+            mine = _at_rest(joints, rest, q[k], free[k])
+            other = _at_rest(joints, rest, q[j], free[k])
             if (other and not mine) or (not other and not mine and j < k):
                 keep = False
         if keep:

@@ -7,6 +7,7 @@ import numpy as np
 from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose, turn_inside
 from dh2urdf.kernels.certificate.families import free_joints, one_of_each_family
 from dh2urdf.kernels.certificate.merging import merge_solutions
+from dh2urdf.kernels.certificate.newton import work_array
 from dh2urdf.kernels.numbers import inlined_kernel, kernel
 
 __all__ = ["ALL_MEMBERS", "finish_batch", "finish_families"]
@@ -47,7 +48,7 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
         As in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
     """
     n = q.shape[2]
-    work, trial = np.empty((n, n + 8)), np.empty((2, n))
+    work, trial = work_array(n), np.empty((2, n))
     for i in range(Ts.shape[0]):
         for k in range(count[i]):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0

@@ -68,13 +68,7 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
 def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch, work):
     """Keep one of each group of solutions that are one, the best; the new count.
 
-    Parameters
-    ----------
-    links, joints, T, q, residual, branch, free, count
-        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
-    scratch : array, shape (2, n)
-    work : array
-        From :func:`dh2urdf.kernels.certificate.newton.new_work`.
+    Arguments as for :func:`.certify.finish_pose`; ``scratch`` (2, n).
     """
     kept = np.int64(0)
     for k in range(count):

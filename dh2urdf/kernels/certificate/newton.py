@@ -10,21 +10,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dh2urdf.kernels.chain import joint_times_link, load_pose
-from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
+from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
 
-__all__ = [
-    "HOPELESS",
-    "MAX_TURN",
-    "POLISH",
-    "damped_step",
-    "new_work",
-    "normal_equations",
-    "polish",
-]
-__all__ += ["pose_residual", "residual_of", "turn_between"]
+__all__ = ["HOPELESS", "MAX_TURN", "POLISH", "damped_step", "factor", "normal_equations", "polish"]
+__all__ += ["pose_residual", "residual_of", "substitute", "turn_between", "work_array"]
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
@@ -49,8 +40,9 @@ VALLEY = 1e3
 and what is asked for beyond is noise along a direction in which the pose hardly changes."""
 
 
-def new_work(n: int) -> NDArray[np.float64]:
-    """Scratch of :func:`finish_pose` for n joints: one array for a whole batch."""
+@kernel
+def work_array(n):
+    """Scratch of a chain of n joints: Jacobian, right side, solution, triangle."""
     return np.empty((n, n + 8))
 
 
@@ -146,37 +138,49 @@ def normal_equations(links, joints, T, q, work):
 
 
 @inner_kernel
-def damped_step(work, damping):
-    """Solve ``(J^T J + damping) dq = J^T e`` by Cholesky, dq in ``work[:, 7]``; longest entry.
+def factor(work, damping):
+    """Cholesky factor of ``work[:, 8:] + damping``, in place over the lower triangle.
 
-    Factors in place over the Jacobian and the triangle, so the equations are built anew for
-    every step. Pivots that rounding made non-positive are raised to the damping.
+    Pivots that rounding made non-positive are raised to the damping.
     """
+    for i in range(work.shape[0]):
+        for j in range(i + 1):
+            part = work[i, 8 + j] + (damping if i == j else 0.0)
+            for k in range(j):
+                part -= work[i, 8 + k] * work[j, 8 + k]
+            if i == j:
+                work[i, 8 + i] = math.sqrt(max(part, damping))
+            else:
+                work[i, 8 + j] = part / work[j, 8 + j]
+
+
+@inner_kernel
+def substitute(work):
+    """Solve for the right side ``work[:, 6]`` by the factor, into ``work[:, 7]``; longest entry."""
     n = work.shape[0]
     for i in range(n):
         total = work[i, 6]
         for j in range(i):
-            part = work[i, 8 + j]
-            for k in range(j):
-                part -= work[i, 8 + k] * work[j, 8 + k]
-            part /= work[j, 8 + j]
-            work[i, 8 + j] = part
-            total -= part * work[j, 7]
-        pivot = work[i, 8 + i] + damping
-        for k in range(i):
-            pivot -= work[i, 8 + k] * work[i, 8 + k]
-        pivot = math.sqrt(max(pivot, damping))
-        work[i, 8 + i] = pivot
-        work[i, 7] = total / pivot
+            total -= work[i, 8 + j] * work[j, 7]
+        work[i, 7] = total / work[i, 8 + i]
     longest = 0.0
     for i in range(n - 1, -1, -1):
         total = work[i, 7]
         for k in range(i + 1, n):
             total -= work[k, 8 + i] * work[k, 7]
-        total /= work[i, 8 + i]
-        work[i, 7] = total
-        longest = max(longest, abs(total))
+        work[i, 7] = total / work[i, 8 + i]
+        longest = max(longest, abs(work[i, 7]))
     return longest
+
+
+@inner_kernel
+def damped_step(work, damping):
+    """Solve ``(J^T J + damping) dq = J^T e``, dq in ``work[:, 7]``; longest entry.
+
+    The triangle is factored in place, so the equations are built anew for every step.
+    """
+    factor(work, damping)
+    return substitute(work)
 
 
 @inner_kernel

@@ -88,8 +88,11 @@ def pose_error(target, frames, n, error, position, angle):
 
 
 @vector_kernel
-def _jacobian(frames, n, A):
-    """Geometric Jacobians at the tip in base axes, to the first six columns of A."""
+def _newton_system(frames, error, n, A):
+    """``J step = error`` of n lanes, J the geometric Jacobian at the tip in base axes.
+
+    The right side is the seventh column of A.
+    """
     e = 6 * FRAME
     for i in range(6):
         f = (i * FRAME) & MASK
@@ -103,78 +106,55 @@ def _jacobian(frames, n, A):
             A[a + 24 + k] = zz * x - zx * z
             A[a + 48 + k] = zx * y - zy * x
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
-
-
-@inlined
-def _newton_system(frames, error, n, A):
-    """``J step = error`` of n lanes, right side in the seventh column of A."""
-    _jacobian(frames, n, A)
-    for i in range(6):
-        a = (6 * COLUMN + i * LANES) & MASK
-        e = (i * LANES) & MASK
-        for k in range(n):
-            A[a + k] = error[e + k]
+    for k in range(len(error)):
+        A[6 * COLUMN + k] = error[k]
 
 
 @vector_kernel
-def _damped_system(frames, error, weight, n, J, A):
-    """``(J^T J + |error|^2) step = J^T error``, lengths multiplied by ``weight``.
+def _damped_system(J, weight, n, order, A):
+    """``(J^T J + |error|^2) step = J^T error`` of a system ``J step = error``, ``order`` unknowns.
 
-    The damping vanishes with the error, so convergence stays fast, also where J is singular along
-    a family of solutions. J (6 * 144,) scratch.
+    Lengths are multiplied by ``weight``. The damping vanishes with the error, so convergence stays
+    fast, also where J is singular along a family of solutions.
     """
-    _jacobian(frames, n, J)
-    order = len(error) // LANES
-    for r in range(3):
-        e = (r * LANES) & MASK
-        for k in range(n):
-            error[e + k] *= weight
-        for i in range(order):
-            a = (i * COLUMN + r * LANES) & MASK
-            for k in range(n):
-                J[a + k] *= weight
+    for j in range(order + 1):
+        q = (j * COLUMN) & MASK
+        for k in range(3 * LANES):
+            J[q + k] *= weight
     for i in range(order):
         p = (i * COLUMN) & MASK
         for j in range(order + 1):
-            q = ((j * COLUMN) & MASK) if j < order else 0
+            q = (j * COLUMN) & MASK
             a = (j * COLUMN + i * LANES) & MASK
             for k in range(n):
                 A[a + k] = 0.0
             for r in range(order):
                 o = (r * LANES) & MASK
-                if j < order:
-                    for k in range(n):
-                        A[a + k] += J[p + o + k] * J[q + o + k]
-                else:
-                    for k in range(n):
-                        A[a + k] += J[p + o + k] * error[o + k]
-    for r in range(order):
-        e = (r * LANES) & MASK
-        for i in range(order):
-            a = (i * COLUMN + i * LANES) & MASK
+                for k in range(n):
+                    A[a + k] += J[p + o + k] * J[q + o + k]
+    for i in range(order):
+        a = (i * COLUMN + i * LANES) & MASK
+        for r in range(order):
+            o = (order * COLUMN + r * LANES) & MASK
             for k in range(n):
-                A[a + k] += error[e + k] * error[e + k]
+                A[a + k] += J[o + k] * J[o + k]
 
 
 @inlined
 def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines):
     """Turn the joints of n lanes by a Newton step, shortened to half a radian.
 
-    A (7 * 144,) and J (6 * 144,) scratch; error is overwritten with the step. ``scale`` becomes
+    A and J (7 * 144,) scratch; error is overwritten with the step. ``scale`` becomes
     the determinant of the Jacobian, up to its sign; of the damped normal matrix if ``damped`` is 1.
     """
+    _newton_system(frames, error, n, J if damped == 1 else A)
     if damped == 1:
-        _damped_system(frames, error, weight, n, J, A)
-    else:
-        _newton_system(frames, error, n, A)
+        _damped_system(J, weight, n, len(error) // LANES, A)
     for k in range(n):
         scale[k] = 1.0
     reduce_columns(A, np.int64(6), np.int64(7), n, scale, V, beta)
-    for i in range(6):
-        a = (6 * COLUMN + i * LANES) & MASK
-        e = (i * LANES) & MASK
-        for k in range(n):
-            error[e + k] = A[a + k]
+    for k in range(len(error)):
+        error[k] = A[6 * COLUMN + k]
     solve_upper(A, error, n)
     for k in range(n):
         largest = LARGEST_STEP

@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI
 from dh2urdf.kernels.certificate.damped import (
@@ -23,6 +22,7 @@ from dh2urdf.kernels.certificate.damped import (
     reduce_to_task,
     solve_damped,
 )
+from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["find_solutions"]
 
@@ -42,7 +42,7 @@ DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
     """Residual of values q (n,); its error and the Jacobian of the values go to ``part``."""
     for k in range(offset.shape[0]):
@@ -62,7 +62,7 @@ def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
     return residual
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _step(bounds, damping, unit, q, dq, part):
     """Damped step of the values into dq (n,), without those at a limit that would go beyond it."""
     n = q.shape[0]
@@ -88,7 +88,7 @@ def _step(bounds, damping, unit, q, dq, part):
         q[i] = min(max(q[i] + scale * dq[i], bounds[i, 1]), bounds[i, 2])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best, scratch):
     """Follow the steps from q (n,); the residual of the best values, which go to best (n,)."""
     work, dq, whole, part = scratch
@@ -110,7 +110,7 @@ def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best,
     return least
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@inner_kernel
 def _is_new(bounds, q, found, count):
     """Whether values q (n,) differ from all found ones by more than full turns."""
     for k in range(count):
@@ -125,27 +125,23 @@ def _is_new(bounds, q, found, count):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, starts, q, residual):
     """Different solutions of one pose T (4, 4), from one start after the other.
 
     Parameters
     ----------
     links, joints
-        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
-    coupling : array, shape (chain.n, n)
-    offset : array, shape (chain.n,)
+        The chain, see :mod:`dh2urdf.kernels.certificate.certify`; its size is ``unit`` [m].
+    coupling, offset : arrays, shapes (chain.n, n), (chain.n,)
     bounds : array, shape (n, 3)
         Sliding, lower, upper of the values.
     task : int
-        0 pose, 1 position, 2 position and the direction of the tool's z axis.
-    unit : float
-        Size of the arm [m].
+        See :mod:`dh2urdf.kernels.certificate.damped`.
     starts : array, shape (s, n)
         Overwritten.
-    q : array, shape (k, n), out
-        The search ends when it is full.
-    residual : array, shape (k,), out
+    q, residual : arrays, shapes (k, n), (k,), out
+        The search ends when they are full.
 
     Returns
     -------

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from dh2urdf.kernels.certificate.certify import finish_pose
+from dh2urdf.kernels.certificate.newton import work_array
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 
 __all__ = ["invert_pose", "invert_poses", "reverse_joints", "turn_back"]
@@ -48,7 +47,7 @@ def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free
     The reversed chain measures its position error at the other end.
     """
     n = q.shape[2]
-    work = np.empty((n, n + 8))
+    work = work_array(n)
     for i in range(Ts.shape[0]):
         found = count[i]
         for k in range(found):

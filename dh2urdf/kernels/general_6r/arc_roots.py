@@ -4,10 +4,6 @@ On an arc around q_0, ``(1 + t^2)^8 f`` with ``t = tan((q - q_0) / 2)`` is a pol
 16. Its Bernstein coefficients change sign at least as often as it has roots there, and by an even
 number more (Descartes): none means no root, one means one. Arcs with more changes are halved
 until they are decided, so no root is overlooked.
-
-The coefficients come from 24 samples: all around the circle, for 24 arcs at once, or on one
-window, for roots that lie where f is small against its largest value. Degree 8 needs only 17
-samples; what the other seven contradict is the samples' own rounding noise, measured.
 """
 
 from __future__ import annotations
@@ -16,27 +12,11 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
 
-__all__ = [
-    "ARC",
-    "ARC_TAN",
-    "CIRCLE_COS",
-    "CIRCLE_SIN",
-    "SPANS",
-    "STACK",
-    "TERMS",
-    "circle_arcs",
-    "roots_on_arc",
-    "window_arc",
-    "window_nodes",
-]
+__all__ = ["SPANS", "STACK", "roots_on_arc"]
 
-DEGREE = 8
-TERMS = 2 * DEGREE + 1
-HARMONICS = 23
-ARC = 2.0 * math.pi / LANES
-ARC_TAN = math.tan(0.25 * ARC)
 STACK = 40
 """Rows that the halving needs at most."""
 
@@ -63,136 +43,6 @@ UNSURE = 1e-6
 
 SPANS = 31
 """Spans of doubt that are remembered."""
-
-CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
-CIRCLE_COS = np.cos(CIRCLE_ANGLE)
-CIRCLE_SIN = np.sin(CIRCLE_ANGLE)
-NODE = np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
-
-
-def _circle_table():
-    """Weights of the 24 samples in a_0, a_1, b_1, ... b_11."""
-    rows = [np.full(LANES, 0.5)]
-    for m in range(1, 12):
-        rows += [np.cos(m * CIRCLE_ANGLE), np.sin(m * CIRCLE_ANGLE)]
-    return np.ascontiguousarray(np.array(rows).T * (2.0 / LANES))
-
-
-def _arc_table():
-    """Bernstein coefficients (17, 17) on one arc of 1, cos q, sin q, cos 2q, ...
-
-    From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
-    """
-    low, high = complex(1.0, -ARC_TAN), complex(1.0, ARC_TAN)
-    binomial = np.array([math.comb(2 * DEGREE, i) for i in range(TERMS)])
-    columns = []
-    for m in range(DEGREE + 1):
-        product = np.ones(1, dtype=complex)
-        for factor in range(2 * DEGREE):
-            pair = [low, high] if factor < DEGREE + m else [high, low]
-            product = np.convolve(product, pair)
-        product = product / binomial
-        columns += [product.real] if m == 0 else [product.real, product.imag]
-    return np.ascontiguousarray(np.array(columns).T)
-
-
-def _window_table():
-    """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
-    x = 0.5 * (1.0 + NODE)
-    basis = np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
-    u, s, vt = np.linalg.svd(basis)
-    rows = np.vstack([vt.T @ (u[:, :TERMS] / s).T, u[:, TERMS:].T])
-    return np.ascontiguousarray(rows.T)
-
-
-CIRCLE_TABLE = _circle_table()
-ARC_TABLE = _arc_table()
-WINDOW_TABLE = _window_table()
-
-
-@inlined
-def circle_arcs(samples, series, turned, arcs):
-    """Bernstein coefficients of f on 24 arcs from 24 samples around the circle.
-
-    Parameters
-    ----------
-    samples : (24,)
-    series : (24,), scratch
-    turned : (17, 24), scratch
-    arcs : (24, 24), out
-        Column k: the 17 coefficients on the arc centred at ``k * ARC``.
-
-    Returns
-    -------
-    float, float
-        The largest Fourier coefficient that should vanish (the noise) and the largest of all.
-    """
-    for m in range(HARMONICS):
-        series[m] = 0.0
-    for k in range(LANES):
-        f = samples[k]
-        for m in range(HARMONICS):
-            series[m] += f * CIRCLE_TABLE[k, m]
-    largest, noise = 0.0, 0.0
-    for m in range(TERMS):
-        largest = max(largest, abs(series[m]))
-    for m in range(TERMS, HARMONICS):
-        noise = max(noise, abs(series[m]))
-    for k in range(LANES):
-        turned[0, k] = series[0]
-    for m in range(1, DEGREE + 1):
-        a, b = series[2 * m - 1], series[2 * m]
-        for k in range(LANES):
-            c, s = CIRCLE_COS[(m * k) % LANES], CIRCLE_SIN[(m * k) % LANES]
-            turned[2 * m - 1, k] = a * c + b * s
-            turned[2 * m, k] = b * c - a * s
-    for i in range(TERMS):
-        for k in range(LANES):
-            arcs[i, k] = 0.0
-        for m in range(TERMS):
-            w = ARC_TABLE[i, m]
-            for k in range(LANES):
-                arcs[i, k] += w * turned[m, k]
-    for k in range(LANES):
-        arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
-    return noise, largest
-
-
-@inlined
-def window_nodes(centre, half_tan, hidden):
-    """Cosines and sines, (2, 24), of the places at which a window is sampled."""
-    for k in range(LANES):
-        q = centre + 2.0 * math.atan(half_tan * NODE[k])
-        hidden[0, k], hidden[1, k] = math.cos(q), math.sin(q)
-
-
-@inlined
-def window_arc(samples, half_tan, series, arcs):
-    """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
-
-    ``series`` (24,) is scratch.
-
-    Returns
-    -------
-    float
-        The largest contradiction among the samples: the noise.
-    """
-    for m in range(LANES):
-        series[m] = 0.0
-    for k in range(LANES):
-        t = half_tan * NODE[k]
-        weight = 1.0 + t * t
-        weight *= weight
-        weight *= weight
-        f = samples[k] * weight * weight
-        for m in range(LANES):
-            series[m] += f * WINDOW_TABLE[k, m]
-    for i in range(TERMS):
-        arcs[i, 0] = series[i]
-    noise = 0.0
-    for m in range(TERMS, LANES):
-        noise = max(noise, abs(series[m]))
-    return noise
 
 
 @vector_kernel
@@ -301,32 +151,29 @@ def _pair(row, x, f, ddf, rising, length, scratch):
     return a, da, b, db
 
 
+@vector_kernel
+def _add(roots, slopes, count, angle, slope):
+    """Append a root; their number."""
+    roots[count], slopes[count] = angle, slope
+    return count + 1
+
+
 @inlined
 def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
-    """Append the real roots on one arc.
+    """Append the real roots on one arc; their number.
 
     Parameters
     ----------
     stack : (STACK, 19)
         The arc's Bernstein coefficients in the first row; overwritten.
-    centre, half_tan : float
-        The arc: angle of its middle [rad] and tangent of a quarter of its length.
-    noise : float
-        Size below which f cannot be told from zero.
-    scratch : (24,)
+    centre, half_tan, noise : float
+        Middle of the arc [rad], tangent of a quarter of its length, size of f that may be zero.
     spans : (2, SPANS + 1), in and out
         ``spans[0, 0]`` spans of doubt, each from ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f
         is so small, or a root so uncertain, that it should be sampled anew.
-    count : int
-        Number of roots so far.
     roots, slopes : (24,), out
         Angles [rad] and |f'| there; the slope is 0 where two roots (nearly) fall together or a
-        complex pair is close to the real axis.
-
-    Returns
-    -------
-    int
-        Number of roots written.
+        complex pair is close to the real axis. ``count`` are there already.
     """
     stack[0, 17], stack[0, 18] = -half_tan, half_tan
     top = np.int64(0)
@@ -334,46 +181,38 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
         row = stack[top]
         changes, crossing, place, smallest, largest = _shape(row)
         length = 2.0 * (row[18] - row[17])
-        if largest < FLAT * noise or (changes == 0 and smallest < CLEAR * noise):
-            _doubt(spans, row, centre)
+        doubt = largest < FLAT * noise or (changes == 0 and smallest < CLEAR * noise)
+        decided = changes < 2
         if changes == 1:
             fine = 1e-8 / length
             x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, fine, scratch)
-            roots[count], slopes[count] = _angle(centre, row, x), abs(df) / length + 1e-300
-            if slopes[count] * UNSURE < noise:
-                _doubt(spans, row, centre)
-            count += 1
-            top -= 1
-            continue
-        if (changes == 0 and smallest < SHALLOW * largest) or (changes == 2 and length < NARROW):
+            slope = abs(df) / length + 1e-300
+            count = _add(roots, slopes, count, _angle(centre, row, x), slope)
+            doubt = doubt or slope * UNSURE < noise
+        elif (changes == 0 and smallest < SHALLOW * largest) or (changes == 2 and length < NARROW):
             x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
             positive = row[0] > 0.0
             if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
                 near = NEAR_DOUBLE / length
                 if (f > 0.0) != positive:
                     a, da, b, db = _pair(row, x, f, ddf, not positive, length, scratch)
-                    roots[count], slopes[count] = _angle(centre, row, a), abs(da) / length + 1e-300
-                    count += 1
-                    roots[count], slopes[count] = _angle(centre, row, b), abs(db) / length + 1e-300
-                    count += 1
-                    if min(abs(da), abs(db)) * UNSURE < noise * length:
-                        _doubt(spans, row, centre)
-                    top -= 1
-                    continue
-                if changes == 0 or length < NARROWEST:
+                    da, db = abs(da) / length, abs(db) / length
+                    count = _add(roots, slopes, count, _angle(centre, row, a), da + 1e-300)
+                    count = _add(roots, slopes, count, _angle(centre, row, b), db + 1e-300)
+                    doubt = doubt or min(da, db) * UNSURE < noise
+                    decided = True
+                elif changes == 0 or length < NARROWEST:
                     if 2.0 * abs(f) < near * near * abs(ddf) + noise:
-                        roots[count], slopes[count] = _angle(centre, row, x), 0.0
-                        count += 1
-                    top -= 1
-                    continue
-        if changes == 0:
+                        count = _add(roots, slopes, count, _angle(centre, row, x), 0.0)
+                    decided = True
+        if doubt:
+            _doubt(spans, row, centre)
+        if not decided and (length < 1e-12 or top + 2 > STACK):
+            count = _add(roots, slopes, count, _angle(centre, row, 0.5), 0.0)
+            decided = True
+        if decided:
             top -= 1
-            continue
-        if length < 1e-12 or top + 2 > STACK:
-            roots[count], slopes[count] = _angle(centre, row, 0.5), 0.0
-            count += 1
-            top -= 1
-            continue
-        _halve(stack, top)
-        top += 1
+        else:
+            _halve(stack, top)
+            top += 1
     return count

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, TERMS
+from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK
+from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import COLUMN, LANES
 
 __all__ = ["ARM_6R", "MOST", "OWN"]
@@ -33,7 +34,7 @@ _ARM = {
 _WORK = {
     "target": 12,
     "loop": (6, 12),  # closed loop
-    "samples": (14, 27),  # of the fourteen functions
+    "samples": (14, 9),  # of the right side's fourteen functions
     "right": (9, 14),  # right side and its reflectors
     "basis": (14, 14),  # its orthogonal basis
     "factors": 16,  # its reflectors' factors
@@ -56,14 +57,12 @@ _WORK = {
     "null": COLUMN,  # null vectors
     "second": COLUMN,  # second null vectors
     "hidden": (2, LANES),  # cosine and sine of joint 3 of the loop
-    "fourth": (2, LANES),  # of joint 4
-    "fifth": (2, LANES),  # of joint 5
     "loop_cosines": COLUMN,  # of all six
     "loop_sines": COLUMN,
     "cosines": COLUMN,  # of the arm's joints
     "sines": COLUMN,
     "frames": 7 * 12 * LANES,
-    "functions": 14 * LANES,  # the fourteen functions
+    "functions": (14, LANES),  # the fourteen functions
     "pairs": 4 * LANES,  # joints 1 and 2 of the loop
     "error": COLUMN,  # of the pose
     "position": LANES,  # its length

@@ -17,28 +17,26 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.numbers import inlined, vector_kernel
 
-__all__ = ["close_loop", "left_coefficients", "reduce_right", "right_coefficients", "six_equations"]
+__all__ = ["close_loop", "left_coefficients", "line_functions", "move_line_back"]
+__all__ += ["reduce_right", "right_coefficients", "six_equations"]
 
 HALF_SQRT3 = math.sqrt(0.75)
 INV_SQRT3 = math.sqrt(1.0 / 3.0)
 SQRT2 = math.sqrt(2.0)
+RIGHT_ORDER = np.array([4, 5, 7, 8, 3, 6, 1, 2, 0])
+"""Rows c1c2, c1s2, s1c2, s1s2, c1, s1, c2, s2, 1 of the right side among (1, c1, s1)(1, c2, s2)."""
 
 
 @vector_kernel
 def close_loop(chain, shift, reverse, loop):
-    """Write the loop of ``Z_1 C_1 ... C_5 Z_6 = target``, cut before joint ``shift``.
+    """Write the transforms after each label of the loop ``Z_1 C_1 ... C_5 Z_6 = target``.
 
-    Parameters
-    ----------
-    chain : (6, 12)
-        The constant transforms C_1 ... C_5 and the target, rows of (3, 4) matrices.
-    shift, reverse : int
-        Label i is joint ``(shift + i) % 6``; reversed, joint ``(5 - shift - i) % 6`` with the
-        opposite angle.
-    loop : (6, 12), out
-        The transform after each label.
+    Label i is joint ``(shift + i) % 6``; reversed, joint ``(5 - shift - i) % 6`` with the opposite
+    angle. ``chain`` (6, 12) has C_1 ... C_5 and the target.
     """
     for i in range(6):
         joint = (shift + i) % 6 if reverse == 0 else (10 - shift - i) % 6
@@ -59,7 +57,7 @@ def _invert(a, out):
 
 
 @vector_kernel
-def _write_functions(line, out, column):
+def line_functions(line, out, column):
     """The fourteen functions of the line through p along l, to a column of out (14, m)."""
     lx, ly, lz, px, py, pz = line
     pp = px * px + py * py + pz * pz
@@ -90,7 +88,7 @@ def _move_line(a, line):
 
 
 @vector_kernel
-def _move_line_back(a, line):
+def move_line_back(a, line):
     """``a^-1 (l, p)`` of a line held as six scalars, a (12,)."""
     lx, ly, lz, px, py, pz = line
     px, py, pz = px - a[3], py - a[7], pz - a[11]
@@ -117,98 +115,73 @@ def _turn_line(sample, line):
 
 
 @vector_kernel
-def left_coefficients(loop, samples, lefts, e):
-    """Coefficients of the left side's fourteen functions.
+def left_coefficients(loop, left):
+    """Coefficients of the left side's fourteen functions, to left (14, 27).
 
     Joint 3, the hidden one, stays as (1, cos, sin). Joints 4 and 5 are written in (1, x, x^2) and
     (1, sqrt2 y, y^2) with x, y the tangents of half the angles, after a multiplication by
-    ``(1 + x^2)(1 + y^2)``.
-
-    Parameters
-    ----------
-    loop : (6, 12)
-        The closed loop.
-    samples : (14, 27)
-        Scratch.
-    lefts : (k, 14, 27), out
-        Of ``lefts[e]``, column ``9 m + 3 i + j`` for (1, cos, sin), the power of x and that of y.
+    ``(1 + x^2)(1 + y^2)``: column ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
     """
-    left = lefts[e]
     start = (loop[4, 2], loop[4, 6], loop[4, 10], loop[4, 3], loop[4, 7], loop[4, 11])
     for c in range(3):
         line5 = _move_line(loop[3], _turn_line(c, start))
         for b in range(3):
             line4 = _move_line(loop[2], _turn_line(b, line5))
             for a in range(3):
-                _write_functions(_turn_line(a, line4), samples, 9 * a + 3 * b + c)
+                line_functions(_turn_line(a, line4), left, 9 * a + 3 * b + c)
     for f in range(14):
         for i in range(9):
-            y0, y1, y2 = samples[f, i], samples[f, i + 9], samples[f, i + 18]
-            samples[f, i] = (y0 + y1 + y2) / 3.0
-            samples[f, i + 9] = (2.0 * y0 - y1 - y2) / 3.0
-            samples[f, i + 18] = (y1 - y2) * INV_SQRT3
+            _series_of_samples(left[f], i, 9)
         for a in range(0, 27, 9):
             for i in range(a, a + 3):
-                y0, y1, y2 = samples[f, i], samples[f, i + 3], samples[f, i + 6]
-                samples[f, i + 3] = (y1 - y2) * (2.0 * INV_SQRT3)
-                samples[f, i + 6] = (2.0 * (y1 + y2) - y0) / 3.0
+                _powers_of_samples(left[f], i, 3, 2.0)
             for i in range(a, a + 9, 3):
-                y0, y1, y2 = samples[f, i], samples[f, i + 1], samples[f, i + 2]
-                left[f, i] = y0
-                left[f, i + 1] = (y1 - y2) * (SQRT2 * INV_SQRT3)
-                left[f, i + 2] = (2.0 * (y1 + y2) - y0) / 3.0
+                _powers_of_samples(left[f], i, 1, SQRT2)
+
+
+@vector_kernel
+def _series_of_samples(row, i, stride):
+    """``(1, cos, sin)`` in place of samples at 0, 120 and -120 degrees."""
+    y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
+    row[i] = (y0 + y1 + y2) / 3.0
+    row[i + stride] = (2.0 * y0 - y1 - y2) / 3.0
+    row[i + 2 * stride] = (y1 - y2) * INV_SQRT3
+
+
+@vector_kernel
+def _powers_of_samples(row, i, stride, scale):
+    """The same in (1, 2 t / scale, t^2), t the tangent of half the angle, times ``1 + t^2``."""
+    y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
+    row[i + stride] = (y1 - y2) * scale * INV_SQRT3
+    row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
 @inlined
 def right_coefficients(loop, samples, right):
-    """Coefficients of the right side's fourteen functions of joints 1 and 2.
-
-    ``right`` (9, 14), out: rows c1c2, c1s2, s1c2, s1s2, c1, s1, c2, s2, 1.
-    """
-    start = _move_line_back(loop[5], (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+    """Coefficients of the right side's fourteen functions of joints 1 and 2, to right (9, 14)."""
+    start = move_line_back(loop[5], (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
     for a in range(3):
-        line1 = _move_line_back(loop[0], _turn_line((3 - a) % 3, start))
+        line1 = move_line_back(loop[0], _turn_line((3 - a) % 3, start))
         for b in range(3):
-            line2 = _move_line_back(loop[1], _turn_line((3 - b) % 3, line1))
-            _write_functions(line2, samples, 3 * a + b)
+            line2 = move_line_back(loop[1], _turn_line((3 - b) % 3, line1))
+            line_functions(line2, samples, 3 * a + b)
     for f in range(14):
         for a in range(3):
-            i = 3 * a
-            y0, y1, y2 = samples[f, i], samples[f, i + 1], samples[f, i + 2]
-            samples[f, i] = (y0 + y1 + y2) / 3.0
-            samples[f, i + 1] = (2.0 * y0 - y1 - y2) / 3.0
-            samples[f, i + 2] = (y1 - y2) * INV_SQRT3
+            _series_of_samples(samples[f], 3 * a, 1)
         for b in range(3):
-            y0, y1, y2 = samples[f, b], samples[f, b + 3], samples[f, b + 6]
-            samples[f, b] = (y0 + y1 + y2) / 3.0
-            samples[f, b + 3] = (2.0 * y0 - y1 - y2) / 3.0
-            samples[f, b + 6] = (y1 - y2) * INV_SQRT3
-        right[0, f], right[1, f] = samples[f, 4], samples[f, 5]
-        right[2, f], right[3, f] = samples[f, 7], samples[f, 8]
-        right[4, f], right[5, f] = samples[f, 3], samples[f, 6]
-        right[6, f], right[7, f] = samples[f, 1], samples[f, 2]
-        right[8, f] = samples[f, 0]
+            _series_of_samples(samples[f], b, 3)
+        for r in range(9):
+            right[r, f] = samples[f, RIGHT_ORDER[r]]
 
 
 @inlined
 def reduce_right(right, beta, basis):
-    """Householder QR of the eight non-constant columns of the right side.
+    """Householder QR of the eight non-constant columns of the right side, its rows (9, 14).
 
-    Parameters
-    ----------
-    right : (9, 14), in and out
-        Row j is column j of the matrix; afterwards reflector j below its diagonal entry, R above.
-    beta : (16,), scratch
-        The reflectors' factors in the first eight, the diagonal of R in the last.
-    basis : (14, 14), out
-        Row i is column i of Q: rows 8 to 13 span the left null space.
-
-    Returns
-    -------
-    float
-        The smallest over the largest diagonal entry of R.
+    Row j of ``right`` becomes reflector j from its diagonal entry on, and R before it; ``beta``
+    (16,) the reflectors' factors, then the diagonal of R. Row i of ``basis`` (14, 14) becomes
+    column i of Q, without the first four: rows 8 to 13 span the left null space.
     """
-    smallest, largest = math.inf, 0.0
     for j in range(8):
         square = 0.0
         for i in range(j, 14):
@@ -216,7 +189,6 @@ def reduce_right(right, beta, basis):
         pivot = right[j, j]
         norm = math.sqrt(square)
         value = -norm if pivot > 0.0 else norm
-        smallest, largest = min(smallest, norm), max(largest, norm)
         beta[j] = -1.0 / (square - value * pivot + 1e-300)
         beta[8 + j] = value
         right[j, j] = pivot - value
@@ -239,7 +211,6 @@ def reduce_right(right, beta, basis):
                 d *= beta[j]
                 for i in range(j, 14):
                     basis[r, i] += d * right[j, i]
-    return smallest / (largest + 1e-300)
 
 
 @inlined
@@ -258,7 +229,5 @@ def six_equations(right, basis, lefts, e, equations):
             constant += w * right[8, f]
             for m in range(27):
                 equations[r, m] += w * left[f, m]
-        equations[r, 0] -= constant
-        equations[r, 2] -= constant
-        equations[r, 6] -= constant
-        equations[r, 8] -= constant
+        for m in (0, 2, 6, 8):
+            equations[r, m] -= constant

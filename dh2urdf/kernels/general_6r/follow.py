@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import chain_frames, newton_step, pose_error
-from dh2urdf.kernels.general_6r.loop_angles import left_frames, other_joints
+from dh2urdf.kernels.general_6r.loop_angles import other_joints
 from dh2urdf.kernels.general_6r.resultant import resultants, split_pairs, two_joints
 from dh2urdf.kernels.numbers import LANES, MASK, inlined, null_vectors, vector_kernel
 
@@ -56,7 +56,7 @@ def _seeds(e, roots, count, copies, arm):
     """
     loop, right, basis, factors = arm["loop"], arm["right"], arm["basis"], arm["factors"]
     W, b, second, frames = arm["W"], arm["null"], arm["second"], arm["frames"]
-    turns, hidden, fourth, fifth = arm["turns"], arm["hidden"], arm["fourth"], arm["fifth"]
+    turns, hidden = arm["turns"], arm["hidden"]
     c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
     shift, reverse = arm["choices"][e, 0], arm["choices"][e, 1]
     lanes = count * copies
@@ -64,17 +64,13 @@ def _seeds(e, roots, count, copies, arm):
     for k in range(n):
         root = roots[min(k // copies, count - 1)]
         hidden[0, k], hidden[1, k] = math.cos(root), math.sin(root)
+        c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
     resultants(arm["equations"], hidden, n, arm["A"], W, arm["determinant"], arm["V"], arm["beta"])
     for copy in range(copies):
         null_vectors(W, b, second if copy > 0 else b, copy == 0, n)
     if copies == 2:
         split_pairs(b, second, n)
-    two_joints(b, n, fourth, fifth)
-    for k in range(n):
-        c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
-        c[3 * LANES + k], s[3 * LANES + k] = fourth[0, k], fourth[1, k]
-        c[4 * LANES + k], s[4 * LANES + k] = fifth[0, k], fifth[1, k]
-    left_frames(loop, c, s, n, frames)
+    two_joints(b, n, c, s)
     other_joints(loop, right, factors, basis, frames, n, c, s, arm["functions"], arm["pairs"])
     for i in range(6):
         joint = (shift + i) % 6 if reverse == 0 else (11 - shift - i) % 6
@@ -134,13 +130,9 @@ def _place(k, found, out_q, out_residual, arm):
     """Store lane k unless it missed the target or is known.
 
     Of a family of solutions only some members are kept, to leave room for the isolated ones.
-
-    Returns
-    -------
-    int, int
-        The number of solutions, and the index of this one; -1 if it missed.
+    Returns the number of solutions, and the index of this one; -1 if it missed.
     """
-    cosines, sines, position, angle = (arm["cosines"], arm["sines"], arm["position"], arm["angle"])
+    cosines, sines, position, angle = arm["cosines"], arm["sines"], arm["position"], arm["angle"]
     size, q, determinant, kept = arm["size"], arm["q"], arm["determinant"], arm["kept"]
     residual = max(position[k], angle[k])
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
@@ -192,12 +184,8 @@ def follow(e, count, found, out_q, out_residual, arm):
 
     A double root, and one that leads nowhere, to another value of the hidden joint or where another
     root went, are taken for two solutions with the same value of it, and tried again as such.
-
-    Returns
-    -------
-    int, int, float
-        The number of solutions, how many roots had to be tried again, and the largest error of
-        the seeds that stood: roots with more than two solutions, or none, have no exact ones.
+    Returns the number of solutions, how many roots had to be tried again, and the largest error of
+    the seeds that stood: roots with more than two solutions, or none, have no exact ones.
     """
     roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
     again, worst = np.int64(0), 0.0

@@ -9,84 +9,31 @@ from __future__ import annotations
 
 import math
 
+from dh2urdf.kernels.certificate import chain_frames
+from dh2urdf.kernels.general_6r.elimination import line_functions, move_line_back
 from dh2urdf.kernels.numbers import LANES, MASK, inlined, vector_kernel
 
-__all__ = ["left_frames", "other_joints"]
+__all__ = ["other_joints"]
+
+LEFT = 3 * 12 * LANES
+"""Where `chain_frames` leaves ``C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5``."""
 
 
 @vector_kernel
-def _turn(c, s, x, y, z):
-    """``Z v``."""
-    return c * x - s * y, s * x + c * y, z
-
-
-@vector_kernel
-def _turn_back(c, s, x, y, z):
-    """``Z^-1 v``."""
-    return c * x + s * y, c * y - s * x, z
-
-
-@vector_kernel
-def rotation(a):
-    """The rotation of a rigid transform (12,), as nine scalars row by row."""
-    return a[0], a[1], a[2], a[4], a[5], a[6], a[8], a[9], a[10]
-
-
-@vector_kernel
-def rotation_back(a):
-    """The inverse of that rotation."""
-    return a[0], a[4], a[8], a[1], a[5], a[9], a[2], a[6], a[10]
-
-
-@vector_kernel
-def _apply(r, x, y, z):
-    """``R v``."""
-    return (
-        r[0] * x + r[1] * y + r[2] * z,
-        r[3] * x + r[4] * y + r[5] * z,
-        r[6] * x + r[7] * y + r[8] * z,
-    )
+def _entries(a):
+    """Entries of a transform (12,) as scalars, which no writing in a loop can change."""
+    return a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]
 
 
 @inlined
-def left_frames(loop, cosines, sines, n, frames):
-    """``Z_3 C_3 Z_4 C_4 Z_5 C_5`` of n lanes: four columns to frames (12 runs of LANES)."""
-    ra, rb = rotation(loop[2]), rotation(loop[3])
-    for column in range(4):
-        dx, dy, dz = loop[4, column], loop[4, 4 + column], loop[4, 8 + column]
-        bx, by, bz, ax, ay, az = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        if column == 3:
-            bx, by, bz = loop[3, 3], loop[3, 7], loop[3, 11]
-            ax, ay, az = loop[2, 3], loop[2, 7], loop[2, 11]
-        f = (3 * column * LANES) & MASK
-        for k in range(n):
-            x, y, z = _turn(cosines[4 * LANES + k], sines[4 * LANES + k], dx, dy, dz)
-            x, y, z = _apply(rb, x, y, z)
-            x, y, z = x + bx, y + by, z + bz
-            x, y, z = _turn(cosines[3 * LANES + k], sines[3 * LANES + k], x, y, z)
-            x, y, z = _apply(ra, x, y, z)
-            x, y, z = x + ax, y + ay, z + az
-            x, y, z = _turn(cosines[2 * LANES + k], sines[2 * LANES + k], x, y, z)
-            frames[f + k], frames[f + LANES + k], frames[f + 2 * LANES + k] = x, y, z
-
-
-@inlined
-def _functions(frames, n, out):
-    """The fourteen functions of axis 6's line, to out (14 runs of LANES)."""
+def _functions(loop, frames, n, out):
+    """The fourteen functions of axis 6's line, to out (14, LANES)."""
+    second = _entries(loop[1])
     for k in range(n):
-        lx, ly, lz = frames[6 * LANES + k], frames[7 * LANES + k], frames[8 * LANES + k]
-        px, py, pz = frames[9 * LANES + k], frames[10 * LANES + k], frames[11 * LANES + k]
-        pp = px * px + py * py + pz * pz
-        pl2 = 2.0 * (px * lx + py * ly + pz * lz)
-        out[k], out[LANES + k], out[2 * LANES + k] = px, py, pz
-        out[3 * LANES + k], out[4 * LANES + k], out[5 * LANES + k] = lx, ly, lz
-        out[6 * LANES + k], out[7 * LANES + k] = pp, 0.5 * pl2
-        out[8 * LANES + k] = py * lz - pz * ly
-        out[9 * LANES + k] = pz * lx - px * lz
-        out[10 * LANES + k] = px * ly - py * lx
-        out[11 * LANES + k] = pp * lx - pl2 * px
-        out[12 * LANES + k] = pp * ly - pl2 * py
-        out[13 * LANES + k] = pp * lz - pl2 * pz
+        f = LEFT + k
+        lx, ly, lz = frames[f + 2 * LANES], frames[f + 6 * LANES], frames[f + 10 * LANES]
+        px, py, pz = frames[f + 3 * LANES], frames[f + 7 * LANES], frames[f + 11 * LANES]
+        line_functions(move_line_back(second, (lx, ly, lz, px, py, pz)), out, k)
 
 
 @vector_kernel
@@ -98,29 +45,22 @@ def _project(basis, row, constant, functions, n, out):
         shift += basis[row, f] * constant[f]
     o = ((row - 4) * LANES) & MASK
     for k in range(n):
-        out[o + k] = w0 * functions[k] - shift
+        out[o + k] = w0 * functions[0, k] - shift
     for f in range(1, len(constant)):
         w = basis[row, f]
         for k in range(n):
-            out[o + k] += w * functions[f * LANES + k]
+            out[o + k] += w * functions[f, k]
 
 
 @inlined
 def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions, y):
     """Joints 1, 2 and 6 of n lanes.
 
-    Parameters
-    ----------
-    loop : (6, 12)
-    right, beta, basis
-        The QR of the right side, as `reduce_right` leaves it.
-    frames : (12 runs of LANES)
-        From `left_frames`.
-    cosines, sines : six runs of LANES, in and out
-    functions : 14 runs of LANES, scratch
-    y : four runs of LANES, scratch
+    ``right``, ``beta`` and ``basis`` as `reduce_right` leaves them; frames (7 * 144,), functions
+    (14, 24) and y (96,) scratch.
     """
-    _functions(frames, n, functions)
+    chain_frames(loop[1:5], cosines[2 * LANES :], sines[2 * LANES :], n, frames)
+    _functions(loop, frames, n, functions)
     for row in range(4, 8):
         _project(basis, row, right[8], functions, n, y)
     d4, d5, d6, d7 = 1.0 / beta[12], 1.0 / beta[13], 1.0 / beta[14], 1.0 / beta[15]
@@ -140,15 +80,16 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
 
 @inlined
 def _last_joint(loop, frames, n, cosines, sines):
-    """Joint 6: first row of ``Z_6^-1 = X^T L``, X the right side's and L the left's rotation."""
+    """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]
-    first, second = rotation_back(loop[0]), rotation_back(loop[1])
+    first = _entries(loop[0])
     for k in range(n):
-        x, y, z = _turn_back(cosines[k], sines[k], x0, y0, z0)
-        x, y, z = _apply(first, x, y, z)
-        x, y, z = _turn_back(cosines[LANES + k], sines[LANES + k], x, y, z)
-        x, y, z = _apply(second, x, y, z)
-        c = x * frames[k] + y * frames[LANES + k] + z * frames[2 * LANES + k]
-        s = x * frames[3 * LANES + k] + y * frames[4 * LANES + k] + z * frames[5 * LANES + k]
+        c1, s1, c2, s2 = cosines[k], sines[k], cosines[LANES + k], sines[LANES + k]
+        row = (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0, 0.0, 0.0, 0.0)
+        x, y, z, _, _, _ = move_line_back(first, row)
+        x, y = x * c2 + y * s2, y * c2 - x * s2
+        f = LEFT + k
+        c = x * frames[f] + y * frames[f + 4 * LANES] + z * frames[f + 8 * LANES]
+        s = x * frames[f + LANES] + y * frames[f + 5 * LANES] + z * frames[f + 9 * LANES]
         h = 1.0 / (math.sqrt(c * c + s * s) + 1e-300)
         cosines[5 * LANES + k], sines[5 * LANES + k] = c * h, s * h

@@ -53,17 +53,8 @@ def _keep_lower_half(A, source, W, target, half):
 def resultants(equations, hidden, n, A, W, determinant, V, beta):
     """Determinants at n values of the hidden joint; W (6 x 6 lanes) is left triangular.
 
-    Parameters
-    ----------
-    equations : (6, 27)
-        Columns ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
-    hidden : (2, 24)
-        Cosines and sines of the hidden joint.
-    A : (9 * 144,), scratch
-    W : (6 * 144,), out
-    determinant : (24,), out
-    V : (144,), scratch
-    beta : (24,), scratch
+    ``equations`` (6, 27) as from `six_equations`; ``hidden`` (2, 24) has cosines and sines; A
+    (9 * 144,), V (144,) and beta (24,) are scratch.
     """
     for k in range(LANES):
         determinant[k] = 1.0
@@ -83,8 +74,8 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
 
 
 @inlined
-def two_joints(b, n, x, y):
-    """Cosines and sines, (2, 24), of the two joints from the rank-one vectors ``(v, x v)``."""
+def two_joints(b, n, cosines, sines):
+    """Joints 4 and 5, in six runs of LANES, from the rank-one vectors ``(v, x v)``."""
     for k in range(n):
         p0, p1, p2 = b[k], b[LANES + k], b[2 * LANES + k]
         r0, r1, r2 = b[3 * LANES + k], b[4 * LANES + k], b[5 * LANES + k]
@@ -93,14 +84,14 @@ def two_joints(b, n, x, y):
         pr = p0 * r0 + p1 * r1 + p2 * r2
         h = 1.0 / (math.sqrt((pp - rr) * (pp - rr) + 4.0 * pr * pr) + 1e-300)
         c, s = (pp - rr) * h, 2.0 * pr * h
-        x[0, k], x[1, k] = c, s
+        cosines[3 * LANES + k], sines[3 * LANES + k] = c, s
         wp = 1.0 + c if c > 0.0 else s
         wr = s if c > 0.0 else 1.0 - c
         v0, v1, v2 = wp * p0 + wr * r0, wp * p1 + wr * r1, wp * p2 + wr * r2
         c = v0 - v2 if v0 + v2 > 0.0 else v2 - v0
         s = SQRT2 * v1 if v0 + v2 > 0.0 else -SQRT2 * v1
         h = 1.0 / (math.sqrt(c * c + s * s) + 1e-300)
-        y[0, k], y[1, k] = c * h, s * h
+        cosines[4 * LANES + k], sines[4 * LANES + k] = c * h, s * h
 
 
 @vector_kernel
@@ -108,12 +99,8 @@ def _pencil(b, second, k, columns, rows):
     """Matrix of which the combinations c of two vectors with ``N2 c = x N1 c`` are eigenvectors.
 
     ``(N1^T N1)^-1 N1^T N2``, where N1 and N2 are lane k of entries of b and ``second`` that belong
-    to neighbouring powers of x, or of y.
-
-    Returns
-    -------
-    float, float, float, float, float
-        The matrix, and how far apart its eigenvalues are: squared sine of the angle between them.
+    to neighbouring powers of x, or of y. Returns the matrix, and how far apart its eigenvalues are:
+    squared sine of the angle between them.
     """
     g00, g01, g11, h00, h01, h10, h11 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(rows):

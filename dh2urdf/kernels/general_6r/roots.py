@@ -9,15 +9,14 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.general_6r.arc_roots import (
+from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arc
+from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
     ARC_TAN,
     CIRCLE_COS,
     CIRCLE_SIN,
-    SPANS,
     TERMS,
     circle_arcs,
-    roots_on_arc,
     window_arc,
     window_nodes,
 )
@@ -63,15 +62,11 @@ def place_target(T, arm):
     for i in range(3):
         for j in range(4):
             target[4 * i + j] = T[i, j]
-    for i in range(3):
-        b0, b1, b2 = ends[0, i, 0], ends[0, i, 1], ends[0, i, 2]
-        x0 = b0 * T[0, 0] + b1 * T[1, 0] + b2 * T[2, 0]
-        x1 = b0 * T[0, 1] + b1 * T[1, 1] + b2 * T[2, 1]
-        x2 = b0 * T[0, 2] + b1 * T[1, 2] + b2 * T[2, 2]
-        x3 = b0 * T[0, 3] + b1 * T[1, 3] + b2 * T[2, 3] + ends[0, i, 3]
-        for j in range(4):
-            t = x0 * ends[1, 0, j] + x1 * ends[1, 1, j] + x2 * ends[1, 2, j]
-            chain[5, 4 * i + j] = (t + x3) / size if j == 3 else t
+            total = 0.0
+            for m in range(4):
+                for n in range(4):
+                    total += ends[0, i, m] * T[m, n] * ends[1, n, j]
+            chain[5, 4 * i + j] = total / size if j == 3 else total
 
 
 @vector_kernel
@@ -101,7 +96,7 @@ def prepare(arm):
     choices = arm["choices"]
     for e in range(arm["trials"]):
         close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
-        left_coefficients(arm["loop"], arm["samples"], arm["lefts"], e)
+        left_coefficients(arm["loop"], arm["lefts"][e])
 
 
 @vector_kernel
@@ -115,7 +110,7 @@ def eliminate(e, arm):
     left = e
     if 2 <= (5 - choices[e, 0]) % 6 <= 4:
         left = np.int64(OWN)
-        left_coefficients(loop, samples, lefts, left)
+        left_coefficients(loop, lefts[left])
     six_equations(right, basis, lefts, left, arm["equations"])
 
 
@@ -123,13 +118,8 @@ def eliminate(e, arm):
 def _sample(k, arm):
     """Bernstein coefficients from new samples, one arc a column of ``arcs``.
 
-    The whole circle if k is 0, else span of doubt k.
-
-    Returns
-    -------
-    int, float, float, float
-        Number of arcs, middle of the first [rad], tangent of a quarter of their length, noise;
-        no arc where the polynomial says nothing.
+    The whole circle if k is 0, else span of doubt k. Returns how many arcs, none where the
+    polynomial says nothing; middle of the first [rad], tangent of a quarter of their length, noise.
     """
     determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
     spans, hidden, beta = arm["spans"], arm["hidden"], arm["beta"]
@@ -167,12 +157,8 @@ def find_roots(arm):
 
     First on the whole circle. Spans of doubt that this leaves are sampled each on its own, and so
     are spans still in doubt within one that are much narrower; the roots there are replaced.
-    ``spans[1, 0]`` is set to 1 if doubt remains.
-
-    Returns
-    -------
-    int
-        Number of roots; -1 where the polynomial says nothing.
+    ``spans[1, 0]`` is set to 1 if doubt remains. Returns the number of roots; -1 where the
+    polynomial says nothing.
     """
     arcs, stack, roots, slopes = arm["arcs"], arm["stack"], arm["roots"], arm["slopes"]
     spans, fresh, casteljau = arm["spans"], arm["fresh"], arm["casteljau"]

@@ -44,7 +44,7 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
             error_and_jacobian(links, joints, POSE, T, q[k], unit, damped)
             solve_damped(damped, 0.0)
             for a in range(6):
-                doubt = doubt or damped[1][a, a] < regular
+                doubt = doubt or damped[1][a, 8 + a] < regular
     left = finish_pose(links, joints, T, ANYWHERE, q, residual, branch, free, found, work)
     for k in range(left):
         branch[k], free[k] = -1, 0

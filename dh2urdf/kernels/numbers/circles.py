@@ -16,22 +16,10 @@ def circle_pair(M, N, d, slack, scratch, out):
 
     The general case is a quartic (two ellipses meet); where a combination of the two equations
     is free of one angle, it is solved first, and the other follows: that is where neighbouring
-    axes of an arm meet or are parallel.
+    axes of an arm meet or are parallel. M and N (2, 2), d (2,); scratch (3, 5).
 
-    Parameters
-    ----------
-    M, N : array, shape (2, 2)
-    d : array, shape (2,)
-    slack : float
-        See :func:`linear_trig`.
-    scratch : array, shape (3, 5)
-    out : array, shape (4, 4)
-        Rows of cos x, sin x, cos y, sin y.
-
-    Returns
-    -------
-    int
-        Number of rows, at most 4; -1 where one angle is free.
+    Rows of cos x, sin x, cos y, sin y go to ``out`` (4, 4). Returns their number, -1 where one
+    angle is free.
     """
     largest = 0.0
     for i in range(2):

@@ -21,17 +21,8 @@ from numba import njit
 
 from dh2urdf.kernels.numbers.compiled import UNCACHED, VECTOR
 
-__all__ = [
-    "COLUMN",
-    "LANES",
-    "MASK",
-    "entry_kernel",
-    "inlined",
-    "null_vectors",
-    "reduce_columns",
-    "solve_upper",
-    "vector_kernel",
-]
+__all__ = ["COLUMN", "LANES", "MASK", "entry_kernel", "inlined", "null_vectors", "reduce_columns"]
+__all__ += ["solve_upper", "vector_kernel"]
 
 LANES = 24
 COLUMN = 6 * LANES

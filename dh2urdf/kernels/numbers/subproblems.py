@@ -103,33 +103,6 @@ def sp4(h, p, k, distance, slack):
 
 
 @kernel
-def sp5(p0, p1, p2, p3, k1, k2, k3, slack, out):
-    """Subproblem 5, ``p0 + R(k1, x) p1 = R(k2, y) (p2 + R(k3, z) p3)``: returns the count.
-
-    y leaves the component along k2 and the length unchanged: two equations in x and z, which
-    are a subproblem 6; y is a subproblem 1 (Pieper 1968). ``out`` (4, 3): rows of x, y, z.
-    """
-    M, N, d = np.empty((2, 2)), np.empty((2, 2)), np.empty(2)
-    one, M[0, 0], M[0, 1] = _plane_terms(k2, p1, k1)
-    two, n00, n01 = _plane_terms(k2, p3, k3)
-    N[0, 0], N[0, 1] = -n00, -n01
-    d[0] = _dot(k2, p2) + two - _dot(k2, p0) - one
-    one, M[1, 0], M[1, 1] = _plane_terms(p0, p1, k1)
-    two, n00, n01 = _plane_terms(p2, p3, k3)
-    N[1, 0], N[1, 1] = -n00, -n01
-    d[1] = 0.5 * (_dot(p2, p2) + _dot(p3, p3) - _dot(p0, p0) - _dot(p1, p1)) + two - one
-    found = np.empty((4, 4))
-    count = circle_pair(M, N, d, slack, np.empty((3, 5)), found)
-    for i in range(count):
-        left = _plus(p0, 1.0, _turned(p1, k1, found[i, 0], found[i, 1]))
-        right = _plus(p2, 1.0, _turned(p3, k3, found[i, 2], found[i, 3]))
-        out[i, 0] = math.atan2(found[i, 1], found[i, 0])
-        out[i, 1] = sp1(right, left, k2)[1]
-        out[i, 2] = math.atan2(found[i, 3], found[i, 2])
-    return count
-
-
-@kernel
 def sp6(h, p, k1, k2, d1, d2, slack, out):
     """Subproblem 6, two equations in two angles: returns the count.
 
@@ -148,6 +121,26 @@ def sp6(h, p, k1, k2, d1, d2, slack, out):
     for i in range(count):
         out[i, 0] = math.atan2(found[i, 1], found[i, 0])
         out[i, 1] = math.atan2(found[i, 3], found[i, 2])
+    return count
+
+
+@kernel
+def sp5(p0, p1, p2, p3, k1, k2, k3, slack, out):
+    """Subproblem 5, ``p0 + R(k1, x) p1 = R(k2, y) (p2 + R(k3, z) p3)``: returns the count.
+
+    y leaves the component along k2 and the length unchanged: two equations in x and z, which
+    are a subproblem 6; y is a subproblem 1 (Pieper 1968). ``out`` (4, 3): rows of x, y, z.
+    """
+    minus, found = _plus((0.0, 0.0, 0.0), -1.0, p3), np.empty((4, 2))
+    level = _dot(k2, _plus(p2, -1.0, p0))
+    length = 0.5 * (_dot(p2, p2) + _dot(p3, p3) - _dot(p0, p0) - _dot(p1, p1))
+    h, p = (k2, k2, p0, p2), (p1, minus, p1, minus)
+    count = sp6(h, p, k1, k3, level, length, slack, found)
+    for i in range(count):
+        x, z = found[i]
+        left = _plus(p0, 1.0, _turned(p1, k1, math.cos(x), math.sin(x)))
+        right = _plus(p2, 1.0, _turned(p3, k3, math.cos(z), math.sin(z)))
+        out[i, 0], out[i, 1], out[i, 2] = x, sp1(right, left, k2)[1], z
     return count
 
 

@@ -55,19 +55,9 @@ def root_of_gap(gap, size, slack):
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
 
-    Parameters
-    ----------
-    a, b, d : float
-    slack : float
-        Relative excess of ``|d|`` over the amplitude that is clamped, see :func:`root_of_gap`.
-
-    Returns
-    -------
-    count : int
-        2; 1 where both roots merge; 0 out of reach; -1 where the amplitude is 0 and every x
-        solves it as well as any other.
-    c1, s1, c2, s2 : float
-        Cosines and sines; the second root repeats the first where there is one.
+    ``slack``: relative excess of ``|d|`` over the amplitude that is clamped, see
+    :func:`root_of_gap`. Returns the count (1 where both roots merge, -1 where the amplitude is 0
+    and x is free), and cosine and sine of both roots, of the first one twice where there is one.
     """
     square = a * a + b * b
     if square < 1e-300:
@@ -113,12 +103,7 @@ def elbow_angle(upper, fore, square, slack):
 
     ``square = upper^2 + fore^2 + 2 upper fore cos``. The sine, not negative, comes from the
     product of the distances to the outer and the inner rim, which keeps all digits near both.
-
-    Returns
-    -------
-    count : int
-        2; 1 on a rim, where the elbow is straight or folded; 0 beyond it.
-    cosine, sine : float
+    Returns the count (1 on a rim, where the elbow is straight or folded; 0 beyond it) before them.
     """
     outer = (upper + fore) * (upper + fore) - square
     inner = square - (upper - fore) * (upper - fore)
@@ -153,18 +138,8 @@ def trig_roots(series, degree, cosines, sines):
     circle are the real ones; Aberth's method finds all of them at once (Aberth 1973). A root
     within ``ON_CIRCLE`` of the circle is handed on, for the caller to polish or drop.
 
-    Parameters
-    ----------
-    series : array, shape (2 degree + 1,)
-    degree : int
-        At most 4; lowered here where the leading coefficients vanish.
-    cosines, sines : array, shape (2 degree,)
-        Output.
-
-    Returns
-    -------
-    int
-        Number of roots written; -1 where f vanishes identically.
+    The degree, at most 4, is lowered where the leading coefficients vanish. Returns the number of
+    roots written to ``cosines`` and ``sines`` (2 degree,); -1 where f vanishes identically.
     """
     largest = 0.0
     for k in range(2 * degree + 1):

@@ -9,14 +9,12 @@ import pytest
 from margins import assert_margin
 from numba import njit
 
-from dh2urdf.kernels.general_6r.arc_roots import (
+from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, roots_on_arc
+from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
     ARC_TAN,
-    SPANS,
-    STACK,
     TERMS,
     circle_arcs,
-    roots_on_arc,
     window_arc,
     window_nodes,
 )

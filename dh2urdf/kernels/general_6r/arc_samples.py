@@ -1,0 +1,145 @@
+"""Bernstein coefficients of a trigonometric polynomial of degree 8 that is known by samples.
+
+On an arc around q_0, ``(1 + t^2)^8 f`` with ``t = tan((q - q_0) / 2)`` is a polynomial of degree
+16. Its coefficients come from 24 samples: all around the circle, for 24 arcs at once, or on one
+window, for roots that lie where f is small against its largest value. Degree 8 needs only 17
+samples; what the other seven contradict is the samples' own rounding noise, measured.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
+
+__all__ = ["ARC", "ARC_TAN", "CIRCLE_COS", "CIRCLE_SIN", "TERMS", "circle_arcs", "window_arc"]
+__all__ += ["window_nodes"]
+
+DEGREE = 8
+TERMS = 2 * DEGREE + 1
+HARMONICS = 23
+ARC = 2.0 * math.pi / LANES
+ARC_TAN = math.tan(0.25 * ARC)
+
+CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
+CIRCLE_COS = np.cos(CIRCLE_ANGLE)
+CIRCLE_SIN = np.sin(CIRCLE_ANGLE)
+NODE = np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
+
+
+def _circle_table():
+    """Weights of the 24 samples in a_0, a_1, b_1, ... b_11."""
+    rows = [np.full(LANES, 0.5)]
+    for m in range(1, 12):
+        rows += [np.cos(m * CIRCLE_ANGLE), np.sin(m * CIRCLE_ANGLE)]
+    return np.ascontiguousarray(np.array(rows).T * (2.0 / LANES))
+
+
+def _arc_table():
+    """Bernstein coefficients (17, 17) on one arc of 1, cos q, sin q, cos 2q, ...
+
+    From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
+    """
+    low, high = complex(1.0, -ARC_TAN), complex(1.0, ARC_TAN)
+    binomial = np.array([math.comb(2 * DEGREE, i) for i in range(TERMS)])
+    columns = []
+    for m in range(DEGREE + 1):
+        product = np.ones(1, dtype=complex)
+        for factor in range(2 * DEGREE):
+            pair = [low, high] if factor < DEGREE + m else [high, low]
+            product = np.convolve(product, pair)
+        product = product / binomial
+        columns += [product.real] if m == 0 else [product.real, product.imag]
+    return np.ascontiguousarray(np.array(columns).T)
+
+
+def _window_table():
+    """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
+    x = 0.5 * (1.0 + NODE)
+    basis = np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
+    u, s, vt = np.linalg.svd(basis)
+    rows = np.vstack([vt.T @ (u[:, :TERMS] / s).T, u[:, TERMS:].T])
+    return np.ascontiguousarray(rows.T)
+
+
+CIRCLE_TABLE = _circle_table()
+ARC_TABLE = _arc_table()
+WINDOW_TABLE = _window_table()
+
+
+@vector_kernel
+def _transform(samples, table, series):
+    """``series = samples @ table``."""
+    for m in range(table.shape[1]):
+        series[m] = 0.0
+    for k in range(table.shape[0]):
+        f = samples[k]
+        for m in range(table.shape[1]):
+            series[m] += f * table[k, m]
+
+
+@vector_kernel
+def _largest(series, first, last):
+    """Largest size of some coefficients."""
+    largest = 0.0
+    for m in range(first, last):
+        largest = max(largest, abs(series[m]))
+    return largest
+
+
+@inlined
+def circle_arcs(samples, series, turned, arcs):
+    """Bernstein coefficients of f on 24 arcs from samples (24,) around the circle.
+
+    Column k of ``arcs`` (17, 24): those on the arc centred at ``k * ARC``. Returns the largest
+    Fourier coefficient that should vanish (the noise) and the largest of all. ``series`` (24,) and
+    ``turned`` (17, 24) are scratch.
+    """
+    _transform(samples, CIRCLE_TABLE, series)
+    for k in range(LANES):
+        turned[0, k] = series[0]
+    for m in range(1, DEGREE + 1):
+        a, b = series[2 * m - 1], series[2 * m]
+        for k in range(LANES):
+            c, s = CIRCLE_COS[(m * k) % LANES], CIRCLE_SIN[(m * k) % LANES]
+            turned[2 * m - 1, k] = a * c + b * s
+            turned[2 * m, k] = b * c - a * s
+    for i in range(TERMS):
+        for k in range(LANES):
+            arcs[i, k] = 0.0
+        for m in range(TERMS):
+            w = ARC_TABLE[i, m]
+            for k in range(LANES):
+                arcs[i, k] += w * turned[m, k]
+    for k in range(LANES):
+        arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
+    return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)
+
+
+@inlined
+def window_nodes(centre, half_tan, hidden):
+    """Cosines and sines, (2, 24), of the places at which a window is sampled."""
+    for k in range(LANES):
+        q = centre + 2.0 * math.atan(half_tan * NODE[k])
+        hidden[0, k], hidden[1, k] = math.cos(q), math.sin(q)
+
+
+@inlined
+def window_arc(samples, half_tan, series, arcs):
+    """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
+
+    Returns the largest contradiction among the samples: the noise. ``samples`` is overwritten,
+    ``series`` (24,) scratch.
+    """
+    for k in range(LANES):
+        t = half_tan * NODE[k]
+        weight = 1.0 + t * t
+        weight *= weight
+        weight *= weight
+        samples[k] *= weight * weight
+    _transform(samples, WINDOW_TABLE, series)
+    for i in range(TERMS):
+        arcs[i, 0] = series[i]
+    return _largest(series, TERMS, LANES)
