@@ -9,6 +9,7 @@ import pytest
 from margins import assert_margin
 from numba import njit
 
+from dh2urdf.kernels.general_6r import arc_samples
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, roots_on_arc
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
@@ -50,8 +51,11 @@ class Strict(np.ndarray):
         return super().__getitem__(index)
 
 
-def test_arcs_are_read_from_no_negative_index():
+def test_arcs_are_read_from_no_negative_index(monkeypatch):
     """The arc before the first one is the last one, by its own index."""
+    for name in ("_transform", "_largest"):
+        kernel = getattr(arc_samples, name)
+        monkeypatch.setattr(arc_samples, name, getattr(kernel, "py_func", kernel))
     arrays = (np.zeros(24), np.zeros((TERMS, 24)), np.zeros((24, 24)))
     samples = product(CIRCLE, np.linspace(-3, 3, 16))
     getattr(circle_arcs, "py_func", circle_arcs)(samples, *(a.view(Strict) for a in arrays))
