@@ -106,8 +106,10 @@ def _newton_system(frames, error, n, A):
             A[a + 24 + k] = zz * x - zx * z
             A[a + 48 + k] = zx * y - zy * x
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
-    for k in range(len(error)):
-        A[6 * COLUMN + k] = error[k]
+        b = (6 * COLUMN + i * LANES) & MASK
+        o = (i * LANES) & MASK
+        for k in range(n):
+            A[b + k] = error[o + k]
 
 
 @vector_kernel
@@ -118,9 +120,10 @@ def _damped_system(J, weight, n, order, A):
     fast, also where J is singular along a family of solutions.
     """
     for j in range(order + 1):
-        q = (j * COLUMN) & MASK
-        for k in range(3 * LANES):
-            J[q + k] *= weight
+        for r in range(3):
+            q = (j * COLUMN + r * LANES) & MASK
+            for k in range(n):
+                J[q + k] *= weight
     for i in range(order):
         p = (i * COLUMN) & MASK
         for j in range(order + 1):
@@ -153,8 +156,11 @@ def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines,
     for k in range(n):
         scale[k] = 1.0
     reduce_columns(A, np.int64(6), np.int64(7), n, scale, V, beta)
-    for k in range(len(error)):
-        error[k] = A[6 * COLUMN + k]
+    for i in range(6):
+        a = (6 * COLUMN + i * LANES) & MASK
+        e = (i * LANES) & MASK
+        for k in range(n):
+            error[e + k] = A[a + k]
     solve_upper(A, error, n)
     for k in range(n):
         largest = LARGEST_STEP

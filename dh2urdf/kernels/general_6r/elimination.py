@@ -19,7 +19,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import inlined, vector_kernel
+from dh2urdf.kernels.numbers import inlined, lane_kernel, vector_kernel
 
 __all__ = ["close_loop", "left_coefficients", "line_functions", "move_line_back"]
 __all__ += ["reduce_right", "right_coefficients", "six_equations"]
@@ -56,7 +56,7 @@ def _invert(a, out):
         out[4 * i + 3] = -(a[i] * a[3] + a[4 + i] * a[7] + a[8 + i] * a[11])
 
 
-@vector_kernel
+@lane_kernel
 def line_functions(line, out, column):
     """The fourteen functions of the line through p along l, to a column of out (14, m)."""
     lx, ly, lz, px, py, pz = line
@@ -73,7 +73,7 @@ def line_functions(line, out, column):
     out[13, column] = pp * lz - pl2 * pz
 
 
-@vector_kernel
+@lane_kernel
 def _move_line(a, line):
     """``a (l, p)`` of a line held as six scalars, a (12,)."""
     lx, ly, lz, px, py, pz = line
@@ -87,7 +87,7 @@ def _move_line(a, line):
     )
 
 
-@vector_kernel
+@lane_kernel
 def move_line_back(a, line):
     """``a^-1 (l, p)`` of a line held as six scalars, a (12,)."""
     lx, ly, lz, px, py, pz = line
@@ -102,7 +102,7 @@ def move_line_back(a, line):
     )
 
 
-@vector_kernel
+@lane_kernel
 def _turn_line(sample, line):
     """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
     lx, ly, lz, px, py, pz = line
@@ -139,7 +139,7 @@ def left_coefficients(loop, left):
                 _powers_of_samples(left[f], i, 1, SQRT2)
 
 
-@vector_kernel
+@lane_kernel
 def _series_of_samples(row, i, stride):
     """``(1, cos, sin)`` in place of samples at 0, 120 and -120 degrees."""
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
@@ -148,7 +148,7 @@ def _series_of_samples(row, i, stride):
     row[i + 2 * stride] = (y1 - y2) * INV_SQRT3
 
 
-@vector_kernel
+@lane_kernel
 def _powers_of_samples(row, i, stride, scale):
     """The same in (1, 2 t / scale, t^2), t the tangent of half the angle, times ``1 + t^2``."""
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]

@@ -62,11 +62,15 @@ def place_target(T, arm):
     for i in range(3):
         for j in range(4):
             target[4 * i + j] = T[i, j]
-            total = 0.0
-            for m in range(4):
-                for n in range(4):
-                    total += ends[0, i, m] * T[m, n] * ends[1, n, j]
-            chain[5, 4 * i + j] = total / size if j == 3 else total
+    for i in range(3):
+        b0, b1, b2 = ends[0, i, 0], ends[0, i, 1], ends[0, i, 2]
+        x0 = b0 * T[0, 0] + b1 * T[1, 0] + b2 * T[2, 0]
+        x1 = b0 * T[0, 1] + b1 * T[1, 1] + b2 * T[2, 1]
+        x2 = b0 * T[0, 2] + b1 * T[1, 2] + b2 * T[2, 2]
+        x3 = b0 * T[0, 3] + b1 * T[1, 3] + b2 * T[2, 3] + ends[0, i, 3]
+        for j in range(4):
+            t = x0 * ends[1, 0, j] + x1 * ends[1, 1, j] + x2 * ends[1, 2, j]
+            chain[5, 4 * i + j] = (t + x3) / size if j == 3 else t
 
 
 @vector_kernel
