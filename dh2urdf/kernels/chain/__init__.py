@@ -8,6 +8,7 @@ from dh2urdf.kernels.chain.forward import (
     chain_fk_batch,
     chain_frames_batch,
     chain_jacobian_batch,
+    jacobian_rows,
     joint_times_link,
     load_pose,
     store_pose,

@@ -14,7 +14,13 @@ from numba import njit
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
 from dh2urdf.kernels.numbers import helper_kernel
 
-__all__ = ["chain_fk", "chain_fk_batch", "chain_frames_batch", "chain_jacobian_batch"]
+__all__ = [
+    "chain_fk",
+    "chain_fk_batch",
+    "chain_frames_batch",
+    "chain_jacobian_batch",
+    "jacobian_rows",
+]
 
 
 @helper_kernel
@@ -127,28 +133,34 @@ def chain_frames_batch(links, prismatic, frames, q, T):
             r = times_link(r, links[i + 1])
 
 
+@helper_kernel
+def jacobian_rows(links, slides, q, J):
+    """Geometric Jacobian at the tip in base axes, joint i in row i of J (n, 6 or more); the tip.
+
+    Linear before angular: ``(z_i x (p_tip - p_i), z_i)`` revolute, ``(z_i, 0)`` prismatic (Spong,
+    eqs. 4.57 to 4.60). The joints' points are kept in J until the tip is known.
+    """
+    r = load_pose(links[0])
+    for i in range(q.shape[0]):
+        J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
+        J[i, 3], J[i, 4], J[i, 5] = r[2], r[6], r[10]
+        r = joint_times_link(r, slides[i] != 0.0, q[i], links[i + 1])
+    for i in range(q.shape[0]):
+        zx, zy, zz = J[i, 3], J[i, 4], J[i, 5]
+        if slides[i] != 0.0:
+            J[i, 0], J[i, 1], J[i, 2] = zx, zy, zz
+            J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
+        else:
+            x, y, z = r[3] - J[i, 0], r[7] - J[i, 1], r[11] - J[i, 2]
+            J[i, 0], J[i, 1], J[i, 2] = zy * z - zz * y, zz * x - zx * z, zx * y - zy * x
+    return r
+
+
 @njit(cache=True, nogil=True)
 def chain_jacobian_batch(links, prismatic, q, J):
-    """Geometric Jacobians at the tip in base axes of q (m, n), written to J (m, 6, n).
+    """:func:`jacobian_rows` of q (m, n), as columns to J (m, 6, n).
 
-    Linear over angular: ``J_i = (z_i x (p_tip - p_i), z_i)`` revolute, ``(z_i, 0)`` prismatic
-    (Spong, eqs. 4.57 to 4.60); Pinocchio's ``LOCAL_WORLD_ALIGNED``. The joints' points are kept
-    in J until the tip is known.
+    These are Pinocchio's ``LOCAL_WORLD_ALIGNED``.
     """
-    n = q.shape[1]
     for k in range(q.shape[0]):
-        r = load_pose(links[0])
-        for i in range(n):
-            J[k, 0, i], J[k, 1, i], J[k, 2, i] = r[3], r[7], r[11]
-            J[k, 3, i], J[k, 4, i], J[k, 5, i] = r[2], r[6], r[10]
-            r = joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
-        for i in range(n):
-            zx, zy, zz = J[k, 3, i], J[k, 4, i], J[k, 5, i]
-            if prismatic[i]:
-                J[k, 0, i], J[k, 1, i], J[k, 2, i] = zx, zy, zz
-                J[k, 3, i], J[k, 4, i], J[k, 5, i] = 0.0, 0.0, 0.0
-            else:
-                x, y, z = r[3] - J[k, 0, i], r[7] - J[k, 1, i], r[11] - J[k, 2, i]
-                J[k, 0, i] = zy * z - zz * y
-                J[k, 1, i] = zz * x - zx * z
-                J[k, 2, i] = zx * y - zy * x
+        jacobian_rows(links, prismatic, q[k], J[k].T)
