@@ -186,8 +186,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
 
         flat, shape = self._flat(config, finite=False)
         T = np.empty((len(flat), 4, 4))
-        chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T)
-        if not np.isfinite(T[:, 0, 3]).all():  # as above
+        if not chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T):
             self._flat(config)
         return T.reshape(*shape, 4, 4)
 

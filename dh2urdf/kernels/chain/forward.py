@@ -105,9 +105,10 @@ def chain_fk(links, prismatic, q, T):
 def chain_fk_batch(links, prismatic, q, T):
     """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4).
 
-    Whole blocks go side by side; the rest, and angles of a thousand turns, one by one.
+    Whole blocks go side by side; the rest, and angles of a thousand turns, one by one. Returns
+    whether all x of the tip are finite: every joint value is in them, if only times zero.
     """
-    m = q.shape[0]
+    m, finite = q.shape[0], True
     x, S = np.empty(BLOCK), np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
         last = min(first + BLOCK, m)
@@ -116,6 +117,8 @@ def chain_fk_batch(links, prismatic, q, T):
         else:
             for k in range(first, last):
                 chain_fk(links, prismatic, q[k], T[k])
+                finite &= math.isfinite(T[k, 0, 3])
+    return finite
 
 
 @njit(cache=True, nogil=True)
