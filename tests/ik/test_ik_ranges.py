@@ -188,6 +188,18 @@ def test_every_arm_answers_every_task_or_says_why_not(name, task):
     assert robot.why_unreachable(T, task=task) == ""
 
 
+def test_what_no_held_value_reaches_is_given_up_in_time():
+    """Twists of 1e-7, one joint held, two to spare: an answer, not a search at every value."""
+    rows = [(0.3, 0.0, 0.3, 1e-7), (0.0, 0.3, 0.0, 1e-7), (np.pi / 2, 123.4, 1e-7, 0.0)]
+    rows += [(np.pi / 2, -1.35, 1.73, 1e-7), (0.3, 0.0, 0.17, 1e-7)]
+    made = [DHRow(*row) for row in rows]
+    made.insert(1, DHRow(np.pi / 2, 0.0, 0.63, np.pi, JointType.PRISMATIC))
+    robot = dh2urdf.Robot.from_dh(DHTable(tuple(made), "standard"))
+    T = robot.fk(robot.random_configuration(0))
+    T[:3, 3] += 1e3
+    assert not outcome(robot.ik, T, task="position+axis", locked={0: 0.0}, within_limits=False)
+
+
 LENGTHS = st.sampled_from([0.0, 0.3, -0.5, 2436257.0, 1e-7, 1e9, 123.4]) | st.floats(-2.0, 2.0)
 TWISTS = st.sampled_from([0.0, np.pi / 2, -np.pi / 2, np.pi, 1e-7, 1e-12, 0.3])
 ROW = st.tuples(st.sampled_from("RRRP"), TWISTS, LENGTHS, LENGTHS, TWISTS)

@@ -31,12 +31,20 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held import HeldJoints
+from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.transforms import Array
 
 __all__ = ["RedundantChain"]
 
 STARTS = 8
 """Starts of the numeric search; a member of a family is soon found, if there is one."""
+
+ENOUGH = 4
+"""Values after which poses are looked at that no configuration reaches, whatever is held."""
+
+FAR = 0.01
+"""Error, in sizes of the arm and radians, of such poses; what is reached, a rim too, is found to
+rounding by one of the searches."""
 
 MOST = 16
 """Solutions of a pose with the joints held; another solver may cover the chain at each value."""
@@ -88,6 +96,12 @@ class RedundantChain(SolverBase):
         bounds = chain.lower, chain.upper
         return NumericProblem(chain, np.eye(n), np.zeros(n), chain.prismatic, *bounds)
 
+    def _far_from(self, T: Array) -> bool:
+        """Whether no configuration comes near a pose (4, 4), limits aside."""
+        _, error = nearly_reaching(self.chain, T, self.task)
+        error[:, :3] /= self.chain.size
+        return bool(np.abs(error).max(axis=1).min() > FAR)
+
     def _solver(self, values: tuple[float, ...]) -> HeldJoints:
         """The solver with the joints held at some values, kept for the next call."""
         if values not in self._solvers:
@@ -98,8 +112,12 @@ class RedundantChain(SolverBase):
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
         out.counts[:] = 0
-        for values in self.values:
-            open_ = np.flatnonzero(out.counts == 0)
+        hopeless = np.zeros(len(Ts), np.bool_)
+        for k, values in enumerate(self.values):
+            open_ = np.flatnonzero((out.counts == 0) & ~hopeless)
+            if k == ENOUGH:
+                hopeless[open_] = [self._far_from(T) for T in Ts[open_]]
+                open_ = open_[~hopeless[open_]]
             if not len(open_):
                 break
             found = out.rows(open_)
