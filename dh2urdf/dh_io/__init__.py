@@ -32,7 +32,7 @@ from dh2urdf.dh_io.cells.units import SI, Kind, Units
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
-from dh2urdf.dh_io.write import is_as_written, table_to_text, write_table
+from dh2urdf.dh_io.write import table_to_text, write_table
 
 __all__ = [
     "FORMATS",
@@ -45,7 +45,6 @@ __all__ = [
     "as_table",
     "atomic_write",
     "format_of",
-    "is_as_written",
     "near_misses",
     "parse_cell",
     "parse_table",

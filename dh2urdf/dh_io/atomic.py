@@ -73,19 +73,23 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     return where
 
 
-def refuse_foreign(path: Path, *marks: str) -> None:
-    """Refuse to write over a file that does not open with one of the marks of this package."""
+def refuse_foreign(path: Path, *marks: str, same: bytes = b"") -> None:
+    """Refuse to write over a file without a mark of this package that holds anything but ``same``.
+
+    Marks stand in the first lines.
+    """
     if not os.path.isfile(path):
         return
     try:
         with path.open("rb") as file:
-            head = file.read(65536).decode(errors="replace")
+            held = file.read(max(65536, len(same) + 1))
     except OSError as error:
         raise OutputError(f"{shown(path)}: cannot read: {_reason(error)}") from None
-    if head.strip() and not any(mark in head for mark in marks):
+    head = held[:65536].decode(errors="replace")
+    if head.strip() and held != same and not any(mark in head for mark in marks):
+        why = "was not written by dh2urdf" if marks else "holds something else"
         raise OutputExistsError(
-            f"{shown(path)}: exists and was not written by dh2urdf; --force (force=True) "
-            "replaces it"
+            f"{shown(path)}: exists and {why}; --force (force=True) replaces it"
         )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import os
 import re
@@ -15,13 +14,13 @@ from dh2urdf.dh_io.cells.schema import ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, decimal_text
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.load import TableLike, as_table
-from dh2urdf.dh_io.read import format_of, read_table
+from dh2urdf.dh_io.read import format_of
 from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
 from dh2urdf.quoting import markdown
 
-__all__ = ["is_as_written", "table_to_text", "write_table"]
+__all__ = ["table_to_text", "write_table"]
 
 Field = tuple[str, str | list[str]]
 """Key of a cell, and its text (already quoted where it is a word) or a list of numbers."""
@@ -75,17 +74,6 @@ def table_to_text(table: TableLike, format: str, units: Units = SI) -> str:
     kinds = zip((Kind.LENGTH, Kind.ANGLE), pair, strict=False)
     known = [choice(unit, f"units.{k}", UNIT_SIZES[k], TableError) for k, unit in kinds]
     return _WRITERS[choice(format, "format", _WRITERS, TableError)](table, Units(*known))
-
-
-def is_as_written(path: Path) -> bool:
-    """Whether a table file is, sign by sign, what is written of the table that it holds."""
-    kind = format_of(path)
-    try:
-        table, text = read_table(path).table, path.read_bytes().decode()
-    except (TableError, OSError, UnicodeError):
-        return False
-    pairs = itertools.product(UNIT_SIZES[Kind.LENGTH], UNIT_SIZES[Kind.ANGLE])
-    return any(table_to_text(table, kind, Units(*pair)) == text for pair in pairs)
 
 
 def _words(table: DHTable) -> list[tuple[str, str]]:

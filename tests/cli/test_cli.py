@@ -12,7 +12,6 @@ from dh_product import dh_frames, difference
 
 import dh2urdf
 from dh2urdf.cli import main
-from dh2urdf.dh_io import Units
 
 RPR = """
 name: rpr
@@ -49,19 +48,16 @@ def test_convert_writes_a_verified_urdf(run, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", ["yaml", "toml", "json", "csv", "md"])
-def test_a_table_that_we_wrote_is_written_over_and_an_edited_one_is_not(run, tmp_path, suffix):
-    """A file that is what we write of some table is ours; a comment of somebody makes it his."""
+def test_the_same_table_is_written_again_and_another_one_is_not_lost(run, tmp_path, suffix):
+    """A command can be repeated; a table that somebody may have edited stays, unless forced."""
     target = tmp_path / f"arm.{suffix}"
-    for table in ("planar_rr", "stanford", "stanford"):
+    for table in ("stanford", "stanford"):
         assert run("convert", table, "-o", target)[0] == 0
-    table = dh2urdf.load_table("puma560")
-    dh2urdf.save_table(table, target, units=Units("mm", "deg"))
-    assert run("convert", "planar_rr", "-o", target)[0] == 0
-    for foreign in (target.read_text().replace(" 0,", " 0 ,", 1) + " \n", "not a table\n"):
-        target.write_text(foreign)
+    for kept in (target.read_text(), target.read_text() + "\n", "not a table\n"):
+        target.write_text(kept)
         status, _, err = run("convert", "planar_rr", "-o", target)
-        assert (status, "was not written by dh2urdf" in err) == (2, True)
-        assert target.read_text() == foreign
+        assert (status, "--force" in err) == (2, True)
+        assert target.read_text() == kept
     assert run("convert", "planar_rr", "-o", target, "--force")[0] == 0
 
 

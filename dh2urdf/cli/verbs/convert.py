@@ -12,14 +12,7 @@ from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, note, read_source
 from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.dh import DHTable
-from dh2urdf.dh_io import (
-    FORMATS,
-    atomic_write,
-    is_as_written,
-    parse_table,
-    refuse_foreign,
-    table_to_text,
-)
+from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import Dh2UrdfError, TableError, VerificationError
 
@@ -123,8 +116,8 @@ def _made(table: DHTable, target: Path, options: UrdfOptions, force: bool) -> di
         text = table_to_text(table, FORMATS[suffix])
         if parse_table(text, FORMATS[suffix]).table != table:
             raise VerificationError(f"{shown(target)}: the text reads back as another table")
-        if not force and not (target.is_file() and is_as_written(target)):
-            refuse_foreign(target)
+        if not force:
+            refuse_foreign(target, same=text.encode())
         atomic_write(target, text)
     elif suffix in (".urdf", ".xml") or (os.path.exists(target) and not os.path.isfile(target)):
         report = write_urdf(table, target, options=options, force=force)
