@@ -134,7 +134,7 @@ def test_the_short_run_answers_rightly(tmp_path):
 def test_a_peer_that_breaks_its_process_is_named_and_left_out(way, reason):
     """The work is done without it; the others' rows are there once."""
     results = Results()
-    assert do_apart(results, "tests.broken_work", ("bad", way), patience=5.0) == ""
+    assert do_apart(results, "tests.helpers.broken_work", ("bad", way), patience=5.0) == ""
     assert [row.contestant for row in results.rows] == ["good"]
     assert results.left_out == {f"bad, broken_work bad {way}": reason}
 
@@ -142,7 +142,7 @@ def test_a_peer_that_breaks_its_process_is_named_and_left_out(way, reason):
 def test_what_breaks_in_our_own_hands_is_a_failure():
     """Ours is never left out: the run says what went wrong and has no rows of it."""
     results = Results()
-    assert "no such arm" in do_apart(results, "tests.broken_work", ("dh2urdf", "raise"))
+    assert "no such arm" in do_apart(results, "tests.helpers.broken_work", ("dh2urdf", "raise"))
     assert (results.rows, results.left_out) == ([], {})
 
 
