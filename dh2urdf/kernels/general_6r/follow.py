@@ -232,9 +232,9 @@ def accounted(e, count, found, out_q, arm):
 
 
 @vector_kernel
-def isolated(found, kept):
-    """Whether none of the solutions is singular, by the determinants of their Jacobians."""
+def isolated(found, kept, least):
+    """Whether no solution's Jacobian has a determinant below the least."""
     for f in range(found):
-        if kept[f] < SINGULAR:
+        if kept[f] < least:
             return False
     return True

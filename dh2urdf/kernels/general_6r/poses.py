@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST
-from dh2urdf.kernels.general_6r.follow import accounted, follow, isolated
+from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, isolated
 from dh2urdf.kernels.general_6r.roots import (
     eliminate,
     find_roots,
@@ -54,6 +54,10 @@ DEAREST = 6.0
 COARSE = 1e-2
 """Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:
 roots so inexact may stand for more than one each."""
+
+CROWDED = 1e-3
+"""Determinant of a solution's Jacobian below which roots of several may run together: none is
+taken for the last before every root is accounted for."""
 
 ATTEMPTS = 3
 """Rounds of all eliminations, from the second one on for a pose nearby."""
@@ -189,10 +193,11 @@ def _solve_pose(T, out_q, out_residual, arm):
             if trial == 0:
                 first[0], first[1] = seeded, spans[0, 0]
         whole = retried == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
-        clear = spans[1, 0] == 0.0 and (whole or (before > 0 and trial >= trials))
+        apart = before > 0 and trial >= trials and isolated(found, arm["kept"], CROWDED)
+        clear = spans[1, 0] == 0.0 and (whole or apart)
         sure = seeded < COARSE if before == 0 else found == before
         fits = found % 2 == 0 and found >= simple and found + trial > 0
-        if clear and sure and fits and isolated(found, arm["kept"]):
+        if clear and sure and fits and isolated(found, arm["kept"], SINGULAR):
             break
     return found
 
