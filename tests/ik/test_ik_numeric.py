@@ -10,7 +10,7 @@ import pytest
 import dh2urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError, NoSolverError, PoseError
-from dh2urdf.ik.arm.table import SOLVERS
+from dh2urdf.ik.arm.solver_table import SOLVERS
 
 MIMIC = """<robot name="paired"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
 <link name="tip"/>

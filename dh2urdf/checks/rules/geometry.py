@@ -26,7 +26,7 @@ from dh2urdf.checks.findings import (
     misread,
     refuse,
 )
-from dh2urdf.checks.meshes import is_remote, locate, stl_extent
+from dh2urdf.checks.mesh_files import is_remote, locate, stl_extent
 
 SHAPES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "mesh": ()}
 

@@ -22,5 +22,5 @@ from dh2urdf.conversions.read.kinematic_tree import (
     rigid_part,
 )
 from dh2urdf.conversions.read.naming import link_name, listed, no_such
-from dh2urdf.conversions.read.read_urdf import count_elements
-from dh2urdf.conversions.read.urdf_reader import FLOAT
+from dh2urdf.conversions.read.urdf_tree import count_elements
+from dh2urdf.conversions.read.mended_elements import FLOAT

@@ -11,10 +11,10 @@ from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.read.apart import read_apart
-from dh2urdf.conversions.read.bare_urdf import bare_model
+from dh2urdf.conversions.read.for_pinocchio import bare_model
 from dh2urdf.conversions.read.kinematic_tree import MOVING, KinematicTree, choose_ends, find_path
 from dh2urdf.conversions.read.naming import link_name
-from dh2urdf.conversions.read.read_urdf import read_urdf
+from dh2urdf.conversions.read.urdf_tree import read_urdf
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found

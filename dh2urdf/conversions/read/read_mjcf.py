@@ -12,7 +12,7 @@ import pinocchio as pin
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, LINKS
 from dh2urdf.conversions.read.apart import read_apart
-from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
+from dh2urdf.conversions.read.for_pinocchio import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import KinematicTree, TreeJoint, TreeLink
 from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown

@@ -7,7 +7,7 @@
 
 from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along
 from dh2urdf.conversions.write.constructors import CONSTRUCTORS
-from dh2urdf.conversions.write.dh_to_urdf import (
+from dh2urdf.conversions.write.urdf_elements import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,
     urdf_text_and_warnings,

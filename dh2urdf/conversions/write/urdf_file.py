@@ -6,7 +6,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
-from dh2urdf.conversions.write.dh_to_urdf import MARK, UrdfOptions, urdf_text_and_warnings
+from dh2urdf.conversions.write.urdf_elements import MARK, UrdfOptions, urdf_text_and_warnings
 from dh2urdf.dh_io import TableLike, as_table, atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.dh_io.xml import embedded_table

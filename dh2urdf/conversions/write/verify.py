@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pinocchio as pin
 
-from dh2urdf.conversions.write.dh_to_urdf import default_limits
+from dh2urdf.conversions.write.urdf_elements import default_limits
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import Array, pose_error

@@ -33,7 +33,7 @@ from dh2urdf.ik.arm.solver import (
     Task,
     branch_words_of,
 )
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.arm.tolerances import (
     ACCEPT,
     FAMILY_RANK,

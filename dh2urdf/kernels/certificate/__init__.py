@@ -29,7 +29,7 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.families import free_joints, null_direction, one_of_each_family
+from dh2urdf.kernels.certificate.singular_families import free_joints, null_direction, one_of_each_family
 from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
 from dh2urdf.kernels.certificate.newton import (
     MAX_TURN,

@@ -11,7 +11,7 @@ from axes import pose
 from dh_product import dh_frames, difference
 
 from dh2urdf import extract_dh, load_table, urdf_text
-from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions
+from dh2urdf.conversions.write.urdf_elements import UrdfOptions
 from dh2urdf.dh import DHConvention
 from dh2urdf.exceptions import NameNotFoundError, PoseError, UrdfError
 

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from strategies import tables
 
 from dh2urdf import extract_dh, list_tables, load_table, urdf_text
-from dh2urdf.conversions.write.dh_to_urdf import UrdfOptions
+from dh2urdf.conversions.write.urdf_elements import UrdfOptions
 from dh2urdf.dh import DHConvention
 
 HALF = math.pi / 2

@@ -143,7 +143,7 @@ def test_missing_limits_are_named():
     table = dh2urdf.DHTable(
         (dh2urdf.DHRow(a=0.5), dh2urdf.DHRow(joint_type="prismatic", d=0.25)), "standard"
     )
-    _, warnings = dh2urdf.conversions.write.dh_to_urdf.urdf_text_and_warnings(
+    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(
         table, dh2urdf.UrdfOptions()
     )
     far = "as far as the table's lengths sum to"
@@ -169,10 +169,10 @@ def test_a_missing_bound_is_named():
     """A table that gives one bound of two is told which was made up."""
     table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, upper=1.0),), "standard")
     options = dh2urdf.UrdfOptions()
-    _, warnings = dh2urdf.conversions.write.dh_to_urdf.urdf_text_and_warnings(table, options)
+    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(table, options)
     assert warnings == ("joint_1 (lower): no limits in the table; written as +-2 pi rad",)
     table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, lower=ANGLE),), "standard")
-    _, warnings = dh2urdf.conversions.write.dh_to_urdf.urdf_text_and_warnings(table, options)
+    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(table, options)
     assert warnings == (
         "joint_1 (upper): no limits in the table; written as 100000 rad, beyond the one that is "
         "given",

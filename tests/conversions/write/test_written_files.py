@@ -15,7 +15,7 @@ from strategies import tables
 import dh2urdf
 from dh2urdf import DHRow, DHTable, JointType, UrdfOptions
 from dh2urdf.cli import main
-from dh2urdf.conversions.write.dh_to_urdf import urdf_text_and_warnings
+from dh2urdf.conversions.write.urdf_elements import urdf_text_and_warnings
 from dh2urdf.conversions.write.urdf_file import verified_urdf
 from dh2urdf.conversions.write.verify import verify_urdf_text
 from dh2urdf.exceptions import (

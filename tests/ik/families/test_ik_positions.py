@@ -16,7 +16,7 @@ import dh2urdf
 from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.singular_families import task_error
 from dh2urdf.ik.arm.solver import Task
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm.solver_table import select_solver
 
 STEPS = {
     "any axes": ((0.2, 0.3, 0.7), (-0.1, 0.4, -1.1), (0.3, 0.2, 0.4)),

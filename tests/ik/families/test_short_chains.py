@@ -19,7 +19,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.solver import Task
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.short import ShortChain
 
 HALF = math.pi / 2

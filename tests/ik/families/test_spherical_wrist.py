@@ -13,7 +13,7 @@ from ik_referee import HALF, RESIDUAL
 from margins import assert_margin
 
 import dh2urdf
-from dh2urdf.ik.arm.table import select_solver
+from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 
 SHIPPED = [

@@ -51,7 +51,7 @@ def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]
     Parameters
     ----------
     root : lxml element
-        The document, as :func:`~dh2urdf.conversions.read.read_urdf.read_urdf` leaves it.
+        The document, as :func:`~dh2urdf.conversions.read.urdf_tree.read_urdf` leaves it.
     chain : collection of str
         Joints that move; all others are held at 0.
     """

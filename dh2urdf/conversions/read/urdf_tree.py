@@ -16,7 +16,7 @@ from dh2urdf.conversions.read.kinematic_tree import (
     TreeLink,
 )
 from dh2urdf.conversions.read.naming import listed
-from dh2urdf.conversions.read.urdf_reader import UrdfReader
+from dh2urdf.conversions.read.mended_elements import UrdfReader
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 

@@ -12,7 +12,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER, TEXT_CHARACTERS
-from dh2urdf.conversions.read.bare_urdf import as_pinocchio_takes
+from dh2urdf.conversions.read.for_pinocchio import as_pinocchio_takes
 from dh2urdf.conversions.read.kinematic_tree import MOVING, TreeJoint, TreeLink
 from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, TENSOR, Inertial, tensor
 from dh2urdf.dh_io.files import shown
