@@ -1,1 +1,5 @@
-"""Between tables, chains, URDF files and Pinocchio models; one file a direction."""
+"""Between tables, chains, URDF files and Pinocchio models.
+
+`write` a table as a URDF, `read` robot files to a tree, `chains` from trees, models and typed axes,
+`assign` DH frames to a chain.
+"""

@@ -1,1 +1,5 @@
-"""Inverse kinematics: which closed form an arm has, and the layer between chains and kernels."""
+"""Inverse kinematics, the layer between chains and kernels.
+
+`arm` what is known before a pose, `families` solvers with a closed form and without, `redundant`
+joints to spare, `problem` from poses to solutions; `solve` is the entry.
+"""

@@ -1,8 +1,9 @@
 """From a robot file to a tree of links and joints.
 
-`description` takes any format (`apart` runs foreign readers in a process of their own); `read_urdf`
-and `urdf_reader` read a URDF and mend what is obvious, `read_mjcf` an MJCF; `kinematic_tree` is
-the result, `bare_urdf` hands it to Pinocchio, `naming` names things in messages.
+`kinematic_tree` is the result. `description` takes any format (`apart` runs foreign readers in a
+process of their own); `urdf_tree` reads a URDF, `mended_elements` its elements one by one, with
+what is obvious mended, `read_mjcf` an MJCF; `for_pinocchio` hands the tree on, its axes as
+Pinocchio takes them; `naming` names things in messages.
 """
 
 from dh2urdf.conversions.read.description import (
@@ -21,6 +22,6 @@ from dh2urdf.conversions.read.kinematic_tree import (
     find_path,
     rigid_part,
 )
+from dh2urdf.conversions.read.mended_elements import FLOAT
 from dh2urdf.conversions.read.naming import link_name, listed, no_such
 from dh2urdf.conversions.read.urdf_tree import count_elements
-from dh2urdf.conversions.read.mended_elements import FLOAT

@@ -1,17 +1,12 @@
 """From a DH table to a URDF, proved.
 
-`table_chain`, `dh_to_urdf` (every joint and link of the file), `bodies`, `link_paths` and `inertia`
-(what is drawn and weighed), `urdf_file` (the whole way, checked by `verify`), `urdf_options`;
-`constructors` writes tables as code of other toolboxes.
+`table_chain`, `urdf_elements` (every joint and link of the file), `bodies`, `link_paths` and
+`inertia` (what is drawn and weighed), `urdf_file` (the whole way, checked by `verify`),
+`urdf_options`; `constructors` writes tables as code of other toolboxes.
 """
 
 from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along
 from dh2urdf.conversions.write.constructors import CONSTRUCTORS
-from dh2urdf.conversions.write.urdf_elements import (
-    DEFAULT_EFFORT,
-    DEFAULT_VELOCITY,
-    urdf_text_and_warnings,
-)
 from dh2urdf.conversions.write.inertia import (
     TENSOR,
     Inertial,
@@ -21,6 +16,11 @@ from dh2urdf.conversions.write.inertia import (
     why_impossible,
 )
 from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain, link_frames
+from dh2urdf.conversions.write.urdf_elements import (
+    DEFAULT_EFFORT,
+    DEFAULT_VELOCITY,
+    urdf_text_and_warnings,
+)
 from dh2urdf.conversions.write.urdf_file import (
     ConversionReport,
     urdf_text,

@@ -1,8 +1,8 @@
 """What is known of an arm before any pose: its axes, its limits, the solver that it gets.
 
-`tolerances` has every threshold with its reason; `solver` says what a solver is and `table` picks
-one; `geometry` looks at axes, `mobility` at joints to spare, `singular_families` at joints that
-move freely; `chains` makes chains of a chain, `limits` full turns, `outputs` the arrays that
+`tolerances` has the thresholds that rooms share; `solver` says what a solver is, `solver_table`
+picks one; `geometry` looks at axes, `mobility` at joints to spare, `singular_families` at joints
+that move freely; `chains` makes chains of a chain, `limits` full turns, `outputs` the arrays that
 solvers fill; `given` checks what callers give, `notice` says that kernels compile.
 """
 

@@ -21,7 +21,7 @@ __all__ += [
 ]
 
 ACCEPT = 1e-9
-"""Residual [m and rad] of a solution; the same number as in ``kernels/certify.py``."""
+"""Residual [m and rad] of a solution; the same number as in ``kernels/certificate/certify.py``."""
 
 INTERVAL_END = 1e-11
 """Distance [rad or m] to which the end of an interval of reach is halved; 1e-9 is promised."""

@@ -1,10 +1,10 @@
 """The certificate: candidates of any solver become solutions of the exact chain, or nothing.
 
-`newton` is Newton's method and the residual, `certify` accepts, parts doubles and counts,
-`merging` unites what rounding cannot tell apart (its ``FLAT`` decides a double root), `families`
-finds the joints that move freely; `finish` does all of it for a batch, `arrange` turns solutions
-to a seed. `damped` and `numeric` are least squares from any start, `newton_6r` is Newton in lanes,
-`reverse` brings solutions of the reversed chain back.
+`newton` is Newton's method and the residual; `certify` accepts what reaches the target and keeps
+each solution once; `double_roots` unites those that the residual cannot tell apart (``FLAT``);
+`singular_families` finds the joints that move freely; `finish` does the last two for a pose and for
+a batch, `arrange` turns solutions to a seed. `damped` and `numeric` are least squares from any
+start, `newton_6r` is Newton in lanes, `reverse` brings solutions of the reversed chain back.
 """
 
 from dh2urdf.kernels.certificate.arrange import measure_all, measure_and_sort, turn_to
@@ -29,7 +29,6 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.singular_families import free_joints, null_direction, one_of_each_family
 from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
 from dh2urdf.kernels.certificate.newton import (
     MAX_TURN,
@@ -42,3 +41,8 @@ from dh2urdf.kernels.certificate.newton import (
 from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.certificate.numeric import find_solutions
 from dh2urdf.kernels.certificate.reverse import invert_pose, invert_poses, reverse_joints, turn_back
+from dh2urdf.kernels.certificate.singular_families import (
+    free_joints,
+    null_direction,
+    one_of_each_family,
+)

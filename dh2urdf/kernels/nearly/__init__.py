@@ -1,4 +1,4 @@
-"""Arms nearly of a closed-form family, rounded or calibrated: its solutions are the seeds.
+"""Arms nearly of a closed-form family, rounded or calibrated: the drawing's solutions are seeds.
 
 `poses` is the solver; `beside` looks for solutions close to solutions, where singularities meet.
 """

@@ -15,8 +15,8 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.assigned_table import chain_to_dh
 from dh2urdf.conversions.assign.axis_pairs import AxisCase
 from dh2urdf.conversions.assign.frame_assignment import FAR, references
-from dh2urdf.conversions.write.urdf_elements import UrdfOptions
 from dh2urdf.conversions.write.table_chain import dh_to_chain
+from dh2urdf.conversions.write.urdf_elements import UrdfOptions
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 
 ALLOWED = 1e-10

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from newton_euler import joint_torques
 
 import dh2urdf
-from dh2urdf.conversions.write.urdf_elements import urdf_text_and_warnings
 from dh2urdf.conversions.write.inertia import Inertial, balanced, tensor, why_impossible
+from dh2urdf.conversions.write.urdf_elements import urdf_text_and_warnings
 
 AS_PUBLISHED = dh2urdf.UrdfOptions(balance_inertia=False)
 
