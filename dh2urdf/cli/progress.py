@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
 
+from dh2urdf.cli.notes import note
+
 __all__ = ["bar", "track"]
 
 T = TypeVar("T")
@@ -38,7 +40,7 @@ def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
             nonlocal due
             if done < total and time.monotonic() >= due:
                 due = time.monotonic() + EVERY
-                sys.stderr.write(f"{what}: {done} of {total}\n")
+                note(f"{what}: {done} of {total}")
 
         yield tell
         return

@@ -1,6 +1,9 @@
 """What long work says of itself on stderr where that is no terminal."""
 
+import os
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -39,3 +42,30 @@ def test_a_map_tells_how_far_it_is(tmp_path, monkeypatch, capsys):
         *((str(done), str(branches)) for done in range(100, branches, 100)),
         *((str(done), str(turned)) for done in range(99, turned, 99)),
     ]
+
+
+NOBODY = """
+import sys
+from dh2urdf.cli import main, progress
+progress.QUIET = progress.EVERY = 0.0
+main(sys.argv[1:])
+"""
+
+
+def test_a_log_that_nobody_reads_stops_no_work(tmp_path):
+    """A line of progress into a broken pipe is lost; all tables are converted, and said to be."""
+    argv = ["convert", "planar_rr", "planar_rrr", "gantry", "--out-dir", os.fspath(tmp_path)]
+    reader, writer = os.pipe()
+    os.close(reader)
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", NOBODY, *argv],
+            stdout=subprocess.PIPE,
+            stderr=writer,
+            text=True,
+            check=True,
+        )
+    finally:
+        os.close(writer)
+    assert done.stdout.startswith("3 files written")
+    assert len(list(tmp_path.iterdir())) == 3
