@@ -13,6 +13,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from typing import Any
 
 from dh2urdf.cli.notes import note
 from dh2urdf.exceptions import Dh2UrdfError, UnreachedError
@@ -40,9 +41,9 @@ PLAIN = {"\u2212": "-", "\u2500": "-", "\u2026": "...", "\u00b0": "deg", "\u03c0
 def main(argv: Sequence[str] | None = None) -> None:
     """Run one verb and exit with its status."""
     tokens = list(sys.argv[1:] if argv is None else argv)
-    debug = "--debug" in tokens
+    debug, before = "--debug" in tokens, dict[int, Any]()
     try:
-        _catch_interrupts()
+        before = _catch_interrupts()
         _open_streams()
         status = _run([t for t in tokens if t != "--debug"])
         sys.stdout.flush()
@@ -61,22 +62,35 @@ def main(argv: Sequence[str] | None = None) -> None:
         note("interrupted")
         status = 130
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        if before:
+            signal.setitimer(signal.ITIMER_REAL, 0.0)
+        for number, handler in before.items():
+            signal.signal(number, handler)
     if argv is None:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
     sys.exit(status)
 
 
-def _catch_interrupts() -> None:
-    """Let Ctrl-C interrupt again, a second later, what has caught it on its way to `main`."""
+def _catch_interrupts() -> dict[int, Any]:
+    """Let Ctrl-C interrupt again, a second later, what has caught it on its way to `main`.
+
+    Returns the handlers that were there; none in a program that has a timer running or handlers
+    that Python does not know, whose signals stay as they are.
+    """
 
     def interrupt(*_: object) -> None:
         signal.setitimer(signal.ITIMER_REAL, 1.0)
         raise KeyboardInterrupt
 
+    numbers = signal.SIGINT, signal.SIGALRM
+    before: dict[int, Any] = {number: signal.getsignal(number) for number in numbers}
+    if None in before.values() or any(signal.getitimer(signal.ITIMER_REAL)):
+        return {}
     with suppress(ValueError):  # of a thread, which gets no signals
-        for number in (signal.SIGINT, signal.SIGALRM):
+        for number in before:
             signal.signal(number, interrupt)
+        return before
+    return {}
 
 
 def _is_interrupt(error: BaseException | None) -> bool:

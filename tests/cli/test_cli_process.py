@@ -9,6 +9,8 @@ import time
 
 import pytest
 
+from dh2urdf import cli
+
 IK = ["ik", "ur5", "--xyz", "0.4", "0.2", "0.3", "--rpy", "0", "3", "0"]
 LONG = ["workspace", "ur5", "-o", "x.png", "--points", "200", "--orientations", "1000"]
 START = """
@@ -79,6 +81,22 @@ def test_an_interrupt_that_a_library_swallows_comes_again():
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=50)
     assert (process.returncode, err) == (130, "interrupted\n")
+
+
+def test_a_program_that_calls_the_command_line_keeps_its_signals():
+    """Handlers of Ctrl-C and the alarm are those of before; a timer of the program's runs on."""
+    numbers = signal.SIGINT, signal.SIGALRM
+    before = [signal.getsignal(number) for number in numbers]
+    with pytest.raises(SystemExit):
+        cli.main(["list"])
+    assert [signal.getsignal(number) for number in numbers] == before
+    signal.setitimer(signal.ITIMER_REAL, 1000.0)
+    try:
+        with pytest.raises(SystemExit):
+            cli.main(["list"])
+        assert signal.getitimer(signal.ITIMER_REAL)[0] > 0.0
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
 def test_the_command_line_is_imported_before_anything_heavy():
