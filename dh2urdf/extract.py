@@ -192,7 +192,7 @@ def extract_dh(
 def _assigned_anew(written: DHTable, error: float) -> str:
     """Why a table that a file carries is not taken."""
     differs = f"differs from its joints by {error:.2g}"
-    misfit = differs if error < math.inf else f"has {written.n} joints"
+    misfit = f"has {written.n} joints" if error == math.inf else differs
     return f"the table that the file carries {misfit}; frames are assigned anew"
 
 
