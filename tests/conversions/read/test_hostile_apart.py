@@ -8,6 +8,7 @@ import os
 import re
 import select
 import subprocess
+import warnings
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -54,7 +55,8 @@ CHANGES = st.lists(st.tuples(st.integers(0, 40), st.sampled_from(TEXTS)), min_si
 def forked(command, *, timeout, cwd, **_):
     """A process that reads as `apart` does, and no end after its time."""
     ready, done = os.pipe()
-    child = os.fork()
+    with warnings.catch_warnings(action="ignore", category=DeprecationWarning):
+        child = os.fork()  # which Python 3.12 advises against beside threads
     if child == 0:
         status = 3
         try:
