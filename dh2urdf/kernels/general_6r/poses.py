@@ -62,6 +62,9 @@ taken for the last before every root is accounted for."""
 ATTEMPTS = 3
 """Rounds of all eliminations, from the second one on for a pose nearby."""
 
+CROWDED_ATTEMPTS = 7
+"""The same where solutions are close together yet apart: each round may lead to others."""
+
 
 def _z(angle: float, offset: float) -> Array:
     """Turn about z, then shift along it."""
@@ -178,7 +181,11 @@ def _solve_pose(T, out_q, out_residual, arm):
     place_target(T, arm)
     found = np.int64(0)
     first[0] = 1.0
-    for trial in range(ATTEMPTS * trials):
+    for trial in range(CROWDED_ATTEMPTS * trials):
+        if trial == ATTEMPTS * trials and (
+            isolated(found, arm["kept"], CROWDED) or not isolated(found, arm["kept"], SINGULAR)
+        ):
+            break
         e = trial % trials
         if e == 0 and trial > 0:
             nudge(arm["chain"], trial // trials)
