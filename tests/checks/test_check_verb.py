@@ -12,22 +12,11 @@ from urdf_faults import BODY, FAULTS, SOUND, arm, joint
 
 import dh2urdf
 from dh2urdf.checks import consumers
-from dh2urdf.cli import main
 
 
-@pytest.fixture
-def run(capsys, tmp_path, monkeypatch):
-    """Run the command line in an empty folder: status, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("dh2urdf.cli.progress.QUIET", math.inf)  # no lines of progress
-
-    def call(*argv):
-        with pytest.raises(SystemExit) as stop:
-            main([str(a) for a in argv])
-        out, err = capsys.readouterr()
-        return stop.value.code, out, err
-
-    return call
+@pytest.fixture(autouse=True)
+def no_lines_of_progress(monkeypatch):
+    monkeypatch.setattr("dh2urdf.cli.progress.QUIET", math.inf)
 
 
 def test_own_file_passes_and_consumers_accept_it(run, tmp_path):

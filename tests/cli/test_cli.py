@@ -11,7 +11,6 @@ import pytest
 from dh_product import dh_frames, difference
 
 import dh2urdf
-from dh2urdf.cli import main
 
 RPR = """
 name: rpr
@@ -22,20 +21,6 @@ joints:
   - {theta: 0, d: l_2 + 2, a: 0, alpha: 90}
   - {theta: theta_3 + 90, d: 0, a: 1.5, alpha: 0}
 """
-
-
-@pytest.fixture
-def run(capsys, tmp_path, monkeypatch):
-    """Run the command line in an empty folder: status, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*argv):
-        with pytest.raises(SystemExit) as stop:
-            main([str(a) for a in argv])
-        out, err = capsys.readouterr()
-        return stop.value.code, out, err
-
-    return call
 
 
 def test_convert_writes_a_verified_urdf(run, tmp_path):

@@ -12,23 +12,8 @@ import numpy as np
 import pytest
 
 import dh2urdf
-from dh2urdf.cli import main
 
 POSE = ["--xyz", "0.4", "0", "0.3", "--rpy", "0", "180", "0", "--deg"]
-
-
-@pytest.fixture
-def run(capsys, tmp_path, monkeypatch):
-    """Run the command line in an empty folder: status, stdout, stderr."""
-    monkeypatch.chdir(tmp_path)
-
-    def call(*argv):
-        with pytest.raises(SystemExit) as stop:
-            main([str(a) for a in argv])
-        out, err = capsys.readouterr()
-        return stop.value.code, out, err
-
-    return call
 
 
 def target():

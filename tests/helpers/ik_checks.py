@@ -7,6 +7,7 @@ from ik_referee import (
     GAP,
     RESIDUAL,
     distances,
+    draw,
     error_vectors,
     exists,
     forward,
@@ -15,6 +16,7 @@ from ik_referee import (
     misses,
     residuals,
     rows_of,
+    search,
     solve,
 )
 from margins import assert_apart, assert_margin
@@ -28,6 +30,39 @@ def check_all(chain, q, found, Ts):
     assert not found.free[exists(found)].any()
     assert_margin(misses(chain, found, q), GAP, quantile=0.999)
     assert_apart(distances(chain, found), GAP, quantile=0.999)
+
+
+def check_random_poses(chain, m, seed=1):
+    """The same at m poses of configurations drawn within the limits."""
+    q = draw(chain, m, seed)
+    Ts = forward(chain, q)
+    check_all(chain, q, solve(chain, Ts), Ts)
+
+
+def check_against_search(chain, m):
+    """A search from many starts at m poses finds nothing that the closed form does not."""
+    Ts = forward(chain, draw(chain, m, 7))
+    found = solve(chain, Ts)
+    for i in range(m):
+        q = found.of(i)[0]
+        for other in search(chain, Ts[i], i):
+            assert_margin(gaps(chain, q, other).min(), 1e-4)
+
+
+def check_kernels_agree(chain, solver, other, contract):
+    """A solver's own kernel and another one find the same solutions and branches."""
+    Ts, apart = forward(chain, draw(chain, 1000, 8)), []
+    for within_limits in (False, True):
+        fast = solve(chain, Ts, within_limits, solver)
+        solver.kernel = other
+        slow = solve(chain, Ts, within_limits, solver)
+        del solver.kernel
+        assert np.array_equal(fast.count, slow.count)
+        for i in range(len(Ts)):
+            a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
+            assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
+            apart.append(np.abs(fast.of(i)[0][a] - slow.of(i)[0][b]))
+    assert_margin(np.concatenate(apart), contract)
 
 
 def near_one_singularity(chain, joint, value, rng):

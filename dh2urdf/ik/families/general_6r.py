@@ -21,6 +21,7 @@ from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
     from dh2urdf.kernels.general_6r import Arm
+from dh2urdf.ik.families.closed_form import not_six_revolute
 
 __all__ = ["General6R"]
 
@@ -84,10 +85,8 @@ class General6R(SolverBase):
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
         """Say what keeps the elimination from covering the chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
-        if chain.n != 6 or chain.prismatic.any():
-            return "it needs 6 revolute joints"
+        if unfit := not_six_revolute(chain, task):
+            return unfit
         if not moves_freely(chain):
             return "the arm cannot move its tool in all six directions"
         return None

@@ -22,6 +22,7 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
 )
+from dh2urdf.ik.families.closed_form import not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
@@ -69,10 +70,8 @@ class NearFamily(SolverBase):
     @classmethod
     def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
         """Say what keeps a nominal arm from the chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
-        if chain.n != 6 or chain.prismatic.any():
-            return "it needs 6 revolute joints"
+        if unfit := not_six_revolute(chain, task):
+            return unfit
         if _match(chain) is None:
             return f"no three axes nearly meet or are nearly parallel (within {NEAR[-1]:g})"
         return General6R.obstacle(chain, task)

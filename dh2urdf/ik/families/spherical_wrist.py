@@ -10,44 +10,23 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     NOMINAL,
     REGULAR,
-    SLACK,
-    SLACK_OF_NOISE,
     AxisLines,
     BatchKernel,
     DHForm,
-    Others,
-    SolverBase,
     Task,
     moves_freely,
     plain_ranges,
     row_motion,
 )
+from dh2urdf.ik.families.closed_form import ClosedForm
 
 __all__ = ["SphericalWrist"]
 
 
-class SphericalWrist(SolverBase):
-    """Closed form by kinematic decoupling, with the notes' frames found from the axes.
-
-    ``tolerance`` is what is snapped: with a larger one an arm that is nearly of this family gets
-    the nominal arm's solutions as seeds, and Newton's method on the exact chain the answers.
-    """
+class SphericalWrist(ClosedForm):
+    """Closed form by kinematic decoupling."""
 
     name = "spherical wrist"
-    kmax = 8
-
-    def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: Others = (),
-        tolerance: float = NOMINAL,
-    ) -> None:
-        super().__init__(chain, task, others)
-        self.lines = AxisLines(chain, tolerance)
-        self.form = DHForm(self.lines)
-        slack = max(SLACK, SLACK_OF_NOISE * tolerance)
-        self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
 
     @classmethod
     def obstacle(

@@ -5,51 +5,24 @@ from __future__ import annotations
 from functools import cached_property
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import (
-    NOMINAL,
-    SLACK,
-    SLACK_OF_NOISE,
-    AxisLines,
-    BatchKernel,
-    DHForm,
-    Others,
-    SolverBase,
-    Task,
-    moves_freely,
-    plain_ranges,
-)
+from dh2urdf.ik.arm import NOMINAL, AxisLines, BatchKernel, Task, moves_freely, plain_ranges
+from dh2urdf.ik.families.closed_form import ClosedForm, not_six_revolute
 
 __all__ = ["ThreeParallel"]
 
 
-class ThreeParallel(SolverBase):
-    """Closed form in the plane of the three axes; ``tolerance`` as in ``SphericalWrist``."""
+class ThreeParallel(ClosedForm):
+    """Closed form in the plane of the three axes."""
 
     name = "three parallel axes"
-    kmax = 8
-
-    def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: Others = (),
-        tolerance: float = NOMINAL,
-    ) -> None:
-        super().__init__(chain, task, others)
-        self.lines = AxisLines(chain, tolerance)
-        self.form = DHForm(self.lines)
-        slack = max(SLACK, SLACK_OF_NOISE * tolerance)
-        self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
 
     @classmethod
     def obstacle(
         cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
     ) -> str | None:
         """Say what keeps the family from covering the chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
-        if chain.n != 6 or chain.prismatic.any():
-            return "it needs 6 revolute joints"
+        if unfit := not_six_revolute(chain, task):
+            return unfit
         lines = AxisLines(chain, tolerance)
         if not (lines.three_parallel(0) or lines.three_parallel(1)):
             return "no three neighbouring axes are parallel"

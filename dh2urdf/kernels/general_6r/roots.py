@@ -78,7 +78,8 @@ def nudge(chain, attempt):
     """Move the target of the eliminations a little, another way at each attempt.
 
     At a symmetric pose every determinant may vanish identically; solutions of a pose nearby are
-    as good as seeds. Where solutions crowd, each attempt takes it further. A turn by ``2 atan(NUDGE)`` about one skew axis and a shift along another.
+    as good as seeds. Where solutions crowd, each attempt takes it further. A turn by
+    ``2 atan(NUDGE)`` about one skew axis and a shift along another.
     """
     t = NUDGE if attempt == 1 else -1.7 * NUDGE
     x, y, z = 0.36 * t, -0.80 * t, 0.48 * t

@@ -62,18 +62,12 @@ SLIDES = {
 KINDS = ["RRP", "RPR", "PRR", "RPP", "PRP", "PPR", "PPP"]
 
 
-def check_random_poses(chain, m, seed=1):
-    q = ref.draw(chain, m, seed)
-    Ts = ref.forward(chain, q)
-    checks.check_all(chain, q, ref.solve(chain, Ts), Ts)
-
-
 @pytest.mark.parametrize("name", SHIPPED)
 def test_shipped_arms_are_complete_and_certified(name):
     """Every shipped arm with a spherical wrist gets this solver and finds what made the pose."""
     chain = ref.shipped(name)
     assert str(select_solver(chain)) == "spherical wrist"
-    check_random_poses(chain, 2000)
+    checks.check_random_poses(chain, 2000)
 
 
 @pytest.mark.exhaustive
@@ -81,7 +75,7 @@ def test_shipped_arms_are_complete_and_certified(name):
 def test_shipped_arms_on_a_hundred_thousand_poses(name):
     """The same on 100,000 poses, ten seeds."""
     for seed in range(10):
-        check_random_poses(ref.shipped(name), 10_000, seed)
+        checks.check_random_poses(ref.shipped(name), 10_000, seed)
 
 
 @pytest.mark.parametrize("wrist", [WRIST, SKEW], ids=["orthogonal", "skew"])
@@ -90,7 +84,7 @@ def test_turning_position_arms(elbow, wrist):
     """Each special geometry of the first three axes, and none, is complete with either wrist."""
     chain = ref.arm(ELBOWS[elbow] + wrist, seed=3)
     assert str(select_solver(chain)) == "spherical wrist"
-    check_random_poses(chain, 400)
+    checks.check_random_poses(chain, 400)
 
 
 @pytest.mark.parametrize("geometry", SLIDES)
@@ -102,7 +96,7 @@ def test_sliding_position_arms(kinds, geometry):
         assert "cannot move the wrist centre" in SphericalWrist.obstacle(chain)
         return
     assert str(select_solver(chain)) == "spherical wrist"
-    check_random_poses(chain, 200)
+    checks.check_random_poses(chain, 200)
 
 
 def test_spherical_shoulder():
@@ -113,30 +107,20 @@ def test_spherical_shoulder():
     ):
         chain = ref.arm(rows, seed=5)
         assert str(select_solver(chain)) == "spherical shoulder"
-        check_random_poses(chain, 400)
+        checks.check_random_poses(chain, 400)
 
 
 @pytest.mark.parametrize("name", ["puma560", "kinova_jaco2_spherical", "stanford"])
 def test_no_solution_that_a_search_finds_is_missing(name):
     """A search from 400 starts finds nothing that the closed form does not."""
-    compare_with_search(name, 4)
+    checks.check_against_search(ref.shipped(name), 4)
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("name", SHIPPED)
 def test_count_equals_that_of_a_search(name):
     """The same over 200 poses of every shipped arm."""
-    compare_with_search(name, 200)
-
-
-def compare_with_search(name, m):
-    chain = ref.shipped(name)
-    Ts = ref.forward(chain, ref.draw(chain, m, 7))
-    found = ref.solve(chain, Ts)
-    for i in range(m):
-        q = found.of(i)[0]
-        for other in ref.search(chain, Ts[i], i):
-            assert_margin(ref.gaps(chain, q, other).min(), 1e-4)
+    checks.check_against_search(ref.shipped(name), 200)
 
 
 def test_block_and_scalar_kernels_agree():
@@ -147,18 +131,7 @@ def test_block_and_scalar_kernels_agree():
     chain = ref.shipped("denso_vs6556")
     solver = SphericalWrist(chain)
     assert solver.kernel is solve_common_wrist
-    Ts, apart = ref.forward(chain, ref.draw(chain, 1000, 8)), []
-    for within_limits in (False, True):
-        fast = ref.solve(chain, Ts, within_limits, solver)
-        solver.kernel = solve_turning_arm
-        slow = ref.solve(chain, Ts, within_limits, solver)
-        del solver.kernel
-        assert np.array_equal(fast.count, slow.count)
-        for i in range(len(Ts)):
-            a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
-            assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
-            apart.append(np.abs(fast.of(i)[0][a] - slow.of(i)[0][b]))
-    assert_margin(np.concatenate(apart), 1e-9)
+    checks.check_kernels_agree(chain, solver, solve_turning_arm, 1e-9)
 
 
 def test_solutions_reach_the_pose_in_pinocchio():

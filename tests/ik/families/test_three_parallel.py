@@ -42,18 +42,12 @@ SYNTHETIC = {
 }
 
 
-def check_random_poses(chain, m, seed=1):
-    q = ref.draw(chain, m, seed)
-    Ts = ref.forward(chain, q)
-    checks.check_all(chain, q, ref.solve(chain, Ts), Ts)
-
-
 @pytest.mark.parametrize("name", SHIPPED)
 def test_shipped_arms_are_complete_and_certified(name):
     """Every shipped arm with axes 2, 3, 4 parallel finds what made the pose."""
     chain = ref.shipped(name)
     assert str(select_solver(chain)) == "three parallel axes"
-    check_random_poses(chain, 2000)
+    checks.check_random_poses(chain, 2000)
 
 
 @pytest.mark.exhaustive
@@ -61,7 +55,7 @@ def test_shipped_arms_are_complete_and_certified(name):
 def test_shipped_arms_on_a_hundred_thousand_poses(name):
     """The same on 100,000 poses, ten seeds."""
     for seed in range(10):
-        check_random_poses(ref.shipped(name), 10_000, seed)
+        checks.check_random_poses(ref.shipped(name), 10_000, seed)
 
 
 @pytest.mark.parametrize("name", SYNTHETIC)
@@ -69,29 +63,20 @@ def test_three_parallel_axes_anywhere(name):
     """The three may be anywhere in the chain, with and without neighbours that meet."""
     chain = ref.arm(SYNTHETIC[name], seed=2)
     assert "three parallel axes" in str(select_solver(chain))
-    check_random_poses(chain, 400)
+    checks.check_random_poses(chain, 400)
 
 
 def test_no_solution_that_a_search_finds_is_missing():
     """A search from 400 starts finds nothing that the closed form does not."""
-    compare_with_search(ref.shipped("ur5"), 4)
-    compare_with_search(ref.arm(SYNTHETIC["1, 2, 3"], seed=2), 3)
+    checks.check_against_search(ref.shipped("ur5"), 4)
+    checks.check_against_search(ref.arm(SYNTHETIC["1, 2, 3"], seed=2), 3)
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("name", SHIPPED)
 def test_count_equals_that_of_a_search(name):
     """The same over 200 poses of every shipped arm."""
-    compare_with_search(ref.shipped(name), 200)
-
-
-def compare_with_search(chain, m):
-    Ts = ref.forward(chain, ref.draw(chain, m, 7))
-    found = ref.solve(chain, Ts)
-    for i in range(m):
-        q = found.of(i)[0]
-        for other in ref.search(chain, Ts[i], i):
-            assert_margin(ref.gaps(chain, q, other).min(), 1e-4)
+    checks.check_against_search(ref.shipped(name), 200)
 
 
 def test_block_and_scalar_kernels_agree():
@@ -102,18 +87,7 @@ def test_block_and_scalar_kernels_agree():
     chain = ref.with_limits(ref.shipped("ur5"), -2.5, 3.0)
     solver = ThreeParallel(chain)
     assert solver.kernel is solve_common_parallel
-    Ts, apart = ref.forward(chain, ref.draw(chain, 1000, 8)), []
-    for within_limits in (False, True):
-        fast = ref.solve(chain, Ts, within_limits, solver)
-        solver.kernel = solve_three_parallel
-        slow = ref.solve(chain, Ts, within_limits, solver)
-        del solver.kernel
-        assert np.array_equal(fast.count, slow.count)
-        for i in range(len(Ts)):
-            a, b = np.argsort(fast.of(i)[2]), np.argsort(slow.of(i)[2])
-            assert np.array_equal(fast.of(i)[2][a], slow.of(i)[2][b])
-            apart.append(np.abs(fast.of(i)[0][a] - slow.of(i)[0][b]))
-    assert_margin(np.concatenate(apart), 1e-8)
+    checks.check_kernels_agree(chain, solver, solve_three_parallel, 1e-8)
 
 
 def test_ur5_home_has_its_solution():
