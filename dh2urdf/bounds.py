@@ -4,8 +4,6 @@ A bound is met where something enters: a file, a cell, an argument, an option. W
 refused with a message that names it; nothing inside has to ask again.
 """
 
-from __future__ import annotations
-
 __all__ = [
     "ANGLE",
     "APART_BYTES",

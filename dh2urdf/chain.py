@@ -25,9 +25,6 @@ from dh2urdf.doors import instance, real_array
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.transforms import Array, inverse
 
-__all__ = ["SerialChain", "settled_state"]
-
-
 FARTHEST = 1000 * LENGTH
 """Longest link [m]: all rows of the largest table in one."""
 

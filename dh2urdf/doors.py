@@ -4,8 +4,6 @@ A message names the argument, what was found and what is allowed. The error is a
 or of the class that the caller gives.
 """
 
-from __future__ import annotations
-
 import operator
 from collections.abc import Collection
 from typing import Any, cast
@@ -16,21 +14,6 @@ from numpy.typing import NDArray
 
 from dh2urdf.bounds import NUMBER, TEXT_CHARACTERS
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
-
-__all__ = [
-    "Array",
-    "choice",
-    "finite_array",
-    "flag",
-    "found",
-    "generator",
-    "instance",
-    "integer",
-    "items",
-    "number",
-    "real_array",
-    "text",
-]
 
 Array = NDArray[np.float64]
 

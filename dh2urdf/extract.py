@@ -17,7 +17,6 @@ from dh2urdf.transforms import pose_error
 if TYPE_CHECKING:
     from dh2urdf.conversions.assign import Change, FrameStep
 
-__all__ = ["SIGNATURE", "Extraction", "extract_dh"]
 
 SIGNATURE = "extracted by dh2urdf"
 """Begins the source of every extracted table; a file that says so may be written over."""

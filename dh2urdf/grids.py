@@ -1,13 +1,9 @@
 """How a grid of cells is printed: text, Markdown, HTML, CSV, LaTeX."""
 
-from __future__ import annotations
-
 import csv
 import html
 import io
 from collections.abc import Collection, Sequence
-
-__all__ = ["grid_csv", "grid_html", "grid_latex", "grid_markdown", "grid_text", "number"]
 
 Grid = Sequence[Sequence[str]]
 

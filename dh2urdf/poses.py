@@ -1,14 +1,10 @@
 """Whether matrices are rigid poses, and the nearest ones that are."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.doors import Array, real_array
 from dh2urdf.exceptions import PoseError
-
-__all__ = ["check_pose", "nearest_rotation", "rounded_off"]
 
 POSE = "numbers of shape (4, 4) or (..., 4, 4)"
 

@@ -1,11 +1,7 @@
 """Texts of users as each language that is written takes them."""
 
-from __future__ import annotations
-
 import re
 from itertools import groupby
-
-__all__ = ["XML_FORBIDDEN", "latex", "markdown", "matlab", "one_line"]
 
 _LATEX = {
     **{character: f"\\{character}" for character in "{}$&#%_"},

@@ -1,7 +1,5 @@
 """The same transforms in symbols, with the sympy extra: ``c_1``, ``s_12``, ``d_2 + 2``."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

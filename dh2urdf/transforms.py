@@ -5,8 +5,6 @@ coordinates in frame a, so subscripts cancel: ``T_a_c = T_a_b @ T_b_c``. Angles 
 radians, lengths in metres. Roll, pitch and yaw follow URDF: ``R = Rz(yaw) Ry(pitch) Rx(roll)``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -1,7 +1,5 @@
 """The real parsers asked for their own words, each in a process of its own."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil
@@ -18,8 +16,6 @@ from pathlib import Path
 from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Consumer, Verdict
 from dh2urdf.exceptions import UrdfError
-
-__all__ = ["Testimony", "ask", "ask_all", "installed"]
 
 MODULES = {
     Consumer.PINOCCHIO: "pinocchio",

@@ -16,8 +16,6 @@ from dh2urdf.dh_io.files import shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 
-__all__ = ["MOVING", "NUMBERS", "TENSOR", "Document"]
-
 NUMBERS = {
     ("origin", "xyz"): 3,
     ("origin", "rpy"): 3,

@@ -1,7 +1,5 @@
 """What is found in a URDF: where, how bad, who breaks on it, how to mend it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum

@@ -1,7 +1,5 @@
 """Mesh files: where a name in a URDF points, and how large the mesh is."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
@@ -11,8 +9,6 @@ import numpy as np
 
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import UrdfError
-
-__all__ = ["is_remote", "locate", "stl_extent"]
 
 LARGEST = 50_000_000
 """Bytes of a mesh that is still looked into."""

@@ -4,8 +4,6 @@
 file, with its words on stderr; with 0 where it takes it, with any complaint on stderr.
 """
 
-from __future__ import annotations
-
 import logging
 import os
 import sys
@@ -15,8 +13,6 @@ from importlib.metadata import version
 from pathlib import Path
 
 from dh2urdf.checks.findings import Consumer
-
-__all__ = ["PROBES", "probe"]
 
 
 def _pinocchio(path: str) -> str:

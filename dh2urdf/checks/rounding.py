@@ -1,7 +1,5 @@
 """The rule of rounded angles, and what they cost in forward kinematics."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 
@@ -9,13 +7,12 @@ import numpy as np
 from lxml import etree
 
 from dh2urdf import transforms as tf
-from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import IKFAST, MOVEIT, Found, misread
 from dh2urdf.conversions.chains import turn_slide
+from dh2urdf.conversions.read import MOVING
 from dh2urdf.conversions.write import frame_along
 from dh2urdf.transforms import Array
-
-__all__ = ["meant_angle", "rounded_angle"]
 
 EXACT = 1e-8
 """Angle [rad] below which a rounding is of no account: eight decimals."""

@@ -4,8 +4,6 @@ Exit status: 0 done, 1 checked and found wrong or no solution, 2 bad usage or ba
 130 interrupted.
 """
 
-from __future__ import annotations
-
 import codecs
 import io
 import os

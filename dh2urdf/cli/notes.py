@@ -1,11 +1,7 @@
 """What is said beside the result."""
 
-from __future__ import annotations
-
 import os
 import sys
-
-__all__ = ["note"]
 
 
 def note(text: str) -> None:

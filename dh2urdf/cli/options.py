@@ -4,8 +4,6 @@ A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, 
 ``400mm``. It is no option, whatever it begins with.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,25 +18,6 @@ from dh2urdf.dh_io.cells.units import SI
 from dh2urdf.dh_io.cells.values import FUNCTIONS
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, TableError
-
-__all__ = [
-    "LARGEST",
-    "Arm",
-    "Deg",
-    "Dpi",
-    "Force",
-    "Json",
-    "Link",
-    "PicturePath",
-    "Values",
-    "check_together",
-    "marked",
-    "plain",
-    "read_number",
-    "read_numbers",
-    "real",
-    "whole",
-]
 
 MARK = "\0"
 """Set before a value that begins with a hyphen, which the parser would take for an option."""

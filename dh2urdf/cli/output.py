@@ -23,19 +23,6 @@ from dh2urdf.transforms import Array
 if TYPE_CHECKING:
     from dh2urdf.robot import Robot
 
-__all__ = [
-    "SCHEMA",
-    "emit",
-    "emit_json",
-    "matrix_text",
-    "note",
-    "parse_configuration",
-    "read_source",
-    "robot_of",
-    "stdin",
-    "table_of",
-    "ten_digits",
-]
 
 SCHEMA = 1
 """Number of the layout of ``--json`` objects; it grows when a key changes its meaning."""

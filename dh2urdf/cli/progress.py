@@ -1,7 +1,5 @@
 """How far long work has come, on stderr: a bar on a terminal, a line now and then elsewhere."""
 
-from __future__ import annotations
-
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -9,8 +7,6 @@ from contextlib import contextmanager
 from typing import TypeVar
 
 from dh2urdf.cli.notes import note
-
-__all__ = ["bar", "track"]
 
 T = TypeVar("T")
 

@@ -8,8 +8,6 @@
 Lecture notes section 5; Spong, Hutchinson and Vidyasagar, eq. 3.10; Craig, eq. 3.6.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from enum import StrEnum
@@ -22,8 +20,6 @@ from dh2urdf.bounds import NUMBER
 from dh2urdf.doors import choice, number
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["DHConvention", "DHFactors", "convention_of", "dh_factors", "dh_transform"]
 
 
 class DHConvention(StrEnum):

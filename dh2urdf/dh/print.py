@@ -1,7 +1,5 @@
 """How a DH table prints: text, HTML, Markdown, LaTeX; angles in degrees, lengths in metres."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from typing import Protocol
@@ -11,8 +9,6 @@ from dh2urdf.dh.motions import DHConvention
 from dh2urdf.dh.row import DHRow, Origin
 from dh2urdf.grids import number
 from dh2urdf.quoting import latex, markdown, one_line
-
-__all__ = ["table_grid", "table_html", "table_latex", "table_markdown", "table_text"]
 
 ROUNDING = 4e-16
 """Relative difference of two conversions from degrees, each rounded once."""

@@ -1,7 +1,5 @@
 """Which displacements the four DH motions can make, and what to do about the others."""
 
-from __future__ import annotations
-
 import math
 
 from numpy.typing import ArrayLike
@@ -11,8 +9,6 @@ from dh2urdf.dh.motions import DHConvention, convention_of
 from dh2urdf.doors import integer
 from dh2urdf.exceptions import PoseError, TableError
 from dh2urdf.grids import number
-
-__all__ = ["dh_parameters", "why_unreachable"]
 
 REACHED = 1e-9
 """Angle [rad] and length [m] up to which a displacement counts as one that DH can make."""

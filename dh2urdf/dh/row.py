@@ -18,8 +18,6 @@ from dh2urdf.doors import choice, found, instance, number, real_array, text
 from dh2urdf.exceptions import ArgumentError, TableError
 from dh2urdf.transforms import Array
 
-__all__ = ["DHRow", "JointType", "Origin"]
-
 
 class JointType(StrEnum):
     """Kind of a row's joint."""

@@ -16,14 +16,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import JOINTS, LENGTH, ROWS
-from dh2urdf.dh.motions import DHConvention, convention_of, dh_factors, dh_transform
+from dh2urdf.dh.motions import DHConvention, convention_of
 from dh2urdf.dh.print import table_csv, table_html, table_latex, table_markdown, table_text
 from dh2urdf.dh.row import DHRow, JointType, Origin
 from dh2urdf.doors import finite_array, found, instance, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.transforms import Array
-
-__all__ = ["DHConvention", "DHRow", "DHTable", "JointType", "Origin", "dh_factors", "dh_transform"]
 
 PARAMETERS = "theta d a alpha"
 LETTERS = {kind.value[0].upper(): kind for kind in JointType}

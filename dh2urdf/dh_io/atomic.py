@@ -1,7 +1,5 @@
 """Files that are either written whole or not at all."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import os
@@ -11,8 +9,6 @@ from pathlib import Path
 
 from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.exceptions import OutputError, OutputExistsError
-
-__all__ = ["atomic_write", "refuse_foreign"]
 
 _REASONS = {
     errno.ENOENT: "there is no such folder",

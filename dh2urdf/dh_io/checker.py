@@ -1,7 +1,5 @@
 """A document to a `DHTable`: every key known, every cell a value, all faults at once."""
 
-from __future__ import annotations
-
 from dh2urdf.bounds import ROWS
 from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
 from dh2urdf.dh_io.cells.cells import Cells, Context, found
@@ -11,8 +9,6 @@ from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, unit_name
 from dh2urdf.dh_io.near_misses import near_misses
 from dh2urdf.dh_io.rows import read_row
 from dh2urdf.exceptions import TableError
-
-__all__ = ["check_document"]
 
 
 def check_document(root: Node, report: Report, name: str) -> DHTable:

@@ -1,7 +1,5 @@
 """Files read whole, within a stated size, whatever stands at the path."""
 
-from __future__ import annotations
-
 import errno
 import os
 import stat
@@ -10,8 +8,6 @@ from typing import BinaryIO
 
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
-
-__all__ = ["decode", "path_of", "read_bytes", "read_text", "shown"]
 
 _REASONS = {
     errno.ENOENT: "there is no such file",

@@ -1,7 +1,5 @@
 """A DH table by path or by name."""
 
-from __future__ import annotations
-
 import difflib
 import os
 from functools import lru_cache
@@ -11,8 +9,6 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
 from dh2urdf.exceptions import NameNotFoundError
-
-__all__ = ["TableLike", "as_table", "list_tables", "load_table", "load_table_file"]
 
 FOLDER = Path(__file__).parents[1] / "robots"
 """Tables that ship, one YAML file an arm."""

@@ -1,7 +1,5 @@
 """What is allowed in a table and probably not meant; told, never changed."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -14,8 +12,6 @@ import numpy as np
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh_io.cells.schema import ROW_KINDS
 from dh2urdf.dh_io.cells.units import PI, SI, Kind, Units
-
-__all__ = ["NearMiss", "near_misses"]
 
 LONG = 10.0
 """A length [m] that few arms have; millimetres read as metres come out beyond it."""

@@ -1,7 +1,5 @@
 """A path or a text to a table."""
 
-from __future__ import annotations
-
 import difflib
 import os
 from collections.abc import Callable
@@ -20,8 +18,6 @@ from dh2urdf.dh_io.formats.toml import read_toml
 from dh2urdf.dh_io.formats.yaml import read_yaml
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
-
-__all__ = ["FORMATS", "TableFile", "format_of", "parse_table", "read_table"]
 
 FORMATS = {
     ".yaml": "yaml",

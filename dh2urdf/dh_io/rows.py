@@ -1,7 +1,5 @@
 """One row of a table file to a `DHRow`, with every fault of the row noted."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from decimal import Decimal
@@ -15,8 +13,6 @@ from dh2urdf.dh_io.cells.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you
 from dh2urdf.dh_io.cells.units import Kind
 from dh2urdf.dh_io.cells.values import ExpressionError, Value
 from dh2urdf.exceptions import TableError
-
-__all__ = ["read_row"]
 
 _VARIABLE = re.compile(
     r"(?:(?P<angle>theta|Theta|th|θ|ϑ|t(?=_?\d))|(?P<length>d|[lsℓ](?=_?[\di]))|(?P<either>q))"

@@ -1,7 +1,5 @@
 """A table to a text: every number by its shortest decimal that reads back as the same float."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -19,8 +17,6 @@ from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
 from dh2urdf.quoting import markdown
-
-__all__ = ["table_to_text", "write_table"]
 
 Field = tuple[str, str | list[str]]
 """Key of a cell, and its text (already quoted where it is a word) or a list of numbers."""

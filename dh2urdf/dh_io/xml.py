@@ -1,7 +1,5 @@
 """XML documents, and the DH table that a URDF of this package carries."""
 
-from __future__ import annotations
-
 import os
 
 from lxml import etree
@@ -11,8 +9,6 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.read import parse_table
 from dh2urdf.exceptions import TableFileError, UrdfError
-
-__all__ = ["embedded_table", "parse_xml"]
 
 
 def parse_xml(data: bytes, where: str) -> etree._Element:

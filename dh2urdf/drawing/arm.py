@@ -1,7 +1,5 @@
 """An arm as it is drawn: its DH table, its bodies, and where they are at a configuration."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,8 +14,6 @@ from dh2urdf.doors import finite_array, instance
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["DrawnArm", "drawn_arm", "table_of", "zero_configuration"]
 
 
 @dataclass(frozen=True, eq=False)

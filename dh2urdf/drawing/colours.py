@@ -1,10 +1,6 @@
 """One colour per quantity, the same in figures and in the browser."""
 
-from __future__ import annotations
-
 from dh2urdf.grids import HTML_COLOURS
-
-__all__ = ["AXIS", "BRANCH_COLOURS", "MATERIAL", "QUANTITY", "rgb"]
 
 AXIS = {"x": "#d62728", "y": "#2ca02c", "z": "#1f5fc8"}
 """Colours of the frame axes."""

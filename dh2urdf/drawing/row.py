@@ -6,8 +6,6 @@ z_{i-1} into z_i about x_i. Modified (Craig, "Introduction to Robotics", section
 alpha first, about x_{i-1}; then theta and d about z_i.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -19,8 +17,6 @@ from dh2urdf.dh.print import degrees, plus
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, rotation
-
-__all__ = ["Arc", "DHRowPicture", "Measure", "row_picture", "row_words"]
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 

@@ -13,8 +13,6 @@ from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import MATERIAL, rgb
 from dh2urdf.transforms import Array
 
-__all__ = ["Drawing", "Node", "Surface", "TableDrawing", "body_surface", "merged"]
-
 AROUND = 32
 """Corners of a circle."""
 

@@ -1,7 +1,5 @@
 """The picture of an arm: bodies or a schematic, DH frames with labels, ghosts, the table."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import chain
 from typing import Literal
@@ -29,8 +27,6 @@ from dh2urdf.figures.solids.solids import Part, arm_parts, outlines
 from dh2urdf.figures.style import RC, Picture, mpl
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-__all__ = ["Style", "figure"]
 
 Style = Literal["bodies", "schematic"]
 

@@ -1,7 +1,5 @@
 """A sheet measured in points, and the few marks that figures are made of."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
@@ -12,8 +10,6 @@ import numpy as np
 
 from dh2urdf.figures.style import INK, Picture, mpl
 from dh2urdf.transforms import Array
-
-__all__ = ["Canvas", "text_box", "text_size"]
 
 POINTS_PER_INCH = 72.0
 

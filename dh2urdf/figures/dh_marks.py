@@ -1,7 +1,5 @@
 """DH frames, the lengths d and a, and the joint axes, drawn over an arm with their labels."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,8 +14,6 @@ from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solid_paint import ToPoints
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
-
-__all__ = ["DHMarks"]
 
 LABEL = 14.0
 """Size of the labels [pt]."""

@@ -1,7 +1,5 @@
 """The DH table beside the arm."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -15,8 +13,6 @@ from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.style import FAINT, INK, MUTED, plain
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array
-
-__all__ = ["DHPanel", "draw_key", "pose_sentence"]
 
 SIZE = 10.5
 ROW = 25.0

@@ -4,15 +4,11 @@ The cost of a place counts what the label would cover: other labels, lines (by t
 that runs under the label), the edge of the panel, and the way from the anchor.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
 from dh2urdf.transforms import Array
-
-__all__ = ["Label", "Line", "place_labels"]
 
 RADII = (5.0, 8.0, 12.0, 17.0, 24.0, 32.0)
 """Distances [pt] from the anchor to the near edge of the label."""

@@ -1,7 +1,5 @@
 """A figure as bytes or as a file, byte for byte the same each time."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 
@@ -10,8 +8,6 @@ from dh2urdf.dh_io import atomic_write
 from dh2urdf.doors import number
 from dh2urdf.exceptions import OutputError, OutputExistsError
 from dh2urdf.figures.style import MARK, Picture, picture_bytes
-
-__all__ = ["FORMATS", "check_target", "save_picture"]
 
 FORMATS = ("png", "svg", "pdf")
 """Formats written, by suffix."""

@@ -1,7 +1,5 @@
 """The arm in the manner of textbooks: lines for links, cylinders and boxes for joints."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -17,8 +15,6 @@ from dh2urdf.figures.solids.solid_paint import Paint, ToPoints, paint_parts
 from dh2urdf.figures.solids.solids import Part, outlines
 from dh2urdf.figures.style import INK
 from dh2urdf.transforms import Array
-
-__all__ = ["draw_schematic", "schematic_points"]
 
 ROD = 0.008
 """Radius of a link's line, as a share of the arm's size."""

@@ -1,7 +1,5 @@
 """Colours, type and strokes of all figures; the only door to matplotlib."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 

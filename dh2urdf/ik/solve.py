@@ -4,8 +4,6 @@
 joints that was asked for.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -42,8 +40,6 @@ from dh2urdf.ik.problem import (
 )
 from dh2urdf.ik.redundant import HeldSolver, SweptJoint, select_held
 from dh2urdf.transforms import Array
-
-__all__ = ["InverseKinematics", "Locked"]
 
 ON_BAD = ("raise", "skip")
 """What may be done about a pose of a batch that is none."""

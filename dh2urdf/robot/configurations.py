@@ -1,7 +1,5 @@
 """The joint values of a robot: what q means, and how it is read."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np
@@ -13,8 +11,6 @@ from dh2urdf.conversions.chains import ChainPath, Coupling, is_continuous
 from dh2urdf.doors import finite_array, generator, real_array
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.transforms import Array
-
-__all__ = ["RobotConfigurations"]
 
 
 class RobotConfigurations:

@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from dh2urdf.ik.redundant import HeldSolver
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
-__all__ = ["RobotIK"]
-
 
 class RobotIK:
     """What :class:`dh2urdf.Robot` knows of inverse kinematics."""

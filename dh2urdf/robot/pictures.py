@@ -1,7 +1,5 @@
 """The pictures of a robot; what draws them lies above and is loaded when asked for."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
@@ -9,9 +7,6 @@ from typing import Any, Protocol
 from numpy.typing import ArrayLike
 
 from dh2urdf.transforms import Array
-
-__all__ = ["RobotPictures"]
-
 
 DRAWN_BY = {"figure": "dh2urdf.figures", "view": "dh2urdf.viewer"}
 """Packages above this one, by what a robot asks of them."""

@@ -32,8 +32,6 @@ from dh2urdf.robot.inverse import RobotIK
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
 
-__all__ = ["Robot"]
-
 _forward_kinematics = pin.forwardKinematics
 _update_frame_placement = pin.updateFramePlacement
 _frame_jacobian = pin.computeFrameJacobian

@@ -1,7 +1,5 @@
 """The arm in the scene: one node a link, and its ghosts as one batch of meshes a link."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -10,8 +8,6 @@ import numpy as np
 from dh2urdf.drawing.colours import BRANCH_COLOURS, rgb
 from dh2urdf.drawing.surfaces import Drawing, Surface
 from dh2urdf.transforms import Array
-
-__all__ = ["ArmScene", "Ghosts", "add_mesh", "quaternions", "set_poses"]
 
 TRANSLUCENT = 0.25
 """Opacity of the arm while a row is explained."""

@@ -1,7 +1,5 @@
 """The only door to viser: a quiet server on a port that was free."""
 
-from __future__ import annotations
-
 import contextlib
 import errno
 import io
@@ -18,7 +16,6 @@ try:
 except ImportError:
     raise MissingExtraError("viewer", "showing an arm in the browser") from None
 
-__all__ = ["LOOPBACK", "by_visitor", "later", "quietly", "start_server"]
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 """Hosts that only this machine can reach."""

@@ -1,7 +1,5 @@
 """DH frames, and one row of the table explained, in the scene."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -14,8 +12,6 @@ from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, row_picture, subscri
 from dh2urdf.drawing.surfaces import body_surface
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.arm_scene import add_mesh, set_poses
-
-__all__ = ["FramesScene", "RowScene"]
 
 AXIS_LENGTH = 0.12
 """Length of a frame's axes, as a share of the arm's size."""

@@ -1,7 +1,5 @@
 """Floor, lights and the eye."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -11,8 +9,6 @@ from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-__all__ = ["cast_shadows", "light", "look_at", "set_stage"]
 
 FIELD_OF_VIEW = math.radians(38.0)
 DIRECTION = np.array([0.80, -1.0, 0.62])

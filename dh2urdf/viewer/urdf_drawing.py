@@ -1,7 +1,5 @@
 """The visuals of a URDF, meshes included, where they are on disk."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any
@@ -19,8 +17,6 @@ from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-__all__ = ["UrdfDrawing", "urdf_drawing"]
 
 GREY = (200, 204, 212)
 """Colour of a visual that has none."""

@@ -23,8 +23,6 @@ from dh2urdf.viewer.tabs.joints_tab import JointsTab
 from dh2urdf.viewer.tabs.table_tab import TableTab
 from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
-__all__ = ["ArmView", "view"]
-
 CLOSE = 1.15
 """From the row that is explained to the eye, against the arm's size."""
 

@@ -1,7 +1,5 @@
 """Maps over a section: how many branches, and from how many sides."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -14,8 +12,6 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.section import Section
 from dh2urdf.workspace.task import orientations, task_of
-
-__all__ = ["branch_counts", "dexterity", "held_values"]
 
 Progress = Callable[[int, int], None]
 """Called with the number of poses done and their total."""

@@ -1,7 +1,5 @@
 """The planar arm of two revolute joints, in closed form."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -12,8 +10,6 @@ from dh2urdf.doors import instance
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
 from dh2urdf.workspace.task import PARALLEL
-
-__all__ = ["PlanarArm", "planar_arm"]
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,5 @@
 """A grid of points in a plane of the base, wide enough for the arm."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -13,8 +11,6 @@ from dh2urdf.doors import choice, instance, integer, number
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.task import common_axis
-
-__all__ = ["PLANES", "Plane", "Section", "caption", "reach_ball", "section"]
 
 
 class Plane(NamedTuple):

@@ -1,7 +1,5 @@
 """What an arm of a kind can be asked to reach, and in which orientations."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
@@ -12,16 +10,6 @@ from dh2urdf.conversions.write import frame_along
 from dh2urdf.doors import instance, integer
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z
-
-__all__ = [
-    "PARALLEL",
-    "Task",
-    "common_axis",
-    "default_orientation",
-    "orientations",
-    "task_of",
-    "uniform_rotations",
-]
 
 PARALLEL = 1e-9
 """Sine of the angle between two axes up to which an arm counts as planar here."""

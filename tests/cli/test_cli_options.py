@@ -1,7 +1,5 @@
 """Options of every verb: numbers read alike, bounds, options that go together, hostile lines."""
 
-from __future__ import annotations
-
 import contextlib
 import io
 import json

@@ -1,7 +1,5 @@
 """``dh2urdf ik`` as a user meets it."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """Table files mean what they say, in every format."""
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

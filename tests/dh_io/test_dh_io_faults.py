@@ -1,7 +1,5 @@
 """Broken table files: one error with every fault, its place and what is allowed."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What is allowed and probably not meant is told, with its place, and left as it is."""
 
-from __future__ import annotations
-
 import math
 from decimal import Decimal
 from pathlib import Path

@@ -1,7 +1,5 @@
 """A table written in any format and unit reads back identical, bit by bit."""
 
-from __future__ import annotations
-
 import json
 import math
 import struct

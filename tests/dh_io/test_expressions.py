@@ -1,7 +1,5 @@
 """Cells: numbers, units, pi, functions; and nothing else."""
 
-from __future__ import annotations
-
 import math
 import pickle
 import subprocess

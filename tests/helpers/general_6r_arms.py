@@ -1,7 +1,5 @@
 """Arms for the general 6R solver's tests, their kinematics and a search, written without it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What solvers of every family have to keep, measured by the referee's own kinematics."""
 
-from __future__ import annotations
-
 import numpy as np
 from ik_referee import (
     GAP,

@@ -4,8 +4,6 @@ Nothing here uses the kernels: the product of the chain is NumPy, and the indepe
 solutions is a damped Newton search from many random starts.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """Margins: what is measured over many poses stays well within what the contract allows."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

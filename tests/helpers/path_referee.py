@@ -4,8 +4,6 @@ Written for the tests: solutions at held values of a joint, a dynamic programme 
 and ever finer grids around what it finds. No code of the package's paths takes part.
 """
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

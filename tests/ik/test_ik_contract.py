@@ -3,8 +3,6 @@
 Every third configuration is drawn near a singularity. Pinocchio is the referee.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

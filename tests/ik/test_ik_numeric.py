@@ -1,7 +1,5 @@
 """The numeric search: for every chain, and honest about what it does not know."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

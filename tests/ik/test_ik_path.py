@@ -1,7 +1,5 @@
 """A sequence of poses as a joint path."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

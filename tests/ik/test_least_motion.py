@@ -1,7 +1,5 @@
 """Paths of arms with seven joints: the least joint motion, against a search on a dense grid."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Certification: residual, polishing, clustering, limits."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

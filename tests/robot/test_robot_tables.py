@@ -5,8 +5,6 @@ example-robot-data package run by Pinocchio, joint origins of the makers' descri
 and published poses.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from functools import cache

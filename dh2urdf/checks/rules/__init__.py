@@ -1,7 +1,5 @@
 """Rules of URDF files, a module a subject: every public function of one is a rule."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterator
 from inspect import isfunction

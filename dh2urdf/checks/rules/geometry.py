@@ -1,7 +1,5 @@
 """Rules of what is seen and touched: shapes, meshes, materials."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple

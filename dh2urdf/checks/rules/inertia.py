@@ -1,13 +1,11 @@
 """Rules of mass: what moves needs some, and a tensor that a body could have."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
 from lxml import etree
 
-from dh2urdf.checks.document import MOVING, TENSOR, Document
+from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import (
     DRAKE,
     GAZEBO,
@@ -21,7 +19,8 @@ from dh2urdf.checks.findings import (
     misread,
     refuse,
 )
-from dh2urdf.conversions.write import tensor, why_impossible
+from dh2urdf.conversions.read import MOVING
+from dh2urdf.conversions.write import TENSOR, tensor, why_impossible
 from dh2urdf.transforms import Array
 
 ESTIMATE = "dh2urdf convert estimates masses from the drawn bodies of a DH table"

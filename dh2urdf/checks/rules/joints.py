@@ -1,13 +1,11 @@
 """Rules of joints: limits, axes, dynamics."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 
 from lxml import etree
 
-from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import (
     CHECK_URDF,
     DRAKE,
@@ -27,6 +25,7 @@ from dh2urdf.checks.findings import (
     misread,
     refuse,
 )
+from dh2urdf.conversions.read import MOVING
 
 _Pair = tuple[etree._Element, etree._Element | None]
 

@@ -1,7 +1,5 @@
 """Rules of how a file is read: elements given twice, links fused away, xacro, numbers."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter

@@ -1,12 +1,10 @@
 """Rules of names, of what joints join, of roots and loops."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 
 from lxml import etree
 
-from dh2urdf.checks.document import MOVING, Document
+from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import (
     CHECK_URDF,
     DRAKE,
@@ -28,6 +26,7 @@ from dh2urdf.checks.findings import (
     misread,
     refuse,
 )
+from dh2urdf.conversions.read import MOVING
 
 KINDS = (*MOVING, "fixed", "floating", "planar")
 

@@ -1,7 +1,5 @@
 """``dh2urdf check``: what the consumers of a URDF would say of it."""
 
-from __future__ import annotations
-
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -25,15 +23,14 @@ from dh2urdf.checks import (
     installed,
     why_not_asked,
 )
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Json
-from dh2urdf.cli.output import emit, emit_json, note, stdin
+from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.cli.progress import bar
 from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
-
-__all__ = ["check_"]
 
 MENDED = "mended by dh2urdf"
 """Comment by which a mended file is known as ours."""

@@ -1,22 +1,19 @@
 """``dh2urdf convert``: tables to verified URDF files."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Json, whole
-from dh2urdf.cli.output import emit, emit_json, note, read_source
+from dh2urdf.cli.output import emit, emit_json, read_source
 from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import Dh2UrdfError, TableError, VerificationError
-
-__all__ = ["convert_"]
 
 
 def convert_(

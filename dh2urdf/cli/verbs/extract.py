@@ -1,7 +1,5 @@
 """``dh2urdf extract``: the DH table of a robot description, verified."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from json import loads
 from pathlib import Path
@@ -10,15 +8,14 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Force, Json, real
-from dh2urdf.cli.output import emit, emit_json, note, stdin
+from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 from dh2urdf.quoting import one_line
-
-__all__ = ["extract_"]
 
 Format = Literal["yaml", "toml", "json", "csv", "markdown", "latex", "rtb", "matlab", "matlab-rst"]
 

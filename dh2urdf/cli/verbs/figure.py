@@ -1,18 +1,15 @@
 """``dh2urdf figure``: the arm with its DH frames, for print."""
 
-from __future__ import annotations
-
 import math
 from typing import Annotated, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values, read_numbers
-from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.dh_io import Kind, Units
-
-__all__ = ["figure_"]
 
 
 def figure_(

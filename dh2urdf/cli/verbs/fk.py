@@ -1,25 +1,21 @@
 """``dh2urdf fk``: where the tip is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import (
     emit,
     emit_json,
     matrix_text,
-    note,
     parse_configuration,
     robot_of,
     ten_digits,
 )
 from dh2urdf.dh_io.files import shown
 from dh2urdf.transforms import matrix_to_rpy
-
-__all__ = ["fk_"]
 
 
 def fk_(

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Arm, Json, Link, Values
-from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
+from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.verbs.ik_poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from dh2urdf.ik.problem import IKSolutions
     from dh2urdf.robot import Robot
 
-__all__ = ["ik_"]
 
 CHUNK = 1_000
 """Poses that are solved, and lines that are written, at once."""

@@ -1,7 +1,5 @@
 """Poses on the command line and in CSV files."""
 
-from __future__ import annotations
-
 import csv
 import math
 from collections.abc import Sequence
@@ -21,8 +19,6 @@ from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off
 from dh2urdf.transforms import Array, origin_matrix, quaternion_to_matrix
-
-__all__ = ["Poses", "pose_of", "poses_of_csv"]
 
 PLACE, TURN, QUATERNION = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
 MATRIX = tuple(f"t{i}{j}" for i in range(4) for j in range(4))

@@ -1,13 +1,9 @@
 """``dh2urdf list``: the tables that ship."""
 
-from __future__ import annotations
-
 from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json
 from dh2urdf.grids import grid_text
 from dh2urdf.robots import list_tables, load_table
-
-__all__ = ["list_"]
 
 
 def list_(*, json: Json = False) -> int:

@@ -1,7 +1,5 @@
 """``dh2urdf show``: a table, its transforms, and how its inverse kinematics is solved."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.cli.options import Deg, Json, Values
@@ -13,8 +11,6 @@ from dh2urdf.grids import number
 from dh2urdf.quoting import one_line
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-__all__ = ["show_"]
 
 WRITERS = {
     "markdown": DHTable.to_markdown,

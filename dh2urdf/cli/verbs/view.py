@@ -1,15 +1,12 @@
 """``dh2urdf view``: the arm in the browser."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Deg, Link, Values, whole
-from dh2urdf.cli.output import emit, emit_json, note, parse_configuration, robot_of
-
-__all__ = ["view_"]
+from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 
 
 def view_(

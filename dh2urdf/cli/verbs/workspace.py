@@ -1,7 +1,5 @@
 """``dh2urdf workspace``: what an arm reaches, as a picture."""
 
-from __future__ import annotations
-
 from typing import Annotated, Literal
 
 from cyclopts import Parameter
@@ -22,8 +20,6 @@ from dh2urdf.cli.options import (
 from dh2urdf.cli.output import emit, emit_json, robot_of
 from dh2urdf.cli.progress import bar
 from dh2urdf.dh_io import Kind, Units
-
-__all__ = ["workspace_"]
 
 
 def workspace_(

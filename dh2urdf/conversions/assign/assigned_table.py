@@ -1,7 +1,5 @@
 """From a serial chain to a DH table."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,8 +12,6 @@ from dh2urdf.conversions.write import FLIP
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import NameNotFoundError
 from dh2urdf.transforms import Array
-
-__all__ = ["AssignedTable", "chain_to_dh", "flip_signs", "turned_round"]
 
 
 @dataclass(frozen=True)

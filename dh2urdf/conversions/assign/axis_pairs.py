@@ -21,8 +21,6 @@ Everything is computed in the frame of the first axis, from ``L`` alone: nothing
 the rest of the arm.
 """
 
-from __future__ import annotations
-
 import math
 from enum import StrEnum
 from typing import NamedTuple
@@ -32,19 +30,6 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "PARALLEL",
-    "AxisCase",
-    "AxisPair",
-    "Normal",
-    "across",
-    "classify",
-    "common_normal",
-    "compose",
-    "flipped",
-    "wrap",
-]
 
 PARALLEL = 1e-14
 """Angle [rad] up to which two axes are the same direction: what a few dozen roundings leave.

@@ -1,7 +1,5 @@
 """Between the standard and the modified convention, without loss."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -12,8 +10,6 @@ from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.transforms import Array
-
-__all__ = ["to_convention"]
 
 
 def to_convention(table: TableLike, convention: DHConvention | str) -> DHTable:

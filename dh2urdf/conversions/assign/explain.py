@@ -1,7 +1,5 @@
 """Frame assignment in words: what was done for each frame and why, like a worked solution."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,8 +13,6 @@ from dh2urdf.conversions.assign.frame_assignment import Assignment
 from dh2urdf.conversions.assign.frame_ends import BaseChoice, ToolChoice
 from dh2urdf.dh import DHConvention, DHRow, JointType
 from dh2urdf.transforms import Array
-
-__all__ = ["FrameStep", "angle_words", "explain_frames", "length_words"]
 
 
 @dataclass(frozen=True)

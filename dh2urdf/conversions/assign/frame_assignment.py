@@ -17,8 +17,6 @@ where it would cost theta a half turn at q = 0, as data sheets do (a UR's a_2 = 
 ``XRule.AWAY`` keeps to the notes.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,8 +29,6 @@ from dh2urdf.conversions.assign.frame_directions import choose_directions
 from dh2urdf.conversions.assign.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
-
-__all__ = ["FAR", "Assignment", "FrameAssigner", "Reference", "XRule", "references"]
 
 FAR = 20.0
 """Common normals farther off than this many arm's lengths are not gone to.

@@ -6,8 +6,6 @@ together: of all combinations the one with the fewest non-zero theta at q = 0, t
 smallest ones, then zeros as early as can be. Two states a pair make that a shortest path.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
@@ -15,8 +13,6 @@ from typing import NamedTuple
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.assign.axis_pairs import AxisPair, Normal, flipped, wrap
 from dh2urdf.conversions.assign.frame_ends import End
-
-__all__ = ["HALF_TURN", "Directions", "choose_directions"]
 
 HALF_TURN = 1e-3
 """Angle [rad] that a theta may be off 0 or a half turn and still count as one.

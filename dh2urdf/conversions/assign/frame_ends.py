@@ -4,8 +4,6 @@ There is much freedom in both. The rule here is that the base and tool transform
 DH parameters cannot express and nothing else, as far as the notes' own advice allows.
 """
 
-from __future__ import annotations
-
 import math
 from enum import StrEnum
 from typing import NamedTuple
@@ -16,8 +14,6 @@ from dh2urdf import transforms as tf
 from dh2urdf.conversions.assign.axis_pairs import across, classify, common_normal, flipped, wrap
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
-
-__all__ = ["BaseChoice", "End", "EndPlacer", "Start", "ToolChoice", "first_frame", "slide_turn"]
 
 REACHED = 1e-14
 """Turn [rad] or slide [m per m of arm] that is left over when a frame counts as reached."""

@@ -6,8 +6,6 @@ lengths wins. The usual advice (Paul: through the frame that follows, so that a 
 them and wins ties.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -16,8 +14,6 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL
 from dh2urdf.transforms import Array
-
-__all__ = ["place_prismatic_axes", "shifted"]
 
 SWEEPS = 2
 """Times that all sliding joints are placed in turn, since neighbours depend on each other."""

@@ -1,7 +1,5 @@
 """Rounding of computed numbers to the ones they were meant to be, within rounding error."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -9,8 +7,6 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.dh import Origin
 from dh2urdf.transforms import Array
-
-__all__ = ["near_angle", "tidy_angle", "tidy_length", "tidy_origin"]
 
 STEP = math.pi / 12
 """Angles are drawn to multiples of 15 degrees."""

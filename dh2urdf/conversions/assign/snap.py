@@ -5,8 +5,6 @@ can say which was meant. Snapping works on one link at a time, before frames are
 that axes made parallel are treated as parallel; then on what is left in the table.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -25,8 +23,6 @@ from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error
-
-__all__ = ["DEFAULT_SNAP", "Change", "near_misses", "snap_chain", "snap_table", "snap_tolerance"]
 
 _T = TypeVar("_T")
 

@@ -1,7 +1,5 @@
 """What rides on the joints: drives, bodies and frames of a source, carried into a DH table."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -13,8 +11,6 @@ from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource
 from dh2urdf.conversions.write import FLIP, Inertial, link_frames, six_of
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["carried_dh_frames", "carried_joint_frames", "carry"]
 
 NOISE = 1e-15
 """What a product of rotations leaves of an exact zero, relative to the largest entry."""

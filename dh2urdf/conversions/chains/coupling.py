@@ -1,7 +1,5 @@
 """Joints of a chain that mimic one another: fewer values in q than joints in the chain."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -10,8 +8,6 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.read import Mimic
 from dh2urdf.transforms import Array
-
-__all__ = ["Coupling", "couple"]
 
 
 @dataclass(frozen=True, eq=False)

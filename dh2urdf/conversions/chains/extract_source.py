@@ -1,7 +1,5 @@
 """Whatever a user hands over, as a chain and a referee for it."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from dataclasses import replace
@@ -28,8 +26,6 @@ from dh2urdf.conversions.read import link_name, read_description
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
-
-__all__ = ["Source", "read_source"]
 
 WRITTEN_ENDS = ("base_link", "tool0")
 """Base and tip of every URDF that this package writes."""

@@ -1,7 +1,5 @@
 """From a Pinocchio model to the serial chain between two of its frames."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -16,16 +14,6 @@ from dh2urdf.dh import JointType
 from dh2urdf.doors import instance, text
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "ChainPath",
-    "chain_path",
-    "frame_id",
-    "frame_names",
-    "model_to_chain",
-    "tip_names",
-    "with_locked",
-]
 
 CONTINUOUS = ("JointModelRUB", "JointModelRevoluteUnboundedUnaligned")
 

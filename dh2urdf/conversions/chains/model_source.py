@@ -1,7 +1,5 @@
 """A Pinocchio model as a source of a chain, with the inertias that move with each joint."""
 
-from __future__ import annotations
-
 import numpy as np
 import pinocchio as pin
 
@@ -20,8 +18,6 @@ from dh2urdf.conversions.read import TIP_NAMES, listed
 from dh2urdf.conversions.write import Inertial
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["model_source"]
 
 
 def model_source(

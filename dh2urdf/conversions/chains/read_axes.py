@@ -12,8 +12,6 @@ One of three lists, in the base frame at q = 0, in metres and radians::
     tool: {xyz: [0.5, 0, 0.3], rpy: [0, 0, 0]}   # or a 4 x 4 matrix
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -28,8 +26,6 @@ from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.formats.yaml import yaml_values
 from dh2urdf.doors import found, real_array, text
 from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
-
-__all__ = ["SUFFIXES", "read_axes"]
 
 SUFFIXES = (".yaml", ".yml", ".json")
 

@@ -5,8 +5,6 @@ typed axes goes through the exponentials of its screws. Neither shares a product
 extraction.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 
@@ -17,16 +15,6 @@ from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "Referee",
-    "addressed_referee",
-    "configurations",
-    "model_referee",
-    "screw_referee",
-    "table_poses",
-    "turn_slide",
-]
 
 FAR = 100.0
 """Limits beyond this many arm's lengths are a way to say that there are none."""

@@ -1,7 +1,5 @@
 """From a tree of links and joints to the serial chain between two of its links."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence
@@ -16,8 +14,6 @@ from dh2urdf.conversions.read import MOVING, KinematicTree, Step, find_path, rig
 from dh2urdf.conversions.write import FLIP, Inertial
 from dh2urdf.dh import JointType
 from dh2urdf.transforms import Array
-
-__all__ = ["Actuation", "ChainSource", "tree_to_chain"]
 
 
 @dataclass(frozen=True)

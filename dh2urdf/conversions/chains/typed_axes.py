@@ -1,7 +1,5 @@
 """Chains from joint axes typed by hand: screw axes, points and directions, or 4 x 4 frames."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from itertools import pairwise
@@ -18,8 +16,6 @@ from dh2urdf.dh import JointType
 from dh2urdf.doors import found, real_array
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["typed_to_chain"]
 
 PITCH = 1e-9
 """Largest ``omega . v`` [m/rad] of a screw that still counts as a pure rotation."""

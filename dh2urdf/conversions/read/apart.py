@@ -4,8 +4,6 @@
 folder, or a file ``error``. Time and memory are bounded; what a reader prints goes nowhere.
 """
 
-from __future__ import annotations
-
 import ast
 import contextlib
 import os
@@ -22,8 +20,6 @@ from typing import Any
 from dh2urdf.bounds import APART_BYTES, APART_SECONDS
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import MissingExtraError, UrdfError
-
-__all__ = ["check_expression", "read_apart"]
 
 FORBIDDEN = re.compile(
     "_.*|format|format_map|vars|mro|(gi|cr|ag|tb)_(frame|code)|f_(back|builtins|globals|locals)"

@@ -1,7 +1,5 @@
 """A robot description, of whatever format, as a tree and the way from base to tip in it."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import NamedTuple
@@ -19,9 +17,6 @@ from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found
 from dh2urdf.exceptions import UrdfError, VerificationError
-
-__all__ = ["Description", "description_bytes", "is_xacro", "mended_urdf", "read_description"]
-
 
 TEXT = "URDF text"
 """How messages name a text that is no path."""

@@ -1,7 +1,5 @@
 """The bare kinematics of a URDF that has been read, as a text that Pinocchio takes."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Collection
 
@@ -13,8 +11,6 @@ from dh2urdf.conversions.read.kinematic_tree import KinematicTree
 from dh2urdf.conversions.write import inertial_element
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["as_pinocchio_takes", "bare_model"]
 
 NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
 

@@ -4,8 +4,6 @@ What a URDF and an MJCF have in common, read without interpretation: every joint
 place in the file that messages name.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -20,18 +18,6 @@ from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array, inverse
-
-__all__ = [
-    "MOVING",
-    "KinematicTree",
-    "Mimic",
-    "Step",
-    "TreeJoint",
-    "TreeLink",
-    "choose_ends",
-    "find_path",
-    "rigid_part",
-]
 
 MOVING = ("revolute", "continuous", "prismatic")
 """Kinds of joints that a serial chain takes."""

@@ -1,7 +1,5 @@
 """Elements of a URDF read one by one; what has an obvious reading is mended where it stands."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Collection, Sequence
@@ -18,8 +16,6 @@ from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, TENSOR, 
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["FLOAT", "UrdfReader"]
 
 KINDS = (*MOVING, "fixed", "floating", "planar", "spherical")
 

@@ -1,15 +1,11 @@
 """Names of links and joints in messages."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable
 
 from dh2urdf.dh_io.files import shown
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError
-
-__all__ = ["link_name", "listed", "no_such"]
 
 
 def listed(names: Iterable[str]) -> str:

@@ -1,7 +1,5 @@
 """An MJCF's bodies and joints, as MuJoCo compiles them; the only importer of mujoco here."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any
@@ -18,8 +16,6 @@ from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
-
-__all__ = ["read_mjcf"]
 
 NUMBERS = (
     "body_pos",

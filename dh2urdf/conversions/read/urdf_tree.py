@@ -1,7 +1,5 @@
 """A URDF's links and joints as one tree, with every fault named by element and line."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NoReturn
 
@@ -19,8 +17,6 @@ from dh2urdf.conversions.read.mended_elements import UrdfReader
 from dh2urdf.conversions.read.naming import listed
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
-
-__all__ = ["count_elements", "read_urdf"]
 
 
 def read_urdf(

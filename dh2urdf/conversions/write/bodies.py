@@ -5,8 +5,6 @@ Thickness follows what a link has to carry, the length of the arm from there on,
 and a crane look alike and an arm on a long track stays an arm.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -20,8 +18,6 @@ from dh2urdf.conversions.write.link_paths import link_paths
 from dh2urdf.conversions.write.table_chain import link_frames
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.transforms import Array
-
-__all__ = ["Body", "draw_bodies", "frame_along"]
 
 LINK_RADIUS = 0.042
 """Radius of the first link's capsule, as a share of the arm's length."""

@@ -4,8 +4,6 @@
 MathWorks' Robotics System Toolbox. The variable of every joint is the table's q.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -15,8 +13,6 @@ from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import matlab, one_line
 from dh2urdf.transforms import Array
-
-__all__ = ["CONSTRUCTORS", "matlab_corke", "matlab_rst", "rtb_python"]
 
 
 def rtb_python(table: DHTable) -> str:

@@ -13,17 +13,6 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import INERTIA, NUMBER
 from dh2urdf.transforms import Array
 
-__all__ = [
-    "TENSOR",
-    "Inertial",
-    "balanced",
-    "inertial_element",
-    "six_of",
-    "tensor",
-    "why_impossible",
-    "without_noise",
-]
-
 TENSOR = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 """Attributes of an ``<inertia>``: the upper triangle of the tensor, row by row."""
 

@@ -6,16 +6,12 @@ common normal (the frame's origin), then the common normal of length a to the ne
 any fixed step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.table_chain import LinkFrames
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["link_paths"]
 
 FAR = 2.5
 """A table whose lengths sum to this many times the arm's size has common normals far outside

@@ -1,7 +1,5 @@
 """From a DH table to a serial chain, and to the frames in which the URDF puts its links."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -11,8 +9,6 @@ from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHRow, DHTable
 from dh2urdf.transforms import Array
-
-__all__ = ["FLIP", "LinkFrames", "dh_to_chain", "link_frames"]
 
 FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
 """``Rot_x(pi)`` exactly: turns an axis round, ``FLIP Z(q) FLIP = Z(-q)``."""

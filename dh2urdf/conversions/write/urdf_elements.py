@@ -1,7 +1,5 @@
 """From a DH table to the text of a URDF; every rule here has a consumer that breaks without it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import replace
@@ -26,8 +24,6 @@ from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import XML_FORBIDDEN
 from dh2urdf.transforms import Array, matrix_to_rpy
-
-__all__ = ["MARK", "UrdfOptions", "default_limits", "urdf_text_and_warnings"]
 
 MATERIALS = {
     "base": "0.24 0.30 0.40 1.0",

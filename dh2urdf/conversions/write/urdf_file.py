@@ -1,7 +1,5 @@
 """A DH table becomes a URDF file that was loaded back and compared before it was kept."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,10 +7,7 @@ from pathlib import Path
 from dh2urdf.conversions.write.urdf_elements import MARK, UrdfOptions, urdf_text_and_warnings
 from dh2urdf.dh_io import TableLike, as_table, atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of
-from dh2urdf.dh_io.xml import embedded_table
 from dh2urdf.doors import instance
-
-__all__ = ["ConversionReport", "embedded_table", "urdf_text", "verified_urdf", "write_urdf"]
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,8 @@
 """What may be chosen about a written URDF."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from dh2urdf.doors import flag, integer, number
-
-__all__ = ["UrdfOptions"]
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,5 @@
 """A written URDF loaded back by Pinocchio and compared with the DH product, frame by frame."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -11,8 +9,6 @@ from dh2urdf.conversions.write.urdf_elements import default_limits
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import Array, pose_error
-
-__all__ = ["LARGEST_ERROR", "random_configurations", "verify_urdf_text"]
 
 LARGEST_ERROR = 1e-9
 """Largest FK difference [rad, and m per m of arm beyond 1 m] of a file with whole floats."""

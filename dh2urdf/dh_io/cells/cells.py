@@ -1,7 +1,5 @@
 """Cells to values: the layer between the raw document and the rows."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -14,8 +12,6 @@ from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
 from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import XML_FORBIDDEN
-
-__all__ = ["Cells", "Context", "found"]
 
 _SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
 _NUMBER_MUST = re.compile(r"^-?[\d.e+-]+ (?=must)")

@@ -15,8 +15,6 @@ from dh2urdf.bounds import DEPTH, NODES, TABLE_BYTES
 from dh2urdf.doors import found as value
 from dh2urdf.exceptions import TableFileError
 
-__all__ = ["Items", "Keys", "LineStarts", "Mark", "Node", "Report", "Scalar"]
-
 MAX_SHOWN = 25
 """Faults listed one by one; a file with more has one cause that shows among the first."""
 

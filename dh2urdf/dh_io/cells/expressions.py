@@ -16,8 +16,6 @@ in a file in degrees ``pi/2`` is 90 and ``pi/2 - 10`` is 80. (In a length or pla
 3.14159...) Lengths and angles do not mix.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable
@@ -38,8 +36,6 @@ from dh2urdf.dh_io.cells.values import (
     scale,
     times,
 )
-
-__all__ = ["PI_NAMES", "Lookup", "evaluate", "parse_cell", "plain_text", "to_float"]
 
 PI_NAMES = ("pi", "PI", "Pi", "π")
 

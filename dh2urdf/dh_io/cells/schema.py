@@ -1,26 +1,11 @@
 """Which keys a table file has, what else they are called, and what those words might mean."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Iterable, Mapping
 
 from dh2urdf.dh import DHConvention, JointType
 from dh2urdf.dh_io.cells.units import Kind
-
-__all__ = [
-    "CONVENTIONS",
-    "JOINT_TYPES",
-    "MISUSED_KEYS",
-    "ROW_KEYS",
-    "ROW_KINDS",
-    "TABLE_KEYS",
-    "canonical",
-    "did_you_mean",
-    "nearest",
-    "of_previous_link",
-]
 
 TABLE_KEYS = (
     "name", "source", "checked", "convention", "units", "constants", "base", "tool", "joints",

@@ -4,13 +4,9 @@
 a cell is converted from its decimal text with a hundred digits before it becomes a float.
 """
 
-from __future__ import annotations
-
 from decimal import Context, Decimal, DivisionByZero, InvalidOperation, Overflow
 from enum import StrEnum
 from typing import NamedTuple
-
-__all__ = ["EXACT", "PI", "SI", "UNIT_SIZES", "Kind", "Units", "decimal_text"]
 
 EXACT = Context(prec=100, traps=[DivisionByZero, InvalidOperation, Overflow])
 """Arithmetic of cells: a hundred digits, so that one rounding remains, the one to a float."""

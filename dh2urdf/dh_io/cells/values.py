@@ -14,19 +14,6 @@ from dh2urdf.bounds import EXPONENT
 from dh2urdf.dh_io.cells.units import EXACT, Kind
 from dh2urdf.exceptions import TableError
 
-__all__ = [
-    "FUNCTIONS",
-    "NOUNS",
-    "ExpressionError",
-    "Value",
-    "call",
-    "failure",
-    "over",
-    "power",
-    "scale",
-    "times",
-]
-
 FUNCTIONS = ("sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "hypot", "abs")
 
 NOUNS = {Kind.ANGLE: "an angle", Kind.LENGTH: "a length", Kind.NUMBER: "a plain number"}

@@ -1,13 +1,9 @@
 """Comma, semicolon or tab separated values to a document."""
 
-from __future__ import annotations
-
 import csv
 
 from dh2urdf.dh_io.cells.document import Keys, Mark, Report, Scalar
 from dh2urdf.dh_io.formats.grid import Grid, grid_document, is_header, metadata, separator
-
-__all__ = ["read_csv"]
 
 
 def read_csv(text: str, report: Report) -> Keys:

@@ -9,8 +9,6 @@ The header's order is free and its columns may carry units, ``d [mm]``, ``alpha 
     constants.l2: 400
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import re
@@ -30,18 +28,6 @@ from dh2urdf.dh_io.cells.schema import (
     of_previous_link,
 )
 from dh2urdf.dh_io.cells.units import UNIT_SIZES, Kind, unit_kind, unit_name
-
-__all__ = [
-    "INDEX",
-    "Grid",
-    "grid_document",
-    "heading",
-    "is_header",
-    "metadata",
-    "separator",
-    "unit_words",
-    "without_name",
-]
 
 _META = re.compile(r"[\s#>*+`-]*([\w.]+)[*`]*\s*[:=]\s*[*`]*\s*(\S.*?)\s*$")
 _GROUPS = ("units", "base", "tool", "constants")

@@ -1,15 +1,11 @@
 """JSON to a document: strict, with the place of each cell, and bounded in depth."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from json import JSONDecodeError, JSONDecoder
 from typing import NoReturn, TypeVar
 
 from dh2urdf.dh_io.cells.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
-
-__all__ = ["read_json"]
 
 _SPACE = re.compile(r"[ \t\n\r]*")
 _NUMBER = re.compile(r"-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][-+]?\d+)?")

@@ -1,14 +1,10 @@
 """The DH table of a Markdown page to a document; the page's other lines are prose."""
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
 
 from dh2urdf.dh_io.cells.document import Keys, Mark, Report, Scalar
 from dh2urdf.dh_io.formats.grid import Grid, grid_document, is_header, metadata
-
-__all__ = ["read_markdown"]
 
 _RULE = re.compile(r"\s*\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)*\|?\s*")
 _BAR = re.compile(r"(?<!\\)\|")

@@ -1,14 +1,10 @@
 """TOML to a document. The standard library gives no places; they are found by search."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from typing import Any
 
 from dh2urdf.dh_io.cells.document import Items, Keys, LineStarts, Mark, Node, Report, Scalar
-
-__all__ = ["read_toml"]
 
 _AT = re.compile(r"(.*?)\s*\(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
 _HEADER = re.compile(r"(\[\[?)([^\[\]\n]*)\]\]?")

@@ -11,7 +11,6 @@ from dh2urdf.exceptions import TableFileError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["read_yaml", "yaml_values"]
 
 _NULLS = ("~", "null", "Null", "NULL")
 _NUMBER = re.compile(r"[-+]?(\.inf|\.nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGNORECASE | re.ASCII)

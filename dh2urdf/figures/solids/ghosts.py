@@ -1,7 +1,5 @@
 """Other configurations drawn behind the arm: those that look alike share a colour and a line."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -11,8 +9,6 @@ from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import BRANCH_COLOURS
 from dh2urdf.figures.style import INK, plain
 from dh2urdf.transforms import Array
-
-__all__ = ["Ghost", "group_ghosts", "merged_name"]
 
 ALIKE = 1e-6
 """Distance of all joints, as a share of the arm's size, up to which two arms look alike."""

@@ -6,8 +6,6 @@ again, clipped to where it is in front. The depth of a solid along a ray has a c
 ray is put into the solid's own frame.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,8 +15,6 @@ from dh2urdf.conversions.write import Body
 from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import Part, hull_points
 from dh2urdf.transforms import Array
-
-__all__ = ["Occlusion", "front_depth", "occlusion"]
 
 RASTER = 200
 """Rays along the longer side of the picture."""

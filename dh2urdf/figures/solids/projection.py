@@ -1,7 +1,5 @@
 """Orthographic projection: two dot products give the picture, a third the depth."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,8 +8,6 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.transforms import Array
-
-__all__ = ["View", "best_view"]
 
 ELEVATION = 22.0
 """Height of the eye above the horizon [deg] where nobody asks for another."""

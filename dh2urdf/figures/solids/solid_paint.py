@@ -1,7 +1,5 @@
 """Paint of solids: pale bodies with a dark outline, ghosts in one colour, the floor."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,8 +11,6 @@ from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import SHEEN, Face, Part
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
-
-__all__ = ["BODY", "Paint", "floor_discs", "ghost_paint", "paint_floor", "paint_parts"]
 
 ToPoints = Callable[[Array], Array]
 """Picture coordinates (..., 2) in metres to points on the sheet."""

@@ -3,8 +3,6 @@
 A cylinder, a sphere or a box is convex, so what it shows is one polygon.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -14,8 +12,6 @@ from numpy.typing import NDArray
 from dh2urdf.conversions.write import Body
 from dh2urdf.figures.solids.projection import View
 from dh2urdf.transforms import Array
-
-__all__ = ["SHEEN", "Face", "Part", "arm_parts", "convex_hull", "hull_points", "outlines"]
 
 AROUND = 48
 """Corners of a circle."""

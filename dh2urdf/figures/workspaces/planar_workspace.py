@@ -1,7 +1,5 @@
 """The planar RR arm: the surface of its poses (x, y, phi) and the annulus of its places."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -14,8 +12,6 @@ from dh2urdf.figures.style import FAINT, INK, MUTED, RC, Picture, mix, mpl, plai
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace import PlanarArm, caption
-
-__all__ = ["planar_picture"]
 
 Flags = NDArray[np.bool_]
 Shape = tuple[float, Array, str]

@@ -1,7 +1,5 @@
 """A section through an arm's reach: how many branches, and from how many sides."""
 
-from __future__ import annotations
-
 import textwrap
 from typing import Any
 
@@ -14,8 +12,6 @@ from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace import Section, Task, caption, task_of
-
-__all__ = ["section_picture"]
 
 Counts = NDArray[np.int64]
 

@@ -1,7 +1,5 @@
 """Pictures of what an arm reaches, chosen by its kind."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 
@@ -24,8 +22,6 @@ from dh2urdf.workspace import (
     section,
     task_of,
 )
-
-__all__ = ["workspace_figure"]
 
 FINE, COARSE = 221, 75
 """Points along a side of the map of branches and of the map of orientations."""

@@ -5,8 +5,6 @@ lengths are divided by a power of two, which rounds nothing, so that an arm of m
 of a thousand kilometres are solved as the one of a metre is.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import replace
@@ -15,8 +13,6 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.transforms import Array, rot_z, trans
-
-__all__ = ["hold", "in_own_unit", "lengths_in", "part", "without_end"]
 
 NORMAL = (2.0**-4, 2.0**4)
 """Lengths [m] of arms whose unit is the metre."""

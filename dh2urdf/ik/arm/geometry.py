@@ -5,8 +5,6 @@ they are snapped, and the Denavit-Hartenberg form of the snapped lines has exact
 which is what the closed forms are written in. The residual is always measured on the exact chain.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,8 +16,6 @@ from dh2urdf.ik.arm.mobility import spare_joints
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
 from dh2urdf.transforms import Array, inverse, pose_error
-
-__all__ = ["AxisLines", "DHForm", "moves_freely", "pose_along", "row_motion"]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,8 +3,6 @@
 A pose may be replaced by the one with the nearest rotation, where that is asked.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -16,8 +14,6 @@ from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.poses import POSE, check_pose, rounded_off
 from dh2urdf.transforms import Array
-
-__all__ = ["as_configuration", "many_poses", "one_pose"]
 
 FirstBad = Callable[[Array], int]
 """Index of the first of some poses (m, 4, 4) that is none, or -1."""

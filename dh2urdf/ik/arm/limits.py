@@ -1,7 +1,5 @@
 """Joint limits and full turns: which of the angles q + 2 pi k is meant."""
 
-from __future__ import annotations
-
 import itertools
 import math
 
@@ -11,16 +9,6 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.tolerances import LIMIT_SLACK
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "all_turns",
-    "inside",
-    "middle",
-    "near_ranges",
-    "plain_ranges",
-    "turn_counts",
-    "turned_to",
-]
 
 TWO_PI = 2.0 * math.pi
 

@@ -1,7 +1,5 @@
 """How many motions a chain has in nearly every configuration: joints to spare, weak directions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
@@ -9,8 +7,6 @@ from dh2urdf.ik.arm.singular_families import task_jacobian
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import NO_RANK, SPARE_RANK, WEAK_RANK
 from dh2urdf.transforms import Array
-
-__all__ = ["TRIALS", "hardly_moves", "random_configurations", "spare_joints"]
 
 TRIALS = 4
 """Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""

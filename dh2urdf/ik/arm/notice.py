@@ -1,14 +1,10 @@
 """The wait for kernels that compile: a word to the user, and no garbage collection meanwhile."""
 
-from __future__ import annotations
-
 import gc
 import logging
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
-
-__all__ = ["notice_if_slow"]
 
 PATIENCE = 2.0
 """Seconds of silence: loading from the cache takes less, compiling takes more."""

@@ -9,8 +9,6 @@ from numpy.typing import NDArray
 
 from dh2urdf.transforms import Array
 
-__all__ = ["IntArray", "Outputs"]
-
 IntArray = NDArray[np.int64]
 
 

@@ -4,8 +4,6 @@ Where joints are free, the solutions form a curve (seldom a surface) in joint sp
 moved along it by the kernels for self-motions, on the chain whose other joints are held.
 """
 
-from __future__ import annotations
-
 import itertools
 from functools import cached_property
 
@@ -18,8 +16,6 @@ from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.transforms import Array
-
-__all__ = ["Family", "slide_to_seed", "task_error", "task_jacobian"]
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two members are one, as two solutions are."""

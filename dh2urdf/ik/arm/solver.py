@@ -5,8 +5,6 @@ computing anything per pose, what keeps the family from covering a chain; ``solv
 the caller's arrays in one jitted call that holds no interpreter lock.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from enum import StrEnum
 from functools import cached_property
@@ -16,19 +14,6 @@ from typing import Any, ClassVar, Protocol
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.arm.outputs import Outputs
 from dh2urdf.transforms import Array
-
-__all__ = [
-    "BRANCH_WORDS",
-    "BatchKernel",
-    "BranchWords",
-    "Others",
-    "Solver",
-    "SolverBase",
-    "Task",
-    "branch_words_of",
-    "imported",
-]
-
 
 BatchKernel = Callable[..., None]
 """A jitted function: constants, poses, ``within_limits``, then the five output arrays."""

@@ -1,15 +1,11 @@
 """The table of solvers, best first, and the choice of one for a chain."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm.mobility import hardly_moves
 from dh2urdf.ik.arm.solver import Others, Solver, SolverBase, Task, imported
-
-__all__ = ["SOLVERS", "SolverRow", "select_solver"]
 
 
 @dataclass(frozen=True)

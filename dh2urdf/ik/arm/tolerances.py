@@ -1,25 +1,5 @@
 """Every threshold of the solvers, each with its unit and its reason."""
 
-from __future__ import annotations
-
-__all__ = ["ACCEPT", "EXACT", "FAMILY_RANK", "FAMILY_STEP", "FORM_ERROR", "LIMIT_SLACK"]
-__all__ += [
-    "INTERVAL_END",
-    "NEAR",
-    "NEARLY_SINGULAR",
-    "NOISE_MOTION",
-    "NOMINAL",
-    "NO_RANK",
-    "PATH_JUMP",
-    "REGULAR",
-    "SHARP",
-    "SLACK",
-    "SLACK_OF_NEAR",
-    "SNAP",
-    "SPARE_RANK",
-    "WEAK_RANK",
-]
-
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certificate/certify.py``."""
 

@@ -1,7 +1,5 @@
 """Six joints whose axes give frames in which the equations come apart: closed forms."""
 
-from __future__ import annotations
-
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     NOMINAL,
@@ -13,8 +11,6 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
 )
-
-__all__ = ["ClosedForm", "not_six_revolute"]
 
 
 class ClosedForm(SolverBase):

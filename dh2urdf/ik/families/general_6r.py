@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from dh2urdf.kernels.general_6r import Arm
 from dh2urdf.ik.families.closed_form import not_six_revolute
 
-__all__ = ["General6R"]
-
 TRIALS = 6
 """Random poses by which a plan is tried."""
 

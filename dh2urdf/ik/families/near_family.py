@@ -1,7 +1,5 @@
 """Six revolute joints that are nearly of a closed-form family: the drawing as seed."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import NamedTuple
@@ -27,9 +25,6 @@ from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
-
-__all__ = ["NearFamily"]
-
 
 WIDTH = 48
 """Most candidates of a pose in doubt: general solver, nominal arm, and what lies beside them."""

@@ -19,8 +19,6 @@ from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.arm import Task, as_configuration, in_own_unit, lengths_in, one_pose
 from dh2urdf.transforms import Array
 
-__all__ = ["NumericProblem", "NumericSolutions"]
-
 USUAL_STARTS = 50
 """Starts after which the search is given up, when the caller gives no other number."""
 

@@ -5,8 +5,6 @@ the ZYZ angles of its last step are :func:`dh2urdf.transforms.matrix_to_zyz`. ``
 same kernels on arms with two or three parallel axes (:class:`PlanarArm`).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -19,8 +17,6 @@ from dh2urdf.exceptions import PoseError
 from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.transforms import Array, check_pose, inverse
-
-__all__ = ["PlanarArm", "planar_reach", "planar_rr_ik", "planar_rrr_ik", "wrist_centre"]
 
 RIM = 1e-12
 """Relative excess over the rim of the annulus that is rounding of the point or the lengths."""

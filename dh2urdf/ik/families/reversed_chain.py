@@ -4,8 +4,6 @@ Reversed, the chain ``T_tool_base`` has the same joints in the opposite order, a
 shoulder becomes a spherical wrist.
 """
 
-from __future__ import annotations
-
 from typing import ClassVar
 
 import numpy as np
@@ -15,8 +13,6 @@ from dh2urdf.ik.arm import Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
-
-__all__ = ["SphericalShoulder", "ThreeParallelReversed"]
 
 
 class ReversedSolver(SolverBase):

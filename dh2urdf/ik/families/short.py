@@ -1,7 +1,5 @@
 """Chains of one to five joints, any kinds and geometry: the closed loop as a linear system."""
 
-from __future__ import annotations
-
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -11,8 +9,6 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task, spare_joints
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["ShortChain"]
 
 MOST_JOINTS = 5
 

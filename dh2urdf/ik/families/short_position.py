@@ -1,7 +1,5 @@
 """One to three joints that put the tool's origin at a point: the task ``position``."""
 
-from __future__ import annotations
-
 import itertools
 
 import numpy as np
@@ -9,8 +7,6 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along, spare_joints
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["ShortPosition", "axis_frames"]
 
 MOST_JOINTS = 3
 

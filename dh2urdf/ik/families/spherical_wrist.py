@@ -1,7 +1,5 @@
 """Six joints, the last three with axes through one point: lecture notes 8.3, any first three."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 import numpy as np
@@ -19,8 +17,6 @@ from dh2urdf.ik.arm import (
     row_motion,
 )
 from dh2urdf.ik.families.closed_form import ClosedForm
-
-__all__ = ["SphericalWrist"]
 
 
 class SphericalWrist(ClosedForm):

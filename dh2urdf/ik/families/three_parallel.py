@@ -1,14 +1,10 @@
 """Six revolute joints with three neighbouring parallel axes, 1, 2, 3 or 2, 3, 4: UR and its kin."""
 
-from __future__ import annotations
-
 from functools import cached_property
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import NOMINAL, AxisLines, BatchKernel, Task, moves_freely, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm, not_six_revolute
-
-__all__ = ["ThreeParallel"]
 
 
 class ThreeParallel(ClosedForm):

@@ -1,13 +1,9 @@
 """Three sliding joints with two or three turning ones: the orientation is solved first."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import Others, SolverBase, Task, spare_joints
-
-__all__ = ["ThreeSlides"]
 
 SLIDES = 3
 

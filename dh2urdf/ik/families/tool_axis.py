@@ -3,8 +3,6 @@
 A virtual joint about the tool's z makes it a full pose of a chain with one joint more.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -23,8 +21,6 @@ from dh2urdf.ik.arm import (
     spare_joints,
 )
 from dh2urdf.transforms import Array
-
-__all__ = ["ToolAxis", "with_tool_joint"]
 
 
 def with_tool_joint(chain: SerialChain) -> SerialChain:

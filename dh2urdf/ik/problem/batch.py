@@ -16,7 +16,6 @@ from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 if TYPE_CHECKING:
     from dh2urdf.transforms import Array
 
-__all__ = ["IKBatch"]
 
 ARRAYS = ("targets", "q", "residual", "count", "branch_code", "free_mask", "pose_change")
 """The fields of a batch that have a row for each pose."""

@@ -1,7 +1,5 @@
 """Joints that a caller holds: which they are, and their checked values."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 
@@ -12,8 +10,6 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.doors import finite_array, instance, integer
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError
 from dh2urdf.transforms import Array
-
-__all__ = ["Locked", "held_values"]
 
 Held = float | Array
 

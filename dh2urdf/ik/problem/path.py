@@ -4,8 +4,6 @@ Dynamic programming over all solutions of all poses (Bellman's principle): of al
 the branches, the one with the fewest breaks and, among those, the least joint motion.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,8 +13,6 @@ from dh2urdf.doors import number
 from dh2urdf.ik.arm import PATH_JUMP, TWO_PI, Family, middle, turn_counts, turned_to
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.transforms import Array
-
-__all__ = ["IKPath", "PathFinder", "Stage"]
 
 MOST_STATES = 512
 """Configurations (solutions times turns) followed side by side."""

@@ -34,8 +34,6 @@ from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import HeldSolver
 from dh2urdf.transforms import Array
 
-__all__ = ["ForwardKinematics", "Problem", "Progress"]
-
 ForwardKinematics = Callable[[Array], Array]
 """Configurations (k, n) to poses ``T_base_tool`` (k, 4, 4)."""
 

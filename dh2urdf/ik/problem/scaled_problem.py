@@ -21,8 +21,6 @@ from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.ik.redundant import HeldSolver
 from dh2urdf.transforms import Array
 
-__all__ = ["ScaledProblem"]
-
 
 class ScaledProblem(Problem):
     """A problem of a chain in metres, solved by the inner one of the chain in its own unit."""

@@ -4,8 +4,6 @@ The arm's closest approach is found by damped least squares from many starts; th
 empty result and is no part of finding solutions.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -14,8 +12,6 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part
 from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
-
-__all__ = ["beyond_limits", "closest", "shortfall"]
 
 FAR = 1e6
 """Distance, in sizes of the arm, at which the arm is a point."""

@@ -13,8 +13,6 @@ from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, Outputs, as_configuration
 from dh2urdf.transforms import Array
 
-__all__ = ["Answering", "IKSolutions", "branch_name", "joints_of_mask"]
-
 
 def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
     """Readable name of a branch code; empty where the family has no names (-1)."""

@@ -1,7 +1,5 @@
 """A path of an arm with one joint to spare: as short as its self-motions allow."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -10,8 +8,6 @@ from dh2urdf.ik.problem.path import BREAK, MOST_STATES, IKPath, PathFinder, Stag
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.transforms import Array
-
-__all__ = ["find_path"]
 
 SAMPLES = 64
 """Values of the swept joint at every pose."""

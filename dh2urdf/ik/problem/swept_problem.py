@@ -1,7 +1,5 @@
 """Poses of an arm with one joint to spare: what is nearest to a seed lies between the samples."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.ik.arm import turned_to
@@ -9,8 +7,6 @@ from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.redundant import SweptJoint, nearest_members, reach_intervals
 from dh2urdf.transforms import Array
-
-__all__ = ["SweptProblem"]
 
 
 class SweptProblem(Problem):

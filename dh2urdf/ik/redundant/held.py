@@ -1,7 +1,5 @@
 """A chain with joints held at a value: a solver that gives whole configurations back."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np
@@ -10,8 +8,6 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik.arm import Outputs, Solver, Task, branch_words_of, hold, select_solver
 from dh2urdf.transforms import Array
-
-__all__ = ["HeldJoints"]
 
 
 class HeldJoints:

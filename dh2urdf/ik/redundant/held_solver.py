@@ -1,14 +1,10 @@
 """What a solver with held joints is: the held values are an argument, not a part of it."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.arm import Outputs
 from dh2urdf.transforms import Array
-
-__all__ = ["HeldSolver"]
 
 
 class HeldSolver:

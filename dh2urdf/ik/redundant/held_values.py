@@ -1,7 +1,5 @@
 """Which solver a chain with held joints gets, and those that are not a spherical triple."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
@@ -11,8 +9,6 @@ from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
 from dh2urdf.transforms import Array
-
-__all__ = ["select_held"]
 
 KEPT_VALUES = 64
 """Solvers for single held values kept ready, the latest ones."""

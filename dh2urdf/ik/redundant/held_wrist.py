@@ -14,8 +14,6 @@ from dh2urdf.ik.families import SphericalWrist
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array, inverse, rot_z, trans
 
-__all__ = ["HeldWrist"]
-
 TRIAL_VALUE = 0.731
 """Value of the held joint [rad or m] at which the geometry of the rest is looked at: one that
 means nothing to any arm."""

@@ -7,8 +7,6 @@ the joints that are held are the only ones to move along the family. Where the p
 none of the values, as on the rim of the workspace, a numeric search looks for one member.
 """
 
-from __future__ import annotations
-
 import itertools
 from functools import cached_property
 
@@ -33,8 +31,6 @@ from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held import HeldJoints
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.transforms import Array
-
-__all__ = ["RedundantChain"]
 
 STARTS = 8
 """Starts of the numeric search; a member of a family is soon found, if there is one."""

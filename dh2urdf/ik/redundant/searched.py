@@ -4,16 +4,11 @@ The pose then says little of a combination of joints, and equations that are sol
 other lose what it says to rounding.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import SLACK, Outputs, Solver, Task, branch_words_of, task_error, task_jacobian
 from dh2urdf.transforms import Array
-
-__all__ = ["SearchedSolver", "nearly_reaching"]
-
 
 STARTS = 64
 STEPS = 60

@@ -5,8 +5,6 @@ joint. Here they are followed: to the member nearest to a seed, into the joint l
 ends of the intervals of the swept joint in which the pose is reached.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Protocol
 
@@ -27,8 +25,6 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
-
-__all__ = ["few_members", "inside_members", "nearest_members", "reach_intervals", "sample_values"]
 
 VALUES = 128
 """Values of the swept joint at which curves are looked for."""

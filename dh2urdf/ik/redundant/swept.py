@@ -16,8 +16,6 @@ from dh2urdf.ik.redundant.held_wrist import HeldWrist
 from dh2urdf.ik.redundant.self_motion import few_members, sample_values
 from dh2urdf.transforms import Array
 
-__all__ = ["SAMPLES", "SweptJoint"]
-
 SAMPLES = 16
 """Values of the swept joint, when the caller gives no other number."""
 

@@ -1,7 +1,5 @@
 """Solutions of one pose towards a seed: full turns, residuals, order."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -10,8 +8,6 @@ from dh2urdf.kernels.certificate.certify import TWO_PI
 from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
 from dh2urdf.kernels.certificate.newton import pose_residual
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-
-__all__ = ["measure_all", "measure_and_sort", "turn_to"]
 
 
 @kernel

@@ -7,17 +7,12 @@ A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joi
 slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.certificate.newton import POLISH, polish, pose_residual
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
-
-__all__ = ["ACCEPT", "ANYWHERE", "CLUSTER", "NO_JOINT", "ROUNDING", "TWO_PI", "copy_rows"]
-__all__ += ["finish_pose", "move", "principal", "same", "turn_inside"]
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""

@@ -5,8 +5,6 @@ a redundant chain can do while its tool stays is left alone. Position and turn c
 positions are divided by ``unit``, a length of the arm's size.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -14,9 +12,6 @@ import numpy as np
 from dh2urdf.kernels.certificate.newton import damped_step, residual_of, turn_between, work_array
 from dh2urdf.kernels.chain import jacobian_rows
 from dh2urdf.kernels.numbers import inner_kernel
-
-__all__ = ["POSE", "add_transposed", "error_and_jacobian", "make_damped", "pose_and_jacobian"]
-__all__ += ["reduce_to_task", "restore", "solve_damped"]
 
 RESTORED = 1e-13
 """Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""

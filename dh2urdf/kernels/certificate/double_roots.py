@@ -1,7 +1,5 @@
 """Solutions that cannot be told apart at the accuracy of a residual become one."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,8 +13,6 @@ from dh2urdf.kernels.certificate.newton import (
     pose_residual,
 )
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
-
-__all__ = ["merge_solutions"]
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""

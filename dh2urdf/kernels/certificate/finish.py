@@ -1,7 +1,5 @@
 """From candidates to solutions: limits, free joints, one of each family."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ANYWHERE, finish_pose, turn_inside
@@ -9,8 +7,6 @@ from dh2urdf.kernels.certificate.double_roots import merge_solutions
 from dh2urdf.kernels.certificate.newton import work_array
 from dh2urdf.kernels.certificate.singular_families import free_joints, one_of_each_family
 from dh2urdf.kernels.numbers import inlined_kernel, kernel
-
-__all__ = ["ALL_MEMBERS", "finish_batch", "finish_families"]
 
 ALL_MEMBERS = np.empty(0)
 """In the place of rest values: all members of a family stay."""

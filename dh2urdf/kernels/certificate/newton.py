@@ -5,17 +5,12 @@ slides and 0.0 where it turns, lower bound, upper bound (infinite where there is
 is a pose (4, 4), or a point (3,) for the tool's origin: then only the position counts.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.chain import joint_times_link, load_pose
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
-
-__all__ = ["HOPELESS", "MAX_TURN", "POLISH", "damped_step", "factor", "normal_equations", "polish"]
-__all__ += ["pose_residual", "residual_of", "substitute", "turn_between", "work_array"]
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""

@@ -4,8 +4,6 @@ The chain is ``L_0 Z_1 L_1 ... Z_6 L_6 = target``. Angles are held as cosines an
 turned by the tangent of the step, so that no trigonometric function is called.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -19,8 +17,6 @@ from dh2urdf.kernels.numbers import (
     solve_upper,
     vector_kernel,
 )
-
-__all__ = ["chain_frames", "newton_step", "pose_error"]
 
 FRAME = 12 * LANES
 LARGEST_STEP = 0.5

@@ -8,8 +8,6 @@ The chain's joints follow the values q (n,) of the user: ``joint values = C q + 
 matrix but for joints that mimic others.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -23,8 +21,6 @@ from dh2urdf.kernels.certificate.damped import (
     solve_damped,
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-
-__all__ = ["find_solutions"]
 
 MOST_STEPS = 60
 """Steps from one start; a good one takes ten to twenty."""

@@ -1,12 +1,8 @@
 """From the solutions of a reversed chain to those of the chain itself."""
 
-from __future__ import annotations
-
 from dh2urdf.kernels.certificate.certify import finish_pose
 from dh2urdf.kernels.certificate.newton import work_array
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-
-__all__ = ["invert_pose", "invert_poses", "reverse_joints", "turn_back"]
 
 
 @inner_kernel

@@ -1,7 +1,5 @@
 """Singular families: which joints can move while the tool stays."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -15,8 +13,6 @@ from dh2urdf.kernels.certificate.newton import (
     substitute,
 )
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
-
-__all__ = ["free_joints", "null_direction", "one_of_each_family"]
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""

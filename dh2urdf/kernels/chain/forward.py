@@ -4,8 +4,6 @@ The chain is ``T = links[0] Z_1(q_1) links[1] ... Z_n(q_n) links[n]`` with ``Z_i
 or ``Trans_z(q_i)`` where ``prismatic[i]``.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -13,14 +11,6 @@ from numba import njit
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
 from dh2urdf.kernels.numbers import helper_kernel
-
-__all__ = [
-    "chain_fk",
-    "chain_fk_batch",
-    "chain_frames_batch",
-    "chain_jacobian_batch",
-    "jacobian_rows",
-]
 
 
 @helper_kernel

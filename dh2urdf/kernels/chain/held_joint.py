@@ -4,8 +4,6 @@ The held joint k disappears into one link, ``links[k] Z_k(v) links[k + 1]``; whe
 or the last of the chain, into the pose, and the rest is the same arm for every value.
 """
 
-from __future__ import annotations
-
 from dh2urdf.kernels.chain.forward import (
     joint_times_link,
     load_pose,
@@ -15,8 +13,6 @@ from dh2urdf.kernels.chain.forward import (
 )
 from dh2urdf.kernels.chain.links import applied_inverse
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
-
-__all__ = ["held_links", "held_pose", "held_poses", "insert_held", "insert_held_batch"]
 
 UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 """The twelve scalars of the identity."""

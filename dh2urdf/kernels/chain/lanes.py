@@ -5,13 +5,9 @@ array, entry e of lane i at ``S[BLOCK * e + i]``, and every loop over the lanes 
 length and no branch, which the compiler turns into vector instructions.
 """
 
-from __future__ import annotations
-
 from numba import njit
 
 from dh2urdf.kernels.numbers import UNCACHED, VECTOR, lane_kernel
-
-__all__ = ["BLOCK", "LARGEST", "ROWS", "cosine_sine", "fits", "lanes_fk", "sincos_lanes"]
 
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14

@@ -1,10 +1,6 @@
 """Points and directions carried by poses."""
 
-from __future__ import annotations
-
 from dh2urdf.kernels.numbers import helper_kernel
-
-__all__ = ["applied", "applied_inverse", "turned_back"]
 
 
 @helper_kernel

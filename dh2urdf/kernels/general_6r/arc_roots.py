@@ -6,16 +6,12 @@ number more (Descartes): none means no root, one means one. Arcs with more chang
 until they are decided, so no root is overlooked.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
-
-__all__ = ["SPANS", "STACK", "roots_on_arc"]
 
 STACK = 40
 """Rows that the halving needs at most."""

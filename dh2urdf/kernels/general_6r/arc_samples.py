@@ -6,16 +6,11 @@ window, for roots that lie where f is small against its largest value. Degree 8 
 samples; what the other seven contradict is the samples' own rounding noise, measured.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
-
-__all__ = ["ARC", "ARC_TAN", "CIRCLE_COS", "CIRCLE_SIN", "TERMS", "circle_arcs", "window_arc"]
-__all__ += ["window_nodes"]
 
 DEGREE = 8
 TERMS = 2 * DEGREE + 1

@@ -1,14 +1,10 @@
 """What the general 6R solver knows of an arm, and the arrays that it works in: one record."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK
 from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import COLUMN, LANES
-
-__all__ = ["ARM_6R", "MOST", "OWN"]
 
 MOST = 3
 """Eliminations kept."""

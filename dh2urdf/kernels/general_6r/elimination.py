@@ -13,16 +13,11 @@ Coefficients come from samples at 0 and +-120 degrees, which determine a functio
 ``a + b cos + c sin`` exactly.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.numbers import inlined, lane_kernel, vector_kernel
-
-__all__ = ["close_loop", "left_coefficients", "line_functions", "move_line_back"]
-__all__ += ["reduce_right", "right_coefficients", "six_equations"]
 
 HALF_SQRT3 = math.sqrt(0.75)
 INV_SQRT3 = math.sqrt(1.0 / 3.0)

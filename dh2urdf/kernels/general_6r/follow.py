@@ -3,8 +3,6 @@
 Everything works on the record `ARM_6R`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -13,8 +11,6 @@ from dh2urdf.kernels.certificate import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.loop_angles import other_joints
 from dh2urdf.kernels.general_6r.resultant import resultants, split_pairs, two_joints
 from dh2urdf.kernels.numbers import LANES, MASK, inlined, null_vectors, vector_kernel
-
-__all__ = ["accounted", "follow", "isolated"]
 
 TWO_PI = 2.0 * math.pi
 

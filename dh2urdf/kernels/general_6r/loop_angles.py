@@ -5,15 +5,11 @@ sines of joints 1 and 2 by linear equations; joint 6 is the rotation that closes
 Arrays ``cosines`` and ``sines`` hold six runs of ``LANES`` doubles, one a joint.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.certificate import chain_frames
 from dh2urdf.kernels.general_6r.elimination import line_functions, move_line_back
 from dh2urdf.kernels.numbers import LANES, MASK, inlined, vector_kernel
-
-__all__ = ["other_joints"]
 
 LEFT = 3 * 12 * LANES
 """Where `chain_frames` leaves ``C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5``."""

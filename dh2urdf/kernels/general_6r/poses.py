@@ -11,8 +11,6 @@ poses; and a pose for which one leaves doubt is looked at again, first with new 
 polynomial is small, then with the next elimination.
 """
 
-from __future__ import annotations
-
 import math
 from typing import TypeAlias
 
@@ -30,8 +28,6 @@ from dh2urdf.kernels.general_6r.roots import (
     simple_roots,
 )
 from dh2urdf.kernels.numbers import entry_kernel, inlined
-
-__all__ = ["Arm", "plan_general_6r", "replan_general_6r", "solve_general_6r"]
 
 Array: TypeAlias = NDArray[np.float64]
 Arm: TypeAlias = NDArray[np.void]

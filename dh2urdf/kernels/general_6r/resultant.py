@@ -12,15 +12,11 @@ of each are left, without v and x^3 v: a 6 x 6 matrix whose null vector is ``(v,
 scale. The determinant of the whole is the product of all diagonal entries met.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, inlined, reduce_columns, vector_kernel
-
-__all__ = ["resultants", "split_pairs", "two_joints"]
 
 SQRT2 = math.sqrt(2.0)
 HALF = 3 * LANES

@@ -3,8 +3,6 @@
 Everything works on the record `ARM_6R`.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -30,8 +28,6 @@ from dh2urdf.kernels.general_6r.elimination import (
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
 from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
-
-__all__ = ["eliminate", "find_roots", "nudge", "place_target", "prepare", "simple_roots"]
 
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""

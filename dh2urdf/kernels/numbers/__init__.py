@@ -1,8 +1,8 @@
-"""Numbers: how kernels are compiled, trigonometric equations, subproblems, lanes.
+"""Numbers: how kernels are compiled, trigonometric equations, lanes.
 
 Read `compiled` first (options of all kernels), then `trig` (equations that closed forms end in),
-`circles` and `subproblems` (1 to 6 of Elias and Wen), `dual_quaternions`, `lanes` (QR of many
-6 x 6 systems side by side), `poses` (checks of many poses).
+`circles` (two equations in two angles), `dual_quaternions`, `lanes` (QR of many 6 x 6 systems
+side by side), `poses` (checks of many poses).
 """
 
 from dh2urdf.kernels.numbers.circles import circle_pair

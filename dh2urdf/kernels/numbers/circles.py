@@ -1,13 +1,9 @@
 """Two equations in two angles: where two ellipses meet, subproblem 6 of Elias and Wen."""
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.numbers.compiled import inner_kernel
 from dh2urdf.kernels.numbers.trig import TINY, linear_trig, trig_roots
-
-__all__ = ["circle_pair"]
 
 
 @inner_kernel

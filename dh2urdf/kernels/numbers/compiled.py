@@ -4,14 +4,9 @@ Division by zero gives an infinity, as in C, instead of a test at every division
 raises. Compiled code is cached, and the interpreter lock is not held.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from numba import njit
-
-__all__ = ["UNCACHED", "VECTOR", "block_kernel", "helper_kernel", "inlined_kernel", "inner_kernel"]
-__all__ += ["kernel", "lane_kernel"]
 
 UNCACHED: dict[str, Any] = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 INNER = {**UNCACHED, "cache": True, "no_cpython_wrapper": True}

@@ -5,13 +5,9 @@ A joint is linear in homogeneous unknowns (u : v): ``u + v k`` turns about z by 
 geometry", 2013). Scalar part first.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
-
-__all__ = ["dual_conjugate", "dual_of_pose", "dual_product", "dual_times_joint"]
 
 
 @kernel

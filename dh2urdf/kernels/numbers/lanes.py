@@ -13,16 +13,11 @@ Loops around those over the lanes count to the length of an array: to a constant
 unroll them, ten times the code to optimise and nothing gained.
 """
 
-from __future__ import annotations
-
 import math
 
 from numba import njit
 
 from dh2urdf.kernels.numbers.compiled import UNCACHED, VECTOR
-
-__all__ = ["COLUMN", "LANES", "MASK", "entry_kernel", "inlined", "null_vectors", "reduce_columns"]
-__all__ += ["solve_upper", "vector_kernel"]
 
 LANES = 24
 COLUMN = 6 * LANES

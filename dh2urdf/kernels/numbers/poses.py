@@ -1,10 +1,6 @@
 """Check of target poses, cheap enough for every call."""
 
-from __future__ import annotations
-
 from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
-
-__all__ = ["first_bad_pose", "pad_solutions"]
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""

@@ -5,16 +5,12 @@ roots is clamped at its rim: a square root of a number that rounding made negati
 residual of the chain decides later whether the merged root is a solution.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 
 from numba import njit
 
 from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel, kernel
-
-__all__ = ["add_square", "arctangent", "linear_trig", "real_quadratic", "root_of_gap", "trig_roots"]
 
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""
@@ -77,24 +73,6 @@ def linear_trig(a, b, d, slack):
         (a * d + b * root) / square,
         (b * d - a * root) / square,
     )
-
-
-@inner_kernel
-def real_quadratic(a, b, c, slack):
-    """Solve ``a x^2 + 2 b x + c = 0``, a > 0, without cancellation; clamped at its rim.
-
-    Returns the count (0, 1 or 2) and the roots.
-    """
-    discriminant = b * b - a * c
-    gap = root_of_gap(discriminant, b * b + abs(a * c), slack)
-    if gap < 0.0:
-        return 0, 0.0, 0.0
-    if gap == 0.0:
-        return 1, -b / a, -b / a
-    root = -b - math.copysign(gap, b)
-    if root == 0.0:
-        return 1, 0.0, 0.0
-    return 2, root / a, c / root
 
 
 @inner_kernel

@@ -19,8 +19,6 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -54,8 +52,6 @@ from dh2urdf.kernels.spherical_wrist import (
     elbow_on_axis,
     tool_to_wrist,
 )
-
-__all__ = ["points_on_curves", "solve_held_wrist", "solve_rough"]
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 24, 26

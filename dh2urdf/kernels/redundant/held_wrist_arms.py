@@ -12,8 +12,6 @@ With ``A = Z1 S0 Z2 S1 Z3 S2`` of one of the four arms, the wrist's ZYZ angles a
 changes signs that cancel: its forward kinematics are the same numbers, and so is its residual.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.certificate import POLISH
@@ -35,8 +33,6 @@ from dh2urdf.kernels.spherical_wrist import (
     minus,
     turned,
 )
-
-__all__ = ["finish_arm", "place_elbows", "place_shoulders"]
 
 T3, T1, T2, T4 = COS, COS + 2, COS + 6, COS + 10
 """Cosines of joint 3 (two elbows), of joints 1, 2, 4, 5 and 6 (one an arm)."""

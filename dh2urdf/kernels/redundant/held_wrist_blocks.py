@@ -6,8 +6,6 @@ singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k &
 ``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from dh2urdf.kernels.numbers import inner_kernel, kernel
@@ -15,8 +13,6 @@ from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rou
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
 from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, settle, write
-
-__all__ = ["solve_held_blocks"]
 
 JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 ROW_OF = np.array(

@@ -12,8 +12,6 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.chain import LARGEST, cosine_sine
@@ -28,8 +26,6 @@ from dh2urdf.kernels.redundant.held_wrist import (
     VARIES,
 )
 from dh2urdf.kernels.spherical_wrist import BLOCK, MASK, WORK, at, column, dot, load_poses
-
-__all__ = ["LEVER", "LOADED", "UPPER", "all_equal", "load_block", "pose_axes", "prepare_block"]
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""

@@ -8,8 +8,6 @@ trust, bound each x; which bounds hold is found by the primal-dual active set me
 Ito and Kunisch 2002).
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -26,8 +24,6 @@ from dh2urdf.kernels.redundant.self_motion import (
     part_inside,
     tangent_near,
 )
-
-__all__ = ["onward", "shorten"]
 
 ROUNDS = 100
 """Newton steps; five to thirty are usual."""

@@ -9,8 +9,6 @@ A solution outside the limits is brought into them in the same way: each step is
 curve that takes most off the joints' excess, in the sense of least squares.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -25,9 +23,6 @@ from dh2urdf.kernels.certificate import (
     solve_damped,
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
-
-__all__ = ["distance2", "dot", "enter_limits", "excess", "nearest_members", "part_inside"]
-__all__ += ["tangent_near", "walk_family"]
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""

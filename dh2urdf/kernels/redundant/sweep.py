@@ -1,10 +1,6 @@
 """A redundant joint at many values: solutions of all values of a pose in one list."""
 
-from __future__ import annotations
-
 from dh2urdf.kernels.numbers import kernel
-
-__all__ = ["gather_samples", "spread_samples"]
 
 
 @kernel

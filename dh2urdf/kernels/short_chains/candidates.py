@@ -5,13 +5,9 @@ the same of joints c and d. A slot that the loop does not have (an absent joint,
 two slides) is zero in every vector.
 """
 
-from __future__ import annotations
-
 import math
 
 from dh2urdf.kernels.numbers import inner_kernel
-
-__all__ = ["add_candidates"]
 
 VANISHING = 1e-9
 """Size, of vectors with a largest entry of 1, at which a condition is no condition: rounding."""

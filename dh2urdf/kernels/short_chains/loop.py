@@ -14,16 +14,11 @@ quadratic equation.
 The matrix is kept by columns: row k of an array is column k of M.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
 from dh2urdf.kernels.numbers import dual_product, dual_times_joint, inner_kernel, kernel
-
-__all__ = ["SAMPLES", "add_sample", "determinant_series", "factor", "loop_columns", "loop_matrix"]
-__all__ += ["null_basis", "vanishes"]
 
 SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""

@@ -3,8 +3,6 @@
 ``x = l1 cos t1 + l2 cos(t1 + t2)``, ``y = l1 sin t1 + l2 sin(t1 + t2)``, ``phi = t1 + t2 + t3``.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -12,8 +10,6 @@ import numpy as np
 from dh2urdf.kernels.certificate import finish_pose, work_array
 from dh2urdf.kernels.chain import applied
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
-
-__all__ = ["planar_rr", "solve_planar"]
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""

@@ -6,8 +6,6 @@ family, the joints that move along it are found by walking a little, and one rep
 the one whose first free joint is at rest.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -31,8 +29,6 @@ from dh2urdf.kernels.short_chains.loop import (
     null_basis,
     vanishes,
 )
-
-__all__ = ["close_loop", "solve_short_chains"]
 
 FEW = 48
 """Room for the candidates of a pose."""

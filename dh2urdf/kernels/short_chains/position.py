@@ -11,8 +11,6 @@ Two turning joints stand on their common normal: ``A = Trans_x(a) Rot_x(alpha)``
     2 a X = |p|^2 - a^2 - |v|^2        sin(alpha) Y = p_z - cos(alpha) v_z
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -28,8 +26,6 @@ from dh2urdf.kernels.certificate import (
 from dh2urdf.kernels.chain import applied, applied_inverse
 from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
-
-__all__ = ["solve_short_positions"]
 
 FEW = 24
 """Room for the candidates of a point."""

@@ -4,8 +4,6 @@
 equations, gives the slides.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -19,8 +17,6 @@ from dh2urdf.kernels.certificate import (
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
-
-__all__ = ["solve_three_slides"]
 
 FLAT = 1e-7
 """Volume of three unit directions that lie in a plane, to rounding of a table's angles."""

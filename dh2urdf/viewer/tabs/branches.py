@@ -13,8 +13,6 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.tabs.html import FAINT, MARKED, NUMBERS, STYLE
 
-__all__ = ["Answer", "answer", "branch_table", "initials"]
-
 SAME = 1e-4
 """Difference [rad or m] up to which the arm stands at a solution."""
 

@@ -1,7 +1,5 @@
 """Small pieces of HTML for the panel; everything that is not ours is escaped."""
 
-from __future__ import annotations
-
 import math
 from html import escape
 
@@ -11,8 +9,6 @@ from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, matrix_to_rpy
 from dh2urdf.viewer.arm_scene import quaternions
-
-__all__ = ["matrix", "message", "pose", "table"]
 
 STYLE = "font-size:12px;line-height:1.5;padding:2px 12px 6px;overflow-x:auto;"
 CELL = "text-align:right;padding:1px 7px;white-space:nowrap;"

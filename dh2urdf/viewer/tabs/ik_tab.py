@@ -1,7 +1,5 @@
 """Inverse kinematics: a target to drag, every solution as a ghost and as a line of a table."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -18,8 +16,6 @@ from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.branches import Answer, answer, branch_table
 from dh2urdf.viewer.tabs.redundancy import Redundancy
 from dh2urdf.workspace import common_axis, task_of
-
-__all__ = ["IKTab"]
 
 MOST_GHOSTS = 16
 """Ghosts at a time: what a chain of six joints can have at most."""

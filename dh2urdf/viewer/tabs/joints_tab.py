@@ -1,7 +1,5 @@
 """The joints: a slider each, within its limits, and where the tip is."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any
@@ -12,8 +10,6 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
-
-__all__ = ["JointsTab"]
 
 TURN = 2 * math.pi
 """Range of a slider [rad] where a joint has no limit."""

@@ -1,7 +1,5 @@
 """The redundant joint of an arm with seven: held at a value, moved through the self-motion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any
@@ -13,8 +11,6 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
-
-__all__ = ["Redundancy"]
 
 
 class Redundancy:

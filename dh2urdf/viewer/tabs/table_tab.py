@@ -1,7 +1,5 @@
 """The DH table: a row explained, cells edited, the URDF to take away."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -15,8 +13,6 @@ from dh2urdf.exceptions import Dh2UrdfError, TableError
 from dh2urdf.grids import number
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
-
-__all__ = ["TableTab"]
 
 NOTHING = "none"
 UNITS = Units("m", "deg")

@@ -12,8 +12,8 @@ from strategies import tables
 
 import dh2urdf
 from dh2urdf.bounds import ANGLE
-from dh2urdf.conversions.write.urdf_file import embedded_table
 from dh2urdf.conversions.write.verify import random_configurations
+from dh2urdf.dh_io.xml import embedded_table
 from dh2urdf.exceptions import OutputExistsError, TableError
 
 BODY = pin.FrameType.BODY

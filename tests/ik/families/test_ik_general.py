@@ -1,7 +1,5 @@
 """Arms that no closed form covers, and all others, through the general 6R solver."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

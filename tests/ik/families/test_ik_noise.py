@@ -1,7 +1,5 @@
 """Arms that are not quite what the drawing says: rounded files and factory calibration."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from functools import cache

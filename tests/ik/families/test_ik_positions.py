@@ -1,7 +1,5 @@
 """Tasks ``position`` and ``position+axis``, and arms with joints to spare."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

@@ -1,7 +1,5 @@
 """Several singularities at once, exactly or nearly: no configuration is lost."""
 
-from __future__ import annotations
-
 import math
 from functools import cache, partial
 

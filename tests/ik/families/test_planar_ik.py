@@ -1,7 +1,5 @@
 """The notes' section 8: planar arms in closed form, the wrist centre, the ZYZ angles."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

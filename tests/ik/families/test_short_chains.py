@@ -1,7 +1,5 @@
 """Chains of one to five joints, any kinds and geometry, for the full pose."""
 
-from __future__ import annotations
-
 import itertools
 import math
 

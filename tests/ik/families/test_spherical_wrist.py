@@ -1,7 +1,5 @@
 """Arms whose last or first three axes meet: complete, certified, exact at the edges."""
 
-from __future__ import annotations
-
 import math
 
 import ik_checks as checks

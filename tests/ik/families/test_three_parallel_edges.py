@@ -1,7 +1,5 @@
 """Double singularities of UR arms: axis 6 in line and the elbow straight or the arm upright."""
 
-from __future__ import annotations
-
 import ik_referee as ref
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Arms of seven joints: one held, one swept, and what lies between the samples."""
 
-from __future__ import annotations
-
 import math
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Real roots of trigonometric polynomials whose roots are known by construction."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The general 6R solver against kinematics written apart from it and a search from many seeds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from general_6r_arms import (

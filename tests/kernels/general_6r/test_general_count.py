@@ -4,8 +4,6 @@ On an arm with a spherical wrist or three parallel axes solutions come in pairs 
 the elimination, so that the general solver meets double roots at every pose.
 """
 
-from __future__ import annotations
-
 import pytest
 from ik_referee import CLOSED_FORMS, GAP, draw, forward, gaps, regularity, search, shipped, solve
 
