@@ -4,35 +4,6 @@ A bound is met where something enters: a file, a cell, an argument, an option. W
 refused with a message that names it; nothing inside has to ask again.
 """
 
-__all__ = [
-    "ANGLE",
-    "APART_BYTES",
-    "APART_SECONDS",
-    "CELL_CHARACTERS",
-    "CELL_DEPTH",
-    "DEPTH",
-    "DPI",
-    "EXPONENT",
-    "INERTIA",
-    "JOINTS",
-    "LENGTH",
-    "LINKS",
-    "NODES",
-    "NUMBER",
-    "ORIENTATIONS",
-    "POINTS",
-    "POSES_BYTES",
-    "ROBOT_BYTES",
-    "ROWS",
-    "SAMPLES",
-    "SNAP",
-    "STARTS",
-    "TABLE_BYTES",
-    "TEXT_CHARACTERS",
-    "THREADS",
-    "TURNS",
-]
-
 # Numbers
 
 LENGTH = 1e9

@@ -24,7 +24,7 @@ def page():
     lines, body = source.splitlines(), ast.parse(source).body
     out, last = [HEAD], 0
     for statement, reason in itertools.pairwise(body):
-        if not isinstance(statement, ast.Assign) or statement.targets[0].id == "__all__":
+        if not isinstance(statement, ast.Assign):
             continue
         above = [line[2:] for line in lines[last : statement.lineno] if line.startswith("# ")]
         out += [

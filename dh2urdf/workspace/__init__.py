@@ -14,22 +14,3 @@ from dh2urdf.workspace.task import (
     task_of,
     uniform_rotations,
 )
-
-__all__ = [
-    "PLANES",
-    "PlanarArm",
-    "Plane",
-    "Section",
-    "Task",
-    "branch_counts",
-    "caption",
-    "common_axis",
-    "default_orientation",
-    "dexterity",
-    "held_values",
-    "planar_arm",
-    "reach_ball",
-    "section",
-    "task_of",
-    "uniform_rotations",
-]
