@@ -26,13 +26,10 @@ class Consumer(StrEnum):
     RVIZ = "RViz"
 
 
-PINOCCHIO, CHECK_URDF, YOURDFPY, MUJOCO, PYBULLET, DRAKE = list(Consumer)[:6]
-IKPY, KDL, GAZEBO, MOVEIT, IKFAST, RVIZ = list(Consumer)[6:]
-
-URDFDOM = (CHECK_URDF, PINOCCHIO, KDL, GAZEBO, MOVEIT, RVIZ)
+GROUPS = {"urdfdom": "check_urdf Pinocchio KDL Gazebo MoveIt RViz"}
 """Those that read a file through the library urdfdom, and so refuse the same ones."""
 
-STRICT = (*URDFDOM, MUJOCO, PYBULLET, DRAKE)
+GROUPS["strict"] = f"{GROUPS['urdfdom']} MuJoCo PyBullet Drake"
 """Those that look at a tree closely before they take it."""
 
 
@@ -109,35 +106,23 @@ class Finding:
 
 
 def _said(verdict: Verdict) -> Callable[..., Effect]:
-    def effect(*consumers: Consumer, text: str = "") -> Effect:
-        return Effect(consumers, verdict, text)
+    """What makes an effect of names or groups, as in ``"urdfdom MuJoCo"``, and what they share."""
+
+    def effect(names: str, text: str = "") -> Effect:
+        each = " ".join(GROUPS.get(name, name) for name in names.split())
+        return Effect(tuple(map(Consumer, each.split())), verdict, text)
 
     return effect
 
 
-refuse = _said(Verdict.REFUSES)
-complain = _said(Verdict.COMPLAINS)
-misread = _said(Verdict.MISREADS)
-accept = _said(Verdict.ACCEPTS)
-"""What some consumers make of a file, and in what words."""
+refuse, complain = _said(Verdict.REFUSES), _said(Verdict.COMPLAINS)
+misread, accept = _said(Verdict.MISREADS), _said(Verdict.ACCEPTS)
 
 
-class Found:
-    """A finding before it is placed in its file; the arguments are the fields of ``Finding``.
-
-    Effects that are None are left out.
-    """
-
-    def __init__(
-        self, at: etree._Element, message: str, *effects: Effect | None, mend: str
-    ) -> None:
-        self.at, self.message, self.mend = at, message, mend
-        self.effects = tuple(effect for effect in effects if effect)
-
-    def placed(self, rule: str) -> Finding:
-        """The finding of a rule."""
-        line = self.at.sourceline or 1
-        return Finding(rule, line, _label(self.at), self.message, self.effects, self.mend)
+def finding(at: etree._Element, message: str, *effects: Effect | None, mend: str) -> Finding:
+    """A finding before its rule is known; effects that are None are left out."""
+    told = tuple(effect for effect in effects if effect)
+    return Finding("", at.sourceline or 1, _label(at), message, told, mend)
 
 
 def _label(element: etree._Element) -> str:

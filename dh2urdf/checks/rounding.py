@@ -8,7 +8,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.checks.document import Document
-from dh2urdf.checks.findings import IKFAST, MOVEIT, Found, misread
+from dh2urdf.checks.findings import Finding, finding, misread
 from dh2urdf.conversions.chains import turn_slide
 from dh2urdf.conversions.read import MOVING
 from dh2urdf.conversions.write import frame_along
@@ -37,7 +37,7 @@ def meant_angle(word: str) -> float | None:
     return exact if -0.5 * last <= off < last and abs(off) > EXACT else None
 
 
-def rounded_angle(doc: Document) -> Iterator[Found]:
+def rounded_angle(doc: Document) -> Iterator[Finding]:
     """Right angles are written with every digit."""
     mended: dict[etree._Element, list[float]] = {}
     for _, _, joint in doc.edges:
@@ -49,21 +49,15 @@ def rounded_angle(doc: Document) -> Iterator[Found]:
                 mended[joint] = [v if m is None else m for v, m in zip(rpy, meant, strict=True)]
     if not mended:
         return
-    first = next(iter(mended))
+    first, angles = next(iter(mended.items()))
+    origin = first.find("origin")
     names = [str(joint.get("name")) for joint in mended]
     shown = ", ".join(names[:6]) + (f" and {len(names) - 6} more" if len(names) > 6 else "")
-    text = first.find("origin").get("rpy")
-    yield Found(
-        first.find("origin"),
-        f'rpy="{text}" is rounded; joints: {shown}. {_cost(doc, mended)}',
-        misread(
-            IKFAST,
-            MOVEIT,
-            text="see axes that are nearly parallel or nearly meet; they look for ones that do",
-        ),
-        mend=f"write {' '.join(map(repr, mended[first]))}; `dh2urdf extract --snap` sets such "
-        "angles right and prints what each costs",
-    )
+    message = f'rpy="{origin.get("rpy")}" is rounded; joints: {shown}. {_cost(doc, mended)}'
+    text = "see axes that are nearly parallel or nearly meet; they look for ones that do"
+    mend = f"write {' '.join(map(repr, angles))}; `dh2urdf extract --snap` sets such "
+    mend += "angles right and prints what each costs"
+    yield finding(origin, message, misread("IKFast MoveIt", text), mend=mend)
 
 
 def _cost(doc: Document, mended: Mapping[etree._Element, list[float]]) -> str:

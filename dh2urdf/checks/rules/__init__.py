@@ -2,17 +2,18 @@
 
 import os
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from inspect import isfunction
 from types import ModuleType
 
 from dh2urdf.checks.document import Document
-from dh2urdf.checks.findings import Finding, Found
+from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.rounding import rounded_angle
 from dh2urdf.checks.rules import geometry, inertia, joints, reading, tree
 
 __all__ = ["RULES", "check_urdf"]
 
-Rule = Callable[[Document], Iterator[Found]]
+Rule = Callable[[Document], Iterator[Finding]]
 
 
 def _rules(module: ModuleType) -> dict[str, Rule]:
@@ -53,5 +54,5 @@ def check_urdf(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
         No such file, not XML, a document type or entities, or no ``<robot>``.
     """
     doc = Document.read(path)
-    found = [item.placed(name) for name, rule in RULES.items() for item in rule(doc)]
+    found = [replace(item, rule=name) for name, rule in RULES.items() for item in rule(doc)]
     return tuple(sorted(found, key=lambda finding: finding.line))

@@ -6,25 +6,7 @@ from collections.abc import Iterator, Sequence
 from lxml import etree
 
 from dh2urdf.checks.document import Document
-from dh2urdf.checks.findings import (
-    CHECK_URDF,
-    DRAKE,
-    GAZEBO,
-    IKFAST,
-    IKPY,
-    KDL,
-    MOVEIT,
-    MUJOCO,
-    PINOCCHIO,
-    PYBULLET,
-    URDFDOM,
-    YOURDFPY,
-    Found,
-    accept,
-    complain,
-    misread,
-    refuse,
-)
+from dh2urdf.checks.findings import Finding, accept, complain, finding, misread, refuse
 from dh2urdf.conversions.read import MOVING
 
 _Pair = tuple[etree._Element, etree._Element | None]
@@ -34,195 +16,152 @@ BOUNDED = ("revolute", "prismatic")
 UNIT = 1e-6
 """How far from 1 the length of an axis may be: six written digits."""
 
-INVALID = complain(YOURDFPY, text="does not validate it")
+INVALID = complain("yourdfpy", "does not validate it")
 
-UNLIMITED = misread(MUJOCO, DRAKE, IKPY, text="take the joint as unlimited")
+UNLIMITED = misread("MuJoCo Drake ikpy", "take the joint as unlimited")
 
 
 def _parts(doc: Document, tag: str, kinds: Sequence[str] = MOVING) -> Iterator[_Pair]:
     """``(joint, part)`` of the joints of some kinds; the part is None where there is none."""
-    for joint in doc.joints:
-        if doc.kind(joint) in kinds:
-            yield joint, joint.find(tag)
+    return ((joint, joint.find(tag)) for joint in doc.joints if doc.kind(joint) in kinds)
 
 
 def _missing(limit: etree._Element | None, keys: Sequence[str]) -> list[str]:
     return [] if limit is None else [key for key in keys if limit.get(key) is None]
 
 
-def limit_missing(doc: Document) -> Iterator[Found]:
+def limit_missing(doc: Document) -> Iterator[Finding]:
     """Revolute and prismatic joints have a <limit>."""
+    effects = refuse("urdfdom PyBullet"), INVALID, UNLIMITED
+    mend = 'write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide ones rather '
     for joint, limit in _parts(doc, "limit", BOUNDED):
         if limit is None:
-            mend = 'write <limit lower="..." upper="..." effort="..." velocity="..."/>; wide '
-            refused = refuse(*URDFDOM, PYBULLET)
-            effects = (refused, INVALID, UNLIMITED)
-            yield Found(joint, "has no <limit>", *effects, mend=f"{mend}ones rather than none")
+            yield finding(joint, "has no <limit>", *effects, mend=f"{mend}than none")
 
 
-def limit_incomplete(doc: Document) -> Iterator[Found]:
+def limit_incomplete(doc: Document) -> Iterator[Finding]:
     """A <limit> has effort and velocity."""
+    effects = refuse("urdfdom"), INVALID, misread("PyBullet", "reads 0: motors without force")
     for _, limit in _parts(doc, "limit"):
         missing = _missing(limit, ("effort", "velocity"))
         if missing:
-            yield Found(
-                limit,
-                f"has no {' and no '.join(missing)}",
-                refuse(*URDFDOM),
-                INVALID,
-                misread(PYBULLET, text="reads 0: motors without force"),
-                mend=f"add {' '.join(f'{key}=...' for key in missing)}; URDF requires both",
-            )
+            mend = f"add {' '.join(f'{key}=...' for key in missing)}; URDF requires both"
+            yield finding(limit, f"has no {' and no '.join(missing)}", *effects, mend=mend)
 
 
-def limit_without_bounds(doc: Document) -> Iterator[Found]:
+def limit_without_bounds(doc: Document) -> Iterator[Finding]:
     """A <limit> of a revolute or prismatic joint has lower and upper."""
     for _, limit in _parts(doc, "limit", BOUNDED):
         missing = _missing(limit, ("lower", "upper"))
         if missing:
             both = len(missing) == 2
             text = "read 0: the joint cannot move" if both else "read 0 for it"
-            yield Found(
-                limit,
-                f"has no {' and no '.join(missing)}",
-                misread(*URDFDOM, text=text),
-                INVALID,
-                UNLIMITED if both else None,
-                mend="write both bounds",
-            )
+            effects = misread("urdfdom", text), INVALID, UNLIMITED if both else None
+            message = f"has no {' and no '.join(missing)}"
+            yield finding(limit, message, *effects, mend="write both bounds")
 
 
-def limit_reversed(doc: Document) -> Iterator[Found]:
+def limit_reversed(doc: Document) -> Iterator[Finding]:
     """The lower bound is not above the upper one."""
+    effects = refuse("Drake", "aborts"), misread("MuJoCo", "takes the joint as unlimited")
+    empty = misread("urdfdom", "keep an empty range")
     for _, limit in _parts(doc, "limit", BOUNDED):
         lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
         if lower is not None and upper is not None and lower > upper:
-            yield Found(
-                limit,
-                f"lower {lower:g} lies above upper {upper:g}",
-                refuse(DRAKE, text="aborts"),
-                misread(MUJOCO, text="takes the joint as unlimited"),
-                misread(*URDFDOM, text="keep an empty range"),
-                mend="exchange them, or mend the signs",
-            )
+            message = f"lower {lower:g} lies above upper {upper:g}"
+            mend = "exchange them, or mend the signs"
+            yield finding(limit, message, *effects, empty, mend=mend)
 
 
-def limit_zero(doc: Document) -> Iterator[Found]:
+def limit_zero(doc: Document) -> Iterator[Finding]:
     """Effort, velocity and range are not zero."""
     still = "may hold the joint still: a limit of 0 is a limit"
     for joint, limit in _parts(doc, "limit"):
         zero = [key for key in ("effort", "velocity") if doc.number(limit, key) == 0]
         lower, upper = doc.number(limit, "lower"), doc.number(limit, "upper")
         if doc.kind(joint) in BOUNDED and lower is not None and lower == upper:
-            yield Found(
-                limit,
-                f"lower and upper are both {lower:g}",
-                complain(MUJOCO, text="takes the joint as unlimited"),
-                mend="write a range, or make the joint a fixed one",
-            )
+            unlimited = complain("MuJoCo", "takes the joint as unlimited")
+            mend = "write a range, or make the joint a fixed one"
+            yield finding(limit, f"lower and upper are both {lower:g}", unlimited, mend=mend)
         if zero:
-            yield Found(
-                limit,
-                f"{' and '.join(zero)} 0",
-                accept(MOVEIT, GAZEBO, PYBULLET, text=still),
-                mend="write the maker's figures, or large ones",
-            )
+            effect = accept("MoveIt Gazebo PyBullet", still)
+            mend = "write the maker's figures, or large ones"
+            yield finding(limit, f"{' and '.join(zero)} 0", effect, mend=mend)
 
 
-def continuous(doc: Document) -> Iterator[Found]:
+def continuous(doc: Document) -> Iterator[Finding]:
     """No joint is continuous."""
     two = "q has two numbers for it, cosine and sine: model.nq exceeds model.nv"
+    effects = accept("Pinocchio", two), accept("IKFast", "takes it with a range of one turn")
+    mend = "if programs expect one number a joint, write a revolute one with limits of +-"
     for joint, _ in _parts(doc, "limit", ("continuous",)):
-        yield Found(
-            joint,
-            "turns without end",
-            accept(PINOCCHIO, text=two),
-            accept(IKFAST, text="takes it with a range of one turn"),
-            mend="if programs expect one number a joint, write a revolute one with limits of "
-            "+-6.283185307179586",
-        )
+        yield finding(joint, "turns without end", *effects, mend=f"{mend}{2 * math.pi}")
 
 
-def axis_missing(doc: Document) -> Iterator[Found]:
+def axis_missing(doc: Document) -> Iterator[Finding]:
     """Moving joints say what their axis is."""
+    taken = complain("PyBullet", "says that it takes x")
     for joint, axis in _parts(doc, "axis"):
         if axis is None or axis.get("xyz") is None:
-            yield Found(
-                joint,
-                "has no <axis>; that means x",
-                complain(PYBULLET, text="says that it takes x"),
-                mend='write <axis xyz="1 0 0"/> if x is meant; most arms turn about z',
-            )
+            mend = 'write <axis xyz="1 0 0"/> if x is meant; most arms turn about z'
+            yield finding(joint, "has no <axis>; that means x", taken, mend=mend)
 
 
-def axis_zero(doc: Document) -> Iterator[Found]:
+def axis_zero(doc: Document) -> Iterator[Finding]:
     """The axis of a moving joint has a direction."""
+    effects = refuse("MuJoCo Drake"), complain("Pinocchio yourdfpy", "compute NaN")
+    taken = misread("check_urdf ikpy", "take it as it is")
     for _, axis in _parts(doc, "axis"):
         values = doc.numbers(axis, "xyz")
         if values is not None and not any(values):
-            yield Found(
-                axis,
-                "is a zero vector",
-                refuse(MUJOCO, DRAKE),
-                complain(PINOCCHIO, YOURDFPY, text="compute NaN"),
-                misread(CHECK_URDF, IKPY, text="take it as it is"),
-                mend="write the direction",
-            )
+            yield finding(axis, "is a zero vector", *effects, taken, mend="write the direction")
 
 
-def axis_not_unit(doc: Document) -> Iterator[Found]:
+def axis_not_unit(doc: Document) -> Iterator[Finding]:
     """The axis of a moving joint has length 1."""
     for joint, axis in _parts(doc, "axis"):
         values = doc.numbers(axis, "xyz") or (0.0,)
         length = math.hypot(*values)
         if any(values) and abs(length - 1) > UNIT and math.isfinite(length):
-            effect = misread(IKPY, text="gives a matrix that is no rotation")
+            effect = misread("ikpy", "gives a matrix that is no rotation")
             if doc.kind(joint) == "prismatic":
-                effect = misread(YOURDFPY, IKPY, text=f"move {length:.4g} times as far")
+                effect = misread("yourdfpy ikpy", f"move {length:.4g} times as far")
             unit = " ".join(repr(v / length + 0.0) for v in values)
             mend = f'write <axis xyz="{unit}"/>'
-            yield Found(axis, f"has length {length:.6g}", effect, mend=mend)
+            yield finding(axis, f"has length {length:.6g}", effect, mend=mend)
 
 
-def mimic_leader(doc: Document) -> Iterator[Found]:
+def mimic_leader(doc: Document) -> Iterator[Finding]:
     """A <mimic> names another moving joint."""
     for joint, element in _followers(doc):
         leader = element.get("joint")
         known = doc.joint_by_name.get(leader)
-        itself = leader is not None and leader == joint.get("name")
+        itself = leader == joint.get("name")
         if leader is None:
-            yield Found(
-                element,
-                "names no joint",
-                refuse(*URDFDOM, MUJOCO, DRAKE),
-                complain(YOURDFPY),
-                mend='write <mimic joint="..."/>',
-            )
+            effects = refuse("urdfdom MuJoCo Drake"), complain("yourdfpy")
+            yield finding(element, "names no joint", *effects, mend='write <mimic joint="..."/>')
         elif itself or known is None or doc.kind(known) not in MOVING:
             what = "the joint itself" if itself else f"{leader!r}, which is no moving joint"
-            yield Found(
+            yield finding(
                 element,
                 f"follows {what}",
-                refuse(DRAKE),
-                (refuse if itself else complain)(MUJOCO),
-                complain(YOURDFPY, text="takes the leader as 0"),
-                accept(PINOCCHIO, CHECK_URDF, IKPY, text="do not look at it"),
+                refuse("Drake"),
+                (refuse if itself else complain)("MuJoCo"),
+                complain("yourdfpy", "takes the leader as 0"),
+                accept("Pinocchio check_urdf ikpy", "do not look at it"),
                 mend="mend the name of the joint that it follows",
             )
 
 
-def mimic(doc: Document) -> Iterator[Found]:
+def mimic(doc: Document) -> Iterator[Finding]:
     """No joint follows another."""
     own = "move it on its own; Pinocchio follows when asked (mimic=True)"
+    effect = accept("Pinocchio PyBullet KDL ikpy", own)
     for joint, element in _followers(doc):
         leader = doc.joint_by_name.get(element.get("joint", ""))
         if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
-            yield Found(
-                element,
-                f"follows {leader.get('name')!r}",
-                accept(PINOCCHIO, PYBULLET, KDL, IKPY, text=own),
-                mend="couple the joints in your own program",
-            )
+            mend = "couple the joints in your own program"
+            yield finding(element, f"follows {leader.get('name')!r}", effect, mend=mend)
 
 
 def _followers(doc: Document) -> Iterator[tuple[etree._Element, etree._Element]]:
@@ -231,17 +170,12 @@ def _followers(doc: Document) -> Iterator[tuple[etree._Element, etree._Element]]
     return ((joint, element) for joint, element in pairs if element is not None)
 
 
-def damping_negative(doc: Document) -> Iterator[Found]:
+def damping_negative(doc: Document) -> Iterator[Finding]:
     """Damping and friction are not negative."""
-    for joint in doc.joints:
-        dynamics = joint.find("dynamics")
-        for key in ("damping", "friction"):
+    simulated = misread("MuJoCo PyBullet", "simulate it as it stands")
+    for dynamics in (joint.find("dynamics") for joint in doc.joints):
+        for key, refused in (("damping", refuse("Drake")), ("friction", None)):
             value = doc.number(dynamics, key)
             if value is not None and value < 0:
-                yield Found(
-                    dynamics,
-                    f"{key} {value:g} drives the joint",
-                    refuse(DRAKE) if key == "damping" else None,
-                    misread(MUJOCO, PYBULLET, text="simulate it as it stands"),
-                    mend="mend the sign",
-                )
+                message = f"{key} {value:g} drives the joint"
+                yield finding(dynamics, message, refused, simulated, mend="mend the sign")

@@ -9,25 +9,7 @@ from lxml import etree
 
 from dh2urdf.bounds import NUMBER as LARGEST
 from dh2urdf.checks.document import NUMBER, Document
-from dh2urdf.checks.findings import (
-    CHECK_URDF,
-    DRAKE,
-    GAZEBO,
-    IKFAST,
-    IKPY,
-    MUJOCO,
-    PINOCCHIO,
-    PYBULLET,
-    URDFDOM,
-    YOURDFPY,
-    Consumer,
-    Effect,
-    Found,
-    accept,
-    complain,
-    misread,
-    refuse,
-)
+from dh2urdf.checks.findings import Effect, Finding, accept, complain, finding, misread, refuse
 
 XACRO = "http://www.ros.org/wiki/xacro"
 
@@ -51,52 +33,46 @@ ONCE = {
 """Elements that may stand once in another."""
 
 
-def repeated_element(doc: Document) -> Iterator[Found]:
+def repeated_element(doc: Document) -> Iterator[Finding]:
     """What may stand once stands once."""
-    first = misread(PINOCCHIO, CHECK_URDF, YOURDFPY, text="take the first without a word")
+    first = misread("Pinocchio check_urdf yourdfpy", "take the first without a word")
+    effects = refuse("MuJoCo"), first
     for tag, once in ONCE.items():
         for element in doc.root.iter(tag):
             counts = Counter(child.tag for child in element.iterchildren(etree.Element))
             for key in once:
                 if counts[key] > 1:
                     message = f"has {counts[key]} <{key}>"
-                    yield Found(element, message, refuse(MUJOCO), first, mend="drop one of them")
+                    yield finding(element, message, *effects, mend="drop one of them")
 
 
-def fused_frames(doc: Document) -> Iterator[Found]:
+def fused_frames(doc: Document) -> Iterator[Finding]:
     """MuJoCo is told to keep links on fixed joints."""
     frames = [c for _, c, joint in doc.edges if doc.kind(joint) == "fixed"]
     if frames and doc.mujoco.get("fusestatic") != "false":
         shown = ", ".join(frames[:6]) + (", ..." if len(frames) > 6 else "")
         text = "fuse it with its parent: its name is gone, and MuJoCo drops all visuals"
-        yield Found(
-            doc.link_by_name[frames[0]],
-            f"hangs on a fixed joint; such links: {shown}",
-            accept(MUJOCO, GAZEBO, text=text),
-            mend='add <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>',
-        )
+        mend = 'add <mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>'
+        message = f"hangs on a fixed joint; such links: {shown}"
+        first = doc.link_by_name[frames[0]]
+        yield finding(first, message, accept("MuJoCo Gazebo", text), mend=mend)
 
 
-def xacro(doc: Document) -> Iterator[Found]:
+def xacro(doc: Document) -> Iterator[Finding]:
     """Nothing is left of xacro."""
-    everyone = (*URDFDOM, MUJOCO, YOURDFPY, DRAKE, IKPY)
+    mend = "expand the file first: xacro robot.xacro > robot.urdf"
     for element in doc.root.iter(etree.Element):
         name = etree.QName(element)
         if name.namespace == XACRO:
-            effects: tuple[Effect, ...] = (misread(*URDFDOM, MUJOCO, text="skip the element"),)
-            message = "is an element of xacro"
-        else:
-            left = [v for v in element.attrib.values() if "${" in v or "$(" in v]
-            if not left:
-                continue
-            message = f"holds {left[0]!r}, an expression of xacro"
-            keys = [k for k, v in element.attrib.items() if v == left[0]]
-            in_joint = element.getparent() in doc.joints and (element.tag, keys[0]) in NUMERIC
-            effects = (refuse(*everyone),) if in_joint else ()
-            effects += (misread(PYBULLET, text="reads 0"),)
-        yield Found(
-            element, message, *effects, mend="expand the file first: xacro robot.xacro > robot.urdf"
-        )
+            skipped = misread("urdfdom MuJoCo", "skip the element")
+            yield finding(element, "is an element of xacro", skipped, mend=mend)
+            continue
+        left = [(k, v) for k, v in element.attrib.items() if "${" in v or "$(" in v]
+        if left:
+            in_joint = element.getparent() in doc.joints and (element.tag, left[0][0]) in NUMERIC
+            refused = refuse("urdfdom MuJoCo yourdfpy Drake ikpy") if in_joint else None
+            message = f"holds {left[0][1]!r}, an expression of xacro"
+            yield finding(element, message, refused, misread("PyBullet", "reads 0"), mend=mend)
 
 
 def _words(doc: Document) -> Iterator[tuple[etree._Element, str, int, list[str]]]:
@@ -108,23 +84,19 @@ def _words(doc: Document) -> Iterator[tuple[etree._Element, str, int, list[str]]
 
 def _owner(element: etree._Element) -> str:
     """``joint``, ``inertial``, ``visual``, ``collision`` or ``material``; empty for no such."""
-    owner: etree._Element | None = element
-    while owner is not None and owner.tag not in OWNERS:
-        owner = owner.getparent()
-    return "" if owner is None else str(owner.tag)
+    chain = (element, *element.iterancestors())
+    return next((str(owner.tag) for owner in chain if owner.tag in OWNERS), "")
 
 
-def number(doc: Document) -> Iterator[Found]:
+def number(doc: Document) -> Iterator[Finding]:
     """Where a number belongs there is one."""
     for element, key, count, words in _words(doc):
         bad = [w for w in words if not NUMBER.fullmatch(w) and not NO_NUMBER.fullmatch(w)]
         if bad:
-            yield Found(
-                element,
-                f'{key}="{element.get(key)}": {bad[0]!r} is no number',
-                *_text_effects(doc, element, bad[0], short=len(words) < count),
-                mend="write it out; URDF has no expressions, units, commas or underscores",
-            )
+            effects = _text_effects(doc, element, bad[0], short=len(words) < count)
+            message = f'{key}="{element.get(key)}": {bad[0]!r} is no number'
+            mend = "write it out; URDF has no expressions, units, commas or underscores"
+            yield finding(element, message, *effects, mend=mend)
 
 
 def _text_effects(
@@ -132,50 +104,36 @@ def _text_effects(
 ) -> tuple[Effect, ...]:
     owner = _owner(element)
     python = bool(PYTHON.fullmatch(word))
-    readers: tuple[Consumer, ...] = () if python else (YOURDFPY,)
-    verdict = complain if short else misread
-    zero = verdict(PYBULLET, text="reads what it can, 0 otherwise")
+    readers = "" if python else "yourdfpy "
+    zero = (complain if short else misread)("PyBullet", "reads what it can, 0 otherwise")
     if owner == "joint":
         if not python and element.tag in ("origin", "axis"):
-            readers += (IKPY,)
+            readers += "ikpy "
         if short or not DIGIT.match(word):
-            readers += (DRAKE,)
-        return (refuse(*URDFDOM, *readers, MUJOCO), zero)
+            readers += "Drake "
+        return refuse(f"urdfdom {readers}MuJoCo"), zero
+    whole = "whole <inertial>" if owner == "inertial" else owner
+    left_out = complain("urdfdom", f"leave the {whole} out")
     if owner == "inertial":
-        return (
-            refuse(*readers, MUJOCO),
-            complain(*URDFDOM, text="leave the whole <inertial> out"),
-            zero,
-        )
-    if owner in ("visual", "collision") and doc.mujoco_reads(element):
-        return (refuse(*readers, MUJOCO), complain(*URDFDOM, text=f"leave the {owner} out"))
-    return (refuse(*readers), complain(*URDFDOM, text=f"leave the {owner} out"))
+        return refuse(f"{readers}MuJoCo"), left_out, zero
+    read = owner in ("visual", "collision") and doc.mujoco_reads(element)
+    return refuse(f"{readers}MuJoCo" if read else readers), left_out
 
 
-def number_count(doc: Document) -> Iterator[Found]:
+def number_count(doc: Document) -> Iterator[Finding]:
     """There are as many numbers as there should be."""
     for element, key, count, words in _words(doc):
         if len(words) != count and all(NUMBER.fullmatch(word) for word in words):
-            few = len(words) < count
-            in_joint = _owner(element) == "joint"
-            readers = (*((YOURDFPY,) if few else ()), DRAKE, IKPY)
-            effects: tuple[Effect, ...] = (
-                complain(*URDFDOM, text="leave the element around it out"),
-            )
-            if in_joint:
-                effects = (refuse(*URDFDOM, MUJOCO, *readers),)
-            if in_joint and few:
-                worst = refuse if element.tag == "axis" else complain
-                effects += (worst(PYBULLET),)
-            yield Found(
-                element,
-                f'{key}="{element.get(key)}": {len(words)} numbers, {count} belong there',
-                *effects,
-                mend=f"write {count}",
-            )
+            few, worst = len(words) < count, None
+            refused = complain("urdfdom", "leave the element around it out")
+            if _owner(element) == "joint":
+                refused = refuse(f"urdfdom MuJoCo {'yourdfpy ' if few else ''}Drake ikpy")
+                worst = (refuse if element.tag == "axis" else complain)("PyBullet") if few else None
+            message = f'{key}="{element.get(key)}": {len(words)} numbers, {count} belong there'
+            yield finding(element, message, refused, worst, mend=f"write {count}")
 
 
-def not_finite(doc: Document) -> Iterator[Found]:
+def not_finite(doc: Document) -> Iterator[Finding]:
     """No number is infinite or NaN."""
     for element, key, _, words in _words(doc):
         bad = [w for w in words if NO_NUMBER.fullmatch(w) or _overflows(w)]
@@ -186,43 +144,35 @@ def not_finite(doc: Document) -> Iterator[Found]:
         huge = _overflows(bad[0]) and math.isfinite(float(bad[0]))
         what = f"lies beyond {LARGEST:.0e}" if huge else "is not finite"
         message = f'{key}="{element.get(key)}": {bad[0]} {what}'
-        yield Found(element, message, *tuple(_infinite_effects(element, bad[0])), mend=mend)
+        yield finding(element, message, *_infinite_effects(element, bad[0]), mend=mend)
 
 
 def _infinite_effects(element: etree._Element, word: str) -> Iterator[Effect]:
     in_joint = _owner(element) == "joint"
-    yield refuse(*(URDFDOM if in_joint else ()), DRAKE)
+    yield refuse("urdfdom Drake" if in_joint else "Drake")
     if not in_joint:
-        yield complain(*URDFDOM, text="leave the element around it out")
+        yield complain("urdfdom", "leave the element around it out")
     if _overflows(word) or element.tag == "mass":
-        yield refuse(MUJOCO)
+        yield refuse("MuJoCo")
     elif element.tag == "origin" or "nan" in word.lower():
-        yield complain(MUJOCO, text="computes NaN")
+        yield complain("MuJoCo", "computes NaN")
     if in_joint and element.tag == "origin":
-        yield complain(IKPY, text="computes NaN")
+        yield complain("ikpy", "computes NaN")
         if "nan" not in word.lower():
-            yield complain(YOURDFPY, text="computes NaN")
-    yield misread(PYBULLET, YOURDFPY, text="compute with it")
+            yield complain("yourdfpy", "computes NaN")
+    yield misread("PyBullet yourdfpy", "compute with it")
 
 
 def _overflows(word: str) -> bool:
     return bool(NUMBER.fullmatch(word)) and abs(float(word)) > LARGEST
 
 
-def negative_zero(doc: Document) -> Iterator[Found]:
+def negative_zero(doc: Document) -> Iterator[Finding]:
     """No number of a joint's origin or axis is a minus zero."""
+    text = "programs that generate code may carry the sign along: "
+    carried = accept("IKFast", f"{text}atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi")
     for element, key, _, words in _words(doc):
-        if element.tag not in ("origin", "axis") or _owner(element) != "joint":
-            continue
         minus = [w for w in words if w.startswith("-") and NUMBER.fullmatch(w) and float(w) == 0]
-        if minus:
-            yield Found(
-                element,
-                f'{key}="{element.get(key)}": {minus[0]} is zero',
-                accept(
-                    IKFAST,
-                    text="programs that generate code may carry the sign along: "
-                    "atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi",
-                ),
-                mend="write 0",
-            )
+        if minus and element.tag in ("origin", "axis") and _owner(element) == "joint":
+            message = f'{key}="{element.get(key)}": {minus[0]} is zero'
+            yield finding(element, message, carried, mend="write 0")
