@@ -16,6 +16,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm import (
+    HeldSolver,
     Solver,
     Task,
     as_configuration,
@@ -38,7 +39,7 @@ from dh2urdf.ik.problem import (
     find_path,
     held_values,
 )
-from dh2urdf.ik.redundant import HeldSolver, SweptJoint, select_held
+from dh2urdf.ik.redundant import SweptJoint, select_held
 from dh2urdf.transforms import Array
 
 ON_BAD = ("raise", "skip")

@@ -14,10 +14,9 @@ from dh2urdf.transforms import Array
 if TYPE_CHECKING:
     import numpy as np
 
-    from dh2urdf.ik.arm import Solver, Task
+    from dh2urdf.ik.arm import HeldSolver, Solver, Task
     from dh2urdf.ik.families import NumericProblem, NumericSolutions
     from dh2urdf.ik.problem import IKBatch, IKPath, IKSolutions, Progress
-    from dh2urdf.ik.redundant import HeldSolver
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
 

@@ -14,7 +14,7 @@ import dh2urdf
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import JointType
-from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm import Outputs
 from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.general_6r import General6R
 

@@ -1,13 +1,13 @@
 """What is known of an arm before any pose: its axes, its limits, the solver that it gets.
 
-`tolerances` has the thresholds that rooms share; `solver` says what a solver is, `solver_table`
-picks one; `geometry` looks at axes, `mobility` at joints to spare, `singular_families` at joints
-that move freely; `chains` makes chains of a chain, `limits` full turns, `outputs` the arrays that
-solvers fill; `given` checks what callers give, `notice` says that kernels compile.
+`tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
+chain moves in it; `solver` what a solver is, `solver_table` picks one; `geometry` looks at axes,
+`singular_families` at joints that move freely; `chains` makes chains of a chain, `limits` full
+turns; `given` checks what callers give, `notice` says that kernels compile.
 """
 
 from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
-from dh2urdf.ik.arm.geometry import AxisLines, DHForm, moves_freely, pose_along, row_motion
+from dh2urdf.ik.arm.geometry import AxisLines, DHForm, pose_along, row_motion
 from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
 from dh2urdf.ik.arm.limits import (
     TWO_PI,
@@ -19,21 +19,30 @@ from dh2urdf.ik.arm.limits import (
     turn_counts,
     turned_to,
 )
-from dh2urdf.ik.arm.mobility import TRIALS, random_configurations, spare_joints
 from dh2urdf.ik.arm.notice import notice_if_slow
-from dh2urdf.ik.arm.outputs import IntArray, Outputs
-from dh2urdf.ik.arm.singular_families import Family, slide_to_seed, task_error, task_jacobian
+from dh2urdf.ik.arm.singular_families import Family, slide_to_seed
 from dh2urdf.ik.arm.solver import (
     BRANCH_WORDS,
     BatchKernel,
     BranchWords,
+    HeldSolver,
+    IntArray,
     Others,
+    Outputs,
     Solver,
     SolverBase,
-    Task,
     branch_words_of,
 )
 from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.task import (
+    TRIALS,
+    Task,
+    random_configurations,
+    scaled_jacobian,
+    spare_joints,
+    task_error,
+    task_jacobian,
+)
 from dh2urdf.ik.arm.tolerances import (
     ACCEPT,
     FAMILY_RANK,

@@ -12,8 +12,6 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.solver import Task
 from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
 from dh2urdf.transforms import Array, inverse, pose_error
 
@@ -283,8 +281,3 @@ def pose_along(x: Array, z: Array, origin: Array) -> Array:
     x = x / np.linalg.norm(x)
     T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, np.cross(z, x), z, origin
     return T
-
-
-def moves_freely(chain: SerialChain) -> bool:
-    """Whether the tool of a chain of six joints can move in every direction somewhere."""
-    return not spare_joints(chain, Task.POSE)

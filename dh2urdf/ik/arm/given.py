@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.doors import finite_array, flag, real_array
 from dh2urdf.exceptions import ConfigurationError, PoseError
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.task import Task
 from dh2urdf.poses import POSE, check_pose, rounded_off
 from dh2urdf.transforms import Array
 

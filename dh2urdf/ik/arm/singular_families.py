@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm.task import Task, task_error
 from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.transforms import Array
 
@@ -25,45 +25,6 @@ MOST_STEPS = 200
 
 STARTS = 8
 """Members inside the limits, nearest to a seed first, that are moved on towards it."""
-
-
-def task_error(T_found: Array, T: Array, task: Task) -> Array:
-    """Error vectors of poses (k, 4, 4) against a target (4, 4), shape (k, 3 or 6).
-
-    Position difference [m], then the rotation vector, as long as its sine, from the found to
-    the target orientation; for ``position+axis`` that between the two z axes.
-    """
-    position = T[:3, 3] - T_found[:, :3, 3]
-    if task is Task.POSITION:
-        return position
-    if task is Task.POSITION_AXIS:
-        turn = np.cross(T_found[:, :3, 2], T[:3, 2])
-        behind = T_found[:, :3, 2] @ T[:3, 2] < 0.0
-    else:
-        turn = 0.5 * np.cross(T_found[:, :3, :3], T[None, :3, :3], axisa=1, axisb=1).sum(axis=1)
-        behind = np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) < 1.0
-    turn[behind] = np.pi, 0.0, 0.0
-    return np.concatenate([position, turn], axis=1)
-
-
-def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
-    """Derivative of the task at configurations q (k, n), shape (k, 3 or 6, n).
-
-    For ``position+axis`` the turn about the tool's own z is taken out.
-    """
-    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
-
-    q = np.ascontiguousarray(q)
-    J = np.empty((len(q), 6, chain.n))
-    chain_jacobian_batch(chain.links, chain.prismatic, q, J)
-    if task is Task.POSITION:
-        return J[:, :3]
-    if task is Task.POSITION_AXIS:
-        T = np.empty((len(q), 4, 4))
-        chain_fk_batch(chain.links, chain.prismatic, q, T)
-        z = T[:, :3, 2]
-        J[:, 3:] -= z[:, :, None] * (z[:, None] @ J[:, 3:])
-    return J
 
 
 class Family:

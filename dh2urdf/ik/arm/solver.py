@@ -1,19 +1,26 @@
-"""What an inverse-kinematics solver is.
+"""What an inverse-kinematics solver is, and the arrays that it fills.
 
 Each family of arms has one class with the same five members. ``obstacle`` says, without
 computing anything per pose, what keeps the family from covering a chain; ``solve_batch`` fills
 the caller's arrays in one jitted call that holds no interpreter lock.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
-from enum import StrEnum
 from functools import cached_property
 from importlib import import_module
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain, settled_state
-from dh2urdf.ik.arm.outputs import Outputs
+from dh2urdf.ik.arm.task import Task, spare_joints
+from dh2urdf.ik.arm.tolerances import NOMINAL
 from dh2urdf.transforms import Array
+
+IntArray = NDArray[np.int64]
 
 BatchKernel = Callable[..., None]
 """A jitted function: constants, poses, ``within_limits``, then the five output arrays."""
@@ -33,6 +40,9 @@ Others = tuple[tuple[str, str], ...]
 
 BranchWords = Sequence[tuple[str, str] | None]
 
+ASKED = dict(zip(Task, ("the full pose", "the position", "position and axis"), strict=True))
+"""Tasks in words."""
+
 
 def branch_words_of(solver: object) -> BranchWords:
     """Names of the bits of a solver's branch codes; None for a bit without meaning."""
@@ -46,17 +56,38 @@ def imported(where: str) -> Any:
     return getattr(import_module(module), name)
 
 
-class Task(StrEnum):
-    """What of the target pose has to be reached."""
+class Outputs(NamedTuple):
+    """Solutions of m poses, a row for each, in the order in which kernels take them.
 
-    POSE = "pose"
-    POSITION = "position"
-    POSITION_AXIS = "position+axis"
+    Attributes
+    ----------
+    q : array, shape (m, kmax, n)
+        Solutions in the first ``counts[i]`` rows; the others may hold anything.
+    residual : array, shape (m, kmax)
+    counts : int64 array, shape (m,)
+    branch : int64 array, shape (m, kmax)
+        Bits of the branch; -1 where the family has none.
+    free : int64 array, shape (m, kmax)
+        Bits of the joints that are free along a singular family.
+    """
 
-    @property
-    def number(self) -> int:
-        """The task's number in the kernels."""
-        return list(Task).index(self)
+    q: Array
+    residual: Array
+    counts: IntArray
+    branch: IntArray
+    free: IntArray
+
+    @classmethod
+    def of(cls, m: int, kmax: int, n: int) -> Outputs:
+        """Arrays for m poses, nothing in them."""
+        codes = np.zeros((2, m, kmax), np.int64)
+        return cls(
+            np.empty((m, kmax, n)), np.empty((m, kmax)), np.zeros(m, np.int64), codes[0], codes[1]
+        )
+
+    def rows(self, index: slice | IntArray) -> Outputs:
+        """Those of some poses: views by a slice, copies by indices."""
+        return Outputs._make(array[index] for array in self)
 
 
 class Solver(Protocol):
@@ -100,7 +131,12 @@ class SolverBase:
         As :data:`Others`.
     """
 
-    name: ClassVar[str] = ""
+    name: str = ""
+    needs: ClassVar[str]
+    """The arms that the family is for."""
+    solves: ClassVar[Task] = Task.POSE
+    if_spare: ClassVar[str] = "some joints can move while the tool stays"
+    """Why joints to spare are in the way; empty where they are not."""
     kmax: int = 0
     where: ClassVar[str]
     """Module and name of the kernel, where there is one."""
@@ -111,9 +147,22 @@ class SolverBase:
         self.links, self.joints = chain.tables
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
-        """Say what keeps the family from covering the chain for the task; None: it covers it."""
-        raise NotImplementedError
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
+    ) -> str | None:
+        """Say what keeps the family from covering the chain for the task; None: it covers it.
+
+        ``tolerance`` is the angle [rad] and length relative to ``chain.size`` that is snapped.
+        """
+        if task is not cls.solves:
+            return f"it solves for {ASKED[cls.solves]}, not for {task.value}"
+        misfit = cls.misfit(chain, tolerance)
+        spare = misfit is None and cls.if_spare and spare_joints(chain, task)
+        return cls.if_spare if spare else misfit
+
+    @classmethod
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
+        """Say what of the chain is not as the family needs it; None: nothing."""
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
@@ -139,6 +188,47 @@ class SolverBase:
         lines = [f"{self.name}: {self.details()}"]
         lines += [f"not {name}: {reason}" for name, reason in self.others]
         return "\n".join(lines)
+
+    def __str__(self) -> str:
+        return self.name
+
+
+class HeldSolver:
+    """All solutions of many poses of a chain, each pose with its own values of the held joints."""
+
+    name: str
+    kmax: int
+    __getstate__ = settled_state
+
+    def __init__(self, chain: SerialChain, held: tuple[int, ...]) -> None:
+        self.chain, self.held = chain, held
+
+    def details(self) -> str:
+        """Say how the joints that move are solved for."""
+        raise NotImplementedError
+
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4), each with its held values (m, h) [rad] or [m].
+
+        Outputs as in :class:`Solver`, with all joints of the chain.
+        """
+        raise NotImplementedError
+
+    def points_on_curves(self, T: Array, values: Array) -> Array:
+        """Solutions of a pose (4, 4) at or near values (m,) of the one held joint, (k, n).
+
+        Limits do not count here.
+        """
+        m, n = len(values), self.chain.n
+        out, Ts = Outputs.of(m, self.kmax, n), np.repeat(T[None], m, axis=0)
+        self.solve_held(Ts, np.ascontiguousarray(values[:, None]), False, out)
+        points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
+        return points
+
+    def explain(self) -> str:
+        """Name the held joints and say how the others are solved for."""
+        names = ", ".join(self.chain.names[i] for i in self.held)
+        return f"held, at any value: {names}\n{self.details()}"
 
     def __str__(self) -> str:
         return self.name

@@ -12,6 +12,8 @@ from dh2urdf.ik.arm import (
     Task,
 )
 
+STUCK = "the arm cannot move its tool in all six directions"
+
 
 class ClosedForm(SolverBase):
     """A closed form, in Denavit-Hartenberg frames found from the axes.
@@ -21,6 +23,7 @@ class ClosedForm(SolverBase):
     """
 
     kmax = 8
+    if_spare = STUCK
 
     def __init__(
         self,
@@ -36,10 +39,7 @@ class ClosedForm(SolverBase):
         self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
 
 
-def not_six_revolute(chain: SerialChain, task: Task) -> str | None:
-    """Say why the full pose of six revolute joints is not the question; None if it is."""
-    if task is not Task.POSE:
-        return f"it solves for the full pose, not for {task.value}"
-    if chain.n != 6 or chain.prismatic.any():
-        return "it needs 6 revolute joints"
-    return None
+def not_six_revolute(chain: SerialChain) -> str | None:
+    """Say that a chain is not one of six revolute joints; None if it is."""
+    six = chain.n == 6 and not chain.prismatic.any()
+    return None if six else "it needs 6 revolute joints"

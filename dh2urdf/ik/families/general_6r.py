@@ -8,20 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import (
-    AxisLines,
-    Others,
-    Outputs,
-    SolverBase,
-    Task,
-    moves_freely,
-    notice_if_slow,
-)
+from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task, notice_if_slow
+from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
     from dh2urdf.kernels.general_6r import Arm
-from dh2urdf.ik.families.closed_form import not_six_revolute
 
 TRIALS = 6
 """Random poses by which a plan is tried."""
@@ -34,7 +26,9 @@ class General6R(SolverBase):
     """Raghavan and Roth's elimination of five joints; up to 16 solutions."""
 
     name = "general 6R"
+    needs = "six revolute joints, any axes"
     kmax = 16
+    if_spare = STUCK
 
     def __init__(
         self,
@@ -81,13 +75,9 @@ class General6R(SolverBase):
         return bool((gap.min(axis=1) < SAME).all())
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the elimination from covering the chain; None if nothing does."""
-        if unfit := not_six_revolute(chain, task):
-            return unfit
-        if not moves_freely(chain):
-            return "the arm cannot move its tool in all six directions"
-        return None
+        return not_six_revolute(chain)
 
     def solve_unfinished(self, Ts: Array, out: Outputs) -> None:
         """Candidates of poses Ts (m, 4, 4), limits or not: q and counts."""

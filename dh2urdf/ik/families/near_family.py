@@ -20,7 +20,7 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
 )
-from dh2urdf.ik.families.closed_form import not_six_revolute
+from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
@@ -41,7 +41,10 @@ class _Match(NamedTuple):
 class NearFamily(SolverBase):
     """The nominal arm's solutions as seeds, Newton on the exact chain, general solver in doubt."""
 
+    name = "nearly a family"
+    needs = "six revolute joints, rounded or calibrated: nearly one of the first four rows"
     kmax = 16
+    if_spare = STUCK
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
@@ -50,26 +53,21 @@ class NearFamily(SolverBase):
         self.reversed = match.reversed
         self.seen = chain.reversed() if match.reversed else chain
         self.nominal = match.family(self.seen, tolerance=match.tolerance)
+        self.name = f"nearly {self.nominal.name}{', from the tool' if match.reversed else ''}"
         self.general = General6R(chain)
         self.distance = self.nominal.form.error
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
         self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance, noise), 0.3)
         self.trust = np.array([chain.size, NOISE_MOTION * noise, NEARLY_SINGULAR * noise])
 
-    @property
-    def name(self) -> str:  # type: ignore[override]
-        """Name of the family, and that the arm is only nearly of it."""
-        seen = ", from the tool" if self.reversed else ""
-        return f"nearly {self.nominal.name}{seen}"
-
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps a nominal arm from the chain; None if nothing does."""
-        if unfit := not_six_revolute(chain, task):
+        if unfit := not_six_revolute(chain):
             return unfit
         if _match(chain) is None:
             return f"no three axes nearly meet or are nearly parallel (within {NEAR[-1]:g})"
-        return General6R.obstacle(chain, task)
+        return None
 
     def details(self) -> str:
         """Name the family, the distance from it, and what is done about it."""

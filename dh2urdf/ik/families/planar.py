@@ -105,6 +105,7 @@ class PlanarArm(SolverBase):
     """Two or three turning joints with parallel axes: lecture notes 8.2."""
 
     name = "planar arm"
+    needs = "two or three revolute joints with parallel axes"
     kmax = 2
     where = "dh2urdf.kernels.short_chains:solve_planar"
     branch_words = (None, ("elbow up", "elbow down"))
@@ -133,16 +134,18 @@ class PlanarArm(SolverBase):
         self.constants = self.links, self.joints, plane, self.form, task is Task.POSE
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
+    ) -> str | None:
         """Say what keeps the notes' planar arm from covering a chain; None if nothing does."""
         if chain.prismatic.any() or chain.n not in (2, 3):
             return "it needs two or three revolute joints"
-        if np.abs(np.cross(chain.axes[0], chain.axes)).max() > NOMINAL:
+        if np.abs(np.cross(chain.axes[0], chain.axes)).max() > tolerance:
             return "the axes are not parallel"
         if task is Task.POSITION_AXIS or (task is Task.POSITION and chain.n == 3):
             return f"it does not solve for {task.value} with {chain.n} joints"
         if spare_joints(chain, task):
-            return "some joints can move while the tool stays"
+            return cls.if_spare
         reach = np.linalg.norm(np.cross(chain.tool[:3, 3] - chain.points[-1], chain.axes[-1]))
         if chain.n == 2 and reach <= SNAP * chain.size:
             return "the tool is on axis 2: its place says nothing of joint 2"

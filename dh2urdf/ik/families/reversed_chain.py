@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import Others, Outputs, SolverBase, Task
+from dh2urdf.ik.arm import NOMINAL, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.transforms import Array
@@ -26,9 +26,11 @@ class ReversedSolver(SolverBase):
         self.kmax = self.inner.kmax
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
+    ) -> str | None:
         """Say what keeps the family from the reversed chain, joints numbered from the tool."""
-        reason = cls.inner_class.obstacle(chain.reversed(), task)
+        reason = cls.inner_class.obstacle(chain.reversed(), task, tolerance)
         return None if reason is None else f"seen from the tool, {reason}"
 
     def details(self) -> str:
@@ -50,6 +52,7 @@ class SphericalShoulder(ReversedSolver):
     """The first three axes meet in one point."""
 
     name = "spherical shoulder"
+    needs = "six joints, the first three revolute with axes through one point"
     inner_class = SphericalWrist
 
 
@@ -57,4 +60,5 @@ class ThreeParallelReversed(ReversedSolver):
     """Axes 3, 4, 5 or 4, 5, 6 are parallel."""
 
     name = "three parallel axes, from the tool"
+    needs = "six revolute joints, axes 3, 4, 5 or 4, 5, 6 parallel"
     inner_class = ThreeParallel

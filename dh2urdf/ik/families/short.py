@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task
 from dh2urdf.transforms import Array, inverse
 
 MOST_JOINTS = 5
@@ -48,6 +48,7 @@ class ShortChain(SolverBase):
     """All configurations of one to five joints that reach a full pose."""
 
     name = "short chain"
+    needs = "one to five joints of any kind, each of which moves the tool"
     kmax = 8
     where = "dh2urdf.kernels.short_chains:solve_short_chains"
 
@@ -79,16 +80,12 @@ class ShortChain(SolverBase):
         return np.array(plan, np.int64).reshape(-1, 2, 8)
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the loop equations from covering a chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
         if chain.n > MOST_JOINTS:
             return f"it needs at most {MOST_JOINTS} joints, the chain has {chain.n}"
         if chain.n == MOST_JOINTS and chain.prismatic.sum() == SLIDES:
             return "three of five joints slide, which decouples them from the others"
-        if spare_joints(chain, task):
-            return "some joints can move while the tool stays"
         return None
 
     def details(self) -> str:

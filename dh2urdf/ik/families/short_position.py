@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along, spare_joints
+from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along
 from dh2urdf.transforms import Array, inverse
 
 MOST_JOINTS = 3
@@ -15,6 +15,9 @@ class ShortPosition(SolverBase):
     """All configurations of one to three joints, turning or sliding, that reach a point."""
 
     name = "position arm"
+    needs = "task position: one to three joints of any kind, each of which moves the tool's origin"
+    solves = Task.POSITION
+    if_spare = "some joints can move while the tool's origin stays"
     kmax = 4
     where = "dh2urdf.kernels.short_chains:solve_short_positions"
 
@@ -25,15 +28,6 @@ class ShortPosition(SolverBase):
         steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
         rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
         self.constants = self.links, self.joints, np.stack(steps), tip, rest_unit
-
-    @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION) -> str | None:
-        """Say what keeps the family from covering a chain; None if nothing does."""
-        if task is not Task.POSITION:
-            return f"it solves for the position, not for {task.value}"
-        if spare_joints(chain, task):
-            return "some joints can move while the tool's origin stays"
-        return None
 
     def details(self) -> str:
         """Name the kinds of joints and what is solved."""

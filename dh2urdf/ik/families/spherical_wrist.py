@@ -5,17 +5,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import (
-    NOMINAL,
-    REGULAR,
-    AxisLines,
-    BatchKernel,
-    DHForm,
-    Task,
-    moves_freely,
-    plain_ranges,
-    row_motion,
-)
+from dh2urdf.ik.arm import REGULAR, AxisLines, BatchKernel, DHForm, plain_ranges, row_motion
 from dh2urdf.ik.families.closed_form import ClosedForm
 
 
@@ -23,14 +13,11 @@ class SphericalWrist(ClosedForm):
     """Closed form by kinematic decoupling."""
 
     name = "spherical wrist"
+    needs = "six joints, the last three revolute with axes through one point"
 
     @classmethod
-    def obstacle(
-        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
-    ) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps decoupling from covering the chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
         if chain.n != 6:
             return f"it needs 6 joints, the chain has {chain.n}"
         lines = AxisLines(chain, tolerance)
@@ -38,8 +25,6 @@ class SphericalWrist(ClosedForm):
             return "axes 4, 5 and 6 do not meet in one point"
         if not _places_wrist(DHForm(lines)):
             return "joints 1, 2 and 3 cannot move the wrist centre in all directions"
-        if not moves_freely(chain):
-            return "the arm cannot move its tool in all six directions"
         return None
 
     def details(self) -> str:

@@ -3,7 +3,7 @@
 from functools import cached_property
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import NOMINAL, AxisLines, BatchKernel, Task, moves_freely, plain_ranges
+from dh2urdf.ik.arm import AxisLines, BatchKernel, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm, not_six_revolute
 
 
@@ -11,19 +11,16 @@ class ThreeParallel(ClosedForm):
     """Closed form in the plane of the three axes."""
 
     name = "three parallel axes"
+    needs = "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel"
 
     @classmethod
-    def obstacle(
-        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
-    ) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the family from covering the chain; None if nothing does."""
-        if unfit := not_six_revolute(chain, task):
+        if unfit := not_six_revolute(chain):
             return unfit
         lines = AxisLines(chain, tolerance)
         if not (lines.three_parallel(0) or lines.three_parallel(1)):
             return "no three neighbouring axes are parallel"
-        if not moves_freely(chain):
-            return "the arm cannot move its tool in all six directions"
         return None
 
     def details(self) -> str:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import Others, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import Others, SolverBase, Task
 
 SLIDES = 3
 
@@ -12,6 +12,7 @@ class ThreeSlides(SolverBase):
     """Turning joints from the orientation alone, then the slides from linear equations."""
 
     name = "three slides"
+    needs = "three sliding joints and two or three turning ones"
     kmax = 2
     where = "dh2urdf.kernels.short_chains:solve_three_slides"
 
@@ -20,14 +21,10 @@ class ThreeSlides(SolverBase):
         self.constants = self.links, self.joints, np.clip(0.0, chain.lower, chain.upper)
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps orientation and position from being decoupled; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
         if chain.n not in (5, 6) or chain.prismatic.sum() != SLIDES:
             return "it needs three sliding joints and two or three turning ones"
-        if spare_joints(chain, task):
-            return "some joints can move while the tool stays"
         return None
 
     def details(self) -> str:

@@ -39,6 +39,9 @@ class ToolAxis(SolverBase):
     """Position of the tool and direction of its z, by the full pose of a longer chain."""
 
     name = "tool axis"
+    solves = Task.POSITION_AXIS
+    if_spare = "some joints can move while the tool's origin and axis stay"
+    needs = "task position+axis: a virtual joint about the tool's z makes a chain that is covered"
 
     def __init__(
         self, chain: SerialChain, task: Task = Task.POSITION_AXIS, others: Others = ()
@@ -49,12 +52,10 @@ class ToolAxis(SolverBase):
         self.branch_words = branch_words_of(self.inner)
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSITION_AXIS) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the virtual joint from helping; None if nothing does."""
-        if task is not Task.POSITION_AXIS:
-            return f"it solves for position and axis, not for {task.value}"
-        if spare_joints(chain, task):
-            return "some joints can move while the tool's origin and axis stay"
+        if spare_joints(chain, cls.solves):
+            return cls.if_spare
         try:
             select_solver(with_tool_joint(chain), Task.POSE)
         except NoSolverError:

@@ -16,6 +16,7 @@ from dh2urdf.ik.arm import (
     ACCEPT,
     LIMIT_SLACK,
     Family,
+    HeldSolver,
     Outputs,
     Solver,
     Task,
@@ -31,7 +32,6 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
-from dh2urdf.ik.redundant import HeldSolver
 from dh2urdf.transforms import Array
 
 ForwardKinematics = Callable[[Array], Array]

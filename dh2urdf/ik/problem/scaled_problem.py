@@ -11,14 +11,13 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import lengths_in
+from dh2urdf.ik.arm import HeldSolver, lengths_in
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.problem.swept_path import find_path
 from dh2urdf.ik.problem.swept_problem import SweptProblem
-from dh2urdf.ik.redundant import HeldSolver
 from dh2urdf.transforms import Array
 
 

@@ -9,9 +9,18 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import SLACK, SNAP, AxisLines, DHForm, Outputs, hold, plain_ranges, without_end
+from dh2urdf.ik.arm import (
+    SLACK,
+    SNAP,
+    AxisLines,
+    DHForm,
+    HeldSolver,
+    Outputs,
+    hold,
+    plain_ranges,
+    without_end,
+)
 from dh2urdf.ik.families import SphericalWrist
-from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array, inverse, rot_z, trans
 
 TRIAL_VALUE = 0.731

@@ -15,6 +15,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     FAMILY_RANK,
+    NOMINAL,
     TRIALS,
     IntArray,
     Others,
@@ -24,11 +25,12 @@ from dh2urdf.ik.arm import (
     hold,
     near_ranges,
     random_configurations,
+    scaled_jacobian,
     spare_joints,
     task_jacobian,
 )
 from dh2urdf.ik.families import NumericProblem
-from dh2urdf.ik.redundant.held import HeldJoints
+from dh2urdf.ik.redundant.held_values import HeldJoints
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.transforms import Array
 
@@ -53,6 +55,7 @@ class RedundantChain(SolverBase):
     """A chain with joints to spare: some are held, a family through every solution."""
 
     name = "joints to spare"
+    needs = "one or two joints that can move while the task stays satisfied; they are held"
 
     idle: int
     """Bits of the joints that take part in the motion to spare."""
@@ -69,7 +72,9 @@ class RedundantChain(SolverBase):
         self.kmax = max(self._solver(self.values[0]).kmax, MOST)
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def obstacle(
+        cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
+    ) -> str | None:
         """Say why no joint is held; None if one has to be."""
         spare = spare_joints(chain, task)
         if not spare:
@@ -138,8 +143,7 @@ def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:
     for joints in choices:
         if not spare_joints(hold(chain, dict.fromkeys(joints, 0.1)), task):
             return joints
-    J = task_jacobian(chain, task, random_configurations(chain, 1))[0]
-    J[:3] /= chain.size
+    J = scaled_jacobian(chain, task, random_configurations(chain, 1))[0]
     return max(choices, key=lambda c: float(np.linalg.norm(np.delete(J, c, axis=1), -2)))
 
 

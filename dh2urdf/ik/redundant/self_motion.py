@@ -18,12 +18,12 @@ from dh2urdf.ik.arm import (
     LIMIT_SLACK,
     SHARP,
     TWO_PI,
+    HeldSolver,
     Outputs,
     middle,
     near_ranges,
     turned_to,
 )
-from dh2urdf.ik.redundant.held_solver import HeldSolver
 from dh2urdf.transforms import Array
 
 VALUES = 128

@@ -9,8 +9,15 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.arm import Others, Outputs, SolverBase, Task, near_ranges, task_jacobian
-from dh2urdf.ik.redundant.held_solver import HeldSolver
+from dh2urdf.ik.arm import (
+    HeldSolver,
+    Others,
+    Outputs,
+    SolverBase,
+    Task,
+    near_ranges,
+    scaled_jacobian,
+)
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
 from dh2urdf.ik.redundant.self_motion import few_members, sample_values
@@ -36,6 +43,10 @@ class SweptJoint(SolverBase):
     are the ones that a solution names.
     """
 
+    name = "swept joint"
+    if_spare = ""
+    needs = "seven joints, one of which can be held so that a row above covers the others"
+
     def __init__(
         self,
         chain: SerialChain,
@@ -47,17 +58,11 @@ class SweptJoint(SolverBase):
         self.held, self.reason = _best_held(chain)
         self.joint, self.samples = self.held.held[0], samples
         self.kmax = samples * self.held.kmax
-
-    @property
-    def name(self) -> str:  # type: ignore[override]
-        """Name of the solver of the others, and of the swept joint."""
-        return f"{self.held.name}, {self.chain.names[self.joint]} swept"
+        self.name = f"{self.held.name}, {chain.names[self.joint]} swept"
 
     @classmethod
-    def obstacle(cls, chain: SerialChain, task: Task = Task.POSE) -> str | None:
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps a sweep from covering the chain; None if nothing does."""
-        if task is not Task.POSE:
-            return f"it solves for the full pose, not for {task.value}"
         if chain.n != 7:
             return f"it needs 7 joints, the chain has {chain.n}"
         try:
@@ -123,8 +128,7 @@ class SweptJoint(SolverBase):
 def _self_motion(chain: SerialChain) -> Array:
     """Mean size of each joint's part in the unit self-motion over random configurations, (n,)."""
     rng = np.random.default_rng(3)
-    J = task_jacobian(chain, Task.POSE, rng.uniform(*near_ranges(chain), (TRIALS, chain.n)))
-    J[:, :3] /= chain.size
+    J = scaled_jacobian(chain, Task.POSE, rng.uniform(*near_ranges(chain), (TRIALS, chain.n)))
     motion: Array = np.abs(np.linalg.svd(J)[2][:, -1]).mean(axis=0)
     return motion
 

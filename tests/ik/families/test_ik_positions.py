@@ -11,9 +11,7 @@ from margins import assert_apart, assert_margin
 from test_short_chains import HALF, chain_of
 
 import dh2urdf
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.singular_families import task_error
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm import Task, spare_joints, task_error
 from dh2urdf.ik.arm.solver_table import select_solver
 
 STEPS = {

@@ -15,8 +15,7 @@ from margins import assert_margin
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
-from dh2urdf.ik.arm.mobility import spare_joints
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm import Task, spare_joints
 from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.short import ShortChain
 

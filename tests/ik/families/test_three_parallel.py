@@ -9,7 +9,7 @@ import pytest
 from ik_referee import GAP, HALF, RESIDUAL
 from margins import assert_margin
 
-from dh2urdf.ik.arm.solver import Task
+from dh2urdf.ik.arm import Task
 from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 

@@ -1,0 +1,104 @@
+"""What of a pose is asked: its error and Jacobian, and how chains move in it nearly everywhere."""
+
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.tolerances import NO_RANK, SPARE_RANK, WEAK_RANK
+from dh2urdf.transforms import Array
+
+TRIALS = 4
+"""Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
+
+MOST_JOINTS = 6
+"""Joints of the longest chain that is looked at for weak directions."""
+
+
+class Task(StrEnum):
+    """What of the target pose has to be reached."""
+
+    POSE = "pose"
+    POSITION = "position"
+    POSITION_AXIS = "position+axis"
+
+    @property
+    def number(self) -> int:
+        """The task's number in the kernels."""
+        return list(Task).index(self)
+
+
+def task_error(T_found: Array, T: Array, task: Task) -> Array:
+    """Error vectors of poses (k, 4, 4) against a target (4, 4), shape (k, 3 or 6).
+
+    Position difference [m], then the rotation vector, as long as its sine, from the found to
+    the target orientation; for ``position+axis`` that between the two z axes.
+    """
+    position = T[:3, 3] - T_found[:, :3, 3]
+    if task is Task.POSITION:
+        return position
+    if task is Task.POSITION_AXIS:
+        turn = np.cross(T_found[:, :3, 2], T[:3, 2])
+        behind = T_found[:, :3, 2] @ T[:3, 2] < 0.0
+    else:
+        turn = 0.5 * np.cross(T_found[:, :3, :3], T[None, :3, :3], axisa=1, axisb=1).sum(axis=1)
+        behind = np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) < 1.0
+    turn[behind] = np.pi, 0.0, 0.0
+    return np.concatenate([position, turn], axis=1)
+
+
+def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
+    """Derivative of the task at configurations q (k, n), shape (k, 3 or 6, n).
+
+    For ``position+axis`` the turn about the tool's own z is taken out.
+    """
+    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
+
+    q = np.ascontiguousarray(q)
+    J = np.empty((len(q), 6, chain.n))
+    chain_jacobian_batch(chain.links, chain.prismatic, q, J)
+    if task is Task.POSITION:
+        return J[:, :3]
+    if task is Task.POSITION_AXIS:
+        T = np.empty((len(q), 4, 4))
+        chain_fk_batch(chain.links, chain.prismatic, q, T)
+        z = T[:, :3, 2]
+        J[:, 3:] -= z[:, :, None] * (z[:, None] @ J[:, 3:])
+    return J
+
+
+def random_configurations(chain: SerialChain, count: int) -> Array:
+    """Configurations anywhere, the same ones each time, shape (count, n)."""
+    rng = np.random.default_rng(2)
+    span = np.where(chain.prismatic, chain.size, np.pi)
+    return rng.uniform(-1.0, 1.0, (count, chain.n)) * span
+
+
+def scaled_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
+    """:func:`task_jacobian` with positions in sizes of the arm."""
+    J = task_jacobian(chain, task, q)
+    J[:, :3] /= chain.size
+    return J
+
+
+def _singular_values(chain: SerialChain, task: Task) -> NDArray[np.floating[Any]]:
+    """Singular values of the Jacobian at a few configurations, shape (``TRIALS``, k)."""
+    J = scaled_jacobian(chain, task, random_configurations(chain, TRIALS))
+    return np.linalg.svd(J, compute_uv=False)
+
+
+def spare_joints(chain: SerialChain, task: Task) -> int:
+    """Dimension of the motions that leave the task alone in every configuration."""
+    sigma = _singular_values(chain, task)
+    return chain.n - int((sigma > SPARE_RANK * sigma[:, :1]).sum(axis=1).max())
+
+
+def hardly_moves(chain: SerialChain, task: Task) -> bool:
+    """Whether the tool moves little in one direction everywhere, but more than within rounding."""
+    if task is not Task.POSE or not 1 < chain.n <= MOST_JOINTS:
+        return False
+    sigma = _singular_values(chain, task)
+    least = (sigma / sigma[:, :1]).max(axis=0)
+    return bool(((least > NO_RANK) & (least < WEAK_RANK)).any())
