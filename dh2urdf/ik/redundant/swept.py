@@ -109,18 +109,16 @@ class SweptJoint(SolverBase):
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
-        from dh2urdf.kernels.redundant import gather_samples, spread_samples
+        from dh2urdf.kernels.redundant import gather_samples
 
         samples = len(values)
         step = max(1, min(len(Ts), BLOCK // samples))
-        poses, held = np.empty((step * samples, 4, 4)), np.empty((step * samples, 1))
         found = Outputs.of(step * samples, self.held.kmax, self.chain.n)
         for first in range(0, len(Ts), step):
             last = min(first + step, len(Ts))
-            used = (last - first) * samples
-            spread_samples(Ts, values, first, last, poses, held)
-            some = found.rows(slice(used))
-            self.held.solve_held(poses[:used], held[:used], within_limits, some)
+            some = found.rows(slice((last - first) * samples))
+            poses = np.repeat(Ts[first:last], samples, axis=0)
+            self.held.solve_held(poses, np.tile(values, last - first)[:, None], within_limits, some)
             gather_samples(some, first, last, samples, *out)
 
 

@@ -9,14 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    add_square,
-    circle_pair,
-    inner_kernel,
-    linear_trig,
-    root_of_gap,
-    trig_roots,
-)
+from dh2urdf.kernels.numbers import add_square, circle_pair, inner_kernel, linear_trig, trig_roots
 from dh2urdf.kernels.parallel_axes.leaning import levels
 from dh2urdf.kernels.spherical_wrist import FREE
 
@@ -87,10 +80,7 @@ def _pairs_behind_one(form, D, slack, pair):
     for k in range(count):
         apart = math.inf
         for j in range(in_line):
-            gap = 0.0
-            for e in range(4):
-                gap = max(gap, abs(found[k, e] - pair[j, e]))
-            apart = min(apart, gap)
+            apart = min(apart, np.abs(found[k] - pair[j, :4]).max())
         if apart > PARTED and pairs < pair.shape[0]:
             pair[pairs, :4] = found[k]
             pairs += 1
@@ -164,31 +154,6 @@ def _settle_in_line(start, sa1, px, py, F, B, N, x, y):
 
 
 @inner_kernel
-def _cone_meets_cone(form, D, fx, fy, fz):
-    """Joint 5 from the angle between axis 6 and the common direction f, seen after joint 4.
-
-    ``f . z6`` is given; the spherical law of cosines, its sine by half angles, which keeps all
-    digits where the three are nearly in one plane. Returns how many, cosine and sine of both.
-    """
-    ca5, sa5 = form[4, 1], form[4, 2]
-    side, in_line = math.hypot(fx, fy), math.hypot(D[2, 0], D[2, 1])
-    a, b, c = math.atan2(in_line, D[2, 2]), math.atan2(side, fz), math.atan2(abs(sa5), ca5)
-    square = math.sin(0.5 * (a + b + c)) * math.sin(0.5 * (b + c - a))
-    square *= math.sin(0.5 * (c + a - b)) * math.sin(0.5 * (a + b - c))
-    sine = 2.0 * max(root_of_gap(square, side * abs(sa5), -1.0), 0.0)
-    cosine = D[2, 2] - fz * ca5
-    r = math.hypot(cosine, sine) * math.copysign(side, sa5)
-    u, v = cosine / r, sine / r
-    return (
-        1 if sine == 0.0 or in_line <= FREE else 2,
-        -fy * u - fx * v,
-        fx * u - fy * v,
-        -fy * u + fx * v,
-        fx * u + fy * v,
-    )
-
-
-@inner_kernel
 def _add_leaning(c4, s4, pair, pairs):
     """Append a t4 at which t5 is nearly free, once for both roots beside it; the new count."""
     for j in range(pairs):
@@ -231,7 +196,7 @@ def _pairs_before_four(form, D, slack, pair):
         n1, n2 = rise[0] + rise[1] * c4 + rise[2] * s4, slope[0] + slope[1] * c4
         loose = abs(slack) + EPSILON / max(fx * fx + fy * fy, 1e-300)
         if a5 == 0.0:
-            found, c1, s1, c2, s2 = _cone_meets_cone(form, D, fx, fy, ca3 * ca4 - sa3 * sa4 * c4)
+            found, c1, s1, c2, s2 = linear_trig(-sa5 * fy, sa5 * fx, n2, loose)
         elif sa5 == 0.0:
             found, c1, s1, c2, s2 = linear_trig(a5 * fx, a5 * fy, n1, loose)
         else:

@@ -205,15 +205,8 @@ def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, cou
     """Solutions of one pose T (4, 4) on its curves near the held values (m,); q (m, 8, 7).
 
     With a large slack also a value that just misses a curve gives a candidate. All seven joints
-    take part in putting it on the curve, so that a loop between two values is found.
-
-    Parameters
-    ----------
-    joints : array, shape (7, 3)
-        Sliding, lower, upper of all joints.
-    unit : float
-        Size of the arm [m].
-    count : int64 array, shape (m,), out
+    take part in putting it on the curve, so that a loop between two values is found; ``joints``
+    (7, 3) are all of them, ``unit`` is the size of the arm [m].
     """
     scratch, damped, work = make_scratch(), make_damped(7), np.empty(7)
     branch, free = np.empty(8, np.int64), np.empty(8, np.int64)

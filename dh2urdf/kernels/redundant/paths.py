@@ -50,10 +50,7 @@ RETURNS = 10
 @inner_kernel
 def step_length(a, b, jump, penalty):
     """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
-    largest = 0.0
-    for i in range(a.shape[0]):
-        largest = max(largest, abs(b[i] - a[i]))
-    return math.sqrt(distance2(a, b)) + (penalty if largest > jump else 0.0)
+    return math.sqrt(distance2(a, b)) + (penalty if np.abs(b - a).max() > jump else 0.0)
 
 
 @kernel
@@ -105,14 +102,8 @@ def _length(start, q, jump, penalty):
 @inner_kernel
 def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     """Add the step from a (row i - 1) to b (row i) to gradient and Hessian."""
-    length, along_a, along_b = KINK * KINK, 0.0, 0.0
-    for j in range(a.shape[0]):
-        d = b[j] - a[j]
-        length += d * d
-        along_a += d * ta[j]
-        along_b += d * tb[j]
-    length = math.sqrt(length)
-    along_a, along_b, across = along_a / length, along_b / length, dot(ta, tb)
+    length = math.sqrt(KINK * KINK + distance2(a, b))
+    along_a, along_b, across = dot(b - a, ta) / length, dot(b - a, tb) / length, dot(ta, tb)
     if i > 0:
         g[i - 1] -= along_a
         diagonal[i - 1] += (1.0 - along_a * along_a) / length
@@ -203,8 +194,7 @@ def shorten(links, joints, Ts, unit, start, jump, penalty, q):
     for _ in range(ROUNDS):
         g[:], diagonal[:], beside[:] = 0.0, LEAST, 0.0
         for i in range(m):
-            for j in range(n):
-                guess[j] = tangent[i, j] + 1e-3 * (1.0 + 0.1 * j)
+            guess[:] = tangent[i] + 1e-3 * (1.0 + 0.1 * np.arange(n))
             if not tangent_near(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
                 tangent[i] = 0.0
             high[i] = part_inside(joints, q[i], tangent[i], LONGEST)

@@ -49,9 +49,7 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
     error_and_jacobian(links, joints, task, T, q, unit, damped)
     J, _, e, _ = damped
-    n = q.shape[0]
-    for i in range(n):
-        step[i] = seed[i] - q[i]
+    step[:] = seed - q
     for a in range(6):
         e[a] = dot(J[:, a], step)
     solve_damped(damped, 0.0)
@@ -62,19 +60,13 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
 @inner_kernel
 def distance2(q, seed):
     """Squared distance."""
-    total = 0.0
-    for i in range(q.shape[0]):
-        total += (q[i] - seed[i]) * (q[i] - seed[i])
-    return total
+    return np.square(q - seed).sum()
 
 
 @inner_kernel
 def dot(v, w):
     """Scalar product."""
-    total = 0.0
-    for i in range(v.shape[0]):
-        total += v[i] * w[i]
-    return total
+    return (v * w).sum()
 
 
 @inner_kernel
@@ -93,16 +85,12 @@ def part_inside(joints, q, step, length):
 @inner_kernel
 def _outside(joints, q):
     """Whether a joint is beyond its limits."""
-    for i in range(q.shape[0]):
-        if q[i] > joints[i, 2] or q[i] < joints[i, 1]:
-            return True
-    return False
+    return np.any(q > joints[:, 2]) or np.any(q < joints[:, 1])
 
 
 @inner_kernel
 def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
-    n = q.shape[0]
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
     gap2 = distance2(q, seed)
     length = 1.0
@@ -111,32 +99,23 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         if size <= ARRIVED:
             break
         if move > 0:
-            for i in range(n):
-                before[i] -= step[i]
+            before -= step
             across, along = dot(scratch[4], scratch[4]), dot(scratch[4], before)
             length = across / along if along > 0.1 * across else 10.0
-        largest = 0.0
-        for i in range(n):
-            before[i] = step[i]
-            largest = max(largest, abs(step[i]))
-        length = min(length, LONGEST / largest)
+        before[:] = step
+        length = min(length, LONGEST / np.abs(step).max())
         if within_limits:
             length = part_inside(joints, q, step, length)
-        moved = False
         while length * size > SHORTEST:
-            for i in range(n):
-                trial[i] = q[i] + length * step[i]
+            trial[:] = q + length * step
             good = restore(links, joints, task, T, unit, trial, work, damped) <= HELD
             good = good and distance2(trial, seed) < gap2
             if good and not (within_limits and _outside(joints, trial)):
-                moved = True
                 break
             length *= 0.5
-        if not moved:
+        else:
             break
-        for i in range(n):
-            scratch[4, i] = trial[i] - q[i]
-            q[i] = trial[i]
+        scratch[4], q[:] = trial - q, trial
         gap2 = distance2(q, seed)
 
 
@@ -144,21 +123,10 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
 def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residual):
     """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
 
-    Parameters
-    ----------
-    links, joints
-        The chain, see :mod:`dh2urdf.kernels.certificate.certify`.
-    task : int
-        What of the pose counts, see :mod:`dh2urdf.kernels.certificate.damped`.
-    T : array, shape (4, 4)
-    unit : float
-        Size of the arm [m].
-    within_limits : bool
-        Stop at joint limits; the solutions given have to be inside.
-    q : array, shape (k, n)
-        Solutions in the turns that are meant, in place.
-    seed : array, shape (n,)
-    residual : array, shape (k,), out
+    In place, in the turns that they are in; their residuals (k,) go to ``residual``. ``links`` and
+    ``joints`` are those of :mod:`dh2urdf.kernels.certificate.certify`, ``task`` one of
+    :mod:`~dh2urdf.kernels.certificate.damped`, ``unit`` is the size of the arm [m]. With
+    ``within_limits`` they stop at joint limits, and have to be inside.
     """
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((5, n))
@@ -180,12 +148,8 @@ def excess(joints, q, i):
 @inner_kernel
 def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
-    for i in range(q.shape[0]):
-        guess[i] += q[i]
-    size = _project(links, joints, task, T, unit, q, guess, tangent, damped)
-    for i in range(q.shape[0]):
-        guess[i] -= q[i]
-        tangent[i] /= max(size, 1e-300)
+    size = _project(links, joints, task, T, unit, q, q + guess, tangent, damped)
+    tangent /= max(size, 1e-300)
     return size > 1e-6
 
 
@@ -200,10 +164,7 @@ def enter_limits(links, joints, T, unit, q, entered):
     damped, scratch = make_damped(n), np.empty((4, n))
     tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(q.shape[0]):
-        entered[k] = False
-        for i in range(n):
-            guess[i] = 1.0 + 0.1 * i
-        last = math.inf
+        entered[k], guess[:], last = False, 1.0 + 0.1 * np.arange(n), math.inf
         for _ in range(MOST_STEPS):
             along, across, total = 0.0, 0.0, 0.0
             if not tangent_near(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
@@ -221,14 +182,10 @@ def enter_limits(links, joints, T, unit, q, entered):
             if total >= last or across < 1e-12 or abs(along) <= 1e-3 * math.sqrt(total * across):
                 break
             last = total
-            step = along / across
-            step = min(max(step, -LONGEST), LONGEST)
-            for i in range(n):
-                trial[i] = q[k, i] + step * tangent[i]
+            trial[:] = q[k] + min(max(along / across, -LONGEST), LONGEST) * tangent
             if not restore(links, joints, POSE, T, unit, trial, work, damped) <= ACCEPT:
                 break
-            for i in range(n):
-                q[k, i] = trial[i]
+            q[k] = trial
 
 
 @kernel
@@ -243,15 +200,11 @@ def walk_family(links, joints, task, T, unit, length, q, members):
     tangent, guess, work = scratch[0], scratch[1], scratch[2]
     counts = np.zeros(2, np.int64)
     for way in range(2):
-        at = q
-        for i in range(n):
-            guess[i] = (1.0 + 0.1 * i) * (1.0 - 2.0 * way)
+        at, guess[:] = q, (1.0 + 0.1 * np.arange(n)) * (1.0 - 2.0 * way)
         for k in range(members.shape[1]):
             if not tangent_near(links, joints, task, T, unit, at, guess, tangent, damped):
                 break
-            for i in range(n):
-                guess[i] = tangent[i]
-                members[way, k, i] = at[i] + length * tangent[i]
+            guess[:], members[way, k] = tangent, at + length * tangent
             at = members[way, k]
             if not restore(links, joints, task, T, unit, at, work, damped) <= HELD:
                 break

@@ -24,19 +24,10 @@ SLACK = 1e-6
 def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
     """Append the configurations that a null space holds to q; the new count of its rows.
 
-    Parameters
-    ----------
-    basis : array, shape (6, 8)
-        Null vectors in the first ``nullity`` (1, 2 or 3) rows, largest entry about 1; the rest is
-        scratch.
-    shape : int64 array, shape (7,)
-        Joints a, b, x, c, d (-1: absent), and whether the left and the right pair have all four
-        slots.
-    x : tuple of float
-        ``(u_x, v_x)``.
-    joints, rest, unit
-        See :func:`dh2urdf.kernels.short_chains.poses.solve_short_chains`; a joint is held at rest
-        to pick a member of a singular family.
+    The first ``nullity`` (1, 2 or 3) rows of ``basis`` (6, 8) are null vectors, largest entry about
+    1; the rest is scratch. ``shape`` (7,): joints a, b, x, c, d (-1: absent), and whether the left
+    and the right pair have all four slots. ``x`` is ``(u_x, v_x)``. A joint is held at rest to pick
+    a member of a singular family.
     """
     if nullity == 1:
         return _append(basis[0], shape, joints, x, unit, q, count)

@@ -29,22 +29,9 @@ def planar_rr(l1, l2, x, y, slack, rest, out):
     ``t1 = atan2(y, x) - atan2(l2 sin t2, l1 + l2 cos t2)``. A solution exists for
     ``(l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2``; on either rim the elbows are one.
 
-    Parameters
-    ----------
-    l1, l2, x, y : float
-        Link lengths, not negative, and the point [m].
-    slack : float
-        Relative excess over a rim that is clamped.
-    rest : float
-        t1 [rad] where ``x = y = 0``, which leaves it free.
-    out : array, shape (2, 2)
-        Rows t1, t2 [rad]: elbow up (t2 negative), elbow down.
-
-    Returns
-    -------
-    count : int
-    free : bool
-        t1 is free.
+    Link lengths are not negative; ``slack`` is the relative excess over a rim that is clamped.
+    Rows t1, t2 [rad] go to ``out`` (2, 2), elbow up (t2 negative) first. Returns their number, and
+    whether t1 is free, as where ``x = y = 0``: then it is at ``rest``.
     """
     if l1 <= 0.0 or l2 <= 0.0:
         return _one_link(l1, l2, x, y, slack, rest, out)
@@ -76,28 +63,18 @@ def _one_link(l1, l2, x, y, slack, rest, out):
 def solve_planar(
     links, joints, plane, form, pose, Ts, within_limits, q, residual, count, branch, free
 ):
-    """Solve poses Ts (m, 4, 4) of two or three turning joints with parallel axes.
+    """Solve poses Ts (m, 4, 4), or their positions, of two or three joints with parallel axes.
 
-    Parameters
-    ----------
-    links, joints
-        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
-    plane : array, shape (2, 4, 4)
-        Base to the frame on axis 1, x to axis 2; what takes the tool's pose at q = 0 back to it.
-    form : array, shape (9,)
-        l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3, the point on the last
-        axis (the tool's origin for two joints) in the tool frame [m], rest value of joint 1.
-    pose : bool
-        The full pose, or the position only (two joints).
-    Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.arm.solver.Solver`.
+    ``plane`` (2, 4, 4): base to the frame on axis 1, x to axis 2; what takes the tool's pose at
+    q = 0 back to it. ``form`` (9,): l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3,
+    the point on the last axis (the tool's origin for two joints) in the tool frame [m], rest value
+    of joint 1. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
-    n = joints.shape[0]
+    n, F = joints.shape[0], plane[0]
     work, pairs = work_array(n), np.empty((2, 2))
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
         T = Ts[i]
-        F = plane[0]
         x, y, _ = applied(F, applied(T, (form[5], form[6], form[7])))
         rows, no_direction = planar_rr(l1, l2, x, y, SLACK, rest, pairs)
         for k in range(rows):
@@ -105,10 +82,8 @@ def solve_planar(
             q[i, k, 0], q[i, k, 1] = t1, sign2 * (t2 - lean)
             if n == 3:
                 q[i, k, 2] = sign3 * (_heading(F, T, plane[1]) - t1 - t2 + lean)
-            residual[i, k], free[i, k] = -1.0, 0
-            branch[i, k] = ELBOW_UP if k == 0 else ELBOW_DOWN
-            if no_direction:
-                free[i, k] = 0b101 if n == 3 else 0b01
+            residual[i, k], branch[i, k] = -1.0, ELBOW_UP if k == 0 else ELBOW_DOWN
+            free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:
             count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)

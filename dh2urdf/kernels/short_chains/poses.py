@@ -115,22 +115,11 @@ def solve_short_chains(
 ):
     """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 
-    Parameters
-    ----------
-    links : array, shape (n + 1, 4, 4)
-    joints : array, shape (n, 3)
-        Sliding, lower, upper.
-    ends : array, shape (2, 4, 4)
-        Inverses of the first and the last link.
-    loop : array, shape (n, 8)
-        Dual quaternions of the links between the joints; the last row is written here.
-    plan : int64 array, shape (s, 2, 8)
-        Cuts of the loop, best first: its shape, see ``add_candidates``, and the nullity to expect;
-        the slots that it has, -1 after the last.
-    rest_unit : array, shape (n + 1,)
-        Rest value of each joint, then the length of one dual unit [m].
-    Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.arm.solver.Solver`.
+    ``ends`` (2, 4, 4) are the inverses of the first and the last link, ``loop`` (n, 8) the dual
+    quaternions of the links between the joints and a row for the last. ``plan`` (s, 2, 8) has the
+    cuts of the loop, best first: its shape, see ``add_candidates``, and the nullity to expect; the
+    slots that it has, -1 after the last. ``rest_unit`` (n + 1,): rest values, then the length of
+    one dual unit [m]. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work = work_array(n)

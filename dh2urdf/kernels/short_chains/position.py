@@ -236,17 +236,9 @@ def solve_short_positions(
 ):
     """Solve the origins of poses Ts (m, 4, 4) of a chain of n <= 3 joints.
 
-    Parameters
-    ----------
-    links, joints : arrays, shapes (n + 1, 4, 4) and (n, 3)
-    frames : array, shape (n, 4, 4)
-        ``F_1^-1``, A, B.
-    tip : array, shape (3,)
-        The tool's origin as the last joint sees it.
-    rest_unit : array, shape (n + 1,)
-        Rest values, then the size of the arm [m].
-    Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.arm.solver.Solver`.
+    ``frames`` (n, 4, 4) are ``F_1^-1``, A, B, ``tip`` (3,) is the tool's origin as the last joint
+    sees it, ``rest_unit`` (n + 1,) has the rest values, then the size of the arm [m]. The others as
+    for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
     work = work_array(n)

@@ -1,4 +1,4 @@
-"""Three joints slide: the turning ones, three at most, follow from the orientation alone.
+"""Three joints slide: the turning ones, two or three, follow from the orientation alone.
 
 ``R_0 Rz(q_i) R_1 Rz(q_j) R_2 Rz(q_k) R_3 = R``; then ``sum z_s q_s = p - p(0)``, three linear
 equations, gives the slides.
@@ -10,19 +10,21 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import (
     ANYWHERE,
+    POSE,
+    add_transposed,
+    error_and_jacobian,
+    finish_families,
     finish_pose,
-    free_joints,
-    one_of_each_family,
+    make_damped,
+    solve_damped,
     work_array,
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
-FLAT = 1e-7
-"""Volume of three unit directions that lie in a plane, to rounding of a table's angles."""
-
 DAMPING = 1e-10
-"""Added to the normal equations of slides in a plane; Newton removes what it leaves, 1e-10."""
+"""Added to the normal equations of the slides, which may lie in a plane: then they move as little
+as possible. Newton removes what it leaves, 1e-10."""
 
 SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
@@ -30,8 +32,8 @@ SLACK = 1e-6
 IN_LINE = 1e-10
 """Sine of the middle angle at which only the sum or difference of the outer two is known."""
 
-ROWS = 26
-"""Rows of scratch: four links and the middle rotation, 4 x 4; the slides' equations."""
+ROWS = 20
+"""Rows of scratch: four links and the middle rotation, 4 x 4."""
 
 
 @inner_kernel
@@ -86,21 +88,19 @@ def _outer(M, B):
 
 
 @inner_kernel
-def _candidates(links, joints, T, q, turning, scratch):
+def _candidates(links, joints, T, q, turning, scratch, damped):
     """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
-    ``turning`` (3,) and ``scratch`` (ROWS, 4) are scratch.
+    ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch. The slides are linear: from
+    their zeros one step of Newton's method finds them.
     """
     count = _turning_links(links, joints, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
-    found = 1
-    if count > 0:
-        _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
-    if count == 1:
-        q[0, turning[0]] = math.atan2(B[1, 0], B[0, 0])
-    elif count == 2:
+    found, q[:] = 1, 0.0
+    _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
+    if count == 2:
         q[0, turning[0]], q[0, turning[1]] = _outer(scratch[4:8], B)
-    elif count == 3:
+    else:
         first, second = scratch[4:8], scratch[8:12]
         found, c1, s1, c2, s2 = linear_trig(
             first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2],
@@ -114,85 +114,28 @@ def _candidates(links, joints, T, q, turning, scratch):
             q[k, turning[1]] = math.atan2(s, c)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
-        _slides(links, joints, T, q[k], scratch[18:26])
+        error_and_jacobian(links, joints, POSE, T, q[k], 1.0, damped)
+        damped[0][:] *= joints[:, :1]
+        solve_damped(damped, DAMPING)
+        add_transposed(damped, 1.0, q[k])
     return max(found, 0)
-
-
-@inner_kernel
-def _slides(links, joints, T, q, columns):
-    """Solve for the slides of q (n,) with its turning joints known.
-
-    Where the slides lie in a plane they move as little as possible.
-    """
-    r = load_pose(links[0])
-    k = 0
-    for i in range(q.shape[0]):
-        slides = joints[i, 0] != 0.0
-        if slides:
-            columns[k, 0], columns[k, 1], columns[k, 2] = r[2], r[6], r[10]
-            k += 1
-        r = joint_times_link(r, slides, 0.0 if slides else q[i], links[i + 1])
-    columns[3, 0], columns[3, 1], columns[3, 2] = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
-    volume = _volume(columns[0], columns[1], columns[2])
-    if abs(volume) < FLAT:
-        _least_motion(columns, columns[4:8])
-        columns = columns[4:8]
-        volume = _volume(columns[0], columns[1], columns[2])
-    k = 0
-    for i in range(q.shape[0]):
-        if joints[i, 0] != 0.0:
-            a = columns[3] if k == 0 else columns[0]
-            b = columns[3] if k == 1 else columns[1]
-            c = columns[3] if k == 2 else columns[2]
-            q[i] = _volume(a, b, c) / volume
-            k += 1
-
-
-@inner_kernel
-def _least_motion(columns, out):
-    """Normal equations of the slides, damped by ``DAMPING``: least squares, least motion."""
-    for j in range(4):
-        for i in range(3):
-            out[j, i] = DAMPING if i == j else 0.0
-            for k in range(3):
-                out[j, i] += columns[i, k] * columns[j, k]
-
-
-@inner_kernel
-def _volume(a, b, c):
-    """Determinant of three vectors."""
-    return (
-        a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
-    )
 
 
 @kernel
 def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, count, branch, free):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
-    Parameters
-    ----------
-    links, joints
-        See :func:`dh2urdf.kernels.certificate.certify.finish_pose`.
-    rest : array, shape (n,)
-        Value of the first free joint of a family's representative.
-    Ts, within_limits, q, residual, count, branch, free
-        See :class:`dh2urdf.ik.arm.solver.Solver`.
+    Of a family the member stays whose first free joint is at its value in ``rest`` (n,). ``links``
+    and ``joints`` are those of :func:`~dh2urdf.kernels.certificate.certify.finish_pose`, the others
+    those of :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n = joints.shape[0]
-    work, trial = work_array(n), np.empty(n)
+    work, damped, trial = work_array(n), make_damped(n), np.empty((2, n))
     turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))
     for i in range(Ts.shape[0]):
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
-        found = _candidates(links, joints, T, q[i], turning, scratch)
+        found = _candidates(links, joints, T, q[i], turning, scratch, damped)
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         found = finish_pose(links, joints, T, ANYWHERE, *rows, found, work)
-        for k in range(found):
-            free[i, k] = free_joints(links, joints, T, q[i, k], trial, work)
-        found = one_of_each_family(joints, rest, *rows, found)
-        if within_limits:
-            found = finish_pose(links, joints, T, within_limits, *rows, found, work)
-        count[i] = found
+        count[i] = finish_families(links, joints, T, rest, within_limits, rows, found, trial, work)
