@@ -7,18 +7,3 @@
 from dh2urdf.checks.consumers import Testimony, ask, ask_all, installed, why_not_asked
 from dh2urdf.checks.findings import Consumer, Effect, Finding, Severity, Verdict
 from dh2urdf.checks.rules import RULES, check_urdf
-
-__all__ = [
-    "RULES",
-    "Consumer",
-    "Effect",
-    "Finding",
-    "Severity",
-    "Testimony",
-    "Verdict",
-    "ask",
-    "ask_all",
-    "check_urdf",
-    "installed",
-    "why_not_asked",
-]

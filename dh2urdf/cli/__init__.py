@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
 
-from dh2urdf.cli.notes import note
+from dh2urdf.cli.progress import note
 from dh2urdf.exceptions import Dh2UrdfError, UnreachedError
 
 __all__ = ["main"]

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from dh2urdf.bounds import TABLE_BYTES
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import read_numbers
+from dh2urdf.cli.progress import note
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Units
 from dh2urdf.exceptions import ConfigurationError, TableError
@@ -97,6 +97,14 @@ def parse_configuration(
     units = Units("m", "deg" if deg else "rad")
     names, error = robot.joint_names, ConfigurationError
     return np.array(read_numbers(values, what, (robot.n,), kinds, units, names=names, error=error))
+
+
+def parse_angles(
+    values: Iterable[str] | None, what: str, count: int, *, deg: bool
+) -> list[float] | None:
+    """So many angles from the command line, in [rad]; None where none are given."""
+    units = Units("m", "deg" if deg else "rad")
+    return read_numbers(values, what, (count,), Kind.ANGLE, units) if values else None
 
 
 def ten_digits(value: float) -> str:

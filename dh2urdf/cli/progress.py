@@ -1,12 +1,11 @@
-"""How far long work has come, on stderr: a bar on a terminal, a line now and then elsewhere."""
+"""What is said beside the result, on stderr: notes, and how far long work has come."""
 
+import os
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TypeVar
-
-from dh2urdf.cli.notes import note
 
 T = TypeVar("T")
 
@@ -15,6 +14,15 @@ PATIENCE = 0.5
 
 QUIET, EVERY = 2.0, 5.0
 """Seconds before the first line in a log, and from one to the next."""
+
+
+def note(text: str) -> None:
+    """Anything that is not the result, on stderr; where that takes nothing, nowhere."""
+    try:
+        sys.stderr.write(text.rstrip("\n") + "\n")
+        sys.stderr.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 2)
 
 
 def track(items: Sequence[T], what: str) -> Iterator[T]:
@@ -27,7 +35,7 @@ def track(items: Sequence[T], what: str) -> Iterator[T]:
 
 @contextmanager
 def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
-    """A function to call with the number done and the total; it draws like :func:`track`."""
+    """A function to call with the number done and the total; on a terminal it draws a bar."""
     start = time.monotonic()
     if not sys.stderr.isatty():
         due = start + QUIET

@@ -106,7 +106,7 @@ def test_the_command_line_is_imported_before_anything_heavy():
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout.split()
     ours = {name for name in loaded if name.startswith("dh2urdf")}
-    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.cli.notes", "dh2urdf.exceptions"}
+    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.cli.progress", "dh2urdf.exceptions"}
     assert not {"numpy", "cyclopts", "rich", "pinocchio"} & set(loaded)
 
 

@@ -11,8 +11,6 @@ from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.rounding import rounded_angle
 from dh2urdf.checks.rules import geometry, inertia, joints, reading, tree
 
-__all__ = ["RULES", "check_urdf"]
-
 Rule = Callable[[Document], Iterator[Finding]]
 
 

@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Json, whole
 from dh2urdf.cli.output import emit, emit_json, read_source
+from dh2urdf.cli.progress import note, track
 from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
@@ -148,8 +148,6 @@ def _convert_many(
     tables: tuple[str, ...], out_dir: Path, options: UrdfOptions, *, force: bool, json: bool
 ) -> int:
     """Convert one after another; a bad file is reported and does not stop the rest."""
-    from dh2urdf.cli.progress import track
-
     done, failed = [], []
     targets: dict[Path, str] = {}
     for source in track(tables, "converting"):

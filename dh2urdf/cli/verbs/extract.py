@@ -8,9 +8,9 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, stdin
+from dh2urdf.cli.progress import note
 from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
@@ -39,7 +39,7 @@ def extract_(
     flip: tuple[str, ...] = (),
     embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
     json: Json = False,
-) -> int:
+) -> None:
     """Find the DH table of a URDF, xacro or MJCF, or of joint axes, by frame assignment.
 
     The table's forward kinematics is compared with Pinocchio's of the file.
@@ -73,16 +73,9 @@ def extract_(
     embedded
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
     """
+    text, own = _stdin() if source == "-" else source, embedded and not explain
     found = extract_dh(
-        _stdin() if source == "-" else source,
-        base,
-        tip,
-        convention,
-        snap,
-        x_axis=x_axis,
-        compact=compact,
-        flip=flip,
-        embedded=embedded and not explain,
+        text, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
     )
     if output is not None or format is not None:
         _write(found, output, format, force=force)
@@ -98,14 +91,13 @@ def extract_(
             changes=[asdict(change) for change in found.changes],
             warnings=found.warnings,
         )
-        return 0
+        return
     for warning in found.warnings:
         note(f"warning: {warning}")
     if output is None and format is None:
         emit(found.explain() if explain else str(found))
     elif explain:
         note(found.explain())
-    return 0
 
 
 def _stdin() -> str:
@@ -125,9 +117,8 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
     suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")
     chosen = format or SUFFIXES.get(suffix, "")
     if not chosen:
-        raise Dh2UrdfError(
-            f"{output}: the suffix tells no format; use {', '.join(SUFFIXES)} or --format"
-        )
+        known = ", ".join(SUFFIXES)
+        raise Dh2UrdfError(f"{output}: the suffix tells no format; use {known} or --format")
     if chosen in CONSTRUCTORS:
         text = CONSTRUCTORS[chosen](found.table)
     elif chosen == "latex":

@@ -6,10 +6,9 @@ from typing import Annotated, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.notes import note
-from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values, read_numbers
-from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
-from dh2urdf.dh_io import Kind, Units
+from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values
+from dh2urdf.cli.output import emit, emit_json, parse_angles, parse_configuration, robot_of
+from dh2urdf.cli.progress import note
 
 
 def figure_(
@@ -29,7 +28,7 @@ def figure_(
     dpi: Dpi = 180.0,
     force: Force = False,
     json: Json = False,
-) -> int:
+) -> None:
     """Draw an arm with its DH frames and its table.
 
     Parameters
@@ -52,7 +51,7 @@ def figure_(
 
     check_target(output, force=force)
     arm = robot_of(robot, base, tip)
-    eye = read_numbers(view, "--view", (2,), Kind.ANGLE, Units("m", "deg")) if view else None
+    eye = parse_angles(view, "--view", 2, deg=True)
     config = parse_configuration(q, arm, deg=deg) if q else None
     ghosts, names = np.empty((0, arm.n)), list[str]()
     if branches:
@@ -79,4 +78,3 @@ def figure_(
         emit_json("figure", path=path, branches=len(ghosts))
     else:
         emit(str(path))
-    return 0

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import (
     emit,
@@ -14,6 +13,7 @@ from dh2urdf.cli.output import (
     robot_of,
     ten_digits,
 )
+from dh2urdf.cli.progress import note
 from dh2urdf.dh_io.files import shown
 from dh2urdf.transforms import matrix_to_rpy
 
@@ -27,7 +27,7 @@ def fk_(
     base: Link = None,
     tip: Link = None,
     json: Json = False,
-) -> int:
+) -> None:
     """Place the tip: forward kinematics of a table or a URDF.
 
     Parameters
@@ -56,11 +56,10 @@ def fk_(
             rpy=rpy,
             outside_limits=outside,
         )
-        return 0
+        return
     if outside:
         note(f"warning: outside the joint limits: {', '.join(map(shown, outside))}")
     angles = [math.degrees(a) for a in rpy] if deg else list(rpy)
     emit(f"{shown(arm.tip)} in {shown(arm.base)}:\n{matrix_text(T)}")
     emit(f"xyz [m]: {'  '.join(map(ten_digits, T[:3, 3]))}")
     emit(f"rpy [{'deg' if deg else 'rad'}]: {'  '.join(map(ten_digits, angles))}")
-    return 0

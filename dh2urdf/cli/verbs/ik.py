@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
+from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.verbs.ik_poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from dh2urdf.ik.problem import IKSolutions
     from dh2urdf.robot import Robot
 
+
+_Options = dict[str, Any]
 
 CHUNK = 1_000
 """Poses that are solved, and lines that are written, at once."""
@@ -77,18 +79,19 @@ def ik_(
         Bare angles are degrees, and angles are shown in degrees.
     """
     arm = robot_of(robot, base, tip)
-    options: dict[str, Any] = {
+    options: _Options = {
         "locked": _held(locked, arm, deg=deg),
         "task": task,
         "within_limits": within_limits,
         "nearest": nearest,
     }
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
+    near: _Options = {"seed": goal, "turns": turns}
     if csv is not None:
         poses = poses_of_csv(csv, deg=deg, nearest=nearest)
-        return _many(arm, poses, goal, turns, options, deg=deg, json=json)
+        return _many(arm, poses, near, options, deg=deg, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position", nearest=nearest)
-    found = arm.ik(T, seed=goal, turns=turns, **options)
+    found = arm.ik(T, **near, **options)
     _tell_change(found.pose_change)
     if goal is None:
         found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
@@ -139,7 +142,7 @@ def _outside(arm: Robot, q: Array) -> Array:
     return np.where(excess > 1e-12, excess, 0.0)
 
 
-def _reason(arm: Robot, T: Array, found: IKSolutions, options: dict[str, Any]) -> str:
+def _reason(arm: Robot, T: Array, found: IKSolutions, options: _Options) -> str:
     """Why there is no solution within the limits; empty if there is one."""
     if found and (_outside(arm, found.q) == 0.0).all(axis=1).any():
         return ""
@@ -200,21 +203,14 @@ def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
 
 
 def _many(
-    arm: Robot,
-    poses: Poses,
-    goal: Array | None,
-    turns: str,
-    options: dict[str, Any],
-    *,
-    deg: bool,
-    json: bool,
+    arm: Robot, poses: Poses, near: _Options, options: _Options, *, deg: bool, json: bool
 ) -> int:
     """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
     missed: dict[int, IKSolutions | None] = {}
     change = 0.0
     data: list[dict[str, Any]] = []
     lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
-    for i, found in enumerate(_solved(arm, poses.T, goal, turns, options)):
+    for i, found in enumerate(_solved(arm, poses.T, near, options)):
         over, change = _outside(arm, found.q), max(change, found.pose_change)
         if not (over == 0.0).all(axis=1).any():
             missed[i] = found if len(missed) < SHOWN else None
@@ -239,20 +235,16 @@ def _many(
     return 1 if missed else 0
 
 
-def _solved(
-    arm: Robot, Ts: Array, goal: Array | None, turns: str, options: dict[str, Any]
-) -> Iterator[IKSolutions]:
+def _solved(arm: Robot, Ts: Array, near: _Options, options: _Options) -> Iterator[IKSolutions]:
     """The solutions of one pose after the other, telling how far it has come."""
-    from dh2urdf.cli.progress import bar
-
     with bar("solving", len(Ts)) as report:
         for start in range(0, len(Ts), CHUNK):
             part = Ts[start : start + CHUNK]
-            if goal is None and turns == "nearest":
+            if near["seed"] is None and near["turns"] == "nearest":
                 batch = arm.ik_batch(part, **options)
                 yield from (batch[i] for i in range(len(batch)))
             else:
-                yield from (arm.ik(T, seed=goal, turns=turns, **options) for T in part)
+                yield from (arm.ik(T, **near, **options) for T in part)
             report(start + len(part), len(Ts))
 
 

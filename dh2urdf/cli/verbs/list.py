@@ -6,7 +6,7 @@ from dh2urdf.grids import grid_text
 from dh2urdf.robots import list_tables, load_table
 
 
-def list_(*, json: Json = False) -> int:
+def list_(*, json: Json = False) -> None:
     """List the tables that ship with the package."""
     tables = [load_table(name) for name in list_tables()]
     if json:
@@ -23,13 +23,12 @@ def list_(*, json: Json = False) -> int:
                 for t in tables
             ],
         )
-        return 0
+        return
     rows = []
     for t in tables:
         letters = "".join(str(row.joint_type)[0].upper() for row in t.joints)
         rows.append([t.name, letters, str(t.convention), _short(t.source)])
     emit(grid_text(["name", "joints", "convention", "source"], rows, left=(0, 1, 2, 3)))
-    return 0
 
 
 def _short(source: str, width: int = 60) -> str:

@@ -29,7 +29,7 @@ def show_(
     symbolic: bool = False,
     format: str = "text",
     json: Json = False,
-) -> int:
+) -> None:
     """Print a table, each of its transforms, their product, and its solver.
 
     Parameters
@@ -50,7 +50,7 @@ def show_(
     assert dh is not None
     if choice(format, "--format", ("text", *WRITERS)) != "text":
         emit(WRITERS[format](dh))
-        return 0
+        return
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
     try:
@@ -71,7 +71,7 @@ def show_(
             solver=name,
             solver_explained=why,
         )
-        return 0
+        return
     emit(str(dh))
     for label, text in (("source", dh.source), ("checked", dh.checked)):
         if text:
@@ -80,7 +80,6 @@ def show_(
     if symbolic:
         _show_symbols(dh)
     emit(f"\ninverse kinematics: {name}\n{why}")
-    return 0
 
 
 def _show_transforms(dh: DHTable, config: Array) -> None:

@@ -4,9 +4,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.notes import note
 from dh2urdf.cli.options import Deg, Link, Values, whole
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
+from dh2urdf.cli.progress import note
 
 
 def view_(
@@ -21,7 +21,7 @@ def view_(
     port: Annotated[int | None, whole(0, 65_535)] = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
     json: bool = False,
-) -> int:
+) -> None:
     """Look at an arm in the browser; Ctrl-C ends it.
 
     Parameters
@@ -60,4 +60,3 @@ def view_(
 
             webbrowser.open(shown.url)
         shown.wait()
-    return 0

@@ -5,21 +5,10 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.cli.options import (
-    Arm,
-    Dpi,
-    Force,
-    Json,
-    Link,
-    PicturePath,
-    Values,
-    read_numbers,
-    real,
-    whole,
-)
-from dh2urdf.cli.output import emit, emit_json, robot_of
+from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, PicturePath, Values, real, whole
+from dh2urdf.cli.output import emit, emit_json, parse_angles, robot_of
 from dh2urdf.cli.progress import bar
-from dh2urdf.dh_io import Kind, Units
+from dh2urdf.dh_io import Kind
 
 
 def workspace_(
@@ -39,7 +28,7 @@ def workspace_(
     dpi: Dpi = 180.0,
     force: Force = False,
     json: Json = False,
-) -> int:
+) -> None:
     """Draw what an arm can reach.
 
     A planar arm of two joints: the surface of its poses (x, y, phi) and its annulus. Any other:
@@ -67,14 +56,12 @@ def workspace_(
 
     check_target(output, force=force)
     arm = robot_of(robot, base, tip)
-    units = Units("m", "deg" if deg else "rad")
-    turned = read_numbers(rpy, "--rpy", (3,), Kind.ANGLE, units) if rpy else None
     with bar("mapping", 1) as report:
         picture = workspace_figure(
             arm,
             plane=plane or "",
             at=at,
-            rpy=turned,
+            rpy=parse_angles(rpy, "--rpy", 3, deg=deg),
             points=points,
             orientations=orientations,
             within_limits=limits,
@@ -85,4 +72,3 @@ def workspace_(
         emit_json("workspace", path=path, within_limits=limits)
     else:
         emit(str(path))
-    return 0
