@@ -47,6 +47,9 @@ ON_BAD = ("raise", "skip")
 
 TASKS = tuple(Task)
 
+Asked = tuple[Task | str, Locked | None, bool, int | None, bool]
+"""What a call may ask for: ``task``, ``locked``, ``within_limits``, ``samples``, ``nearest``."""
+
 
 class InverseKinematics:
     """Inverse kinematics of one chain; its methods are documented at :class:`dh2urdf.Robot`."""
@@ -68,18 +71,9 @@ class InverseKinematics:
         assert not isinstance(solver, HeldSolver)
         return solver
 
-    def solve(
-        self,
-        T: ArrayLike,
-        seed: ArrayLike | None = None,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = Task.POSE,
-        turns: str = "nearest",
-        samples: int | None = None,
-        nearest: bool = False,
-    ) -> IKSolutions:
+    def solve(self, T: ArrayLike, seed: ArrayLike | None, turns: str, asked: Asked) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
+        task, locked, within_limits, samples, nearest = asked
         problem, inside = self._plain, flag(within_limits, "within_limits")
         usual = locked is None and samples is None and type(task) is str and task == "pose"
         if problem is None or not usual:
@@ -99,48 +93,34 @@ class InverseKinematics:
         return found
 
     def solve_batch(
-        self,
-        Ts: ArrayLike,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = Task.POSE,
-        samples: int | None = None,
-        threads: int | None = None,
-        progress: Progress | None = None,
-        nearest: bool = False,
-        on_bad: str = "raise",
+        self, Ts: ArrayLike, asked: Asked, threads: int | None, tell: Progress | None, on_bad: str
     ) -> IKBatch:
         """All configurations of many poses, see :meth:`dh2urdf.Robot.ik_batch`."""
+        task, locked, within_limits, samples, nearest = asked
         inside, skip = flag(within_limits, "within_limits"), choice(on_bad, "on_bad", ON_BAD)
         workers = None if threads is None else integer(threads, "threads", 1, THREADS)
-        if progress is not None:
-            instance(progress, "progress", Callable)
+        if tell is not None:
+            instance(tell, "progress", Callable)
         problem = self._compiled(task, locked, inside, samples)
         poses, change = many_poses(Ts, nearest, skip == "skip", problem.first_bad_pose)
         flat, shape = poses.reshape(-1, 4, 4), poses.shape[:-2]
         _check_held(problem, len(flat))
         good = ~np.isnan(flat[:, 3, 3])
         if good.all():
-            batch = problem.solve_many(flat, inside, workers, progress)
+            batch = problem.solve_many(flat, inside, workers, tell)
         else:
             some = problem
             if problem.values is not None and len(problem.values) > 1:
                 some = problem.at(problem.values[good])
-            batch = some.solve_many(flat[good], inside, workers, progress).among(good)
+            batch = some.solve_many(flat[good], inside, workers, tell).among(good)
         batch.pose_change[:] = change.ravel()
         return batch if len(shape) == 1 else batch.shaped(shape)
 
     def solve_path(
-        self,
-        Ts: ArrayLike,
-        start: ArrayLike | None = None,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = Task.POSE,
-        max_jump: float | None = None,
-        nearest: bool = False,
+        self, Ts: ArrayLike, start: ArrayLike | None, max_jump: float | None, asked: Asked
     ) -> IKPath:
         """A continuous joint path through a sequence of poses, see :func:`find_path`."""
+        task, locked, within_limits, _, nearest = asked
         inside = flag(within_limits, "within_limits")
         problem = self._compiled(task, locked, inside)
         poses, change = many_poses(Ts, nearest, False, problem.first_bad_pose)
@@ -148,28 +128,18 @@ class InverseKinematics:
             raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
         _check_held(problem, len(poses))
         origin = None if start is None else as_configuration(start, self.chain.prismatic, "start")
-        if isinstance(problem, ScaledProblem):
-            found = problem.path(poses, origin, inside, max_jump)
-        else:
-            found = find_path(problem, poses, origin, inside, max_jump)
-        return replace(found, pose_change=change)
+        return replace(find_path(problem, poses, origin, inside, max_jump), pose_change=change)
 
-    def why_none(
-        self,
-        T: ArrayLike,
-        within_limits: bool = True,
-        locked: Locked | None = None,
-        task: Task | str = Task.POSE,
-        nearest: bool = False,
-    ) -> str:
+    def why_none(self, T: ArrayLike, asked: Asked) -> str:
         """Say why a pose has no solution, and by how much; empty if it has one."""
+        task, locked, within_limits, _, nearest = asked
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside)
         pose, _ = one_pose(T, problem.task, nearest, problem.first_bad_pose)
         _check_held(problem, 1)
         return problem.why_none(pose[0], inside)
 
-    def intervals(self, T: ArrayLike, within_limits: bool = True, nearest: bool = False) -> Array:
+    def intervals(self, T: ArrayLike, within_limits: bool, nearest: bool) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
         inside = flag(within_limits, "within_limits")
         problem = self._compiled(Task.POSE, None, inside)

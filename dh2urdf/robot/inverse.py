@@ -88,7 +88,7 @@ class RobotIK:
         ------
         PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
         """
-        return self._ik.solve(T, seed, within_limits, locked, task, turns, samples, nearest)
+        return self._ik.solve(T, seed, turns, (task, locked, within_limits, samples, nearest))
 
     def ik_batch(
         self,
@@ -129,9 +129,8 @@ class RobotIK:
         ------
         PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
         """
-        return self._ik.solve_batch(
-            Ts, within_limits, locked, task, samples, threads, progress, nearest, on_bad
-        )
+        asked = task, locked, within_limits, samples, nearest
+        return self._ik.solve_batch(Ts, asked, threads, progress, on_bad)
 
     def ik_path(
         self,
@@ -160,7 +159,8 @@ class RobotIK:
             Motion of a joint between neighbouring poses that counts as a break [rad or m];
             0.5 without it.
         """
-        return self._ik.solve_path(Ts, start, within_limits, locked, task, max_jump, nearest)
+        asked = task, locked, within_limits, None, nearest
+        return self._ik.solve_path(Ts, start, max_jump, asked)
 
     def ik_intervals(
         self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False
@@ -255,7 +255,7 @@ class RobotIK:
         T, within_limits, locked, task, nearest
             As for :meth:`ik`.
         """
-        return self._ik.why_none(T, within_limits, locked, task, nearest)
+        return self._ik.why_none(T, (task, locked, within_limits, None, nearest))
 
     @cached_property
     def _numeric(self) -> NumericProblem:

@@ -118,15 +118,13 @@ class AxisLines:
 
     def spherical(self, i: int) -> bool:
         """Whether three revolute joints from i on have axes through one point."""
-        if self.chain.prismatic[i : i + 3].any():
-            return False
-        return self._centre(self.points, i) is not None
+        turning = not self.chain.prismatic[i : i + 3].any()
+        return turning and self._centre(self.points, i) is not None
 
     def three_parallel(self, i: int) -> bool:
         """Whether three revolute joints from i on have parallel axes."""
-        if self.chain.prismatic[i : i + 3].any():
-            return False
-        return self.parallel(i) and self.parallel(i + 1)
+        turning = not self.chain.prismatic[i : i + 3].any()
+        return turning and self.parallel(i) and self.parallel(i + 1)
 
     def describe(self) -> str:
         """Say in one line what neighbours do: ``1 meets 2, 2 || 3, ...`` (skew ones left out)."""
@@ -153,7 +151,8 @@ class DHForm:
     def frames(self) -> Array:
         """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
         axes, points = self.lines.axes, self.lines.points
-        x, origin = _any_normal(axes, points), points[0]
+        x, origin = np.cross(axes[0], np.eye(3)[np.abs(axes[0]).argmin()]), points[0]
+        x /= np.linalg.norm(x)
         frames: list[Array] = []
         for i in range(len(axes)):
             if i > 0:
@@ -206,12 +205,6 @@ class DHForm:
         rows[np.abs(rows[:, 3]) <= 1e-15 * chain.size, 3] = 0.0
         return rows
 
-    @property
-    def base(self) -> Array:
-        """``T_base_dh0``, shape (4, 4)."""
-        base: Array = self.frames[0]
-        return base
-
     @cached_property
     def tool(self) -> Array:
         """``T_dhn_tool``; frame n is frame n - 1 at q = 0, shape (4, 4)."""
@@ -221,11 +214,11 @@ class DHForm:
     @cached_property
     def ends(self) -> Array:
         """Inverse of base, inverse of tool, tool; shape (3, 4, 4): what the kernels need."""
-        return np.stack([inverse(self.base), inverse(self.tool), self.tool])
+        return np.stack([inverse(self.frames[0]), inverse(self.tool), self.tool])
 
     def fk(self, q: Array) -> Array:
         """Forward kinematics of the snapped arm at q (n,), shape (4, 4)."""
-        T = self.base
+        T: Array = self.frames[0]
         for row, qi in zip(self.rows, q, strict=True):
             T = T @ row_motion(row, float(qi))
         return T @ self.tool
@@ -266,13 +259,6 @@ def _unit(c: float, s: float) -> tuple[float, float]:
         return math.copysign(1.0, c), 0.0
     r = math.hypot(c, s)
     return c / r, s / r
-
-
-def _any_normal(axes: Array, points: Array) -> Array:
-    """A unit vector normal to the first axis."""
-    seed = np.eye(3)[int(np.argmin(np.abs(axes[0])))]
-    x: Array = np.cross(axes[0], seed)
-    return x / np.linalg.norm(x)
 
 
 def pose_along(x: Array, z: Array, origin: Array) -> Array:

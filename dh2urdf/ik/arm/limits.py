@@ -57,12 +57,6 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     return out
 
 
-def _trimmed(chain: SerialChain, q: Array) -> Array:
-    """Put what rounding took over a limit onto it."""
-    on = np.clip(q, chain.lower, chain.upper)
-    return np.where(np.abs(on - q) <= LIMIT_SLACK, on, q)
-
-
 def _turns(chain: SerialChain, q: Array) -> tuple[Array, Array]:
     """First and last full turn of configurations q (..., n) inside the limits, shape (..., n).
 
@@ -86,4 +80,6 @@ def all_turns(chain: SerialChain, q: Array) -> Array:
     """Every turn of one configuration q (n,) inside the limits, shape (k, n)."""
     turns = [np.arange(a, b + 1.0) for a, b in zip(*_turns(chain, q), strict=True)]
     choices = [value + TWO_PI * k for value, k in zip(q, turns, strict=True)]
-    return _trimmed(chain, np.array(list(itertools.product(*choices)), float).reshape(-1, chain.n))
+    every = np.array(list(itertools.product(*choices)), float).reshape(-1, chain.n)
+    on = np.clip(every, chain.lower, chain.upper)  # what rounding took over a limit
+    return np.where(np.abs(on - every) <= LIMIT_SLACK, on, every)

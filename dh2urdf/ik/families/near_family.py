@@ -2,7 +2,6 @@
 
 import math
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -30,12 +29,7 @@ WIDTH = 48
 """Most candidates of a pose in doubt: general solver, nominal arm, and what lies beside them."""
 
 
-class _Match(NamedTuple):
-    """A family that covers the chain, seen from base or tool, once its axes are snapped."""
-
-    family: type[SphericalWrist] | type[ThreeParallel]
-    reversed: bool
-    tolerance: float
+_Family = type[SphericalWrist | ThreeParallel]
 
 
 class NearFamily(SolverBase):
@@ -50,10 +44,10 @@ class NearFamily(SolverBase):
         super().__init__(chain, task, others)
         match = _match(chain)
         assert match is not None
-        self.reversed = match.reversed
-        self.seen = chain.reversed() if match.reversed else chain
-        self.nominal = match.family(self.seen, tolerance=match.tolerance)
-        self.name = f"nearly {self.nominal.name}{', from the tool' if match.reversed else ''}"
+        family, self.reversed, tolerance = match
+        seen = chain.reversed() if self.reversed else chain
+        self.nominal = family(seen, tolerance=tolerance)
+        self.name = f"nearly {self.nominal.name}{', from the tool' if self.reversed else ''}"
         self.general = General6R(chain)
         self.distance = self.nominal.form.error
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
@@ -123,27 +117,24 @@ class NearFamily(SolverBase):
 
 
 @lru_cache(maxsize=4)
-def _match(chain: SerialChain) -> _Match | None:
-    """The family that is nearest to the chain; None where none is near."""
+def _match(chain: SerialChain) -> tuple[_Family, bool, float] | None:
+    """The nearest family, whether seen from the tool, and within which tolerance its axes snap."""
     if not _candidates(AxisLines(chain, NEAR[-1])):
         return None
     for tolerance in NEAR:
         for family, reversed_ in _candidates(AxisLines(chain, tolerance)):
             seen = chain.reversed() if reversed_ else chain
             if family.obstacle(seen, tolerance=tolerance) is None:
-                return _Match(family, reversed_, tolerance)
+                return family, reversed_, tolerance
     return None
 
 
-def _candidates(lines: AxisLines) -> list[tuple[type[SphericalWrist | ThreeParallel], bool]]:
+def _candidates(lines: AxisLines) -> list[tuple[_Family, bool]]:
     """Families whose axes the snapped lines have, and whether seen from the tool."""
-    found: list[tuple[type[SphericalWrist | ThreeParallel], bool]] = []
-    if lines.spherical(3):
-        found.append((SphericalWrist, False))
-    if lines.three_parallel(0) or lines.three_parallel(1):
-        found.append((ThreeParallel, False))
-    if lines.spherical(0):
-        found.append((SphericalWrist, True))
-    if lines.three_parallel(2) or lines.three_parallel(3):
-        found.append((ThreeParallel, True))
-    return found
+    rows: tuple[tuple[_Family, bool, bool], ...] = (
+        (SphericalWrist, False, lines.spherical(3)),
+        (ThreeParallel, False, lines.three_parallel(0) or lines.three_parallel(1)),
+        (SphericalWrist, True, lines.spherical(0)),
+        (ThreeParallel, True, lines.three_parallel(2) or lines.three_parallel(3)),
+    )
+    return [(family, reversed_) for family, reversed_, has in rows if has]

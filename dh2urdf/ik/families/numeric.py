@@ -68,9 +68,6 @@ class NumericSolutions:
     def __len__(self) -> int:
         return len(self.q)
 
-    def __bool__(self) -> bool:
-        return len(self.q) > 0
-
     def __getitem__(self, index: int) -> Array:
         row: Array = self.q[index]
         return row
@@ -120,7 +117,13 @@ class NumericProblem:
         inner, scale = self._in_own_unit()
         pose = lengths_in(target, inner.chain.unit / self.chain.unit)
         first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale
-        q, tried = inner._search(pose, wanted, first, inside, solutions, starts, generator(rng))
+        bounds = np.column_stack([self.slides, inner.lower, inner.upper]).astype(float)
+        if not inside:
+            bounds[:, 1:] = -np.inf, np.inf
+        begin = inner._starts(starts, first, bounds, generator(rng))
+        q, tried = inner._search(pose, wanted, bounds, begin, solutions)
+        if first is not None:
+            q = q[np.argsort(np.linalg.norm(q - first, axis=1), kind="stable")]
         q, residual, one = q * scale, np.empty(len(q)), np.array([len(q)])
         joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
         poses = target[None], joints[None], one, residual[None]
@@ -137,39 +140,18 @@ class NumericProblem:
         return NumericProblem(chain, coupling, offset, self.slides, *bounds), scale
 
     def _search(
-        self,
-        T: Array,
-        task: Task,
-        seed: Array | None,
-        inside: bool,
-        solutions: int,
-        starts: int,
-        rng: np.random.Generator,
+        self, T: Array, task: Task, bounds: Array, starts: Array, most: int
     ) -> tuple[Array, int]:
-        """Configurations (k, n) that reach a pose, nearest to a seed first; starts that it took."""
+        """Configurations (k, n) that reach a pose, and the number of starts (s, n) that it took."""
         from dh2urdf.kernels.certificate import find_solutions
 
-        n = len(self.lower)
-        bounds = np.column_stack([self.slides, self.lower, self.upper]).astype(float)
-        if not inside:
-            bounds[:, 1], bounds[:, 2] = -np.inf, np.inf
-        q, residual = np.empty((solutions, n)), np.empty(solutions)
-        count, tried = find_solutions(
-            *self.chain.tables,
-            np.ascontiguousarray(self.coupling, dtype=float),
-            np.ascontiguousarray(self.offset, dtype=float),
-            bounds,
-            task.number,
-            T,
-            self.chain.size,
-            self._starts(starts, seed, bounds, rng),
-            q,
-            residual,
+        coupling, offset = (
+            np.ascontiguousarray(a, dtype=float) for a in (self.coupling, self.offset)
         )
-        if seed is None:
-            return q[:count], tried
-        order = np.argsort(np.linalg.norm(q[:count] - seed, axis=1), kind="stable")
-        return q[order], tried
+        q = np.empty((most, len(self.lower)))
+        asked = *self.chain.tables, coupling, offset, bounds, task.number, T, self.chain.size
+        count, tried = find_solutions(*asked, starts, q, np.empty(most))
+        return q[:count], tried
 
     def _starts(
         self, starts: int, seed: Array | None, bounds: Array, rng: np.random.Generator

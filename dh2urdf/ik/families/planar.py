@@ -120,17 +120,9 @@ class PlanarArm(SolverBase):
         link2 = ((T_first_base @ last)[:3, 3])[:2] - (link1, 0.0)
         signs = np.sign(chain.axes @ chain.axes[0])
         plane = np.stack([T_first_base, inverse(chain.tool) @ frames[0]])
-        self.form = np.array(
-            [
-                link1,
-                math.hypot(*link2),
-                math.atan2(link2[1], link2[0]),
-                signs[1],
-                signs[-1],
-                *point,
-                float(np.clip(0.0, chain.lower[0], chain.upper[0])),
-            ]
-        )
+        polar = math.hypot(*link2), math.atan2(link2[1], link2[0])
+        rest = float(np.clip(0.0, chain.lower[0], chain.upper[0]))
+        self.form = np.array([link1, *polar, signs[1], signs[-1], *point, rest])
         self.constants = self.links, self.joints, plane, self.form, task is Task.POSE
 
     @classmethod

@@ -65,8 +65,13 @@ class ShortChain(SolverBase):
 
     @cached_property
     def loop(self) -> Array:
-        """Dual quaternions of the links between the joints, shape (n, 8)."""
-        return _loop_links(self.links, self.unit)
+        """Dual quaternions of the links between joints, and a row for the closing one, (n, 8)."""
+        from dh2urdf.kernels.numbers import dual_of_pose
+
+        loop = np.zeros((self.chain.n, 8))
+        for row, link in zip(loop[:-1], self.links[1:-1], strict=True):
+            dual_of_pose(link, self.unit, row)
+        return loop
 
     @cached_property
     def plan(self) -> IntArray:
@@ -104,12 +109,8 @@ class ShortChain(SolverBase):
         from dh2urdf.kernels.short_chains import close_loop, loop_columns, loop_matrix
 
         rng = np.random.default_rng(1)
-        loop, columns, M, pose = (
-            self.loop.copy(),
-            np.empty((12, 8)),
-            np.empty((8, 8)),
-            np.empty((4, 4)),
-        )
+        loop, columns = self.loop.copy(), np.empty((12, 8))
+        M, pose = np.empty((8, 8)), np.empty((4, 4))
         blind, nullity, gap = False, 0, np.inf
         for _ in range(TRIALS):
             q = np.where(self.chain.prismatic, self.unit, np.pi) * rng.uniform(-1, 1, self.chain.n)
@@ -127,16 +128,6 @@ class ShortChain(SolverBase):
             here = int((sigma < VANISHED).sum())
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
         return _Quality(blind, nullity, -gap)
-
-
-def _loop_links(links: Array, unit: float) -> Array:
-    """Dual quaternions of the links between the joints, and a row for the closing one, (n, 8)."""
-    from dh2urdf.kernels.numbers import dual_of_pose
-
-    loop = np.zeros((len(links) - 1, 8))
-    for row, link in zip(loop[:-1], links[1:-1], strict=True):
-        dual_of_pose(np.ascontiguousarray(link), unit, row)
-    return loop
 
 
 def _shape(prismatic: NDArray[np.bool_], start: int) -> list[int]:

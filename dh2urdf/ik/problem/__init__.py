@@ -1,15 +1,14 @@
 """One problem: poses in, solutions, batches and paths out.
 
 `problem` joins a chain, a task and a solver; `solutions` and `batch` are its answers, `shortfall`
-says why there is none, `path` goes through many poses; `swept_problem` and `swept_path` are the
-same with a joint to spare, `scaled_problem` with another unit of length; `locked` reads ``locked``.
+says why there is none, `path` goes through many poses; `swept_problem` is the same with a joint to
+spare, `scaled_problem` with another unit of length; `locked` reads ``locked``.
 """
 
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.locked import Locked, held_values
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import ForwardKinematics, Problem, Progress
-from dh2urdf.ik.problem.scaled_problem import ScaledProblem
+from dh2urdf.ik.problem.scaled_problem import ScaledProblem, find_path
 from dh2urdf.ik.problem.solutions import IKSolutions
-from dh2urdf.ik.problem.swept_path import find_path
 from dh2urdf.ik.problem.swept_problem import SweptProblem

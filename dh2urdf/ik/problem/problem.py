@@ -232,7 +232,7 @@ class Problem:
         if within_limits:
             anywhere = self.solve_one(T[None], within_limits=False)
             if anywhere:
-                _, joint, excess = beyond_limits(self.chain, anywhere.q)
+                joint, excess = beyond_limits(self.chain, anywhere.q)
                 if excess <= LIMIT_SLACK:
                     return ""
                 slides = self.chain.prismatic[joint]
@@ -250,15 +250,10 @@ class Problem:
 
     def measure(self, q: Array, T: Array) -> Array:
         """Residuals of configurations q (k, n) by the independent forward kinematics."""
-        return residual_of_poses(self.referee(q), T, self.task)
-
-
-def residual_of_poses(poses: Array, T: Array, task: Task) -> Array:
-    """Larger of position [m] and orientation error [rad] of poses (k, 4, 4), shape (k,)."""
-    error = task_error(poses, T, task)
-    position, turn = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
-    largest: Array = np.maximum(position, turn)
-    return largest
+        error = task_error(self.referee(q), T, self.task)
+        position, turn = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
+        largest: Array = np.maximum(position, turn)
+        return largest
 
 
 def _run(

@@ -13,11 +13,10 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import HeldSolver, lengths_in
 from dh2urdf.ik.problem.batch import IKBatch
-from dh2urdf.ik.problem.path import IKPath
+from dh2urdf.ik.problem.path import IKPath, PathFinder
 from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.ik.problem.solutions import IKSolutions
-from dh2urdf.ik.problem.swept_path import find_path
-from dh2urdf.ik.problem.swept_problem import SweptProblem
+from dh2urdf.ik.problem.swept_problem import SweptPath, SweptProblem
 from dh2urdf.transforms import Array
 
 
@@ -64,14 +63,6 @@ class ScaledProblem(Problem):
         """As :meth:`Problem.why_none`."""
         return self.inner.why_none(lengths_in(T, self.unit), within_limits)
 
-    def path(
-        self, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
-    ) -> IKPath:
-        """The path of least joint motion through poses Ts (m, 4, 4), see :func:`find_path`."""
-        origin = None if start is None else start / self.scale
-        found = find_path(self.inner, lengths_in(Ts, self.unit), origin, within_limits, max_jump)
-        return replace(found, q=found.q * self.scale)
-
     def intervals(self, T: Array, within_limits: bool) -> Array:
         """As :meth:`SweptProblem.intervals`."""
         assert isinstance(self.inner, SweptProblem)
@@ -88,3 +79,17 @@ class ScaledProblem(Problem):
         """Solutions of the inner problem in metres, measured there."""
         in_metres = IKSolutions.of(self, T, found.q, found.residual, *found.codes)
         return self._at(in_metres, found.q * self.scale)
+
+
+def find_path(
+    problem: Problem, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
+) -> IKPath:
+    """The path of least joint motion through poses Ts (m, 4, 4), see :class:`.PathFinder`."""
+    if isinstance(problem, ScaledProblem):
+        origin = None if start is None else start / problem.scale
+        poses = lengths_in(Ts, problem.unit)
+        found = find_path(problem.inner, poses, origin, within_limits, max_jump)
+        return replace(found, q=found.q * problem.scale)
+    if isinstance(problem, SweptProblem):
+        return SweptPath(problem, Ts, start, within_limits, max_jump).find()
+    return PathFinder(problem, Ts, start, within_limits, max_jump).find()

@@ -43,12 +43,11 @@ def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     )
 
 
-def beyond_limits(chain: SerialChain, q: Array) -> tuple[int, int, float]:
-    """The configuration of q (k, n) that breaks its limits least: its row, joint and excess."""
+def beyond_limits(chain: SerialChain, q: Array) -> tuple[int, float]:
+    """The joint farthest beyond its limits where q (k, n) breaks them least, and its excess."""
     excess = np.maximum(chain.lower - q, q - chain.upper)
-    worst = excess.max(axis=1)
-    row = int(worst.argmin())
-    return row, int(excess[row].argmax()), float(worst[row])
+    row = excess[excess.max(axis=1).argmin()]
+    return int(row.argmax()), float(row.max())
 
 
 def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:

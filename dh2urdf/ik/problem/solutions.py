@@ -130,9 +130,6 @@ class IKSolutions:
     def __len__(self) -> int:
         return self.count
 
-    def __bool__(self) -> bool:
-        return self.count > 0
-
     @overload
     def __getitem__(self, index: int) -> Array: ...
     @overload
@@ -156,17 +153,11 @@ class IKSolutions:
 
     @classmethod
     def of(
-        cls,
-        problem: Answering,
-        target: Array,
-        q: Array,
-        residual: Array,
-        branch: IntArray,
-        free: IntArray,
+        cls, problem: Answering, target: Array, q: Array, residual: Array, *codes: IntArray
     ) -> IKSolutions:
-        """Solutions of one target (4, 4) from arrays with a row for each."""
-        counts = np.array([len(q)])
-        out = Outputs(q[None], residual[None], counts, branch[None], free[None])
+        """Solutions of one target (4, 4) from arrays with a row for each; as :attr:`codes`."""
+        branch, free = codes
+        out = Outputs(q[None], residual[None], np.array([len(q)]), branch[None], free[None])
         return cls(problem, target[None], out, 0, len(q))
 
     def __repr__(self) -> str:

@@ -76,7 +76,6 @@ class HeldEnd(HeldSolver):
         super().__init__(chain, (joint,))
         self.inner = select_solver(without_end(chain, joint))
         self.name, self.kmax = self.inner.name, self.inner.kmax
-        self.links = np.ascontiguousarray(chain.links)
         self.slides = bool(chain.prismatic[joint])
 
     def details(self) -> str:
@@ -89,7 +88,7 @@ class HeldEnd(HeldSolver):
 
         joint = self.held[0]
         poses = np.empty_like(Ts)
-        held_poses(self.links, self.slides, joint, values[:, 0], Ts, poses)
+        held_poses(self.chain.links, self.slides, joint, values[:, 0], Ts, poses)
         q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(out.free)
         self.inner.solve_batch(poses, within_limits, out._replace(q=q, free=free))
         insert_held_batch(joint, values[:, 0], q, free, out.q, out.counts, out.free)
@@ -98,12 +97,15 @@ class HeldEnd(HeldSolver):
 class HeldOneByOne(HeldSolver):
     """A solver is made for every value, and the latest ones are kept: any chain, any task."""
 
-    def __init__(self, chain: SerialChain, held: tuple[int, ...], task: Task) -> None:
+    def __init__(
+        self, chain: SerialChain, held: tuple[int, ...], task: Task, first: tuple[float, ...] = ()
+    ) -> None:
         super().__init__(chain, held)
         self.task = task
         self._kept: dict[tuple[float, ...], Solver] = {}
-        first = self.at(tuple(np.clip(TRIAL_VALUE, chain.lower, chain.upper)[list(held)].tolist()))
-        self.name, self.kmax, self._first = first.name, first.kmax, first
+        trial = np.clip(TRIAL_VALUE, chain.lower, chain.upper)[list(held)]
+        self._first = self.at(first or tuple(trial.tolist()))
+        self.name, self.kmax = self._first.name, self._first.kmax
 
     def details(self) -> str:
         """Say how the joints that move are solved for."""

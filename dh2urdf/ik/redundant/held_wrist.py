@@ -18,10 +18,11 @@ from dh2urdf.ik.arm import (
     Outputs,
     hold,
     plain_ranges,
+    row_motion,
     without_end,
 )
 from dh2urdf.ik.families import SphericalWrist
-from dh2urdf.transforms import Array, inverse, rot_z, trans
+from dh2urdf.transforms import Array, inverse
 
 TRIAL_VALUE = 0.731
 """Value of the held joint [rad or m] at which the geometry of the rest is looked at: one that
@@ -96,35 +97,21 @@ class HeldWrist(HeldSolver):
         self.name = "spherical shoulder" if oriented.reversed else "spherical wrist"
         rest = oriented.rest(TRIAL_VALUE)
         self.form = DHForm(SphericalWrist(rest, tolerance=SNAP).lines)
-        rows = self.form.rows.copy()
-        rows[:3, 4] = 0.0
-        links = [_row_transform(row) for row in self.form.rows[:3]]
+        self.rows = self.form.rows.copy()
+        self.rows[:3, 4] = 0.0
+        links = [row_motion(row, 0.0) for row in self.form.rows[:3]]
         before, after = np.eye(4), np.eye(4)
-        if oriented.varies >= 0:
-            j = oriented.varies
+        j, seen, ends = oriented.varies, oriented.chain, self.form.ends
+        if j >= 0:
             to_form = inverse(self.form.frames) @ rest.joint_frames
-            before = to_form[j] @ oriented.chain.links[oriented.joint]
-            after = oriented.chain.links[oriented.joint + 1] @ inverse(to_form[j + 1])
-        self.frames = np.ascontiguousarray(
-            np.concatenate(
-                [
-                    chain.links,
-                    oriented.chain.links,
-                    links,
-                    [before, after],
-                    self.form.ends,
-                    oriented.sides(self.form.ends),
-                    oriented.factors(links[1], before, after, self.form.ends),
-                ]
-            )
-        )
-        self.which = np.array(
-            [joint, chain.prismatic[joint], oriented.reversed, oriented.joint, oriented.varies],
-            np.int64,
-        )
-        self.rows = np.ascontiguousarray(rows)
-        moving = [i for i in range(chain.n) if i != joint]
-        self.joints = np.column_stack([np.zeros(6), chain.lower[moving], chain.upper[moving]])
+            before = to_form[j] @ seen.links[oriented.joint]
+            after = seen.links[oriented.joint + 1] @ inverse(to_form[j + 1])
+        fixed = chain.links, seen.links, np.stack([*links, before, after]), ends
+        factors = oriented.factors(links[1], before, after, ends)
+        self.frames = np.concatenate([*fixed, oriented.sides(ends), factors])
+        which = [joint, chain.prismatic[joint], oriented.reversed, oriented.joint, j]
+        self.which = np.array(which, np.int64)
+        self.joints = np.delete(chain.tables[1], joint, axis=0)
 
     @classmethod
     def of(cls, chain: SerialChain, joint: int) -> HeldWrist | None:
@@ -175,10 +162,8 @@ class HeldWrist(HeldSolver):
 
         chain, m = self.chain, len(values)
         q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)
-        joints = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
-        points_on_curves(
-            self.frames, self.which, self.rows, joints, MISS, values, T, chain.size, q, count
-        )
+        arm = self.frames, self.which, self.rows, chain.tables[1]
+        points_on_curves(*arm, MISS, values, T, chain.size, q, count)
         points: Array = q[np.arange(self.kmax) < count[:, None]]
         return points
 
@@ -187,12 +172,3 @@ class HeldWrist(HeldSolver):
 def _lines(chain: SerialChain) -> AxisLines:
     """The axes of a chain, which is looked at for one joint after the other."""
     return AxisLines(chain)
-
-
-def _row_transform(row: Array) -> Array:
-    """``Rot_z(theta) Trans_z(d) Trans_x(a) Rot_x(alpha)`` of a row of :class:`DHForm`."""
-    a, ca, sa, d, theta = row[:5]
-    T: Array = rot_z(theta) @ trans(a, 0.0, d)
-    X = np.eye(4)
-    X[1, 1], X[1, 2], X[2, 1], X[2, 2] = ca, -sa, sa, ca
-    return T @ X

@@ -30,7 +30,7 @@ from dh2urdf.ik.arm import (
     task_jacobian,
 )
 from dh2urdf.ik.families import NumericProblem
-from dh2urdf.ik.redundant.held_values import HeldJoints
+from dh2urdf.ik.redundant.held_values import HeldOneByOne
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.transforms import Array
 
@@ -65,11 +65,11 @@ class RedundantChain(SolverBase):
         self.held = _joints_to_hold(chain, task)
         anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))
         self.idle = int(np.bitwise_or.reduce(anywhere))
-        self._solvers: dict[tuple[float, ...], HeldJoints] = {}
         self.alone = self.idle == sum(1 << i for i in self.held)
         rows = [_values(chain, i, len(self.held))[: 1 if self.alone else None] for i in self.held]
         self.values = list(itertools.product(*rows))
-        self.kmax = max(self._solver(self.values[0]).kmax, MOST)
+        self.one_by_one = HeldOneByOne(chain, self.held, task, self.values[0])
+        self.kmax = max(self.one_by_one.kmax, MOST)
 
     @classmethod
     def obstacle(
@@ -88,7 +88,7 @@ class RedundantChain(SolverBase):
     def details(self) -> str:
         """Name the held joints and the solver of the others."""
         names = ", ".join(self.chain.names[i] for i in self.held)
-        return f"{names} held at rest or where the pose is reached; {self._solver(self.values[0])}"
+        return f"{names} held at rest or where the pose is reached; {self.one_by_one}"
 
     @cached_property
     def _numeric(self) -> NumericProblem:
@@ -103,13 +103,6 @@ class RedundantChain(SolverBase):
         error[:, :3] /= self.chain.size
         return bool(np.abs(error).max(axis=1).min() > FAR)
 
-    def _solver(self, values: tuple[float, ...]) -> HeldJoints:
-        """The solver with the joints held at some values, kept for the next call."""
-        if values not in self._solvers:
-            held = dict(zip(self.held, values, strict=True))
-            self._solvers[values] = HeldJoints(self.chain, held, self.task)
-        return self._solvers[values]
-
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
         out.counts[:] = 0
@@ -122,7 +115,7 @@ class RedundantChain(SolverBase):
             if not len(open_):
                 break
             found = out.rows(open_)
-            self._solver(values).solve_batch(Ts[open_], within_limits, found)
+            self.one_by_one.at(values).solve_batch(Ts[open_], within_limits, found)
             out.q[open_], out.residual[open_], out.counts[open_] = found[:3]
         for i in () if self.alone else np.flatnonzero(out.counts == 0):
             some = self._numeric.solve(
