@@ -36,6 +36,10 @@ def near_quarters(chain, m, size, seed, share=0.5):
     return np.where(rng.random(q.shape) < share, corner, q)
 
 
+ANYWHERE = "pose", None, False, None, False
+"""The full pose, limits aside: what :data:`dh2urdf.ik.solve.Asked` says."""
+
+
 @cache
 def solver_of(chain):
     return InverseKinematics(chain, partial(ref.forward, chain))
@@ -45,13 +49,13 @@ def lost(chain, q):
     """Rows of q (m, n) that are neither found, nor in a family, nor the found pose to rounding."""
     Ts = np.ascontiguousarray(ref.forward(chain, q))
     ik = solver_of(chain)
-    batch = ik.solve_batch(Ts, ("pose", None, False, None, False), None, None, "raise")
+    batch = ik.solve_batch(Ts, ANYWHERE, None, None, "raise")
     rows = []
     for i, T in enumerate(Ts):
         found = batch.q[i, : batch.count[i]]
         if len(found) and ref.gaps(chain, found, q[i]).min() < 1e-6:
             continue
-        seeded = ik.solve(T, within_limits=False, seed=q[i])
+        seeded = ik.solve(T, q[i], "nearest", ANYWHERE)
         assert seeded.residual.max(initial=0.0) <= 1e-9
         if not any(
             ref.gaps(chain, p, q[i]) < 1e-6
