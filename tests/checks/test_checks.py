@@ -11,19 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from lxml import etree
-from urdf_faults import (
-    BODY,
-    FAULTS,
-    KEEP,
-    SOUND,
-    TOOL,
-    arm,
-    box,
-    fixed,
-    joint,
-    mesh,
-    write_meshes,
-)  # fmt: skip
+from urdf_faults import BODY, FAULTS, KEEP, SOUND, TOOL, arm, box, fixed, joint, mesh, write_meshes
 
 import dh2urdf
 from dh2urdf.checks import RULES, Consumer, Severity, Verdict, ask, check_urdf, consumers
@@ -264,20 +252,8 @@ def test_elements_in_odd_places_are_passed_over(written):
     assert {f.rule for f in check_urdf(written(text))} <= {"number", "not-finite"}
 
 
-WORDS = [
-    "",
-    "nan",
-    "-0",
-    "1e400",
-    "1 2",
-    "0 0 0",
-    "fore",
-    "upper",
-    "${x}",
-    "revolute",
-    "fixed",
-    "ä b",
-]
+WORDS = ["", "nan", "-0", "1e400", "1 2", "0 0 0", "fore", "upper", "${x}", "revolute", "fixed"]
+WORDS += ["ä b"]
 RICH = arm(
     fore=BODY + box() + mesh("small.stl", "collision"),
     elbow=joint(extra='<mimic joint="shoulder"/><dynamics damping="0.1"/>', rpy="1.5708 0 0"),

@@ -27,29 +27,24 @@ HEAD = "convention: standard\nunits: {length: m, angle: deg}\n"
 def shell(command, **environment):
     """Run a command of the shell, in which ``dh2urdf`` stands for the command line."""
     command = command.replace("dh2urdf", f"{sys.executable} -m dh2urdf")
-    return subprocess.run(
-        command,
-        shell=True,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
-        env={**os.environ, **environment},
-    )
+    streams = {"capture_output": True, "text": True, "encoding": "utf-8"}
+    env = {**os.environ, **environment}
+    return subprocess.run(command, shell=True, check=False, env=env, **streams)
+
+
+def begun(code, *argv, cwd=None):
+    """A process of this Python that has said that it is going."""
+    command, pipe = [sys.executable, "-c", code, *argv], subprocess.PIPE
+    process = subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, cwd=cwd)
+    assert process.stdout.read(2) == "go"
+    return process
 
 
 @pytest.mark.parametrize("argv", [IK, LONG], ids=["ik", "workspace"])
 def test_an_interrupt_at_any_moment_is_one_word_and_status_130(argv, tmp_path):
     """Once `main` has begun, Ctrl-C ends the process with one word and leaves no file."""
     for moment in (0.0, 0.003, 0.01, 0.02, 0.04, 0.06, 0.09, 0.13, 0.18, 0.25):
-        process = subprocess.Popen(
-            [sys.executable, "-c", START, *argv],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-            cwd=tmp_path,
-        )
-        assert process.stdout.read(2) == "go"
+        process = begun(START, *argv, cwd=tmp_path)
         time.sleep(moment)
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=60)
@@ -74,10 +69,7 @@ cli.main(["ik"])
 
 def test_an_interrupt_that_a_library_swallows_comes_again():
     """A bare ``except`` on the way, as imports have, delays Ctrl-C by a second."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", SWALLOW], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-    )
-    assert process.stdout.read(2) == "go"
+    process = begun(SWALLOW)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=50)
     assert (process.returncode, err) == (130, "interrupted\n")

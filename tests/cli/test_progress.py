@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from dh2urdf.cli import main, progress
+from dh2urdf.cli import progress
 
 
 @pytest.mark.parametrize(
@@ -26,16 +26,14 @@ def test_a_log_gets_a_line_every_five_seconds_of_long_work(seconds, told, monkey
     assert err == "".join(f"mapping: {second} of {seconds}\n" for second in told)
 
 
-def test_a_map_tells_how_far_it_is(tmp_path, monkeypatch, capsys):
+def test_a_map_tells_how_far_it_is(run, monkeypatch):
     """Poses done and their total, of one map after the other; stdout holds the result alone."""
     monkeypatch.setattr(progress, "QUIET", 0.0)
     monkeypatch.setattr(progress, "EVERY", 0.0)
     monkeypatch.setattr("dh2urdf.workspace.maps.CHUNK", 100)
-    picture = tmp_path / "reach.svg"
-    with pytest.raises(SystemExit):
-        main(["workspace", "puma560", "-o", str(picture), "--points", "21", "--orientations", "3"])
-    out, err = capsys.readouterr()
-    assert out == f"{picture}\n"
+    argv = ["-o", "reach.svg", "--points", "21", "--orientations", "3"]
+    status, out, err = run("workspace", "puma560", *argv)
+    assert (status, out) == (0, "reach.svg\n")
     lines = re.findall(r"^mapping: (\d+) of (\d+)$", err, re.MULTILINE)
     branches, turned = 21 * 21, 9 * 9 * 3
     assert lines == [

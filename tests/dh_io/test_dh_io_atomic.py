@@ -5,6 +5,7 @@ import os
 import stat
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,16 @@ from dh2urdf.exceptions import OutputError
 
 def names(folder: Path) -> list[str]:
     return sorted(p.name for p in folder.iterdir())
+
+
+@pytest.fixture
+def older(tmp_path: Path) -> Iterator[Path]:
+    """A file that has to be as before after the test, and alone in its folder."""
+    path = tmp_path / "arm.yaml"
+    path.write_text("old")
+    yield path
+    assert path.read_text() == "old"
+    assert names(tmp_path) == ["arm.yaml"]
 
 
 def test_text_and_bytes_are_written(tmp_path: Path) -> None:
@@ -82,26 +93,20 @@ def test_a_link_to_a_named_pipe_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("code", [errno.ENOSPC, errno.EDQUOT, errno.EIO])
 def test_a_failed_write_leaves_the_older_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, code: int
+    older: Path, monkeypatch: pytest.MonkeyPatch, code: int
 ) -> None:
     """Where the last step fails, the older file and the folder are as before."""
-    path = tmp_path / "arm.yaml"
-    path.write_text("old")
 
     def fail(*_: object) -> None:
         raise OSError(code, os.strerror(code))
 
     monkeypatch.setattr(Path, "replace", fail)
     with pytest.raises(OutputError, match=r"arm\.yaml: cannot write"):
-        atomic_write(path, "new")
-    assert path.read_text() == "old"
-    assert names(tmp_path) == ["arm.yaml"]
+        atomic_write(older, "new")
 
 
-def test_a_full_disk_leaves_the_older_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_full_disk_leaves_the_older_file(older: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A disk that is full is named, and no temporary file stays."""
-    path = tmp_path / "arm.yaml"
-    path.write_text("old")
     real = os.fdopen
 
     def full(handle: int, mode: str) -> object:
@@ -110,27 +115,19 @@ def test_a_full_disk_leaves_the_older_file(tmp_path: Path, monkeypatch: pytest.M
 
     monkeypatch.setattr(os, "fdopen", full)
     with pytest.raises(OutputError, match="the disk is full"):
-        atomic_write(path, "new")
+        atomic_write(older, "new")
     monkeypatch.undo()
-    assert path.read_text() == "old"
-    assert names(tmp_path) == ["arm.yaml"]
 
 
-def test_an_interrupt_leaves_the_older_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_leaves_the_older_file(older: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ctrl-C in the middle passes through and leaves no temporary file."""
-    path = tmp_path / "arm.yaml"
-    path.write_text("old")
 
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Path, "replace", interrupt)
     with pytest.raises(KeyboardInterrupt):
-        atomic_write(path, "new")
-    assert path.read_text() == "old"
-    assert names(tmp_path) == ["arm.yaml"]
+        atomic_write(older, "new")
 
 
 def test_paths_that_cannot_be_written(tmp_path: Path) -> None:
@@ -158,15 +155,12 @@ def test_text_that_is_no_unicode_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_file_that_may_not_be_written_is_left(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    older: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A read-only file is not replaced, although its folder would allow it."""
-    path = tmp_path / "arm.yaml"
-    path.write_text("old")
     monkeypatch.setattr(os, "access", lambda *_: False)  # root may write everything
     with pytest.raises(OutputError, match="no permission to write there"):
-        atomic_write(path, "new")
-    assert path.read_text() == "old"
+        atomic_write(older, "new")
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write into every folder")

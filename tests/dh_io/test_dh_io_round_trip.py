@@ -122,12 +122,8 @@ def test_other_readers_see_the_same_numbers(table: DHTable) -> None:
         for row, expected in zip(data["joints"], table.rows, strict=True):
             assert row.get("name", "") == expected.name
             if expected.origin is None:
-                assert [float(row[k]) for k in ("theta", "d", "a", "alpha")] == [
-                    expected.theta,
-                    expected.d,
-                    expected.a,
-                    expected.alpha,
-                ]
+                for key in ("theta", "d", "a", "alpha"):
+                    assert float(row[key]) == getattr(expected, key)
             else:
                 assert tuple(map(float, row["xyz"])) == expected.origin.xyz
 

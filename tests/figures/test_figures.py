@@ -107,12 +107,8 @@ def test_what_is_painted_last_is_what_is_nearest(name):
         seen = occlusion(parts, view)
         outlines = np.concatenate([f[0].polygon for part in parts for f in part.faces(view)])
         rays = rng.uniform(outlines.min(axis=0), outlines.max(axis=0), (4000, 2))
-        fronts = np.stack(
-            [
-                np.max([front_depth(body, T, view, rays) for body, T in part.solids], axis=0)
-                for part in parts
-            ]
-        )
+        depths = ([front_depth(body, T, view, rays) for body, T in p.solids] for p in parts)
+        fronts = np.stack([np.max(depth, axis=0) for depth in depths])
         hit = np.isfinite(fronts).any(axis=0)
         painted = np.full(len(rays), -1)
         for k in seen.order:

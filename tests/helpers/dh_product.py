@@ -1,6 +1,17 @@
 """The DH product written apart from the package: elementary 4 x 4 factors, nothing shared."""
 
+import math
+
 import numpy as np
+
+ANGLES = {"h": math.pi / 2, "-h": -math.pi / 2, "pi": math.pi, "deg": math.pi / 180}
+"""Words for a quarter turn either way, half a turn and a degree [rad]."""
+
+
+def rows(text):
+    """Rows of numbers and words of angles; semicolons between the rows."""
+    lines = (row.split() for row in text.split(";"))
+    return tuple(tuple(float(ANGLES.get(word, word)) for word in line) for line in lines)
 
 
 def turn(axis, angle):

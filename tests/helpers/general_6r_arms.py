@@ -3,71 +3,22 @@
 import math
 
 import numpy as np
+from dh_product import rows
+
+from dh2urdf import load_table
 
 PI = math.pi
 DEG = PI / 180.0
-BEND = 0.0741 / math.sqrt(3.0)
 
-# Rows (theta, d, a, alpha) of standard DH tables. CRX-10iA, Jaco 2, xArm 6 and GoFa 5: makers'
-# data sheets. Manseur & Doty 1989: the arm with 16 real solutions. Puma 560: Corke. UR5: maker.
+SHIPPED = {"crx10ia": "fanuc_crx10ia", "jaco2": "kinova_jaco2", "gofa5": "abb_gofa5"}
+SHIPPED |= {name: name for name in ("xarm6", "ur5", "puma560")}
 ARMS = {
-    "crx10ia": [
-        (0, 0.245, 0, -PI / 2),
-        (-PI / 2, 0, 0.54, 0),
-        (0, 0, 0, -PI / 2),
-        (0, 0.54, 0, PI / 2),
-        (0, -0.15, 0, -PI / 2),
-        (0, 0.16, 0, 0),
-    ],
-    "jaco2": [
-        (0, 0.2755, 0, PI / 2),
-        (-PI / 2, 0, 0.41, PI),
-        (PI / 2, -0.0098, 0, PI / 2),
-        (0, -0.2073 - BEND, 0, PI / 3),
-        (PI, -2 * BEND, 0, PI / 3),
-        (0, -0.16 - BEND, 0, PI),
-    ],
-    "xarm6": [
-        (0, 0.267, 0, -PI / 2),
-        (-1.3849179, 0, 0.28948866, 0),
-        (1.3849179, 0, 0.0775, -PI / 2),
-        (0, 0.3425, 0, PI / 2),
-        (0, 0, 0.076, -PI / 2),
-        (0, 0.097, 0, 0),
-    ],
-    "gofa5": [
-        (0, 0.265, 0, -PI / 2),
-        (-PI / 2, 0, 0.444, 0),
-        (0, 0, 0.11, -PI / 2),
-        (0, 0.47, 0, PI / 2),
-        (0, 0, 0.08, -PI / 2),
-        (PI, 0.101, 0, 0),
-    ],
-    "manseur_doty": [
-        (0, 0, 0.3, PI / 2),
-        (0, 0, 1.0, DEG),
-        (0, 0.2, 0, PI / 2),
-        (0, 0, 1.5, DEG),
-        (0, 0, 0, PI / 2),
-        (0, 0, 0, DEG),
-    ],
-    "ur5": [
-        (0, 0.089159, 0, PI / 2),
-        (0, 0, -0.425, 0),
-        (0, 0, -0.39225, 0),
-        (0, 0.10915, 0, PI / 2),
-        (0, 0.09465, 0, -PI / 2),
-        (0, 0.0823, 0, 0),
-    ],
-    "puma560": [
-        (0, 0, 0, PI / 2),
-        (0, 0, 0.4318, 0),
-        (0, 0.15005, 0.0203, -PI / 2),
-        (0, 0.4318, 0, PI / 2),
-        (0, 0, 0, -PI / 2),
-        (0, 0, 0, 0),
-    ],
+    name: [(row.theta, row.d, row.a, row.alpha) for row in load_table(table).rows]
+    for name, table in SHIPPED.items()
 }
+"""Rows (theta, d, a, alpha) of standard tables; Manseur & Doty 1989: 16 real solutions."""
+
+ARMS["manseur_doty"] = rows("0 0 .3 h; 0 0 1 deg; 0 .2 0 h; 0 0 1.5 deg; 0 0 0 h; 0 0 0 deg")
 for _seed in range(8):
     _rng = np.random.default_rng(_seed)
     ARMS[f"random{_seed}"] = [

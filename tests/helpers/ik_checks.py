@@ -30,6 +30,13 @@ def check_all(chain, q, found, Ts):
     assert_apart(distances(chain, found), GAP, quantile=0.999)
 
 
+def solved(chain, T):
+    """Solutions of a pose, each at it to rounding, and their free joints."""
+    q, residual, _, free = solve(chain, T[None]).of(0)
+    assert_margin(residual, RESIDUAL, 1000)
+    return q, free
+
+
 def check_random_poses(chain, m, seed=1):
     """The same at m poses of configurations drawn within the limits."""
     q = draw(chain, m, seed)

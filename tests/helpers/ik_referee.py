@@ -5,6 +5,7 @@ solutions is a damped Newton search from many random starts.
 """
 
 import math
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ import numpy as np
 import dh2urdf
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.table_chain import dh_to_chain
-from dh2urdf.dh import JointType
+from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.ik.arm import Outputs
 from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.families.general_6r import General6R
@@ -73,6 +74,29 @@ def arm(rows, kinds="RRRRRR", seed=0):
     names = tuple(f"joint_{i}" for i in range(1, len(rows) + 1))
     free = np.full(len(rows), math.inf)
     return SerialChain(np.stack(links), types, names, -free, free)
+
+
+def changed(table, change):
+    """The table with every parameter of every row changed."""
+    keys = ("theta", "d", "a", "alpha")
+    rows = (replace(row, **{k: change(getattr(row, k)) for k in keys}) for row in table.rows)
+    return replace(table, rows=tuple(rows))
+
+
+def noisy_table(name, size, seed):
+    """A shipped arm as a factory calibrates it."""
+    rng = np.random.default_rng(seed)
+    return changed(dh2urdf.load_table(name), lambda x: x + size * float(rng.uniform(-1, 1)))
+
+
+def random_robot(n, sliding=(), seed=0, turn=2.5):
+    """An arm of n random rows with limits; some joints slide."""
+    rng, rows = np.random.default_rng(seed), []
+    for i in range(n):
+        cells = rng.uniform((-3, -0.4, -0.4, -3), (3, 0.4, 0.4, 3)).tolist()
+        kind, low, high = ("prismatic", 0.0, 0.5) if i in sliding else ("revolute", -turn, turn)
+        rows.append(DHRow(*cells, kind, lower=low, upper=high))
+    return dh2urdf.Robot.from_dh(DHTable(tuple(rows), "standard"))
 
 
 def random_pose(rng, spread):

@@ -17,7 +17,7 @@ def _ur(d1: str, a2: str, a3: str, d4: str, d5: str, d6: str) -> str:
     )
 
 
-def _straight(steps: str, tool: str) -> str:
+def _straight(steps: str, tool: str = "0 0 0 / 0 0 0") -> str:
     """Write out a chain of joints ``x y z axis`` without rpy and a tool ``xyz / rpy``."""
     joints = [s.split() for s in steps.split(";")]
     return ";".join(f"{x} {y} {z} / 0 0 0 / {axis}" for x, y, z, axis in joints) + f"; {tool} / ."
@@ -33,166 +33,120 @@ FRANKA = (
 IRB140 = _straight("0 0 .104 z; .07 0 .248 y; 0 0 .36 y; .38 0 0 x; 0 0 0 y; .065 0 0 x", ABB_TOOL)
 CRX = "0 0 .245 z; 0 0 0 y; 0 0 {} -y; 0 0 0 -x; .54 -.15 0 -y; .16 0 0 -x"
 
-CHAINS: dict[str, tuple[str, float]] = {
+CHAINS = {
     # Universal_Robots_ROS2_Description, config/*/default_kinematics.yaml
-    "ur3e": (_ur("0.15185", "-0.24355", "-0.2132", "0.13105", "0.08535", "0.0921"), 1e-9),
-    "ur5e": (_ur("0.1625", "-0.425", "-0.3922", "0.1333", "0.0997", "0.0996"), 1e-9),
-    "ur16e": (_ur("0.1807", "-0.4784", "-0.36", "0.17415", "0.11985", "0.11655"), 1e-9),
-    "ur20": (_ur("0.2363", "-0.862", "-0.7287", "0.201", "0.1593", "0.1543"), 1e-9),
-    "ur30": (_ur("0.2363", "-0.637", "-0.5037", "0.201", "0.1593", "0.1543"), 1e-9),
+    "ur3e": _ur("0.15185", "-0.24355", "-0.2132", "0.13105", "0.08535", "0.0921"),
+    "ur5e": _ur("0.1625", "-0.425", "-0.3922", "0.1333", "0.0997", "0.0996"),
+    "ur16e": _ur("0.1807", "-0.4784", "-0.36", "0.17415", "0.11985", "0.11655"),
+    "ur20": _ur("0.2363", "-0.862", "-0.7287", "0.201", "0.1593", "0.1543"),
+    "ur30": _ur("0.2363", "-0.637", "-0.5037", "0.201", "0.1593", "0.1543"),
     # franka_description, robots/fr3/kinematics.yaml
-    "franka_fr3": (FRANKA, 1e-14),
+    "franka_fr3": FRANKA,
     # ros-industrial/abb and abb_experimental
-    "abb_irb120": (
-        _straight("0 0 0 z; 0 0 .29 y; 0 0 .27 y; 0 0 .07 x; .302 0 0 y; .072 0 0 x", ABB_TOOL),
-        1e-14,
+    "abb_irb120": _straight(
+        "0 0 0 z; 0 0 .29 y; 0 0 .27 y; 0 0 .07 x; .302 0 0 y; .072 0 0 x", ABB_TOOL
     ),
-    "abb_irb140": (IRB140, 1e-14),
-    "abb_irb140_modified": (IRB140, 1e-14),
-    "abb_gofa5": (
-        _straight("0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x", ABB_TOOL),
-        1e-14,
+    "abb_irb140": IRB140,
+    "abb_irb140_modified": IRB140,
+    "abb_gofa5": _straight(
+        "0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x", ABB_TOOL
     ),
     # ros-industrial/fanuc
-    "fanuc_lrmate200id": (
-        _straight(
-            "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x", FANUC_TOOL
-        ),
-        1e-14,
+    "fanuc_lrmate200id": _straight(
+        "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x", FANUC_TOOL
     ),
-    "fanuc_crx10ia": (_straight(CRX.format(".54"), FANUC_TOOL), 1e-14),
-    "fanuc_crx10ia_l": (_straight(CRX.format(".71"), FANUC_TOOL), 1e-14),
+    "fanuc_crx10ia": _straight(CRX.format(".54"), FANUC_TOOL),
+    "fanuc_crx10ia_l": _straight(CRX.format(".71"), FANUC_TOOL),
     # ros-industrial/kuka_experimental
     "kuka_kr5_arc": (
         f"0 0 .4 / {PI} 0 0 / z; .18 0 0 / {H} 0 0 / z; .6 0 0 / 0 0 0 / z;"
         f"0 -.12 0 / 0 -{H} 0 / z; 0 0 -.62 / 0 {H} 0 / z; 0 0 0 / 0 -{H} 0 / z;"
-        f"0 0 -.115 / 0 -{PI} -{H} / .",
-        1e-14,
+        f"0 0 -.115 / 0 -{PI} -{H} / ."
     ),
-    "kuka_kr6_r700": (
-        _straight(
-            "0 0 .4 -z; .025 0 0 y; .315 0 0 y; 0 0 .035 -x; .365 0 0 y; .08 0 0 -x", ABB_TOOL
-        ),
-        1e-14,
+    "kuka_kr6_r700": _straight(
+        "0 0 .4 -z; .025 0 0 y; .315 0 0 y; 0 0 .035 -x; .365 0 0 y; .08 0 0 -x", ABB_TOOL
     ),
-    "kuka_kr16_2": (
-        _straight(
-            "0 0 .675 -z; .26 0 0 y; .68 0 0 y; .67 0 -.035 -x; 0 0 0 y; 0 0 0 -x",
-            f".158 0 0 / 0 {H} 0",
-        ),
-        1e-14,
+    "kuka_kr16_2": _straight(
+        "0 0 .675 -z; .26 0 0 y; .68 0 0 y; .67 0 -.035 -x; 0 0 0 y; 0 0 0 -x",
+        f".158 0 0 / 0 {H} 0",
     ),
     # lbr-stack/lbr_fri_ros2_stack; the 14 differs by its two lengths
-    "kuka_iiwa7": (
-        _straight(
-            "0 0 .1475 z; 0 -.0105 .1925 y; 0 .0105 .2075 z; 0 .0105 .1925 -y; 0 -.0105 .2075 z;"
-            "0 -.0707 .1925 y; 0 .0707 .091 z",
-            "0 0 .035 / 0 0 0",
-        ),
-        1e-14,
+    "kuka_iiwa7": _straight(
+        "0 0 .1475 z; 0 -.0105 .1925 y; 0 .0105 .2075 z; 0 .0105 .1925 -y; 0 -.0105 .2075 z;"
+        "0 -.0707 .1925 y; 0 .0707 .091 z",
+        "0 0 .035 / 0 0 0",
     ),
-    "kuka_iiwa14": (
-        _straight(
-            "0 0 0 z; -.00043624 0 .36 y; 0 0 0 z; .00043624 0 .42 -y; 0 0 0 z; 0 0 .4 y; 0 0 0 z",
-            "0 0 .126 / 0 0 0",
-        ),
-        1e-3,
+    "kuka_iiwa14": _straight(
+        "0 0 0 z; -.00043624 0 .36 y; 0 0 0 z; .00043624 0 .42 -y; 0 0 0 z; 0 0 .4 y; 0 0 0 z",
+        "0 0 .126 / 0 0 0",
     ),
     # ros-industrial/motoman
-    "yaskawa_gp7": (
-        _straight(
-            "0 0 .33 z; .04 0 0 y; 0 0 .445 -y; .44 0 .04 -x; 0 0 0 -y; 0 0 0 -x",
-            ".08 0 0 / 3.1415926 -1.570796 0",
-        ),
-        5e-7,
+    "yaskawa_gp7": _straight(
+        "0 0 .33 z; .04 0 0 y; 0 0 .445 -y; .44 0 .04 -x; 0 0 0 -y; 0 0 0 -x",
+        ".08 0 0 / 3.1415926 -1.570796 0",
     ),
     # DENSORobot/denso_robot_ros and denso_robot_ros2
-    "denso_vs060": (
-        _straight(
-            "0 0 .1815 z; 0 0 .1635 y; 0 0 .305 y; -.01 0 .1645 z; 0 0 .1355 y; 0 0 .07 z",
-            "0 0 0 / 0 0 0",
-        ),
-        1e-14,
+    "denso_vs060": _straight(
+        "0 0 .1815 z; 0 0 .1635 y; 0 0 .305 y; -.01 0 .1645 z; 0 0 .1355 y; 0 0 .07 z"
     ),
-    "denso_hsr065": (
-        _straight("0 0 0 z; .375 0 0 z; -.375 0 0 zP; .65 0 0 z", "0 0 0 / 0 0 0"),
-        1e-14,
-    ),
+    "denso_hsr065": _straight("0 0 0 z; .375 0 0 z; -.375 0 0 zP; .65 0 0 z"),
     # ros-industrial/staubli_experimental
-    "staubli_tx2_60": (
-        _straight(
-            "0 0 .375 z; 0 0 0 y; 0 .02 .29 y; 0 0 0 z; 0 0 .31 y; 0 0 .07 z", "0 0 0 / 0 0 0"
-        ),
-        1e-14,
-    ),
+    "staubli_tx2_60": _straight("0 0 .375 z; 0 0 0 y; 0 .02 .29 y; 0 0 0 z; 0 0 .31 y; 0 0 .07 z"),
     # xArm-Developer/xarm_ros2
     "xarm5": (
         "0 0 .267 / 0 0 0 / z; 0 0 0 / -1.5708 0 0 / z; .0535 -.2845 0 / 0 0 0 / z;"
-        ".0775 .3425 0 / 0 0 0 / z; .076 .097 0 / -1.5708 0 0 / z",
-        3e-5,
+        ".0775 .3425 0 / 0 0 0 / z; .076 .097 0 / -1.5708 0 0 / z"
     ),
     "xarm6": (
         "0 0 .267 / 0 0 0 / z; 0 0 0 / -1.5708 0 0 / z; .0535 -.2845 0 / 0 0 0 / z;"
-        ".0775 .3425 0 / -1.5708 0 0 / z; 0 0 0 / 1.5708 0 0 / z; .076 .097 0 / -1.5708 0 0 / z",
-        3e-5,
+        ".0775 .3425 0 / -1.5708 0 0 / z; 0 0 0 / 1.5708 0 0 / z; .076 .097 0 / -1.5708 0 0 / z"
     ),
     "lite6": (
         "0 0 .2435 / 0 0 0 / z; 0 0 0 / 1.5708 -1.5708 3.1416 / z;"
         ".2002 0 0 / -3.1416 0 1.5708 / z; .087 -.22761 0 / 1.5708 0 0 / z;"
-        "0 0 0 / 1.5708 0 0 / z; 0 .0625 0 / -1.5708 0 0 / z",
-        1.5e-3,
+        "0 0 0 / 1.5708 0 0 / z; 0 .0625 0 / -1.5708 0 0 / z"
     ),
     # doosan-robotics/doosan-robot2
     "doosan_m1013": (
         "0 0 .1525 / 0 0 0 / z; 0 .0345 0 / 0 -1.571 -1.571 / z; .62 0 0 / 0 0 1.571 / z;"
-        "0 -.559 0 / 1.571 0 0 / z; 0 0 0 / -1.571 0 0 / z; 0 -.121 0 / 1.571 0 0 / z",
-        1e-3,
+        "0 -.559 0 / 1.571 0 0 / z; 0 0 0 / -1.571 0 0 / z; 0 -.121 0 / 1.571 0 0 / z"
     ),
     # TechmanRobotInc/tmr_ros2
     "techman_tm5_700": (
         "0 0 .1451 / 0 0 0 / z; 0 0 0 / -1.570796 -1.570796 0 / z; .329 0 0 / 0 0 0 / z;"
         ".3115 0 -.1222 / 0 0 1.570796 / z; 0 -.106 0 / 1.570796 0 0 / z;"
-        "0 -.1144 0 / 1.570796 0 0 / z",
-        2e-6,
+        "0 -.1144 0 / 1.570796 0 0 / z"
     ),
     # Kinovarobotics/ros_kortex and kinova-ros
     "kinova_gen3": (
         "0 0 .15643 / 3.1416 0 0 / z; 0 .005375 -.12838 / 1.5708 0 0 / z;"
         "0 -.21038 -.006375 / -1.5708 0 0 / z; 0 .006375 -.21038 / 1.5708 0 0 / z;"
         "0 -.20843 -.006375 / -1.5708 0 0 / z; 0 .00017505 -.10593 / 1.5708 0 0 / z;"
-        f"0 -.10593 -.00017505 / -1.5708 0 0 / z; 0 0 -.061525 / {PI} 0 0 / .",
-        6e-4,
+        f"0 -.10593 -.00017505 / -1.5708 0 0 / z; 0 0 -.061525 / {PI} 0 0 / ."
     ),
     "kinova_jaco2": (
         f"0 0 .15675 / 0 {PI} 0 / z; 0 .0016 -.11875 / -{H} 0 {PI} / z; 0 -.41 0 / 0 {PI} 0 / z;"
         f"0 .2073 -.0114 / -{H} 0 {PI} / z; 0 -.03703 -.06414 / 1.0471975511965976 0 {PI} / z;"
-        f"0 -.03703 -.06414 / 1.0471975511965976 0 {PI} / z; 0 0 -.16 / {PI} 0 0 / .",
-        1e-4,
+        f"0 -.03703 -.06414 / 1.0471975511965976 0 {PI} / z; 0 0 -.16 / {PI} 0 0 / ."
     ),
 }
-"""Name of the table -> (chain from its base_link to its tool0, largest FK difference allowed)."""
+"""Name of the table -> chain from its base_link to its tool0."""
 
-UR = "ur_description/urdf/{}_robot.urdf"
+ROUNDED = dict.fromkeys(("ur3e", "ur5e", "ur16e", "ur20", "ur30"), 1e-9)
+ROUNDED |= {"kuka_iiwa14": 1e-3, "yaskawa_gp7": 5e-7, "xarm5": 3e-5, "xarm6": 3e-5, "lite6": 1.5e-3}
+ROUNDED |= {"doosan_m1013": 1e-3, "techman_tm5_700": 2e-6, "kinova_gen3": 6e-4}
+ROUNDED |= {"kinova_jaco2": 1e-4}
+"""Largest FK difference allowed where the maker's numbers are rounded; elsewhere 1e-14."""
+
 PACKAGED = {
-    "ur3": (UR.format("ur3"), "base", "tool0", (0, 0, 0), 1e-10),
-    "ur5": (UR.format("ur5"), "base", "tool0", (0, 0, 0), 1e-10),
-    "ur10": (UR.format("ur10"), "base", "tool0", (0, 0, 0), 1e-10),
-    "franka_fer": (
-        "panda_description/urdf/panda.urdf",
-        "panda_link0",
-        "panda_link8",
-        (0, 0, 0),
-        1e-13,
-    ),
-    "xarm7": ("xarm_description/urdf/xarm7.urdf", "link_base", "link_eef", (0, 0, 0), 5e-5),
-    "unitree_z1": ("z1_description/urdf/z1.urdf", "link00", "link06", (0, 90, 0), 1e-13),
-    "kinova_jaco2_spherical": (
-        "kinova_description/robots/kinova.urdf",
-        "j2s6s200_link_base",
-        "j2s6s200_end_effector",
-        (90, 0, 90),
-        1e-9,
-    ),
+    "ur3": "ur_description/urdf/ur3_robot.urdf base tool0 0 0 0 1e-10",
+    "ur5": "ur_description/urdf/ur5_robot.urdf base tool0 0 0 0 1e-10",
+    "ur10": "ur_description/urdf/ur10_robot.urdf base tool0 0 0 0 1e-10",
+    "franka_fer": "panda_description/urdf/panda.urdf panda_link0 panda_link8 0 0 0 1e-13",
+    "xarm7": "xarm_description/urdf/xarm7.urdf link_base link_eef 0 0 0 5e-5",
+    "unitree_z1": "z1_description/urdf/z1.urdf link00 link06 0 90 0 1e-13",
+    "kinova_jaco2_spherical": "kinova_description/robots/kinova.urdf j2s6s200_link_base "
+    "j2s6s200_end_effector 90 0 90 1e-9",
 }
 """Table -> URDF, base, tip, roll, pitch, yaw of tool0 in the tip [deg], largest FK difference."""
 

@@ -1,7 +1,9 @@
-"""Random DH tables for Hypothesis: both conventions, signs, prismatic joints, fixed rows."""
+"""DH tables: random ones for Hypothesis, of every kind of row, and a calibrated one."""
 
 import math
+from dataclasses import replace
 
+from dh_product import rows as numbers
 from hypothesis import strategies as st
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
@@ -10,6 +12,7 @@ QUARTERS = st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi, -math.pi])
 NEAR = st.sampled_from([1e-12, -1e-9, 1e-6, math.pi / 2 - 1e-9, 1.5708, math.pi - 1e-12])
 ANGLES = st.one_of(QUARTERS, NEAR, st.floats(-math.pi, math.pi))
 LENGTHS = st.one_of(st.just(0.0), st.floats(-1.0, 1.0), st.sampled_from([1e-9, 0.425, -0.39225]))
+CELLS = st.tuples(ANGLES, LENGTHS, LENGTHS, ANGLES)
 
 
 @st.composite
@@ -25,16 +28,9 @@ def joints(draw):
     """A revolute or prismatic row with or without limits."""
     kind = draw(st.sampled_from([JointType.REVOLUTE, JointType.REVOLUTE, JointType.PRISMATIC]))
     limits = draw(st.one_of(st.none(), st.tuples(st.floats(-3, 0), st.floats(0, 3))))
-    return DHRow(
-        theta=draw(ANGLES),
-        d=draw(LENGTHS),
-        a=draw(LENGTHS),
-        alpha=draw(ANGLES),
-        joint_type=kind,
-        sign=draw(st.sampled_from([1, -1])),
-        lower=None if limits is None else limits[0],
-        upper=None if limits is None else limits[1],
-    )
+    cells, sign = draw(CELLS), draw(st.sampled_from([1, -1]))
+    lower, upper = limits or (None, None)
+    return DHRow(*cells, kind, sign=sign, lower=lower, upper=upper)
 
 
 @st.composite
@@ -42,13 +38,7 @@ def fixed_rows(draw):
     """A fixed row, by DH parameters or by inspection."""
     if draw(st.booleans()):
         return DHRow(joint_type=JointType.FIXED, origin=draw(origins()))
-    return DHRow(
-        joint_type=JointType.FIXED,
-        theta=draw(ANGLES),
-        d=draw(LENGTHS),
-        a=draw(LENGTHS),
-        alpha=draw(ANGLES),
-    )
+    return DHRow(*draw(CELLS), JointType.FIXED)
 
 
 @st.composite
@@ -68,3 +58,32 @@ def tables(draw, max_joints=9):
         base=draw(st.one_of(st.just(Origin()), origins())),
         tool=draw(st.one_of(st.just(Origin()), origins())),
     )
+
+
+def scaled(table, factor):
+    """The table with every length multiplied, and without masses."""
+
+    def step(origin):
+        return origin and replace(origin, xyz=tuple(factor * x for x in origin.xyz))
+
+    def row(r):
+        slide = r.joint_type is JointType.PRISMATIC
+        given = {k: getattr(r, k) for k in ("lower", "upper") if slide}
+        bounds = {k: v * factor for k, v in given.items() if v is not None}
+        lengths = {"a": r.a * factor, "d": r.d * factor, "origin": step(r.origin)}
+        return replace(r, **lengths, **bounds, mass=None, com=None, inertia=None)
+
+    rows = tuple(row(r) for r in table.rows)
+    return replace(table, rows=rows, base=step(table.base), tool=step(table.tool))
+
+
+FACTORY = DHTable.from_array(
+    numbers(
+        "2.1e-8 .127993 4.7e-5 1.5702; .3241 439.14072 .00411 9.19e-4;"
+        "5.8731 -446.0268 .00237 -1.06e-3; .0859 7.050214 3.1e-5 1.5704;"
+        "1.2e-6 .115792 -2.9e-5 -1.5712; 8.8e-7 .092143 0 0"
+    ),
+    "standard",
+    name="calibrated",
+)
+"""A six-axis arm as a factory calibration writes it: d_2 and d_3 hundreds of metres long."""

@@ -7,6 +7,7 @@ BODY = (
     '<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial>'
 )
 LIMIT = '<limit lower="-1" upper="1" effort="5" velocity="2"/>'
+axis = '<axis xyz="{}"/>'.format
 
 
 def box(tag="visual", size="0.1 0.1 0.1", extra=""):
@@ -45,11 +46,22 @@ def arm(upper=BODY, fore=BODY, elbow=None, base="", extra="", name='name="arm"')
   <link name="base_link">{base}</link>
   <link name="upper">{upper}</link>
   <link name="fore">{fore}</link>
-  {joint("shoulder", parent="base_link", child="upper", axis='<axis xyz="0 0 1"/>')}
+  {joint("shoulder", parent="base_link", child="upper", axis=axis("0 0 1"))}
   {joint() if elbow is None else elbow}
   {extra}
 </robot>
 """
+
+
+def elbow(**changes):
+    """The arm with its elbow changed."""
+    return arm(elbow=joint(**changes))
+
+
+def limit(*values):
+    """A limit of lower, upper, effort and velocity, as many as there are."""
+    names = zip(("lower", "upper", "effort", "velocity"), values, strict=False)
+    return "<limit {}/>".format(" ".join(f'{name}="{value}"' for name, value in names))
 
 
 def inertia(**changes):
@@ -66,6 +78,7 @@ WEIGHTLESS = '<inertial><mass value="0"/>' + "<inertia {}/></inertial>".format(
 )
 
 SOUND = arm()
+GONE = ("package://nowhere/", "file:///nowhere/")
 
 FAULTS = {
     "robot-name": [arm(name="")],
@@ -77,10 +90,10 @@ FAULTS = {
     ],
     "duplicate-link": [arm(extra='<link name="fore"/>')],
     "duplicate-joint": [arm(extra='<link name="c"/>' + fixed("elbow", "fore", "c"))],
-    "joint-named-as-link": [arm(elbow=joint(name="fore"))],
+    "joint-named-as-link": [elbow(name="fore")],
     "joint-ends": [
-        arm(extra='<joint name="j" type="fixed"><parent link="fore"/></joint>'),
-        arm(extra='<joint name="j" type="fixed"><child link="fore"/></joint>'),
+        arm(extra=f'<joint name="j" type="fixed"><{end} link="fore"/></joint>')
+        for end in ("parent", "child")
     ],
     "unknown-child": [arm(extra=fixed("j", "fore", "nowhere"))],
     "unknown-parent": [arm(extra='<link name="c"/>' + fixed("j", "nowhere", "c"))],
@@ -95,71 +108,42 @@ FAULTS = {
         arm(extra='<link name="c"/>' + fixed("j", "fore", "c").replace("fixed", "hinge")),
         arm(extra='<link name="c"/>' + fixed("j", "fore", "c").replace(' type="fixed"', "")),
     ],
-    "many-degrees": [
-        arm(elbow=joint(kind="floating", axis="", limit="")),
-        arm(elbow=joint(kind="planar", limit="")),
-    ],
-    "repeated-element": [arm(upper=BODY + BODY), arm(elbow=joint(limit=LIMIT + LIMIT))],
-    "limit-missing": [arm(elbow=joint(limit="")), arm(elbow=joint(kind="prismatic", limit=""))],
-    "limit-incomplete": [
-        arm(elbow=joint(limit='<limit lower="-1" upper="1"/>')),
-        arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="1"/>')),
-    ],
-    "limit-without-bounds": [arm(elbow=joint(limit='<limit effort="1" velocity="1"/>'))],
-    "limit-reversed": [
-        arm(elbow=joint(limit='<limit lower="1" upper="-1" effort="1" velocity="1"/>'))
-    ],
-    "limit-zero": [
-        arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="0" velocity="0"/>')),
-        arm(elbow=joint(limit='<limit lower="-1" upper="1" effort="1" velocity="0"/>')),
-        arm(elbow=joint(limit='<limit lower="0" upper="0" effort="1" velocity="1"/>')),
-    ],
-    "continuous": [arm(elbow=joint(kind="continuous", limit=""))],
-    "axis-missing": [arm(elbow=joint(axis=""))],
-    "axis-zero": [arm(elbow=joint(axis='<axis xyz="0 0 0"/>'))],
-    "axis-not-unit": [
-        arm(elbow=joint(axis='<axis xyz="0 0 2"/>')),
-        arm(elbow=joint(kind="prismatic", axis='<axis xyz="0 2 0"/>')),
-    ],
+    "many-degrees": [elbow(kind="floating", axis="", limit=""), elbow(kind="planar", limit="")],
+    "repeated-element": [arm(upper=BODY + BODY), elbow(limit=LIMIT + LIMIT)],
+    "limit-missing": [elbow(limit=""), elbow(kind="prismatic", limit="")],
+    "limit-incomplete": [elbow(limit=limit(-1, 1)), elbow(limit=limit(-1, 1, 1))],
+    "limit-without-bounds": [elbow(limit='<limit effort="1" velocity="1"/>')],
+    "limit-reversed": [elbow(limit=limit(1, -1, 1, 1))],
+    "limit-zero": [elbow(limit=limit(*v)) for v in ((-1, 1, 0, 0), (-1, 1, 1, 0), (0, 0, 1, 1))],
+    "continuous": [elbow(kind="continuous", limit="")],
+    "axis-missing": [elbow(axis="")],
+    "axis-zero": [elbow(axis=axis("0 0 0"))],
+    "axis-not-unit": [elbow(axis=axis("0 0 2")), elbow(kind="prismatic", axis=axis("0 2 0"))],
     "mimic-leader": [
-        arm(elbow=joint(extra='<mimic joint="nowhere"/>')),
-        arm(elbow=joint(extra='<mimic joint="elbow"/>')),
-        arm(elbow=joint(extra="<mimic/>")),
+        elbow(extra=f"<mimic{leader}/>") for leader in (' joint="nowhere"', ' joint="elbow"', "")
     ],
-    "mimic": [arm(elbow=joint(extra='<mimic joint="shoulder"/>'))],
-    "damping-negative": [arm(elbow=joint(extra='<dynamics damping="-1"/>'))],
+    "mimic": [elbow(extra='<mimic joint="shoulder"/>')],
+    "damping-negative": [elbow(extra='<dynamics damping="-1"/>')],
     "xacro": [
-        arm(elbow=joint(origin="0 0 ${length}")),
+        elbow(origin="0 0 ${length}"),
         arm(extra='<xacro:property xmlns:xacro="http://www.ros.org/wiki/xacro" name="a"/>'),
     ],
     "number": [
-        arm(elbow=joint(origin="0 0 pi/2")),
-        arm(elbow=joint(origin="0,0,1")),
-        arm(elbow=joint(origin="0 0 1_0")),
-        arm(elbow=joint(axis='<axis xyz="0 0 up"/>')),
-        arm(elbow=joint(limit=LIMIT.replace('"5"', '"5Nm"'))),
+        *(elbow(origin=xyz) for xyz in ("0 0 pi/2", "0,0,1", "0 0 1_0")),
+        elbow(axis=axis("0 0 up")),
+        elbow(limit=LIMIT.replace('"5"', '"5Nm"')),
         arm(fore=BODY.replace('mass value="1"', 'mass value="1kg"')),
         arm(fore=inertia(ixx="0.1kgm2")),
         arm(fore=BODY + box(size="0.1 0.1 wide")),
     ],
-    "number-count": [
-        arm(elbow=joint(origin="0 1")),
-        arm(elbow=joint(origin="0 1 2 3")),
-        arm(elbow=joint(axis='<axis xyz="0 1"/>')),
-    ],
+    "number-count": [elbow(origin="0 1"), elbow(origin="0 1 2 3"), elbow(axis=axis("0 1"))],
     "not-finite": [
-        arm(elbow=joint(origin="0 0 nan")),
-        arm(elbow=joint(origin="0 0 inf")),
-        arm(elbow=joint(origin="0 0 1e400")),
-        arm(elbow=joint(limit='<limit lower="-inf" upper="inf" effort="1" velocity="1"/>')),
+        *(elbow(origin=f"0 0 {word}") for word in ("nan", "inf", "1e400")),
+        elbow(limit=limit("-inf", "inf", 1, 1)),
         arm(fore=BODY.replace('mass value="1"', 'mass value="nan"')),
     ],
-    "negative-zero": [arm(elbow=joint(origin="0 -0.0 1"))],
-    "rounded-angle": [
-        arm(elbow=joint(rpy="1.5708 0 0")),
-        arm(elbow=joint(rpy="0 0 -3.1416")),
-        arm(elbow=joint(rpy="0 0.785398 0")),
-    ],
+    "negative-zero": [elbow(origin="0 -0.0 1")],
+    "rounded-angle": [elbow(rpy=rpy) for rpy in ("1.5708 0 0", "0 0 -3.1416", "0 0.785398 0")],
     "massless": [arm(fore=""), arm(fore=WEIGHTLESS), arm(fore=box() + box("collision"))],
     "massless-part": [
         arm(fore="", extra=f'{KEEP}<link name="c">{BODY}</link>' + fixed("j", "fore", "c"))
@@ -190,9 +174,7 @@ FAULTS = {
         arm(fore=BODY + box("visual", "0 0.1 0.1"), extra=KEEP),
     ],
     "mesh-missing": [
-        arm(fore=BODY + mesh("nowhere.stl")),
-        arm(fore=BODY + mesh("package://nowhere/nowhere.stl")),
-        arm(fore=BODY + mesh("file:///nowhere/nowhere.stl")),
+        *(arm(fore=BODY + mesh(f"{at}nowhere.stl")) for at in ("", *GONE)),
         arm(fore=BODY + mesh("nowhere.stl", "collision")),
     ],
     "mesh-path": [arm(fore=BODY + mesh("small.stl"))],
@@ -209,9 +191,7 @@ FAULTS = {
         )
     ],
     "name-characters": [
-        arm().replace('"fore"', '"fore arm"'),
-        arm().replace('"fore"', '"Vorderärmel"'),
-        arm().replace('"fore"', '"left/fore"'),
+        SOUND.replace("fore", name) for name in ("fore arm", "Vorderärmel", "left/fore")
     ],
     "fused-frames": [arm(extra=TOOL.replace('"tool0"/>', f'"tool0">{WEIGHTLESS}</link>', 1))],
     "side-frame-first": [

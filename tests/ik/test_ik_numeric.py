@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from ik_referee import random_robot
 
 import dh2urdf
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError, NoSolverError, PoseError
 from dh2urdf.ik.arm.solver_table import SOLVERS, imported
 
@@ -23,37 +23,14 @@ MIMIC = """<robot name="paired"><link name="base"/><link name="a"/><link name="b
 </robot>"""
 
 
-def robot_of(n, sliding=(), seed=0):
-    """An arm of n random rows with limits."""
-    rng = np.random.default_rng(seed)
-    rows = []
-    for i in range(n):
-        theta, d, a, alpha = rng.uniform((-3, -0.4, -0.4, -3), (3, 0.4, 0.4, 3))
-        kind = JointType.PRISMATIC if i in sliding else JointType.REVOLUTE
-        low, high = (0.0, 0.5) if i in sliding else (-2.5, 2.5)
-        rows.append(
-            DHRow(theta=theta, d=d, a=a, alpha=alpha, joint_type=kind, lower=low, upper=high)
-        )
-    return dh2urdf.Robot.from_dh(DHTable(tuple(rows), DHConvention.STANDARD, name="random"))
-
-
-KINDS = [
-    (1, ()),
-    (2, (1,)),
-    (3, ()),
-    (5, (0,)),
-    (6, (1, 4)),
-    (7, ()),
-    (8, (0,)),
-    (9, (2,)),
-    (12, ()),
-]
+KINDS = [(1, ()), (2, (1,)), (3, ()), (5, (0,)), (6, (1, 4)), (7, ()), (8, (0,)), (9, (2,))]
+KINDS += [(12, ())]
 
 
 @pytest.mark.parametrize(("n", "sliding"), KINDS)
 def test_solutions_reach_the_pose_inside_the_limits(n, sliding):
     """Nearly every reachable pose gets a solution, and every solution is one by Pinocchio."""
-    robot = robot_of(n, sliding)
+    robot = random_robot(n, sliding)
     rng = np.random.default_rng(1)
     solved = 0
     for _ in range(40):
@@ -69,7 +46,7 @@ def test_solutions_reach_the_pose_inside_the_limits(n, sliding):
 
 def test_the_result_is_honest():
     """The text of a result counts starts and says that there may be more."""
-    robot = robot_of(9)
+    robot = random_robot(9)
     found = robot.ik_numeric(robot.fk(np.zeros(9)), solutions=3)
     assert len(found) == 3
     assert f"3 found from {found.tried} starts; there may be more" in str(found)
@@ -90,7 +67,7 @@ def test_different_solutions_are_different():
 
 def test_a_seed_is_where_the_search_starts():
     """From the configuration itself the search stays there; results are sorted by distance."""
-    robot = robot_of(8)
+    robot = random_robot(8)
     q = robot.random_configuration(3)
     found = robot.ik_numeric(robot.fk(q), seed=q, solutions=4)
     assert np.abs(found[0] - q).max() < 1e-9
@@ -100,7 +77,7 @@ def test_a_seed_is_where_the_search_starts():
 
 def test_out_of_reach_finds_nothing():
     """A pose 50 m away has no solution, and nearest says so."""
-    robot = robot_of(8)
+    robot = random_robot(8)
     T = np.eye(4)
     T[0, 3] = 50.0
     found = robot.ik_numeric(T, starts=5)
@@ -113,7 +90,7 @@ def test_out_of_reach_finds_nothing():
 @pytest.mark.parametrize("task", ["position", "position+axis"])
 def test_tasks_leave_the_rest_of_the_pose_free(task):
     """The position is met exactly, the tool's z too where it is asked for."""
-    robot = robot_of(5, (0,))
+    robot = random_robot(5, (0,))
     rng = np.random.default_rng(2)
     for _ in range(20):
         T = robot.fk(robot.random_configuration(rng))
@@ -142,7 +119,7 @@ def test_mimic_joints_follow(tmp_path):
 
 def test_equal_random_starts_give_equal_results():
     """The same call twice gives the same solutions; another generator may give others."""
-    robot = robot_of(9)
+    robot = random_robot(9)
     T = robot.fk(robot.random_configuration(1))
     first, second = (robot.ik_numeric(T, solutions=5) for _ in range(2))
     assert np.array_equal(first.q, second.q)
@@ -163,20 +140,20 @@ def test_wrong_arguments_are_one_clear_exception(case):
     """Each wrong argument is named with what is allowed."""
     arguments, message = BAD[case]
     with pytest.raises(ConfigurationError, match=message):
-        robot_of(8).ik_numeric(np.eye(4), **arguments)
+        random_robot(8).ik_numeric(np.eye(4), **arguments)
 
 
 def test_many_poses_at_once_are_refused():
     """A stack of poses is not one pose."""
     with pytest.raises(PoseError, match=r"expected shape \(4, 4\)"):
-        robot_of(8).ik_numeric(np.stack([np.eye(4)] * 2))
+        random_robot(8).ik_numeric(np.stack([np.eye(4)] * 2))
 
 
 @pytest.mark.parametrize(("n", "sliding"), [(9, ()), (6, (1, 4)), (6, (5,))])
 def test_ik_names_all_classes_and_offers_the_search(n, sliding):
     """Where no solver covers a chain the error lists every class and names ik_numeric."""
     with pytest.raises(NoSolverError) as error:
-        robot_of(n, sliding).ik(np.eye(4))
+        random_robot(n, sliding).ik(np.eye(4))
     text = str(error.value)
     assert "ik_numeric" in text
     for family in map(imported, SOLVERS):
@@ -185,7 +162,7 @@ def test_ik_names_all_classes_and_offers_the_search(n, sliding):
 
 def test_limits_can_be_left_aside():
     """Without limits a pose beyond them is found, with them it is not."""
-    robot = robot_of(3)
+    robot = random_robot(3)
     q = np.array([2.9, 0.3, 0.4])
     T = robot.fk(q)
     assert not robot.ik_numeric(T)

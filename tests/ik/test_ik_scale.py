@@ -4,13 +4,13 @@ The reference of an arm made larger is the arm itself: the same recall of the co
 poses were made from, and the same residuals relative to its size.
 """
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
-from ik_referee import exists
+from ik_referee import exists, noisy_table
 from margins import assert_margin
+from strategies import scaled
 
 import dh2urdf
 from dh2urdf.dh import DHRow, DHTable, JointType
@@ -24,26 +24,6 @@ RELATIVE = 1e-12
 
 GAP = 1e-6
 """Joint distance [rad, or m at scale 1] at which a solution is the configuration itself."""
-
-
-def scaled(table, factor):
-    """The table with every length multiplied, and without masses."""
-
-    def step(origin):
-        return origin and replace(origin, xyz=tuple(factor * x for x in origin.xyz))
-
-    def row(r):
-        slide = r.joint_type is JointType.PRISMATIC
-        bounds = {
-            k: getattr(r, k) * factor
-            for k in ("lower", "upper")
-            if slide and getattr(r, k) is not None
-        }
-        lengths = {"a": r.a * factor, "d": r.d * factor, "origin": step(r.origin)}
-        return replace(r, **lengths, **bounds, mass=None, com=None, inertia=None)
-
-    rows = tuple(row(r) for r in table.rows)
-    return replace(table, rows=rows, base=step(table.base), tool=step(table.tool))
 
 
 @cache
@@ -68,25 +48,13 @@ def arm(kinds, numbers, twists):
     return DHTable(tuple(rows), "standard", name=f"arm_{kinds}")
 
 
-def noisy(name, size):
-    """A shipped arm as a factory calibrates it."""
-    rng = np.random.default_rng(1)
-    table = dh2urdf.load_table(name)
-    keys = ("theta", "d", "a", "alpha")
-    rows = (
-        replace(r, **{k: getattr(r, k) + size * float(rng.uniform(-1, 1)) for k in keys})
-        for r in table.rows
-    )
-    return replace(table, rows=tuple(rows))
-
-
 SIX = [(0.3, 0.2), (0.1, 0.5), (0.2, 0.1), (0.4, 0.3), (-0.1, 0.2), (0.2, 0.1)]
 SHOULDER = [(0.3, 0.0), (0.0, 0.0), *SIX[2:]]
 TWISTS = [1.1, 0.4, -0.9, 1.3, 0.7, 0.2]
 
 SPECIAL = {
-    "nearly spherical": noisy("puma560", 1e-5),
-    "nearly parallel": noisy("ur5", 1e-4),
+    "nearly spherical": noisy_table("puma560", 1e-5, seed=1),
+    "nearly parallel": noisy_table("ur5", 1e-4, seed=1),
     "spherical shoulder": arm("RRRRRR", SHOULDER, TWISTS),
     "general 6R": arm("RRRRRR", SIX, TWISTS),
     "three slides": arm("PPRPRR", SIX, TWISTS),

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 from axes import chains, line_distance, pose, screw_fk
-from dh_product import dh_frames, difference
+from dh_product import dh_frames, difference, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from strategies import tables
+from strategies import FACTORY, tables
 
 from dh2urdf import extract_dh, urdf_text
 from dh2urdf.chain import SerialChain
@@ -17,9 +17,10 @@ from dh2urdf.conversions.assign.axis_pairs import AxisCase
 from dh2urdf.conversions.assign.frame_assignment import FAR, references
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.conversions.write.urdf_elements import UrdfOptions
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh import DHConvention, JointType
 
 ALLOWED = 1e-10
+EYE = np.eye(4)
 CONVENTIONS = list(DHConvention)
 both = pytest.mark.parametrize("convention", CONVENTIONS)
 
@@ -103,11 +104,16 @@ def test_any_table_goes_round(convention, table):
         assert difference(dh_frames(again, q)[-1], dh_frames(table, q)[-1]) <= ALLOWED
 
 
-def two_axes(link, base=None, tool=None):
-    eye = np.eye(4)
-    links = np.stack([eye if base is None else base, link, eye if tool is None else tool])
-    revolute = (JointType.REVOLUTE,) * 2
-    return SerialChain(links, revolute, ("one", "two"), np.full(2, -3.0), np.full(2, 3.0))
+def chain_of(*links, slides=()):
+    """A chain of these links, the first before joint 1, the last after joint n."""
+    n = len(links) - 1
+    kinds = (JointType.PRISMATIC if i in slides else JointType.REVOLUTE for i in range(n))
+    far = np.full(n, 3.0)
+    return SerialChain(np.stack(links), tuple(kinds), tuple("abcd"[:n]), -far, far)
+
+
+def two_axes(link, base=EYE, tool=EYE):
+    return chain_of(base, link, tool)
 
 
 CASES = {
@@ -149,15 +155,8 @@ def test_skew_axes_take_the_only_common_normal(convention):
 @both
 def test_parallel_axes_take_d_zero(convention):
     """Of the common normals of parallel axes, the one with d = 0 is taken."""
-    links = [
-        np.eye(4),
-        pose((1, 0, 0), math.pi / 2, (0, 0, 0.4)),
-        pose((1, 0, 0), 0.0, (0.3, 0, 0.7)),
-        pose((1, 0, 0), 0.0, (0.2, 0.1, -0.4)),
-        np.eye(4),
-    ]
-    types = (JointType.REVOLUTE,) * 4
-    chain = SerialChain(np.stack(links), types, tuple("abcd"), np.full(4, -1), np.full(4, 1))
+    first, second = pose((1, 0, 0), math.pi / 2, (0, 0, 0.4)), pose((1, 0, 0), 0.0, (0.3, 0, 0.7))
+    chain = chain_of(EYE, first, second, pose((1, 0, 0), 0.0, (0.2, 0.1, -0.4)), EYE)
     table = chain_to_dh(chain, convention).table
     assert table.rows[1].d == 0
     assert table.rows[2].d == 0
@@ -190,32 +189,20 @@ def test_the_modified_base_takes_a_twist_into_its_row(convention):
 
 def test_a_sliding_axis_goes_where_lengths_vanish():
     """A slide whose file puts it off the arm's axes is drawn through them: three lengths less."""
-    links = [
-        np.eye(4),
-        pose((1, 0, 0), 0.0, (0.375, 0, 0)),
-        pose((1, 0, 0), 0.0, (0.31, 0.07, 0.1)),
-        pose((1, 0, 0), 0.0, (-0.035, -0.07, 0)),
-        np.eye(4),
-    ]
-    types = (*(JointType.REVOLUTE,) * 2, JointType.PRISMATIC, JointType.REVOLUTE)
-    chain = SerialChain(np.stack(links), types, tuple("abcd"), np.full(4, -1), np.full(4, 1))
+    places = ((0.375, 0, 0), (0.31, 0.07, 0.1), (-0.035, -0.07, 0))
+    chain = chain_of(EYE, *(pose((1, 0, 0), 0.0, place) for place in places), EYE, slides=(2,))
     found = chain_to_dh(chain)
     assert [row.a for row in found.table.joints] == pytest.approx([0.375, 0.275, 0, 0], abs=1e-15)
 
 
-CALIBRATED = [
-    [0, 0, 1, 0, 0, 0],
-    [0, 1, 0, -0.1, 0, 0],
-    [1e-3, 1, 2e-3, -0.1, 0, 0.4],
-    [0, 1, 0, -0.1, 0, 0.8],
-    [0, 0, 1, 0, -0.8, 0],
-    [0, 1, 0, 0.1, 0, 0.8],
-]
+CALIBRATED = (
+    "0 0 1 0 0 0; 0 1 0 -.1 0 0; 1e-3 1 2e-3 -.1 0 .4; 0 1 0 -.1 0 .8; 0 0 1 0 -.8 0; 0 1 0 .1 0 .8"
+)
 
 
 def calibrated():
     """Screws with a nearly parallel pair, made pitch-free."""
-    screws = np.array(CALIBRATED, float)
+    screws = np.array(rows(CALIBRATED))
     for screw in screws:
         omega = screw[:3]
         screw[3:] -= omega * (omega @ screw[3:]) / (omega @ omega)
@@ -243,24 +230,6 @@ def test_four_parameters_are_kept_on_request(convention):
     assert all(row.is_joint for row in found.table.rows)
     assert max(abs(row.d) for row in found.table.rows) > 50
     assert found.max_error <= 1e-11
-
-
-FACTORY = DHTable(
-    rows=tuple(
-        DHRow(theta, d, a, alpha)
-        for theta, d, a, alpha in [
-            (2.1e-8, 0.127993, 4.7e-5, 1.5702),
-            (0.3241, 439.14072, 0.00411, 9.19e-4),
-            (5.8731, -446.0268, 0.00237, -1.06e-3),
-            (0.0859, 7.050214, 3.1e-5, 1.5704),
-            (1.2e-6, 0.115792, -2.9e-5, -1.5712),
-            (8.8e-7, 0.092143, 0, 0),
-        ]
-    ),
-    convention=DHConvention.STANDARD,
-    name="calibrated",
-)
-"""A six-axis arm as a factory calibration writes it: d_2 and d_3 hundreds of metres long."""
 
 
 @both

@@ -16,7 +16,6 @@ from hypothesis import strategies as st
 from test_extract_sources import BROKEN, URDF
 
 from dh2urdf import extract_dh, load_table, urdf_text
-from dh2urdf.cli import main
 from dh2urdf.conversions.assign.assigned_table import chain_to_dh
 from dh2urdf.conversions.write.constructors import matlab_corke, matlab_rst, rtb_python
 from dh2urdf.dh import DHConvention
@@ -28,17 +27,16 @@ UR5 = str(UR5 / "ur5_robot.urdf")
 BOTH = pytest.mark.parametrize("convention", list(DHConvention))
 
 
-def run(*words):
-    """Exit status of the command line."""
-    with pytest.raises(SystemExit) as caught:
-        main(["extract", *map(str, words)])
-    return caught.value.code or 0
+@pytest.fixture
+def extract(run):
+    """Run the verb: status, stdout, stderr."""
+    return lambda *words: run("extract", *words)
 
 
-def test_the_table_is_printed_with_its_proof(capsys):
+def test_the_table_is_printed_with_its_proof(extract):
     """stdout has the table, the two frames and the measured difference; stderr the warnings."""
-    assert run(UR5) == 0
-    out, err = capsys.readouterr()
+    status, out, err = extract(UR5)
+    assert status == 0
     assert "0.089159" in out
     assert re.search(r"world to tool0: largest FK difference \d\.?\d*e-1[56]", out)
     assert "nearly round" in err
@@ -46,10 +44,11 @@ def test_the_table_is_printed_with_its_proof(capsys):
 
 @pytest.mark.parametrize("suffix", ["yaml", "toml", "json", "csv", "md"])
 @BOTH
-def test_written_tables_read_back(suffix, convention, tmp_path, capsys):
+def test_written_tables_read_back(suffix, convention, tmp_path, extract):
     """Every table format gives back the parameters, whole."""
     path = tmp_path / f"ur5.{suffix}"
-    assert run(UR5, "--convention", convention, "-o", path) == 0
+    status, _, err = extract(UR5, "--convention", convention, "-o", path)
+    assert (status, "largest FK difference" in err) == (0, True)
     found = extract_dh(UR5, convention=convention)
     again = load_table(path)
     assert again.convention == convention
@@ -57,29 +56,29 @@ def test_written_tables_read_back(suffix, convention, tmp_path, capsys):
     for old, new in zip(found.table.rows, again.rows, strict=True):
         assert (new.theta, new.d, new.a, new.alpha) == (old.theta, old.d, old.a, old.alpha)
         assert (new.name, new.lower, new.mass) == (old.name, old.lower, old.mass)
-    assert "largest FK difference" in capsys.readouterr().err
 
 
-def test_latex_and_stdout(capsys):
+def test_latex_and_stdout(extract):
     """LaTeX goes to stdout with booktabs rules."""
-    assert run(UR5, "--format", "latex", "-o", "-") == 0
-    out = capsys.readouterr().out
+    status, out, _ = extract(UR5, "--format", "latex", "-o", "-")
+    assert status == 0
     assert r"\toprule" in out
     assert "extracted by dh2urdf" in out
 
 
-def test_explained(capsys):
+def test_explained(extract):
     """--explain prints a paragraph a frame before the table."""
-    assert run(UR5, "--explain") == 0
-    out = capsys.readouterr().out
+    status, out, _ = extract(UR5, "--explain")
+    assert status == 0
     assert [f"Frame {i}." in out for i in range(7)] == [True] * 7
     assert out.index("Case 2") < out.index("standard DH\n")
 
 
-def test_json_holds_everything(capsys):
+def test_json_holds_everything(extract):
     """One object: frames, proof, table in metres and radians, steps, changes with costs."""
-    assert run(UR5, "--base", "base", "--snap", "1e-10", "--json") == 0
-    data = json.loads(capsys.readouterr().out)
+    status, out, _ = extract(UR5, "--base", "base", "--snap", "1e-10", "--json")
+    data = json.loads(out)
+    assert status == 0
     assert (data["schema"], data["verb"]) == (1, "extract")
     assert (data["base"], data["tip"]) == ("base", "tool0")
     assert data["max_error"] < 1e-10
@@ -88,26 +87,26 @@ def test_json_holds_everything(capsys):
     assert data["changes"][0]["cost"] < 1e-10
 
 
-def test_foreign_files_are_not_written_over(tmp_path, capsys):
+def test_foreign_files_are_not_written_over(tmp_path, extract):
     """An existing file is kept unless dh2urdf extracted it, or --force."""
     path = tmp_path / "notes.yaml"
     path.write_text("mine: 1\n")
-    assert run(UR5, "-o", path) == 2
+    status, _, err = extract(UR5, "-o", path)
+    assert (status, "--force" in err) == (2, True)
     assert path.read_text() == "mine: 1\n"
-    assert "--force" in capsys.readouterr().err
-    assert run(UR5, "-o", path, "--force") == 0
-    assert run(UR5, "-o", path) == 0
+    for more in (["--force"], []):
+        assert extract(UR5, "-o", path, *more)[0] == 0
 
 
-def test_an_unknown_suffix_is_told(tmp_path, capsys):
+def test_an_unknown_suffix_is_told(tmp_path, extract):
     """A suffix that means nothing is bad usage, and nothing is written."""
-    assert run(UR5, "-o", tmp_path / "ur5.xlsx") == 2
-    assert "suffix tells no format" in capsys.readouterr().err
+    status, _, err = extract(UR5, "-o", tmp_path / "ur5.xlsx")
+    assert (status, "suffix tells no format" in err) == (2, True)
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("fault", BROKEN)
-def test_broken_files_exit_with_2(fault, tmp_path, capsys):
+def test_broken_files_exit_with_2(fault, tmp_path, extract):
     """One line on stderr, nothing on stdout, no traceback."""
     old, new, _ = BROKEN[fault]
     text = URDF.replace(old, new, 1)
@@ -115,9 +114,8 @@ def test_broken_files_exit_with_2(fault, tmp_path, capsys):
         text = URDF.replace("<robot", "<world").replace("</robot", "</world")
     path = tmp_path / "broken.urdf"
     path.write_text(text)
-    assert run(path, "--base", "root", "--tip", "hand") == 2
-    out, err = capsys.readouterr()
-    assert out == ""
+    status, out, err = extract(path, "--base", "root", "--tip", "hand")
+    assert (status, out) == (2, "")
     assert len(err.splitlines()) == 1
     assert err.startswith(f"dh2urdf: {path}")
 
@@ -309,14 +307,14 @@ def test_masses_reach_matlab():
     assert math.isclose(row.mass, 1.0)
 
 
-def test_stdin_and_stdout(capsys, monkeypatch):
+def test_stdin_and_stdout(extract, monkeypatch):
     """A URDF on stdin and a table on stdout: a filter."""
     monkeypatch.setattr("sys.stdin", io.StringIO(URDF))
-    assert run("-", "-o", "-") == 0
-    out = capsys.readouterr().out
+    status, out, _ = extract("-", "-o", "-")
+    assert status == 0
     assert parse_table(out, "yaml", "out").table.n == 2
     monkeypatch.setattr("sys.stdin", io.StringIO("name: x"))
-    assert run("-") == 2
+    assert extract("-")[0] == 2
 
 
 def test_a_base_beside_the_arm():
@@ -324,10 +322,10 @@ def test_a_base_beside_the_arm():
     assert extract_dh(UR5, base="base").tip == "tool0"
 
 
-def test_our_own_files_are_explained_too(tmp_path, capsys):
+def test_our_own_files_are_explained_too(tmp_path, extract):
     """--explain assigns frames even where the file carries its table."""
     path = tmp_path / "denso.urdf"
     path.write_text(urdf_text(load_table("denso_vs6556")))
-    assert run(path, "--explain") == 0
-    assert "Frame 6." in capsys.readouterr().out
+    status, out, _ = extract(path, "--explain")
+    assert (status, "Frame 6." in out) == (0, True)
     assert "carries the table" in extract_dh(path).explain()

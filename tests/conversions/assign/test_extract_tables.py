@@ -7,7 +7,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from axes import pose
-from dh_product import dh_frames, difference
+from dh_product import dh_frames, difference, rows
 from hypothesis import given, settings
 from strategies import tables
 
@@ -21,52 +21,17 @@ STRIPPED = UrdfOptions(embed_table=False, balance_inertia=False)
 
 PUBLISHED = {
     # Universal Robots, "DH parameters for calculations of kinematics and dynamics"
-    "ur5": [
-        (0, 0.089159, 0, HALF),
-        (0, 0, -0.425, 0),
-        (0, 0, -0.39225, 0),
-        (0, 0.10915, 0, HALF),
-        (0, 0.09465, 0, -HALF),
-        (0, 0.0823, 0, 0),
-    ],
-    "ur10": [
-        (0, 0.1273, 0, HALF),
-        (0, 0, -0.612, 0),
-        (0, 0, -0.5723, 0),
-        (0, 0.163941, 0, HALF),
-        (0, 0.1157, 0, -HALF),
-        (0, 0.0922, 0, 0),
-    ],
+    "ur5": "0 .089159 0 h; 0 0 -.425 0; 0 0 -.39225 0; 0 .10915 0 h; 0 .09465 0 -h; 0 .0823 0 0",
+    "ur10": "0 .1273 0 h; 0 0 -.612 0; 0 0 -.5723 0; 0 .163941 0 h; 0 .1157 0 -h; 0 .0922 0 0",
     # Franka Robotics, "Denavit-Hartenberg parameters" (Craig's convention), rows 1 to 7
-    "panda": [
-        (0, 0.333, 0, 0),
-        (0, 0, 0, -HALF),
-        (0, 0.316, 0, HALF),
-        (0, 0, 0.0825, HALF),
-        (0, 0.384, -0.0825, -HALF),
-        (0, 0, 0, HALF),
-        (0, 0, 0.088, HALF),
-    ],
+    "panda": "0 .333 0 0; 0 0 0 -h; 0 .316 0 h; 0 0 .0825 h; 0 .384 -.0825 -h; 0 0 0 h; 0 0 .088 h",
     # Corke, Robotics Toolbox for MATLAB, mdl_puma560 and mdl_stanford
-    "puma560": [
-        (0, 0.6718, 0, HALF),
-        (0, 0, 0.4318, 0),
-        (0, 0.15005, 0.0203, -HALF),
-        (0, 0.4318, 0, HALF),
-        (0, 0, 0, -HALF),
-        (0, 0, 0, 0),
-    ],
-    "stanford": [
-        (0, 0.412, 0, -HALF),
-        (0, 0.154, 0, HALF),
-        (-HALF, 0, 0, 0),
-        (0, 0, 0, -HALF),
-        (0, 0, 0, HALF),
-        (0, 0.263, 0, 0),
-    ],
+    "puma560": "0 .6718 0 h; 0 0 .4318 0; 0 .15005 .0203 -h; 0 .4318 0 h; 0 0 0 -h; 0 0 0 0",
+    "stanford": "0 .412 0 -h; 0 .154 0 h; -h 0 0 0; 0 0 0 -h; 0 0 0 h; 0 .263 0 0",
     # DENSO HSR065: arms of 375 and 275 mm
-    "scara": [(0, 0.2, 0.375, 0), (0, 0, 0.275, 0), (0, 0, 0, 0), (0, 0, 0, 0)],
+    "scara": "0 .2 .375 0; 0 0 .275 0; 0 0 0 0; 0 0 0 0",
 }
+PUBLISHED = {name: rows(text) for name, text in PUBLISHED.items()}
 """theta at q = 0, d, a, alpha."""
 
 
@@ -74,31 +39,21 @@ def parameters(table):
     return [(row.theta, row.d, row.a, row.alpha) for row in table.joints]
 
 
-def up(x, y, z):
-    return [[0, 0, 1], [x, y, z]]
+def axes_of(text):
+    """Directions and points of axes, six numbers each."""
+    return [[row[:3], row[3:]] for row in rows(text)]
 
 
-def back(x, y, z):
-    return [[0, -1, 0], [x, y, z]]
-
-
-PUMA_AXES = [
-    up(0, 0, 0),
-    back(0, 0, 0.6718),
-    back(0.4318, 0, 0.6718),
-    up(0.4521, -0.15005, 0.6718),
-    back(0.4521, -0.15005, 1.1036),
-    up(0.4521, -0.15005, 1.1036),
-]
-STANFORD_AXES = [
-    up(0, 0, 0),
-    [[0, 1, 0], [0, 0, 0.412]],
-    up(0.3, -0.2, 0),  # slides: the point says nothing
-    up(0, 0.154, 0.412),
-    [[1, 0, 0], [0, 0.154, 0.412]],
-    up(0, 0.154, 0.412),
-]
-SCARA_AXES = [up(0, 0, 0.2), up(0.375, 0, 0.2), up(0.6, 0.1, 0.2), up(0.65, 0, 0.2)]
+PUMA_AXES = axes_of(
+    "0 0 1 0 0 0; 0 -1 0 0 0 .6718; 0 -1 0 .4318 0 .6718; 0 0 1 .4521 -.15005 .6718;"
+    "0 -1 0 .4521 -.15005 1.1036; 0 0 1 .4521 -.15005 1.1036"
+)
+# The third axis of the Stanford arm slides: its point says nothing.
+STANFORD_AXES = axes_of(
+    "0 0 1 0 0 0; 0 1 0 0 0 .412; 0 0 1 .3 -.2 0; 0 0 1 0 .154 .412; 1 0 0 0 .154 .412;"
+    "0 0 1 0 .154 .412"
+)
+SCARA_AXES = axes_of("0 0 1 0 0 .2; 0 0 1 .375 0 .2; 0 0 1 .6 .1 .2; 0 0 1 .65 0 .2")
 
 
 @pytest.mark.parametrize(

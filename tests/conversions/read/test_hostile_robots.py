@@ -27,17 +27,8 @@ TEXTS = [
     *("0x10", "1_0", "1,0", "${1}", "9" * 400, "\u0661", "0 0", "0 0 0", "0 0 1", "1 1e308 0"),
     *("nan 0 1", "1e-200 0 0", "1e308 1e308 1e308", "0 0 1 1", "\ud7ff", "\uffe9", "a\nb", "<"),
     *("revolute", "fixed", "prismatic", "continuous", "floating", "planar", "spherical", "hinge"),
-    *(
-        "link_1",
-        "base_link",
-        "tool0",
-        "joint_1",
-        "x" * 3000,
-        "\u202e",
-        "http://[",
-        "package://",
-        "file:///dev/zero",
-    ),
+    *("link_1", "base_link", "tool0", "joint_1", "x" * 3000, "\u202e", "http://[", "package://"),
+    "file:///dev/zero",
 ]
 
 FOLDER = tempfile.TemporaryDirectory()
@@ -114,24 +105,15 @@ entries = st.fixed_dictionaries(
     {"axis": triples},
     optional={"point": triples, "type": st.sampled_from(["R", "P", "x", None, 3]), "name": values},
 )
-contents = st.one_of(
-    values,
-    st.fixed_dictionaries(
-        {},
-        optional={
-            "axes": st.one_of(st.lists(entries, max_size=5), values),
-            "screws": st.one_of(
-                st.lists(st.lists(numbers, min_size=6, max_size=6), max_size=4), values
-            ),
-            "frames": values,
-            "tool": st.one_of(
-                st.fixed_dictionaries({}, optional={"xyz": triples, "rpy": triples}), values
-            ),
-            "types": st.one_of(st.sampled_from(["R", "RP", "RRR"]), values),
-            "names": values,
-            "name": values,
-        },
-    ),
+screws = st.lists(st.lists(numbers, min_size=6, max_size=6), max_size=4) | values
+tools = st.fixed_dictionaries({}, optional={"xyz": triples, "rpy": triples}) | values
+contents = values | st.fixed_dictionaries(
+    {},
+    optional={
+        "axes": st.lists(entries, max_size=5) | values,
+        **{"screws": screws, "frames": values, "tool": tools, "names": values, "name": values},
+        "types": st.sampled_from(["R", "RP", "RRR"]) | values,
+    },
 )
 
 

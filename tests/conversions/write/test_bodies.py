@@ -1,10 +1,10 @@
 """Drawn bodies look like an arm: whole, connected, in proportion at every size."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from strategies import scaled
 
 import dh2urdf
 from dh2urdf.conversions.write.bodies import draw_bodies, link_frames
@@ -14,26 +14,6 @@ from dh2urdf.conversions.write.table_chain import dh_to_chain
 def bodies_of(table):
     """Bodies of each link, base first."""
     return draw_bodies(table, dh_to_chain(table))
-
-
-def scaled(table, factor):
-    """The table with every length and slide limit multiplied."""
-
-    def row(r):
-        lengths = {key: getattr(r, key) * factor for key in ("a", "d")}
-        if r.joint_type == "prismatic":
-            lengths |= {
-                k: v * factor for k in ("lower", "upper") if (v := getattr(r, k)) is not None
-            }
-        if r.origin is not None:
-            lengths["origin"] = step(r.origin)
-        return replace(r, com=None, inertia=None, mass=None, **lengths)
-
-    def step(origin):
-        return dh2urdf.Origin(tuple(factor * v for v in origin.xyz), origin.rpy)
-
-    rows = tuple(row(r) for r in table.rows)
-    return replace(table, rows=rows, base=step(table.base), tool=step(table.tool))
 
 
 def extent(body):

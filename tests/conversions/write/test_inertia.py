@@ -1,6 +1,6 @@
 """Mass properties survive the way into a URDF, and files hold only bodies that could exist."""
 
-import math
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -23,10 +23,7 @@ def puma560():
     Published as they are: the tensors of links 1 and 3 belong to no body. Link 1 was published
     without mass; it has 13 kg on joint 1's axis here, where they change no torque.
     """
-    kinematics = [
-        (0.67183, 0, 90), (0, 0.4318, 0), (0.15005, 0.0203, -90), (0.4318, 0, 90), (0, 0, -90),
-        (0, 0, 0),
-    ]  # fmt: skip
+    shipped = dh2urdf.load_table("puma560")
     dynamics = [
         (13.0, (0, -0.2, 0), (0, 0.35, 0)),
         (17.4, (-0.3638, 0.006, 0.2275), (0.13, 0.524, 0.539)),
@@ -36,12 +33,9 @@ def puma560():
         (0.09, (0, 0, 0.032), (0.15e-3, 0.15e-3, 0.04e-3)),
     ]
     rows = tuple(
-        dh2urdf.DHRow(
-            d=d, a=a, alpha=math.radians(alpha), lower=-3.0, upper=3.0,
-            mass=mass, com=com, inertia=(x, 0, 0, y, 0, z),
-        )
-        for (d, a, alpha), (mass, com, (x, y, z)) in zip(kinematics, dynamics, strict=True)
-    )  # fmt: skip
+        replace(row, mass=mass, com=com, inertia=(x, 0, 0, y, 0, z))
+        for row, (mass, com, (x, y, z)) in zip(shipped.rows, dynamics, strict=True)
+    )
     return dh2urdf.DHTable(rows, "standard", name="puma560_dynamics")
 
 

@@ -15,7 +15,6 @@ import yourdfpy
 from dh_product import dh_frames, difference
 
 import dh2urdf
-from dh2urdf.cli import main
 from dh2urdf.conversions.write.verify import random_configurations
 
 FOLDER = Path(__file__).parents[3] / "urdf"
@@ -42,12 +41,9 @@ def posed_model(name, seed=0):
     return model, data, dict(zip(table.joint_names, q, strict=True))
 
 
-def test_folder_is_what_the_command_writes(tmp_path, capfd):
+def test_folder_is_what_the_command_writes(tmp_path, run):
     """`dh2urdf convert --shipped --out-dir urdf` gives these files, byte for byte, and no other."""
-    with pytest.raises(SystemExit) as stop:
-        main(["convert", "--shipped", "--out-dir", str(tmp_path)])
-    assert stop.value.code == 0
-    capfd.readouterr()
+    assert run("convert", "--shipped", "--out-dir", tmp_path)[0] == 0
     written = {p.name: p.read_bytes() for p in tmp_path.iterdir()}
     shipped = {p.name: p.read_bytes() for p in FOLDER.glob("*.urdf")}
     assert sorted(written) == sorted(shipped) == [f"{name}.urdf" for name in NAMES]

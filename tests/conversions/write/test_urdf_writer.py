@@ -8,7 +8,7 @@ import pytest
 from dh_product import dh_frames, difference
 from hypothesis import given, settings
 from lxml import etree
-from strategies import tables
+from strategies import FACTORY, tables
 
 import dh2urdf
 from dh2urdf.bounds import ANGLE
@@ -71,26 +71,9 @@ def test_embedded_table_comes_back_identical(table):
     assert parse_table(root.findtext("dh2urdf"), "json").table == table
 
 
-def calibrated_ur10():
-    """A factory-calibrated UR10: near-parallel axes put d2 and d3 439 m and -446 m out."""
-    rows = (
-        (1.1e-5, 0.12814, 2.4e-5, 1.57061),
-        (0.4321, 439.0961, 0.02012, 3.3e-4),
-        (6.2753, -445.9872, 0.00381, 6.281785),
-        (-0.4249, 7.06502, 1.7e-5, 1.570802),
-        (2.9e-6, 0.11589, 3.0e-5, -1.570785),
-        (-1.2e-5, 0.0922, 0.0, 0.0),
-    )
-    return dh2urdf.DHTable(
-        tuple(dh2urdf.DHRow(*row, lower=-math.pi, upper=math.pi) for row in rows),
-        "standard",
-        name="calibrated_ur10",
-    )
-
-
 def test_factory_calibrated_arm_survives():
     """Offsets of 439 m and -446 m come back with the tip placed to 1e-12 of them."""
-    assert largest_difference(calibrated_ur10(), count=20) <= 1e-12
+    assert largest_difference(FACTORY, count=20) <= 1e-12
 
 
 def test_file_is_written_whole_and_read_back(tmp_path):

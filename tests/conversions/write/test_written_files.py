@@ -14,7 +14,6 @@ from strategies import tables
 
 import dh2urdf
 from dh2urdf import DHRow, DHTable, JointType, UrdfOptions
-from dh2urdf.cli import main
 from dh2urdf.conversions.write.urdf_elements import urdf_text_and_warnings
 from dh2urdf.conversions.write.urdf_file import verified_urdf
 from dh2urdf.conversions.write.verify import verify_urdf_text
@@ -29,13 +28,6 @@ from dh2urdf.exceptions import (
 from dh2urdf.symbolic import symbolic_product
 
 SUFFIXES = [".yaml", ".yml", ".toml", ".json", ".csv", ".md"]
-
-
-def convert(*words):
-    """Exit code of the verb."""
-    with pytest.raises(SystemExit) as ended:
-        main(["convert", *map(str, words)])
-    return ended.value.code
 
 
 def limits_of(text):
@@ -81,13 +73,14 @@ def test_a_limit_that_was_written_wrong_leaves_no_file():
 
 
 @pytest.mark.parametrize("digits", [0, 1])
-def test_a_rounded_file_of_no_use_is_not_written(digits, tmp_path, capsys):
+def test_a_rounded_file_of_no_use_is_not_written(digits, tmp_path, run):
     """Digits that put the tip of a UR5 off by decimetres are refused, and no file is left."""
     path = tmp_path / "ur5.urdf"
     with pytest.raises(VerificationError, match="give more digits"):
         dh2urdf.write_urdf("ur5", path, options=UrdfOptions(digits=digits))
-    assert convert("ur5", "-o", path, "--digits", digits) != 0
-    assert "give more digits" in capsys.readouterr().err
+    status, _, err = run("convert", "ur5", "-o", path, "--digits", digits)
+    assert status != 0
+    assert "give more digits" in err
     assert not path.exists()
 
 
@@ -155,34 +148,34 @@ def test_a_file_of_ours_is_written_over(embed, tmp_path):
 
 
 @pytest.mark.parametrize("suffix", SUFFIXES)
-def test_convert_writes_the_table_by_its_suffix(suffix, tmp_path, capsys):
+def test_convert_writes_the_table_by_its_suffix(suffix, tmp_path, run):
     """``-o arm.yaml`` is the table itself in that format, and nothing is written over."""
     path = tmp_path / f"arm{suffix}"
-    assert convert("ur5", "-o", path) == 0
-    assert "reads back as the same table" in capsys.readouterr().out
+    status, out, _ = run("convert", "ur5", "-o", path)
+    assert (status, "reads back as the same table" in out) == (0, True)
     assert dh2urdf.load_table(path) == dh2urdf.load_table("ur5")
     before = path.read_bytes()
-    assert convert("puma560", "-o", path) == 2
-    assert "--force" in capsys.readouterr().err
+    status, _, err = run("convert", "puma560", "-o", path)
+    assert (status, "--force" in err) == (2, True)
     assert path.read_bytes() == before
-    assert convert("puma560", "-o", path, "--force") == 0
+    assert run("convert", "puma560", "-o", path, "--force")[0] == 0
     assert dh2urdf.load_table(path) == dh2urdf.load_table("puma560")
 
 
 @pytest.mark.parametrize("name", ["arm.txt", "arm", "arm.urdf.bak", "arm.png"])
-def test_convert_refuses_a_suffix_that_it_does_not_write(name, tmp_path, capsys):
+def test_convert_refuses_a_suffix_that_it_does_not_write(name, tmp_path, run):
     """Another suffix is refused with those there are, before anything is written."""
     path = tmp_path / name
-    assert convert("ur5", "-o", path) == 2
-    assert ".urdf, .yaml" in capsys.readouterr().err
+    status, _, err = run("convert", "ur5", "-o", path)
+    assert (status, ".urdf, .yaml" in err) == (2, True)
     assert not path.exists()
 
 
 @pytest.mark.parametrize("names", [["ur5"], ["ur5", "puma560"]])
-def test_convert_makes_its_folder(names, tmp_path, capsys):
+def test_convert_makes_its_folder(names, tmp_path, run):
     """``--out-dir new`` is made for one table as for two."""
     folder = tmp_path / "new" / "deep"
-    assert convert(*names, "--out-dir", folder) == 0
+    assert run("convert", *names, "--out-dir", folder)[0] == 0
     assert sorted(path.stem for path in folder.iterdir()) == sorted(names)
 
 

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from general_6r_arms import ARMS
 from ik_referee import (
     CLOSED_FORMS,
     GAP,
@@ -32,17 +33,6 @@ from dh2urdf.ik.families.general_6r import General6R
 
 NON_PIEPER = ["fanuc_crx10ia", "fanuc_crx10ia_l", "kinova_jaco2", "xarm6", "abb_gofa5"]
 
-# Manseur and Doty 1989: an arm whose poses have up to 16 real solutions; rows of (d, a, alpha).
-DEGREE = math.pi / 180
-SIXTEEN = (
-    (0, 0.3, math.pi / 2),
-    (0, 1.0, DEGREE),
-    (0.2, 0, math.pi / 2),
-    (0, 1.5, DEGREE),
-    (0, 0, math.pi / 2),
-    (0, 0, DEGREE),
-)
-
 
 def generic(seed):
     """A chain of six random rows."""
@@ -53,7 +43,7 @@ def generic(seed):
 
 CHAINS = {name: shipped(name) for name in NON_PIEPER}
 CHAINS |= {f"generic{seed}": generic(seed) for seed in range(8)}
-CHAINS |= {"manseur_doty": arm(SIXTEEN)}
+CHAINS |= {"manseur_doty": arm(tuple(row[1:] for row in ARMS["manseur_doty"]))}
 
 
 def sweep(chain, m, seed):

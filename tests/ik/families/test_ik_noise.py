@@ -4,9 +4,10 @@ import re
 from dataclasses import replace
 from functools import cache
 
+import ik_referee as ref
 import numpy as np
 import pytest
-from ik_referee import draw, forward, gaps, random_pose, regularity, shipped, solve
+from ik_referee import draw, exists, forward, gaps, misses, regularity, rows_of, shipped, solve
 
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
@@ -16,20 +17,11 @@ from dh2urdf.transforms import inverse, matrix_to_rpy
 
 ARMS = ["ur5", "puma560"]
 NOISE = [1e-12, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3]
-KEYS = ("theta", "d", "a", "alpha")
-
-
-def changed(table, change):
-    """The table with every parameter of every row changed."""
-    rows = tuple(replace(row, **{k: change(getattr(row, k)) for k in KEYS}) for row in table.rows)
-    return replace(table, rows=rows)
 
 
 @cache
 def noisy(name, size, seed=0):
-    rng = np.random.default_rng(seed)
-    table = dh2urdf.load_table(name)
-    return dh_to_chain(changed(table, lambda x: x + size * float(rng.uniform(-1, 1))))
+    return dh_to_chain(ref.noisy_table(name, size, seed))
 
 
 def draw_near_singularities(chain, m, seed):
@@ -47,14 +39,12 @@ def check_noisy(chain, m, seed):
     q = draw_near_singularities(chain, m, seed)
     Ts = forward(chain, q)
     found = solve(chain, Ts)
-    exists = np.arange(found.q.shape[1]) < found.count[:, None]
-    owner = np.repeat(np.arange(m), found.count)
-    assert np.abs(forward(chain, found.q[exists]) - Ts[owner]).max() <= 1e-9
+    solutions, owner = rows_of(found)
+    assert np.abs(forward(chain, solutions) - Ts[owner]).max() <= 1e-9
     least = np.full(m, np.inf)
-    np.minimum.at(least, owner, regularity(chain, found.q[exists]))
+    np.minimum.at(least, owner, regularity(chain, solutions))
     assert not (found.count[least > 1e-3] % 2).any()
-    away = np.where(exists, gaps(chain, np.nan_to_num(found.q), q[:, None]), np.inf).min(axis=1)
-    return np.flatnonzero(away > np.maximum(1e-6, 1e-11 / regularity(chain, q)))
+    return np.flatnonzero(misses(chain, found, q) > np.maximum(1e-6, 1e-11 / regularity(chain, q)))
 
 
 @pytest.mark.parametrize("size", NOISE)
@@ -117,7 +107,7 @@ ROUNDED = ["ur5", "ur10e", "puma560", "kuka_kr6_r700", "fanuc_lrmate200id", "den
 def test_a_rounded_arm_keeps_all_its_solutions(name, digits):
     """Rounded to 4 or 6 digits an arm has as many solutions, each near one of the exact arm."""
     exact = shipped(name)
-    rounded = dh_to_chain(changed(dh2urdf.load_table(name), lambda x: round(x, digits)))
+    rounded = dh_to_chain(ref.changed(dh2urdf.load_table(name), lambda x: round(x, digits)))
     q = draw(exact, 100, seed=6)
     before = solve(exact, forward(exact, q))
     after = solve(rounded, forward(rounded, q))
@@ -137,7 +127,7 @@ def scattered_urdf(chain, digits, seed):
     rng = np.random.default_rng(seed)
     T_base_last, parts, parent = np.eye(4), ['<robot name="cad"><link name="base"/>'], "base"
     for i in range(chain.n + 1):
-        T_base_new = random_pose(rng, 0.0)
+        T_base_new = ref.random_pose(rng, 0.0)
         axis = "1 0 0"
         if i < chain.n:
             along = chain.axes[i]
@@ -187,20 +177,16 @@ def test_a_rounded_urdf_keeps_all_its_solutions(tmp_path, name, family, digits):
 def test_a_calibrated_arm_with_frames_far_out_is_solved():
     """Nearly parallel axes put DH frames hundreds of metres away, and the arm is solved."""
     table = dh2urdf.load_table("ur10")
-    shift = {1: ("d", 430.0), 2: ("d", -437.0), 3: ("d", 7.0)}
-    rows = []
-    for i, row in enumerate(table.rows):
-        key, value = shift.get(i, ("d", 0.0))
-        tilt = {1: 1.2e-3, 2: -0.9e-3}.get(i, 1e-4)
-        rows.append(replace(row, **{key: row.d + value}, alpha=row.alpha + tilt))
-    chain = dh_to_chain(replace(table, rows=tuple(rows)))
+    shifts, tilts = (0, 430.0, -437.0, 7.0, 0, 0), (1e-4, 1.2e-3, -0.9e-3, 1e-4, 1e-4, 1e-4)
+    rows = tuple(
+        replace(row, d=row.d + shift, alpha=row.alpha + tilt)
+        for row, shift, tilt in zip(table.rows, shifts, tilts, strict=True)
+    )
+    chain = dh_to_chain(replace(table, rows=rows))
     q = draw(chain, 200, seed=7)
-    Ts = forward(chain, q)
-    found = solve(chain, Ts)
-    exists = np.arange(found.q.shape[1]) < found.count[:, None]
-    away = np.where(exists, gaps(chain, np.nan_to_num(found.q), q[:, None]), np.inf).min(axis=1)
-    assert away.max() < 1e-6
-    assert found.residual[exists].max() <= 1e-9
+    found = solve(chain, forward(chain, q))
+    assert misses(chain, found, q).max() < 1e-6
+    assert found.residual[exists(found)].max() <= 1e-9
 
 
 def test_exact_arms_are_not_called_nearly():

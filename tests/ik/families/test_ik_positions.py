@@ -6,6 +6,7 @@ import math
 import ik_referee as referee
 import numpy as np
 import pytest
+from dh_product import rows, turn
 from ik_referee import GAP, RESIDUAL
 from margins import assert_apart, assert_margin
 from test_short_chains import HALF, chain_of
@@ -100,33 +101,22 @@ def stretched(chain):
 
 
 FIVE = {
-    "any axes": (
-        "RRRRR",
-        ((0.2, 0.3, 0.7), (-0.1, 0.4, -1.1), (0.3, 0.2, 0.4), (0.1, -0.2, 1.3), (0.1, 0.2, 0.5)),
-    ),
-    "elbow, bent tool": (
-        "RRRRR",
-        ((0.3, 0.05, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0, HALF), (0.2, 0, 0.6)),
-    ),
-    "three axes": ("RRR", ((0.2, 0.3, 0.7), (-0.1, 0.4, -1.1), (0.3, 0.2, 0.4))),
-    "gantry, two axes": (
-        "PPPRR",
-        ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0, HALF), (0.2, 0.1, HALF)),
-    ),
+    "any axes": ("RRRRR", ".2 .3 .7; -.1 .4 -1.1; .3 .2 .4; .1 -.2 1.3; .1 .2 .5"),
+    "elbow, bent tool": ("RRRRR", ".3 .05 h; 0 .4 0; 0 .3 0; 0 0 h; .2 0 .6"),
+    "three axes": ("RRR", ".2 .3 .7; -.1 .4 -1.1; .3 .2 .4"),
+    "gantry, two axes": ("PPPRR", "0 0 h; 0 0 h; 0 0 0; .1 0 h; .2 .1 h"),
 }
 
 
 @pytest.mark.parametrize("name", FIVE)
 def test_position_and_axis(name):
     """Up to five joints: the tool's origin and z are reached, the original is found."""
-    kinds, rows = FIVE[name]
-    chain = referee.arm(rows, kinds)
+    kinds, steps = FIVE[name]
+    chain = referee.arm(rows(steps), kinds)
     solver = select_solver(chain, Task.POSITION_AXIS)
     q = referee.draw(chain, 200, 6)
     Ts = referee.forward(chain, q)
-    turn = np.eye(4)
-    turn[:2, :2] = [[math.cos(0.7), -math.sin(0.7)], [math.sin(0.7), math.cos(0.7)]]
-    found = referee.solve(chain, np.ascontiguousarray(Ts @ turn), solver=solver)
+    found = referee.solve(chain, np.ascontiguousarray(Ts @ turn(2, 0.7)), solver=solver)
     solutions, owner = referee.rows_of(found)
     error = referee.forward(chain, solutions) - Ts[owner]
     assert_margin(np.abs(error[:, :3, 2:]).max(axis=(1, 2)), RESIDUAL)
@@ -135,9 +125,7 @@ def test_position_and_axis(name):
 
 def test_joint_about_the_tool_is_free_for_the_axis():
     """Five joints, the last about the tool's z: it is held, and named as free."""
-    chain = chain_of(
-        "RRRRR", ((0.3, 0.05, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0, HALF), (0.2, 0, 0))
-    )
+    chain = chain_of("RRRRR", rows(".3 .05 h; 0 .4 0; 0 .3 0; 0 0 h; .2 0 0"))
     links = chain.links.copy()
     links[-1] = np.eye(4)
     links[-1][2, 3] = 0.2

@@ -6,6 +6,8 @@ from functools import cache, partial
 import ik_referee as ref
 import numpy as np
 import pytest
+from dh_product import rows
+from ik_referee import HALF
 
 import dh2urdf
 from dh2urdf.ik.arm.solver_table import select_solver
@@ -50,7 +52,7 @@ def lost(chain, q):
     Ts = np.ascontiguousarray(ref.forward(chain, q))
     ik = solver_of(chain)
     batch = ik.solve_batch(Ts, ANYWHERE, None, None, "raise")
-    rows = []
+    missed = []
     for i, T in enumerate(Ts):
         found = batch.q[i, : batch.count[i]]
         if len(found) and ref.gaps(chain, found, q[i]).min() < 1e-6:
@@ -63,8 +65,8 @@ def lost(chain, q):
             or ref.same_to_rounding(chain, p, q[i], T)
             for p in seeded.q
         ):
-            rows.append(i)
-    return rows
+            missed.append(i)
+    return missed
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6])
@@ -92,8 +94,7 @@ def test_all_shipped_arms_lose_nothing_at_quarter_turns(name):
 @pytest.mark.parametrize("gap", [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 3e-6, 1e-5])
 def test_a_fourth_parallel_axis_takes_nothing_away(gap, reverse):
     """With axis 5 leaning 0 ... 1e-5 from axes 1, 2, 3, or axis 2 from 4, 5, 6: 100 poses."""
-    h = math.pi / 2
-    chain = ref.arm(((0, 0.4, 0), (0, 0.3, 0), (0, 0.1, h), (0.1, 0, -h), (0.1, 0, h), (0.1, 0, 0)))
+    chain = ref.arm(rows("0 .4 0; 0 .3 0; 0 .1 h; .1 0 -h; .1 0 h; .1 0 0"))
     lined_up = -math.atan2(chain.links[4][1, 0], chain.links[4][0, 0])
     q = np.random.default_rng(1).uniform(-3.0, 3.0, (100, 6))
     q[:, 3] = lined_up + gap
@@ -102,27 +103,21 @@ def test_a_fourth_parallel_axis_takes_nothing_away(gap, reverse):
     assert lost(chain, q) == []
 
 
-H = math.pi / 2
-
 SINGULAR = {
     "2, 3, 4 parallel, 1 meets 2, axis 6 in line": (
-        "RRRRRR",
-        ((0.1, 0, H), (0, 0.4, math.pi), (0, 0.2, 0), (0.4, 0, H), (0.1, -0.2, H), (0, 0.2, H)),
+        *("RRRRRR", ".1 0 h; 0 .4 pi; 0 .2 0; .4 0 h; .1 -.2 h; 0 .2 h"),
         {4: (0.0, math.pi)},
     ),
     "2, 3, 4 parallel, axis 6 in line": (
-        "RRRRRR",
-        ((0.3, 0.1, -H), (-0.2, 0.5, 0), (0, 0.5, 0), (0.2, 0, H), (0.1, 0.2, -H), (0, 0, 0)),
+        *("RRRRRR", ".3 .1 -h; -.2 .5 0; 0 .5 0; .2 0 h; .1 .2 -h; 0 0 0"),
         {4: (0.0, math.pi)},
     ),
     "1, 2, 3 parallel, axis 6 in line": (
-        "RRRRRR",
-        ((0, 0.5, 0), (0.1, 0.4, 0), (0, 0, H), (0.4, -0.2, H), (0.1, 0, H), (0.2, 0, 0)),
-        {3: (H, -H), 4: (0.0, math.pi)},
+        *("RRRRRR", "0 .5 0; .1 .4 0; 0 0 h; .4 -.2 h; .1 0 h; .2 0 0"),
+        {3: (HALF, -HALF), 4: (0.0, math.pi)},
     ),
     "wrist centre on axis 2, a slide": (
-        "RRPRRR",
-        ((0.5, 0, -H), (0, 0.4, -H), (0, 0.4, H), (0.4, 0, -H), (0, 0, H), (0.3, 0.4, 0)),
+        *("RRPRRR", ".5 0 -h; 0 .4 -h; 0 .4 h; .4 0 -h; 0 0 h; .3 .4 0"),
         {2: (0.0,)},
     ),
 }
@@ -134,7 +129,7 @@ SINGULAR = {
 def test_one_singularity_off_the_beaten_track_takes_nothing_away(name, gap):
     """40 poses at 0 ... 1e-4 from a singularity whose equation has a double root there."""
     kinds, steps, singular = SINGULAR[name]
-    chain = ref.arm(steps, kinds)
+    chain = ref.arm(rows(steps), kinds)
     q = ref.draw(chain, 40, 3)
     rng = np.random.default_rng(4)
     for joint, values in singular.items():

@@ -7,6 +7,7 @@ import ik_checks as checks
 import ik_referee as referee
 import numpy as np
 import pytest
+from dh_product import rows
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
@@ -22,55 +23,31 @@ from dh2urdf.ik.families.short import ShortChain
 HALF = math.pi / 2
 
 ARMS = {
-    "planar RRR": ("RRR", ((0, 1, 0), (0, 0.7, 0), (0, 0.3, 0)), 2),
-    "spherical RRR": ("RRR", ((0, 0, HALF), (0, 0, -HALF), (0.1, 0, 0)), 2),
-    "gantry": ("PPP", ((0, 0, HALF), (0, 0, HALF), (0, 0, 0.3)), 1),
-    "cylinder": ("RPP", ((0.4, 0, 0), (0, 0.1, HALF), (0.2, 0, 0)), 1),
-    "polar RRP": ("RRP", ((0.5, 0, HALF), (0, 0, HALF), (0.3, 0, 0)), 2),
-    "notes RPR": ("RPR", ((0, 3, -HALF), (2, 0, HALF), (0, 1.5, 0)), 1),
-    "SCARA RRPR": ("RRPR", ((0.4, 0.4, 0), (0, 0.3, math.pi), (0, 0, 0), (0.1, 0, 0)), 2),
-    "SCARA RRRP": ("RRRP", ((0.4, 0.4, 0), (0, 0.3, 0), (0.1, 0, math.pi), (0, 0, 0)), 2),
-    "SCARA PRRR": ("PRRR", ((0, 0, 0), (0.2, 0.4, 0), (0, 0.3, 0), (0, 0.1, 0)), 2),
-    "SCARA RPRR": ("RPRR", ((0.3, 0.4, 0), (0, 0, 0), (0.1, 0.3, 0), (0, 0.1, 0)), 2),
-    "palletizer RRRR": ("RRRR", ((0.3, 0, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0.1, HALF)), 4),
-    "gantry with a turn": ("PPPR", ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0.2, 0)), 1),
-    "gantry with a head": (
-        "PPPRR",
-        ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0, HALF), (0.2, 0, 0)),
-        1,
-    ),
-    "five axes, elbow": (
-        "RRRRR",
-        ((0.3, 0.05, HALF), (0, 0.4, 0), (0, 0.3, 0), (0, 0, HALF), (0.2, 0, 0)),
-        4,
-    ),
-    "SCARA with a tilt": (
-        "RRPRR",
-        ((0.4, 0.4, 0), (0, 0.3, math.pi), (0, 0, 0), (0.1, 0, HALF), (0.2, 0, 0)),
-        4,
-    ),
-    "welder PRRRR": (
-        "PRRRR",
-        ((0, 0, HALF), (0.3, 0.1, HALF), (0, 0.5, 0), (0, 0.1, HALF), (0.2, 0, 0)),
-        2,
-    ),
-    "gantry with an offset wrist": (
-        "PPPRRR",
-        ((0, 0, HALF), (0, 0, HALF), (0, 0, 0), (0.1, 0.1, HALF), (0.2, 0.05, 0.9), (0.1, 0, 0)),
-        2,
-    ),
-    "slides between turns": (
-        "RPRPRP",
-        ((0.1, 0, HALF), (0, 0.1, 0.8), (0, 0.2, HALF), (0, 0.1, HALF), (0, 0.3, 1.0), (0, 0, 0)),
-        2,
-    ),
+    "planar RRR": ("RRR", "0 1 0; 0 .7 0; 0 .3 0", 2),
+    "spherical RRR": ("RRR", "0 0 h; 0 0 -h; .1 0 0", 2),
+    "gantry": ("PPP", "0 0 h; 0 0 h; 0 0 .3", 1),
+    "cylinder": ("RPP", ".4 0 0; 0 .1 h; .2 0 0", 1),
+    "polar RRP": ("RRP", ".5 0 h; 0 0 h; .3 0 0", 2),
+    "notes RPR": ("RPR", "0 3 -h; 2 0 h; 0 1.5 0", 1),
+    "SCARA RRPR": ("RRPR", ".4 .4 0; 0 .3 pi; 0 0 0; .1 0 0", 2),
+    "SCARA RRRP": ("RRRP", ".4 .4 0; 0 .3 0; .1 0 pi; 0 0 0", 2),
+    "SCARA PRRR": ("PRRR", "0 0 0; .2 .4 0; 0 .3 0; 0 .1 0", 2),
+    "SCARA RPRR": ("RPRR", ".3 .4 0; 0 0 0; .1 .3 0; 0 .1 0", 2),
+    "palletizer RRRR": ("RRRR", ".3 0 h; 0 .4 0; 0 .3 0; 0 .1 h", 4),
+    "gantry with a turn": ("PPPR", "0 0 h; 0 0 h; 0 0 0; .1 .2 0", 1),
+    "gantry with a head": ("PPPRR", "0 0 h; 0 0 h; 0 0 0; .1 0 h; .2 0 0", 1),
+    "five axes, elbow": ("RRRRR", ".3 .05 h; 0 .4 0; 0 .3 0; 0 0 h; .2 0 0", 4),
+    "SCARA with a tilt": ("RRPRR", ".4 .4 0; 0 .3 pi; 0 0 0; .1 0 h; .2 0 0", 4),
+    "welder PRRRR": ("PRRRR", "0 0 h; .3 .1 h; 0 .5 0; 0 .1 h; .2 0 0", 2),
+    "gantry with an offset wrist": ("PPPRRR", "0 0 h; 0 0 h; 0 0 0; .1 .1 h; .2 .05 .9; .1 0 0", 2),
+    "slides between turns": ("RPRPRP", ".1 0 h; 0 .1 .8; 0 .2 h; 0 .1 h; 0 .3 1; 0 0 0", 2),
 }
 """Kinds, Denavit-Hartenberg steps (d, a, alpha), most solutions."""
 
 
 def named(name):
-    kinds, rows, _ = ARMS[name]
-    return referee.arm(rows, kinds)
+    kinds, steps, _ = ARMS[name]
+    return referee.arm(rows(steps), kinds)
 
 
 def chain_of(kinds, steps, lower=-math.inf, upper=math.inf):

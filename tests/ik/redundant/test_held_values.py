@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from dh_product import rows
 from ik_referee import by_pinocchio, exists, misses, rows_of
 from margins import assert_margin
 
@@ -36,22 +37,8 @@ def test_one_value_for_all_and_one_for_each_agree(name, joint):
     assert_margin(np.abs(by_pinocchio(robot, found) - Ts[owner]), 1e-12)
 
 
-WRIST_LAST = (
-    (0.1, 0.0, 90),
-    (0.1, 0.4, 10),
-    (0.05, 0.03, 80),
-    (0.4, 0, -90),
-    (0, 0, 90),
-    (0.1, 0, 0),
-)
-WRIST_FIRST = (
-    (0.3, 0, 90),
-    (0, 0, -90),
-    (0.4, 0.05, 80),
-    (0.02, 0.3, 15),
-    (0.1, 0, 90),
-    (0.2, 0.1, 30),
-)
+WRIST_LAST = rows(".1 0 90; .1 .4 10; .05 .03 80; .4 0 -90; 0 0 90; .1 0 0")
+WRIST_FIRST = rows(".3 0 90; 0 0 -90; .4 .05 80; .02 .3 15; .1 0 90; .2 .1 30")
 """Six turning joints with a spherical triple and axes that meet at the other end: d, a [m], alpha
 [deg]."""
 

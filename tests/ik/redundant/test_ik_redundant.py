@@ -3,37 +3,26 @@
 import math
 from functools import cache
 
+import ik_referee as ref
 import numpy as np
 import pytest
-from ik_referee import GAP, RESIDUAL, distances, forward, jacobians, misses, pose_errors, rows_of
+from ik_referee import GAP, RESIDUAL, distances, forward, jacobians, misses, random_robot, rows_of
 from margins import assert_apart, assert_margin
 
 import dh2urdf
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik.arm import limits
 from dh2urdf.ik.redundant.self_motion import nearest_members, sample_values
 
 ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
-SWEPT = {
-    "franka_fer": "fer_joint7",
-    "franka_fr3": "fr3_joint7",
-    "kuka_iiwa7": "joint_a3",
-    "kuka_iiwa14": "joint_a3",
-    "xarm7": "joint7",
-    "kinova_gen3": "Actuator3",
-}
+SWEPT = {"franka_fer": "fer_joint7", "franka_fr3": "fr3_joint7", "xarm7": "joint7"}
+SWEPT |= {"kuka_iiwa7": "joint_a3", "kuka_iiwa14": "joint_a3", "kinova_gen3": "Actuator3"}
 
 # Joints that can be held so that the others have a closed form. With the elbow of an arm held that
 # has a spherical shoulder and wrist, the others have a joint to spare.
-CLOSED = {
-    "franka_fer": (3, 4, 5, 6),
-    "franka_fr3": (3, 4, 5, 6),
-    "kuka_iiwa7": (0, 1, 2, 4, 5, 6),
-    "kuka_iiwa14": (0, 1, 2, 4, 5, 6),
-    "xarm7": (3, 4, 5, 6),
-    "kinova_gen3": (0, 1, 2, 3),
-}
+CLOSED = dict.fromkeys(("franka_fer", "franka_fr3"), (3, 4, 5, 6))
+CLOSED |= dict.fromkeys(("kuka_iiwa7", "kuka_iiwa14"), (0, 1, 2, 4, 5, 6))
+CLOSED |= {"xarm7": (3, 4, 5, 6), "kinova_gen3": (0, 1, 2, 3)}
 HELD_CLOSED = [(name, joint) for name, joints in CLOSED.items() for joint in joints]
 HELD_GENERAL = [
     (name, joint)
@@ -46,20 +35,6 @@ HELD_GENERAL = [
 @cache
 def robot_of(name):
     return dh2urdf.Robot.from_dh(name)
-
-
-def generic_seven(slide=None, seed=0):
-    """Seven random rows; one of them may slide."""
-    rng = np.random.default_rng(seed)
-    rows = []
-    for i in range(7):
-        theta, d, a, alpha = rng.uniform((-3, -0.4, -0.4, -3), (3, 0.4, 0.4, 3))
-        kind = JointType.PRISMATIC if i == slide else JointType.REVOLUTE
-        low, high = (0.0, 0.5) if i == slide else (-2.9, 2.9)
-        rows.append(
-            DHRow(theta=theta, d=d, a=a, alpha=alpha, joint_type=kind, lower=low, upper=high)
-        )
-    return dh2urdf.Robot.from_dh(DHTable(tuple(rows), DHConvention.STANDARD, name="seven"))
 
 
 def draw(robot, m, seed):
@@ -85,7 +60,7 @@ def check_held(robot, joint, m, seed):
     Ts = forward(robot.chain, q)
     batch = robot.ik_batch(Ts, locked={joint: q[:, joint]})
     found, owner = rows_of(batch)
-    error = pose_errors(forward(robot.chain, found), Ts[owner])
+    error = ref.pose_errors(forward(robot.chain, found), Ts[owner])
     assert_margin(error, RESIDUAL, quantile=0.999)
     assert np.array_equal(found[:, joint], q[owner, joint])
     assert np.all((found >= robot.lower - 1e-12) & (found <= robot.upper + 1e-12))
@@ -120,7 +95,7 @@ def test_the_generating_configuration_is_found_in_100_000_poses(name):
 @pytest.mark.parametrize("slide", [0, 3, 6])
 def test_a_sliding_joint_can_be_held(slide):
     """An arm of six turning joints with a slide somewhere is solved at the slide's values."""
-    robot = generic_seven(slide, seed=slide)
+    robot = random_robot(7, (slide,), seed=slide, turn=2.9)
     q = np.random.default_rng(0).uniform(robot.lower, robot.upper, (10, 7))
     batch = robot.ik_batch(robot.fk(q), locked={slide: q[:, slide]})
     assert_margin(misses(robot.chain, batch, q), GAP)
@@ -187,7 +162,7 @@ def test_reachable_poses_have_solutions(name):
     batch = robot.ik_batch(robot.fk(q), samples=4)
     assert batch.count.min() > 0
     found, owner = rows_of(batch)
-    assert_margin(pose_errors(forward(robot.chain, found), robot.fk(q)[owner]), RESIDUAL)
+    assert_margin(ref.pose_errors(forward(robot.chain, found), robot.fk(q)[owner]), RESIDUAL)
     assert limits.inside(robot.chain, found).all()
 
 
@@ -311,7 +286,7 @@ def test_an_unreachable_pose_has_no_interval():
 
 def test_an_arm_without_any_closed_form_is_swept():
     """Seven skew axes: an end is held, the general solver does the rest."""
-    robot = generic_seven(seed=3)
+    robot = random_robot(7, seed=3, turn=2.9)
     q = np.random.default_rng(2).uniform(robot.lower, robot.upper)
     T = robot.fk(q)
     found = robot.ik(T, samples=8)
