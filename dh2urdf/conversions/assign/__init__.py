@@ -1,8 +1,8 @@
 """From joint axes to a DH table: the frame assignment of lecture notes section 4.
 
 `assigned_table` is the whole, `frame_assignment` the steps: `axis_pairs` (the cases and their
-common normal), `frame_directions`, `frame_ends` (frames 0 and n), `prismatic_axes`; `rounding`
-and `snap` set numbers right, `explain` says why, `convention` changes it.
+common normal), `frame_directions`, `frame_ends` (frames 0 and n), `prismatic_axes`; `snap`
+sets numbers right, `explain` says why, `convention` changes it.
 """
 
 from dh2urdf.conversions.assign.assigned_table import chain_to_dh, flip_signs

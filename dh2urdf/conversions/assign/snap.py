@@ -14,10 +14,9 @@ import numpy as np
 
 from dh2urdf.bounds import SNAP
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.assign.assigned_table import AssignedTable, chain_to_dh
+from dh2urdf.conversions.assign.assigned_table import AssignedTable, chain_to_dh, near_angle
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
-from dh2urdf.conversions.assign.rounding import near_angle
 from dh2urdf.conversions.chains import table_poses, turn_slide
 from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.doors import number

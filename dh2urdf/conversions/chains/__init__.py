@@ -1,12 +1,16 @@
 """From a tree, a Pinocchio model or typed axes to the serial chain between two links.
 
-`extract_source` takes whatever there is: `tree_chain`, `model_chain` with `model_source`,
-`typed_axes` with `read_axes`; `coupling` is mimic joints, `carried` drives, bodies and
-frames that ride on joints, `referee` Pinocchio's word on the source.
+`extract_source` takes whatever there is: `tree_chain`, `model_chain`, `typed_axes`; `carried`
+is drives, bodies, frames and followers that ride on joints, `referee` Pinocchio's word.
 """
 
-from dh2urdf.conversions.chains.carried import carried_dh_frames, carried_joint_frames, carry
-from dh2urdf.conversions.chains.coupling import Coupling, couple
+from dh2urdf.conversions.chains.carried import (
+    Coupling,
+    carried_dh_frames,
+    carried_joint_frames,
+    carry,
+    couple,
+)
 from dh2urdf.conversions.chains.extract_source import read_source
 from dh2urdf.conversions.chains.model_chain import (
     ChainPath,

@@ -10,19 +10,16 @@ import pinocchio as pin
 from lxml import etree
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains.model_chain import frame_id
-from dh2urdf.conversions.chains.model_source import model_source
-from dh2urdf.conversions.chains.read_axes import SUFFIXES as AXES_SUFFIXES
-from dh2urdf.conversions.chains.read_axes import read_axes
+from dh2urdf.conversions.chains.model_chain import frame_id, model_source
 from dh2urdf.conversions.chains.referee import (
     Referee,
     addressed_referee,
     model_referee,
     screw_referee,
 )
-from dh2urdf.conversions.chains.tree_chain import Actuation, ChainSource, tree_to_chain
-from dh2urdf.conversions.chains.typed_axes import typed_to_chain
-from dh2urdf.conversions.read import link_name, read_description
+from dh2urdf.conversions.chains.tree_chain import ChainSource, tree_to_chain
+from dh2urdf.conversions.chains.typed_axes import SUFFIXES, read_axes, typed_to_chain
+from dh2urdf.conversions.read import Actuation, link_name, read_description
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
@@ -85,7 +82,7 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
     """A path, or the text of a URDF."""
     if not (isinstance(source, str) and source.lstrip().startswith("<")):
         path = Path(source)
-        if path.suffix.lower() in AXES_SUFFIXES:
+        if path.suffix.lower() in SUFFIXES:
             if base is not None or tip is not None:
                 where = shown(source)
                 raise UrdfError(f"{where}: base and tip: typed axes go from the base to the tool")

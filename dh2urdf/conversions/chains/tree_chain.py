@@ -9,21 +9,10 @@ import numpy as np
 
 from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains.model_chain import frame_with_z
-from dh2urdf.conversions.read import MOVING, KinematicTree, Step, find_path, rigid_part
+from dh2urdf.conversions.read import MOVING, Actuation, KinematicTree, Step, find_path, rigid_part
 from dh2urdf.conversions.write import FLIP, Inertial
 from dh2urdf.dh import JointType
 from dh2urdf.transforms import Array
-
-
-@dataclass(frozen=True)
-class Actuation:
-    """What a joint's drive can do, as far as the file says."""
-
-    velocity: float | None = None
-    effort: float | None = None
-    damping: float | None = None
-    friction: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,10 +75,21 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
         base,
         tip,
         bodies=tuple(_body(tree, step, cut) for step in moving),
-        drives=tuple(Actuation(j.velocity, j.effort, j.damping, j.friction) for j in joints),
+        drives=tuple(j.drive for j in joints),
         warnings=(*tree.remarks, *_remarks(tree, moving, cut)),
         origin=os.path.basename(tree.where),
     )
+
+
+def frame_with_z(axis: Array) -> Array:
+    """A rotation whose z is the unit axis, exact where the axis is a coordinate axis."""
+    z = np.asarray(axis, float)
+    if np.count_nonzero(z) == 1:
+        x = np.eye(3)[(int(np.argmax(np.abs(z))) + 1) % 3]
+    else:
+        x = np.cross(np.eye(3)[int(np.argmin(np.abs(z)))], z)
+        x /= np.linalg.norm(x)
+    return np.stack([x, np.cross(z, x), z], axis=1)
 
 
 def _halves(step: Step) -> tuple[Array, Array]:

@@ -1,9 +1,8 @@
 """From a robot file to a tree of links and joints.
 
 `kinematic_tree` is the result. `description` takes any format (`apart` runs foreign readers in a
-process of their own); `urdf_tree` reads a URDF, `mended_elements` its elements one by one, with
-what is obvious mended, `read_mjcf` an MJCF; `for_pinocchio` hands the tree on, its axes as
-Pinocchio takes them; `naming` names things in messages.
+process of their own) and hands the tree to Pinocchio; `urdf_tree` reads a URDF,
+`mended_elements` its elements one by one, with what is obvious mended, `read_mjcf` an MJCF.
 """
 
 from dh2urdf.conversions.read.description import (
@@ -16,12 +15,15 @@ from dh2urdf.conversions.read.description import (
 from dh2urdf.conversions.read.kinematic_tree import (
     MOVING,
     TIP_NAMES,
+    Actuation,
     KinematicTree,
     Mimic,
     Step,
     find_path,
+    link_name,
+    listed,
+    no_such,
     rigid_part,
 )
 from dh2urdf.conversions.read.mended_elements import FLOAT
-from dh2urdf.conversions.read.naming import link_name, listed, no_such
 from dh2urdf.conversions.read.urdf_tree import count_elements

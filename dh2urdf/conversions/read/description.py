@@ -1,6 +1,8 @@
 """A robot description, of whatever format, as a tree and the way from base to tip in it."""
 
+import math
 import os
+from collections.abc import Collection
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,14 +11,21 @@ from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.conversions.read.apart import read_apart
-from dh2urdf.conversions.read.for_pinocchio import bare_model
-from dh2urdf.conversions.read.kinematic_tree import MOVING, KinematicTree, choose_ends, find_path
-from dh2urdf.conversions.read.naming import link_name
+from dh2urdf.conversions.read.kinematic_tree import (
+    MOVING,
+    KinematicTree,
+    choose_ends,
+    find_path,
+    link_name,
+)
 from dh2urdf.conversions.read.urdf_tree import read_urdf
+from dh2urdf.conversions.write import inertial_element
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found
 from dh2urdf.exceptions import UrdfError, VerificationError
+
+NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
 
 TEXT = "URDF text"
 """How messages name a text that is no path."""
@@ -119,6 +128,59 @@ def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | No
             f"as {joint.child!r}"
         )
     return Description(tree, *ends, root, model, addresses, ())
+
+
+def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]) -> pin.Model:
+    """Pinocchio's model of a URDF: its links with their inertias, its joints and their numbers.
+
+    The numbers of origins and axes are the file's own, read anew; nothing else is left for
+    urdfdom to stumble over.
+
+    Parameters
+    ----------
+    root : lxml element
+        The document, as :func:`~dh2urdf.conversions.read.urdf_tree.read_urdf` leaves it.
+    chain : collection of str
+        Joints that move; all others are held at 0.
+    """
+    robot = etree.Element("robot", name=tree.name)
+    for name, link in tree.links.items():
+        element = etree.SubElement(robot, "link", name=name)
+        if link.inertial is not None:
+            inertial_element(element, link.inertial)
+    for joint in root.iterchildren("joint"):
+        _joint(robot, joint, chain)
+    try:
+        model = pin.buildModelFromXML(etree.tostring(robot, encoding="unicode"))
+    except (ValueError, RuntimeError) as error:
+        raise UrdfError(f"{tree.where}: Pinocchio does not load it: {error}") from None
+    for read in tree.joints:
+        if read.name in chain and read.kind in ("revolute", "prismatic"):
+            k = model.joints[list(model.names).index(read.name, 1)].idx_q
+            model.lowerPositionLimit[k] = -math.inf if read.lower is None else read.lower
+            model.upperPositionLimit[k] = math.inf if read.upper is None else read.upper
+    return model
+
+
+def _joint(robot: etree._Element, joint: etree._Element, chain: Collection[str]) -> None:
+    name = joint.get("name")
+    kind = joint.get("type") if name in chain else "fixed"
+    bare = etree.SubElement(robot, "joint", name=name, type=kind)
+    for tag in ("parent", "child"):
+        etree.SubElement(bare, tag, link=joint.find(tag).get("link"))
+    parts = ("origin", "axis", "limit", "dynamics") if kind != "fixed" else ("origin",)
+    for tag in parts:
+        part = joint.find(tag)
+        if part is not None:
+            keys = NUMBERS[-4:] if kind == "continuous" and tag == "limit" else NUMBERS
+            numbers = {k: _plain(part.get(k)) for k in keys if k in part.attrib}
+            if numbers:
+                etree.SubElement(bare, tag, numbers)
+
+
+def _plain(text: str) -> str:
+    """The same numbers in digits that every program reads."""
+    return " ".join(repr(float(word)) for word in text.split())
 
 
 def mended_urdf(

@@ -4,7 +4,8 @@ What a URDF and an MJCF have in common, read without interpretation: every joint
 place in the file that messages name.
 """
 
-from collections.abc import Iterator
+import difflib
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import takewhile
@@ -13,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.bounds import JOINTS
-from dh2urdf.conversions.read.naming import listed, no_such
 from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
-from dh2urdf.exceptions import NameNotFoundError, UrdfError
+from dh2urdf.doors import found
+from dh2urdf.exceptions import ArgumentError, NameNotFoundError, UrdfError
 from dh2urdf.transforms import Array, inverse
 
 MOVING = ("revolute", "continuous", "prismatic")
@@ -43,6 +44,16 @@ class Mimic(NamedTuple):
     offset: float
 
 
+@dataclass(frozen=True)
+class Actuation:
+    """What a joint's drive can do, as far as the file says: per second, in [N m] or [N]."""
+
+    velocity: float | None = None
+    effort: float | None = None
+    damping: float | None = None
+    friction: float | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class TreeJoint:
     """A joint between two links.
@@ -55,8 +66,8 @@ class TreeJoint:
         Joint frame in the parent link's frame.
     axis : array, shape (3,)
         Unit vector in the joint frame; the child link moves along or about it.
-    lower, upper, velocity, effort, damping, friction : float or None
-        In [rad] or [m], per second, [N m] or [N].
+    lower, upper : float or None
+        In [rad] or [m].
     mimic : Mimic, optional
         What the joint follows in the file.
     where : str
@@ -74,10 +85,7 @@ class TreeJoint:
     where: str
     lower: float | None = None
     upper: float | None = None
-    velocity: float | None = None
-    effort: float | None = None
-    damping: float | None = None
-    friction: float | None = None
+    drive: Actuation = Actuation()
     mimic: Mimic | None = None
     fault: str = ""
 
@@ -260,3 +268,27 @@ def rigid_part(
             if step.joint.name not in cut and step.link not in seen:
                 seen.add(step.link)
                 todo.append((step.link, step, T @ step.at_rest))
+
+
+def listed(names: Iterable[str]) -> str:
+    """The first forty names, and how many more."""
+    everyone = list(names)
+    more = f" and {len(everyone) - 40} more" if len(everyone) > 40 else ""
+    return ", ".join(map(shown, everyone[:40])) + more
+
+
+def no_such(name: object, names: Iterable[str], owner: str) -> str:
+    """What to say of a name that is not among those there are."""
+    everyone = list(names)
+    near = {other[:60]: other for other in everyone}
+    close = difflib.get_close_matches(name[:60], near, 1) if isinstance(name, str) else []
+    hint = f"; did you mean {shown(near[close[0]])!r}?" if close else ""
+    said = repr(shown(name)) if isinstance(name, str) else found(name)
+    return f"{said}; {owner} has {listed(everyone)}{hint}"
+
+
+def link_name(name: object, what: str) -> str | None:
+    """The name of an end of the chain, in characters that a file can have."""
+    if name is None or isinstance(name, str):
+        return None if name is None else name.encode(errors="replace").decode()
+    raise ArgumentError(f"{what}: expected the name of a link, got {found(name)}")

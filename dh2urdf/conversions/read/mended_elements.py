@@ -10,8 +10,7 @@ from lxml import etree
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, NUMBER, TEXT_CHARACTERS
-from dh2urdf.conversions.read.for_pinocchio import as_pinocchio_takes
-from dh2urdf.conversions.read.kinematic_tree import MOVING, TreeJoint, TreeLink
+from dh2urdf.conversions.read.kinematic_tree import MOVING, Actuation, TreeJoint, TreeLink
 from dh2urdf.conversions.write import DEFAULT_EFFORT, DEFAULT_VELOCITY, TENSOR, Inertial, tensor
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
@@ -33,6 +32,30 @@ WIDE = {"revolute": 2 * math.pi, "prismatic": 10.0}
 """Limits [rad, m] that are written where a file has none, as our own files have them."""
 
 FAR = {"revolute": ANGLE, "prismatic": LENGTH}
+
+
+SNAP = 1e-12
+"""Distance from x, y or z up to which Pinocchio takes an axis to be that one."""
+
+
+def as_pinocchio_takes(axis: Array) -> Array:
+    """The axis, or the coordinate axis that it misses by no more than 1e-12.
+
+    Pinocchio has joints of their own for x, y and z (not for their opposites), and takes those up
+    to this distance (Eigen's ``isApprox``): a picometre on an arm of a metre. The same axis is
+    read here, so that a chain and Pinocchio's placement of it are one thing.
+    """
+    length = _square(axis)
+    for unit in np.eye(3):
+        if _square(axis - unit) <= SNAP * SNAP * min(length, 1.0):
+            return unit
+    return axis
+
+
+def _square(v: Array) -> float:
+    """Squared length, summed in Eigen's order."""
+    x, y, z = v.tolist()
+    return float(x * x + (y * y + z * z))
 
 
 class UrdfReader:
@@ -183,23 +206,19 @@ class UrdfReader:
             kind = "fixed"
             _make_fixed(element)
         limit, dynamics = (element.find(tag) if kind in MOVING else None for tag in PARTS)
-        lower, upper = self.limits(element, kind, faults)
+        ends = self.limits(element, kind, faults)
         self.mends += [f"{fault}; {mend}" for fault, mend in faults]
-        return TreeJoint(
-            name,
-            kind,
-            parent,
-            child,
-            origin=origin,
-            axis=axis,
-            where=where,
-            lower=lower,
-            upper=upper,
-            velocity=self.amount(limit, "velocity", DEFAULT_VELOCITY) or None,
-            effort=self.amount(limit, "effort", DEFAULT_EFFORT) or None,
-            damping=self.amount(dynamics, "damping", math.nan),
-            friction=self.amount(dynamics, "friction", math.nan),
-            fault=faults[0][0] if faults else "",
+        drive = self.drive(limit, dynamics)
+        fault = faults[0][0] if faults else ""
+        return TreeJoint(name, kind, parent, child, origin, axis, where, *ends, drive, None, fault)
+
+    def drive(self, limit: etree._Element | None, dynamics: etree._Element | None) -> Actuation:
+        """What a moving joint's ``<limit>`` and ``<dynamics>`` say of its drive."""
+        return Actuation(
+            self.amount(limit, "velocity", DEFAULT_VELOCITY) or None,
+            self.amount(limit, "effort", DEFAULT_EFFORT) or None,
+            self.amount(dynamics, "damping", math.nan),
+            self.amount(dynamics, "friction", math.nan),
         )
 
     def end(self, element: etree._Element, tag: str, links: Collection[str]) -> str:

@@ -10,8 +10,8 @@ import pinocchio as pin
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, LINKS
 from dh2urdf.conversions.read.apart import read_apart
-from dh2urdf.conversions.read.for_pinocchio import as_pinocchio_takes
-from dh2urdf.conversions.read.kinematic_tree import KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.read.kinematic_tree import Actuation, KinematicTree, TreeJoint, TreeLink
+from dh2urdf.conversions.read.mended_elements import as_pinocchio_takes
 from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
@@ -118,6 +118,8 @@ class _Bodies:
         lower, upper = (v if limited and abs(v) <= far else None for v in ends)
         name = m.joint(j).name or f"joint_{j}"
         dof = int(m.jnt_dofadr[j])
+        resists = (float(values[dof]) or None for values in (m.dof_damping, m.dof_frictionloss))
+        drive = Actuation(None, None, *resists)
         self.addresses[name] = int(m.jnt_qposadr[j])
         self.joints.append(
             TreeJoint(
@@ -130,8 +132,7 @@ class _Bodies:
                 where=f'{self.where}: <joint name="{name}">',
                 lower=lower,
                 upper=upper,
-                damping=float(m.dof_damping[dof]) or None,
-                friction=float(m.dof_frictionloss[dof]) or None,
+                drive=drive,
             )
         )
         out: Array = rest @ tf.inverse(anchor)

@@ -12,9 +12,9 @@ from dh2urdf.conversions.read.kinematic_tree import (
     Mimic,
     TreeJoint,
     TreeLink,
+    listed,
 )
 from dh2urdf.conversions.read.mended_elements import UrdfReader
-from dh2urdf.conversions.read.naming import listed
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 
