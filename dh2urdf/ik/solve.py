@@ -56,7 +56,6 @@ class InverseKinematics:
 
     def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
-        self._solvers: dict[tuple[Any, ...], Solver | HeldSolver] = {}
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
         self._run_once: set[int] = set()
@@ -159,31 +158,32 @@ class InverseKinematics:
         """The problem of a task and held joints; its solver is built when first asked for."""
         wanted = Task(choice(task, "task", TASKS))
         joints, values = held_values(self.chain, locked, within_limits)
-        if not joints:
-            return self._free_problem(wanted, samples)
-        if samples is not None:
+        if joints and samples is not None:
             raise ConfigurationError("samples: a joint is swept or locked, not both")
-        key = (wanted, *joints)
-        if key not in self._problems:
-            solver = self._solver(wanted, joints)
-            self._problems[key] = self._outside(Problem(self.own, solver, wanted, self.referee))
-        return self._problems[key].at(values)
-
-    def _free_problem(self, task: Task, samples: int | None) -> Problem:
-        """The problem of a task with no joint held."""
-        solver = self._solver(task, ())
-        if isinstance(solver, SweptJoint):
-            if samples is not None:
-                samples = integer(samples, "samples", 1, SAMPLES)
-                solver = self._solvers.setdefault((task, f"{samples}"), solver.like(samples))
-                assert isinstance(solver, SweptJoint)
-            return self._outside(SweptProblem(self.own, solver, task, self.referee))
         if samples is not None:
-            raise ConfigurationError(_no_sweep("samples", solver))
-        return self._outside(Problem(self.own, solver, task, self.referee))
+            swept = self.problem(wanted).solver
+            if not isinstance(swept, SweptJoint):
+                raise ConfigurationError(_no_sweep("samples", swept))
+            samples = integer(samples, "samples", 1, SAMPLES)
+        key = wanted, samples, joints
+        if key not in self._problems:
+            self._problems[key] = self._new_problem(*key)
+        return self._problems[key].at(values) if joints else self._problems[key]
 
-    def _outside(self, problem: Problem) -> Problem:
-        """A problem of the chain in its own unit, for callers whose unit is the metre."""
+    def _new_problem(self, task: Task, samples: int | None, joints: tuple[int, ...]) -> Problem:
+        """A problem with a solver of its own, of the chain in its unit; outside are metres."""
+        if len(joints) == self.chain.n:
+            raise ConfigurationError("locked: all joints are held, none is left to move")
+        solver: Solver | HeldSolver
+        if joints:
+            solver = select_held(self.own, joints, task)
+        else:
+            solver = self.problem(task).solver if samples else select_solver(self.own, task)
+        if isinstance(solver, SweptJoint):
+            swept = solver.like(samples) if samples else solver
+            problem: Problem = SweptProblem(self.own, swept, task, self.referee)
+        else:
+            problem = Problem(self.own, solver, task, self.referee)
         return problem if self.own is self.chain else ScaledProblem(self.chain, problem)
 
     def _compiled(
@@ -206,17 +206,6 @@ class InverseKinematics:
         if problem.values is None and problem.task is Task.POSE and samples is None:
             self._plain = problem
         return problem
-
-    def _solver(self, task: Task, joints: tuple[int, ...]) -> Solver | HeldSolver:
-        """The solver of a task with some joints held, built when it is first asked for."""
-        key = (task, *joints)
-        if key not in self._solvers:
-            if len(joints) == self.chain.n:
-                raise ConfigurationError("locked: all joints are held, none is left to move")
-            self._solvers[key] = (
-                select_held(self.own, joints, task) if joints else select_solver(self.own, task)
-            )
-        return self._solvers[key]
 
 
 def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:

@@ -30,19 +30,11 @@ class General6R(SolverBase):
     kmax = 16
     if_spare = STUCK
 
-    def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: Others = (),
-        plan: Arm | None = None,
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         from dh2urdf.kernels.certificate import finish_batch
         from dh2urdf.kernels.general_6r import solve_general_6r
 
-        if plan is not None:
-            self.plan = plan
         self._kernel, self._finish = solve_general_6r, finish_batch
         self._idle: list[Arm] = []
 
@@ -58,8 +50,8 @@ class General6R(SolverBase):
         """The solver of a chain that differs little, with the same eliminations if they do."""
         from dh2urdf.kernels.general_6r import replan_general_6r
 
-        plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
-        solver = General6R(chain, self.task, plan=plan)
+        solver = General6R(chain, self.task)
+        solver.plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
         return solver if solver.finds_itself() else General6R(chain, self.task)
 
     def finds_itself(self) -> bool:

@@ -1,7 +1,7 @@
 """Chains of one to five joints, any kinds and geometry: the closed loop as a linear system."""
 
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,17 +31,6 @@ TRIALS = 8
 
 VANISHED = 1e-9
 """Singular value of a loop's matrix, columns of size about 1, that counts as zero."""
-
-
-class _Quality(NamedTuple):
-    """Rank of a cut, the smallest is best."""
-
-    blind: bool
-    """The determinant vanishes for every x."""
-    nullity: int
-    """Dimension of the null space at a solution."""
-    loss: float
-    """Minus the smallest singular value that does not vanish."""
 
 
 class ShortChain(SolverBase):
@@ -81,7 +70,7 @@ class ShortChain(SolverBase):
         used = np.array([_slots(self.chain.prismatic, shape) for shape in shapes], np.int64)
         qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
         best = sorted(cuts, key=lambda s: qualities[s])
-        plan = [([*shapes[s], qualities[s].nullity], used[s]) for s in best]
+        plan = [([*shapes[s], qualities[s][1]], used[s]) for s in best]
         return np.array(plan, np.int64).reshape(-1, 2, 8)
 
     @classmethod
@@ -104,8 +93,12 @@ class ShortChain(SolverBase):
         equation = ", a quadratic equation" if self.plan[0, 0, 7] == 2 else ""
         return f"{text}, linear in dual quaternions{equation}"
 
-    def _quality(self, shape: IntArray, used: IntArray) -> _Quality:
-        """How well a cut of the loop finds random configurations."""
+    def _quality(self, shape: IntArray, used: IntArray) -> tuple[bool, int, float]:
+        """How well a cut of the loop finds random configurations; the smallest is best.
+
+        Whether the determinant vanishes for every x, the dimension of the null space at a
+        solution, and minus the smallest singular value that does not vanish.
+        """
         from dh2urdf.kernels.short_chains import close_loop, loop_columns, loop_matrix
 
         rng = np.random.default_rng(1)
@@ -127,7 +120,7 @@ class ShortChain(SolverBase):
             sigma = np.linalg.svd(M[:size], compute_uv=False)
             here = int((sigma < VANISHED).sum())
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
-        return _Quality(blind, nullity, -gap)
+        return blind, nullity, -gap
 
 
 def _shape(prismatic: NDArray[np.bool_], start: int) -> list[int]:

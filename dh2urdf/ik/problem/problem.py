@@ -122,7 +122,11 @@ class Problem:
         def work(rows: slice) -> int:
             return self._solve_chunk(batch[rows], rows, within_limits)
 
-        _run(work, chunks, workers, progress, m)
+        def tell(done: int) -> None:
+            if progress:
+                progress(done, m)
+
+        _run(work, chunks, workers, tell)
         return batch
 
     def _solve_held(self, Ts: Array, within_limits: bool, out: Outputs, rows: slice = ALL) -> None:
@@ -257,19 +261,14 @@ class Problem:
 
 
 def _run(
-    work: Callable[[slice], int],
-    chunks: list[slice],
-    workers: int,
-    progress: Progress | None,
-    total: int,
+    work: Callable[[slice], int], chunks: list[slice], workers: int, tell: Callable[[int], None]
 ) -> None:
     """Work on all chunks, in this thread or on a pool, and say how far it has come."""
     done = 0
     if workers == 1 or len(chunks) < 2:
         for chunk in chunks:
             done += work(chunk)
-            if progress:
-                progress(done, total)
+            tell(done)
         return
     with ThreadPoolExecutor(min(workers, len(chunks))) as pool:
         pending: set[Future[int]] = {pool.submit(work, chunk) for chunk in chunks}
@@ -277,8 +276,7 @@ def _run(
             while pending:
                 finished, pending = wait(pending, return_when=FIRST_COMPLETED)
                 done += sum(future.result() for future in finished)
-                if progress:
-                    progress(done, total)
+                tell(done)
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise

@@ -147,9 +147,8 @@ class HeldGeneral(HeldOneByOne):
 
     def make(self, values: tuple[float, ...]) -> Solver:
         """The solver for one value; eliminations chosen anew where those of the model fail."""
-        rest = hold(self.chain, {self.held[0]: values[0]})
         held = {self.held[0]: values[0]}
-        return HeldJoints(self.chain, held, self.task, self.model.like(rest))
+        return HeldJoints(self.chain, held, self.task, self.model.like(hold(self.chain, held)))
 
 
 def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSolver:

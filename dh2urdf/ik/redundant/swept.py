@@ -47,17 +47,11 @@ class SweptJoint(SolverBase):
     if_spare = ""
     needs = "seven joints, one of which can be held so that a row above covers the others"
 
-    def __init__(
-        self,
-        chain: SerialChain,
-        task: Task = Task.POSE,
-        others: Others = (),
-        samples: int = SAMPLES,
-    ) -> None:
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.held, self.reason = _best_held(chain)
-        self.joint, self.samples = self.held.held[0], samples
-        self.kmax = samples * self.held.kmax
+        self.joint, self.samples = self.held.held[0], SAMPLES
+        self.kmax = SAMPLES * self.held.kmax
         self.name = f"{self.held.name}, {chain.names[self.joint]} swept"
 
     @classmethod

@@ -155,7 +155,9 @@ def test_wrist_partners_with_one_value_of_the_hidden_joint_are_both_found(name, 
     solver = General6R(shipped(name))
     plan = solver.plan.copy()
     plan["trials"], plan["choices"][0, 0], plan["ready"] = 1, elimination, 0
-    assert_equal_to_closed_form(shipped(name), General6R(shipped(name), plan=plan), 300)
+    forced = General6R(shipped(name))
+    forced.plan = plan
+    assert_equal_to_closed_form(shipped(name), forced, 300)
 
 
 @pytest.mark.exhaustive
