@@ -31,10 +31,9 @@ def locate(filename: str, urdf: Path) -> Path | None:
         package, _, inside = rest.partition("/")
         candidates = [folder / rest for folder in (*search, *folders)]
         candidates += [folder / inside for folder in (*search, *folders) if folder.name == package]
-    elif scheme == "file":
-        candidates = [Path(unquote(rest))]
     else:
-        candidates = [folders[0] / filename]
+        name = unquote(rest) if scheme == "file" else filename
+        candidates = [folder / name for folder in (urdf.parent, folders[0])]
     return next((path for path in candidates if os.path.isfile(path)), None)
 
 

@@ -17,7 +17,6 @@ from dh2urdf.figures.solids.ghosts import group_ghosts
 from dh2urdf.figures.solids.projection import View, best_view
 from dh2urdf.figures.solids.solid_paint import (
     BODY,
-    ToPoints,
     floor_discs,
     ghost_paint,
     paint_floor,
@@ -138,31 +137,27 @@ class _ArmPicture:
         inner = height - 2 * MARGIN
         width = float(np.clip(inner * span[0] / span[1] + 2 * MARGIN, NARROWEST, WIDEST))
         self.scale = float(min(inner / span[1], (width - 2 * MARGIN) / span[0]))
-        self.middle = (low + high) / 2
+        middle, scale = (low + high) / 2, self.scale
         foot = 14.0 * len(self.key) if self.panel is None else 0.0
-        self.centre = np.array([width / 2, height / 2 + foot])
+        centre = np.array([width / 2, height / 2 + foot])
         self.bounds = np.array([[6.0, 6.0 + foot], [width - 6.0, height + foot - 6.0]])
         total = width + (self.panel.width + 44.0 if self.panel else 0.0)
-        self.canvas = Canvas(total, height + foot)
-
-    @property
-    def to(self) -> ToPoints:
-        """From picture metres to points on the sheet."""
-        return lambda flat: (flat - self.middle) * self.scale + self.centre
+        self.canvas = Canvas(
+            total, height + foot, self.view, lambda flat: (flat - middle) * scale + centre
+        )
 
     def draw(self) -> Picture:
-        paint_floor(self.canvas, self.to, self.floor)
+        paint_floor(self.canvas, self.floor)
         colours = [ghost.colour for ghost in self.ghosts if ghost.is_drawn]
         for parts, colour in zip(self.ghost_parts, colours, strict=True):
-            paint_parts(self.canvas, parts, self.view, self.to, ghost_paint(colour))
+            paint_parts(self.canvas, parts, ghost_paint(colour))
         if self.style == "bodies":
-            paint_parts(self.canvas, self.parts, self.view, self.to, BODY)
+            paint_parts(self.canvas, self.parts, BODY)
         else:
-            draw_schematic(self.canvas, self.view, self.to, self.arm, self.q, self.scale)
+            draw_schematic(self.canvas, self.arm, self.q, self.scale)
         if self.show_frames:
             seen = outlines(self.parts, self.view)
-            marks = DHMarks(self.canvas, self.view, self.to, self.arm, self.q, self.arrow, seen)
-            marks.draw(self.bounds)
+            DHMarks(self.canvas, self.arm, self.q, self.arrow, seen).draw(self.bounds)
         if self.panel is None:
             draw_key(self.canvas, 14.0, 14.0 * len(self.key), self.key)
         else:
@@ -174,9 +169,8 @@ class _ArmPicture:
         """Shade under the base, where the eye looks down on it at a slant."""
         if self.style != "bodies" or not 2.0 < self.view.elevation < 80.0:
             return []
-        pedestal = next((b for b in self.arm.bodies[0] if b.material == "base"), None)
-        if pedestal is None:
-            return []
-        radius, height = pedestal.size
-        foot = pedestal.pose[:3, 3] - pedestal.pose[:3, 2] * height / 2
-        return floor_discs(self.view, foot, 1.9 * radius)
+        for pedestal in (b for b in self.arm.bodies[0] if b.material == "base"):
+            radius, height = pedestal.size
+            foot = pedestal.pose[:3, 3] - pedestal.pose[:3, 2] * height / 2
+            return floor_discs(self.view, foot, 1.9 * radius)
+        return []

@@ -1,6 +1,6 @@
 """A sheet measured in points, and the few marks that figures are made of."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import lru_cache
 from itertools import count
@@ -8,23 +8,32 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.style import INK, Picture, mpl
 from dh2urdf.transforms import Array
 
 POINTS_PER_INCH = 72.0
 
 
-class Canvas:
-    """Axes over a whole figure whose unit is the point."""
+ToPoints = Callable[[Array], Array]
+"""Picture coordinates (..., 2) in metres to points on the sheet."""
 
-    def __init__(self, width: float, height: float) -> None:
-        self.width, self.height = width, height
+
+class Canvas:
+    """Axes over a whole figure whose unit is the point, and where the eye puts an arm on it."""
+
+    def __init__(self, width: float, height: float, view: View, to: ToPoints) -> None:
+        self.width, self.height, self.view, self.to = width, height, view, to
         self.figure = Picture(figsize=(width / POINTS_PER_INCH, height / POINTS_PER_INCH))
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set(xlim=(0, width), ylim=(0, height))
         self.axes.set_axis_off()
         self._levels = count(1.0)
         self._clip: Any = None
+
+    def at(self, points: Array) -> Array:
+        """Where points (..., 3) in metres are on the sheet, shape (..., 2)."""
+        return self.to(self.view.flat(points))
 
     @contextmanager
     def clipped(self, rings: Sequence[Array]) -> Iterator[None]:

@@ -10,8 +10,6 @@ from dh2urdf.drawing.colours import AXIS, QUANTITY
 from dh2urdf.drawing.row import length_index, row_picture
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.labels import Label, Line, place_labels
-from dh2urdf.figures.solids.projection import View
-from dh2urdf.figures.solids.solid_paint import ToPoints
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
 
@@ -52,20 +50,13 @@ class DHMarks:
     """
 
     def __init__(
-        self,
-        canvas: Canvas,
-        view: View,
-        to: ToPoints,
-        arm: DrawnArm,
-        q: Array,
-        length: float,
-        outlines: list[Array],
+        self, canvas: Canvas, arm: DrawnArm, q: Array, length: float, outlines: list[Array]
     ) -> None:
-        self.canvas, self.view, self.to, self.length = canvas, view, to, length
+        self.canvas, self.view, self.length = canvas, canvas.view, length
         self.arm, self.frames = arm, arm.table.frames(q)
         self.rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
         self.lines = [
-            Line(to(np.stack(edge)), OUTLINE)
+            Line(canvas.to(np.stack(edge)), OUTLINE)
             for outline in outlines
             for edge in zip(outline, np.roll(outline, -1, axis=0), strict=True)
         ]
@@ -78,11 +69,8 @@ class DHMarks:
         self._measures()
         self._arrows()
         for frame in self.frames:
-            self.canvas.dot(self._at(frame[:3, 3]), "#000000", 2.3)
+            self.canvas.dot(self.canvas.at(frame[:3, 3]), "#000000", 2.3)
         self._texts(bounds)
-
-    def _at(self, points: Array) -> Array:
-        return self.to(self.view.flat(points))
 
     def _joint_axes(self) -> None:
         """A dash-dotted line along each joint's axis, past what stands on it."""
@@ -92,7 +80,7 @@ class DHMarks:
             z, d = frame[:3, 2], row.d.value if standard else -row.d.value
             low, high = min(0.0, d) - 0.75 * self.length, max(0.0, d) + 0.75 * self.length
             ends = frame[:3, 3] + np.array([[low], [high]]) * z
-            points = self._at(ends)
+            points = self.canvas.at(ends)
             if float(np.linalg.norm(points[1] - points[0])) < 4.0:
                 continue
             self.canvas.line(points, mix(AXIS["z"], 0.6), 0.9, dashes=(9.0, 3.0, 2.0, 3.0))
@@ -103,7 +91,7 @@ class DHMarks:
         for row in self.rows:
             for measure, index in ((row.d, row.i), (row.a, length_index(self.arm.table, row.i))):
                 self._measure(measure.key, index, measure.segment)
-            step = self._at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
+            step = self.canvas.at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
             if float(np.linalg.norm(step[1] - step[0])) > 1.5:
                 self.canvas.line(step, "#6b7280", 1.6, dashes=(1.5, 1.5))
                 self.lines.append(Line(step))
@@ -111,7 +99,7 @@ class DHMarks:
     def _measure(self, key: str, index: int, segment: Array) -> None:
         if float(np.linalg.norm(segment[1] - segment[0])) < SAME * self.arm.size:
             return
-        points = self._at(segment)
+        points = self.canvas.at(segment)
         way = points[1] - points[0]
         if float(np.linalg.norm(way)) < 1.5:
             return
@@ -131,7 +119,7 @@ class DHMarks:
     def _arrow(self, arrow: Arrow) -> None:
         thin = arrow.letter == "y"
         colour, reach = AXIS[arrow.letter], self.length * (0.5 if thin else 1.0)
-        start, end = self._at(np.stack([arrow.start, arrow.start + reach * arrow.direction]))
+        start, end = self.canvas.at(np.stack([arrow.start, arrow.start + reach * arrow.direction]))
         shown = float(np.linalg.norm(self.view.flat(arrow.direction)))
         name = "$" + r",\,".join(f"{n[0]}_{{{n[1:]}}}" for n in arrow.names) + "$"
         if shown < END_ON:

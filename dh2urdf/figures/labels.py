@@ -48,10 +48,8 @@ def place_labels(labels: list[Label], lines: list[Line], bounds: Array) -> Array
         return np.zeros((0, 2))
     samples, weights = _samples(lines)
     places = [_candidates(label) for label in labels]
-    fixed = [
-        _fixed_cost(label, spots, samples, weights, bounds)
-        for label, spots in zip(labels, places, strict=True)
-    ]
+    pairs = zip(labels, places, strict=True)
+    fixed = [_fixed_cost(label, spots, samples, weights, bounds) for label, spots in pairs]
     centres = np.stack([spots[np.argmin(c)] for spots, c in zip(places, fixed, strict=True)])
     half = np.stack([label.size for label in labels]) / 2 + PADDING
     for _ in range(SWEEPS):
@@ -80,12 +78,8 @@ def _fixed_cost(label: Label, spots: Array, samples: Array, weights: Array, boun
     half = label.size / 2 + PADDING
     first = np.searchsorted(samples[:, 0], spots[:, 0] - half[0])
     last = np.searchsorted(samples[:, 0], spots[:, 0] + half[0], side="right")
-    covered = np.array(
-        [
-            weights[a:b] @ (np.abs(samples[a:b, 1] - y) <= half[1])
-            for a, b, y in zip(first, last, spots[:, 1], strict=True)
-        ]
-    )
+    under = zip(map(slice, first, last), spots[:, 1], strict=True)
+    covered = np.array([weights[k] @ (np.abs(samples[k, 1] - y) <= half[1]) for k, y in under])
     outside = np.maximum(bounds[0] - (spots - half), 0) + np.maximum(spots + half - bounds[1], 0)
     way = spots - label.anchor
     gap = np.maximum(np.abs(way) - label.size / 2, 0.0)
@@ -103,8 +97,7 @@ def _crowding(spots: Array, half: Array, others: Array, halves: Array) -> Array:
     room = half + halves
     overlap = np.maximum(room - np.abs(spots[:, None, :] - others[None, :, :]), 0.0)
     area = overlap.prod(axis=2)
-    cost: Array = (30.0 * (area > 0) + 2.0 * area).sum(axis=1)
-    return cost
+    return np.asarray((30.0 * (area > 0) + 2.0 * area).sum(axis=1))
 
 
 def _samples(lines: list[Line]) -> tuple[Array, Array]:

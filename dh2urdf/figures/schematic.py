@@ -11,7 +11,7 @@ from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.row import DHRowPicture, row_picture
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.solids.projection import View
-from dh2urdf.figures.solids.solid_paint import Paint, ToPoints, paint_parts
+from dh2urdf.figures.solids.solid_paint import Paint, paint_parts
 from dh2urdf.figures.solids.solids import Part, outlines
 from dh2urdf.figures.style import INK
 from dh2urdf.transforms import Array
@@ -28,12 +28,10 @@ BOX_WIDTH, BOX_LENGTH = 0.062, 0.13
 PAINT = Paint({"link": (INK, INK), "joint": ("#ffffff", "#eef1f5")}, INK, 0.9)
 
 
-def draw_schematic(
-    canvas: Canvas, view: View, to: ToPoints, arm: DrawnArm, q: Array, scale: float
-) -> None:
+def draw_schematic(canvas: Canvas, arm: DrawnArm, q: Array, scale: float) -> None:
     """Draw the schematic of an arm at q (n,); ``scale`` is in [pt/m]."""
-    _ground(canvas, view, to, arm, scale)
-    paint_parts(canvas, list(_parts(arm, q)), view, to, PAINT)
+    _ground(canvas, arm, scale)
+    paint_parts(canvas, list(_parts(arm, q)), PAINT)
 
 
 def schematic_points(arm: DrawnArm, q: Array, view: View) -> Array:
@@ -94,11 +92,11 @@ def _along(centre: Array, z: Array) -> Array:
     return T
 
 
-def _ground(canvas: Canvas, view: View, to: ToPoints, arm: DrawnArm, scale: float) -> None:
+def _ground(canvas: Canvas, arm: DrawnArm, scale: float) -> None:
     """The hatched line that stands for the fixed world."""
     half = 0.075 * arm.size * scale
-    foot = to(view.flat(np.zeros(3)))
-    if view.elevation < 80.0:
+    foot = canvas.at(np.zeros(3))
+    if canvas.view.elevation < 80.0:
         foot = foot - np.array([0.0, DRUM_RADIUS * arm.size * scale])
     canvas.line(foot + half * np.array([[-1.0, 0.0], [1.0, 0.0]]), INK, 1.4)
     for t in np.linspace(-0.85, 1.0, 7):

@@ -36,8 +36,7 @@ def quaternions(R: Array) -> Array:
     products[..., 1:, 1:] = R + np.swapaxes(R, -1, -2) + (1 - trace)[..., None, None] * np.eye(3)
     best = np.argmax(np.diagonal(products, axis1=-2, axis2=-1), axis=-1)
     chosen = np.take_along_axis(products, best[..., None, None], axis=-2)[..., 0, :]
-    out: Array = chosen / np.linalg.norm(chosen, axis=-1, keepdims=True)
-    return out
+    return np.asarray(chosen / np.linalg.norm(chosen, axis=-1, keepdims=True))
 
 
 def set_poses(handles: Sequence[Any], poses: Array) -> None:

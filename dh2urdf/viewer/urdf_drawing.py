@@ -1,22 +1,20 @@
 """The visuals of a URDF, meshes included, where they are on disk."""
 
-import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pinocchio as pin
-from lxml import etree
 
 from dh2urdf.bounds import ROBOT_BYTES
+from dh2urdf.checks import locate
 from dh2urdf.conversions.chains import frame_id
 from dh2urdf.conversions.write import Body
-from dh2urdf.dh import Origin
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, origin_matrix
 
 GREY = (200, 204, 212)
 """Colour of a visual that has none."""
@@ -78,15 +76,12 @@ def _visual(
     visual: Any, colours: dict[str, tuple[int, int, int]], source: Path, missing: set[str]
 ) -> list[Surface]:
     """Surfaces of one ``<visual>`` in the frame of its link."""
-    geometry = visual.find("geometry")
-    shape = geometry[0] if geometry is not None and len(geometry) else None
-    if shape is None or not isinstance(shape, etree._Element):
+    shape = visual.find("geometry/*")
+    if shape is None:
         return []
     origin = visual.find("origin")
-    xyz, rpy = (
-        _numbers("0 0 0" if origin is None else origin.get(key, "0 0 0")) for key in ("xyz", "rpy")
-    )
-    T_link_visual = Origin(xyz, rpy).matrix  # type: ignore[arg-type]
+    given = origin.attrib if origin is not None else {}
+    T_link_visual = origin_matrix(*(_numbers(given.get(key, "0 0 0")) for key in ("xyz", "rpy")))
     material = visual.find("material")
     colour = None
     if material is not None:
@@ -114,7 +109,7 @@ def _mesh(
 ) -> list[Surface]:
     """Surfaces of a mesh file, scaled and placed."""
     name = shape.get("filename", "")
-    path = find_mesh(name, source)
+    path = locate(name, source)
     scene = _load(path) if path else None
     if scene is None:
         missing.add(name)
@@ -148,23 +143,3 @@ def _mesh_colour(mesh: Any) -> tuple[int, int, int]:
     except (AttributeError, TypeError, ValueError):
         return GREY
     return (r, g, b)
-
-
-def find_mesh(name: str, source: Path) -> Path | None:
-    """The file of a mesh: beside the URDF, under its package, or on ROS_PACKAGE_PATH."""
-    for prefix in ("package://", "model://"):
-        if name.startswith(prefix):
-            return _in_package(name.removeprefix(prefix), source)
-    plain = Path(name.removeprefix("file://"))
-    path = plain if plain.is_absolute() else source.parent / plain
-    return path if path.is_file() else None
-
-
-def _in_package(name: str, source: Path) -> Path | None:
-    package, _, rest = name.partition("/")
-    folders = [Path(p) for p in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if p]
-    for folder in [*source.resolve().parents, *folders]:
-        for candidate in (folder / package / rest, folder / rest):
-            if candidate.is_file():
-                return candidate
-    return None

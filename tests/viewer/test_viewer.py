@@ -16,6 +16,7 @@ import pytest
 
 import dh2urdf
 from dh2urdf import DHConvention, DHRow, DHTable, JointType, Robot, load_table
+from dh2urdf.checks import locate
 from dh2urdf.conversions.write.bodies import Body
 from dh2urdf.drawing.arm import drawn_arm
 from dh2urdf.drawing.surfaces import TableDrawing, body_surface
@@ -26,7 +27,7 @@ from dh2urdf.viewer.tabs.branches import answer, branch_table, initials
 from dh2urdf.viewer.tabs.ik_tab import default_task, dragged_axes
 from dh2urdf.viewer.tabs.redundancy import default_joint
 from dh2urdf.viewer.tabs.table_tab import new_table
-from dh2urdf.viewer.urdf_drawing import find_mesh, urdf_drawing
+from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
 VISITOR = SimpleNamespace(client=SimpleNamespace(send_file_download=lambda *_, **__: None))
 
@@ -416,7 +417,7 @@ def test_meshes_are_found_beside_the_urdf_and_missing_ones_named(tmp_path, monke
     gone = mesh.format("package://arm_description/meshes/gone.stl")
     urdf = folder / "urdf" / "arm.urdf"
     urdf.write_text(text.format(there, gone))
-    assert find_mesh("package://arm_description/meshes/link.stl", urdf).name == "link.stl"
+    assert locate("package://arm_description/meshes/link.stl", urdf).name == "link.stl"
     drawing, notes = urdf_drawing(Robot.from_urdf(urdf))
     assert [node.name for node in drawing.nodes] == ["a"]
     assert drawing.nodes[0].surfaces[0].vertices.max() == 2.0

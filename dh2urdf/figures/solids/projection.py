@@ -41,13 +41,11 @@ class View:
 
     def flat(self, points: Array) -> Array:
         """Picture coordinates [m] of points (..., 3), shape (..., 2)."""
-        out: Array = points @ self.axes[:2].T
-        return out
+        return np.asarray(points @ self.axes[:2].T)
 
     def depth(self, points: Array) -> Array:
         """Nearness to the eye [m] of points (..., 3), shape (...)."""
-        out: Array = points @ self.axes[2]
-        return out
+        return np.asarray(points @ self.axes[2])
 
 
 def best_view(frames: Array, chain: SerialChain) -> View:

@@ -1,6 +1,5 @@
 """Paint of solids: pale bodies with a dark outline, ghosts in one colour, the floor."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,9 +10,6 @@ from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import SHEEN, Face, Part
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array
-
-ToPoints = Callable[[Array], Array]
-"""Picture coordinates (..., 2) in metres to points on the sheet."""
 
 
 @dataclass(frozen=True)
@@ -55,33 +51,31 @@ def ghost_paint(colour: str) -> Paint:
     return Paint(tones, mix(colour, 0.8), 0.7, 0.75)
 
 
-def paint_parts(canvas: Canvas, parts: list[Part], view: View, to: ToPoints, paint: Paint) -> None:
+def paint_parts(canvas: Canvas, parts: list[Part], paint: Paint) -> None:
     """Paint parts from far to near, then again what is in front where it was covered."""
-    seen = occlusion(parts, view)
-    faces = [part.faces(view) for part in parts]
+    seen = occlusion(parts, canvas.view)
+    faces = [part.faces(canvas.view) for part in parts]
     for k in seen.order:
-        _paint_part(canvas, parts[k].material, faces[k], to, paint)
+        _paint_part(canvas, parts[k].material, faces[k], paint)
     for k, rings in seen.again:
-        with canvas.clipped([to(ring) for ring in rings]):
-            _paint_part(canvas, parts[k].material, faces[k], to, paint)
+        with canvas.clipped([canvas.to(ring) for ring in rings]):
+            _paint_part(canvas, parts[k].material, faces[k], paint)
 
 
-def _paint_part(
-    canvas: Canvas, material: str, solids: list[list[Face]], to: ToPoints, paint: Paint
-) -> None:
+def _paint_part(canvas: Canvas, material: str, solids: list[list[Face]], paint: Paint) -> None:
     """All outlines first, then all fills: solids of one part share one outline."""
     for faces in solids:
-        outline = to(faces[0].polygon)
+        outline = canvas.to(faces[0].polygon)
         canvas.polygon(outline, paint.edge, paint.edge, 2 * paint.width, paint.alpha)
     for faces in solids:
-        canvas.polygon(to(faces[0].polygon), paint.tone(material, 0.0))
+        canvas.polygon(canvas.to(faces[0].polygon), paint.tone(material, 0.0))
     for faces in solids:
         for face in faces[1:]:
             if face.tone == 1.0 and len(solids) > 1:  # a cap between two solids
                 continue
             edge = paint.edge if len(solids) == 1 and face.tone != SHEEN else "none"
             tone = paint.tone(material, face.tone)
-            canvas.polygon(to(face.polygon), tone, edge, 0.7 * paint.width)
+            canvas.polygon(canvas.to(face.polygon), tone, edge, 0.7 * paint.width)
 
 
 def floor_discs(view: View, centre: Array, radius: float) -> list[Array]:
@@ -91,7 +85,7 @@ def floor_discs(view: View, centre: Array, radius: float) -> list[Array]:
     return [view.flat(centre + share * radius * rim) for share in (1.0, 0.66)]
 
 
-def paint_floor(canvas: Canvas, to: ToPoints, discs: list[Array]) -> None:
+def paint_floor(canvas: Canvas, discs: list[Array]) -> None:
     """Paint the shade under the base."""
     for disc, colour in zip(discs, ("#f0f2f5", "#e4e8ed"), strict=False):
-        canvas.polygon(to(disc), colour)
+        canvas.polygon(canvas.to(disc), colour)

@@ -117,8 +117,7 @@ def _circle(body: Body, T: Array, side: float) -> Array:
 
 def _placed(points: Array, T: Array) -> Array:
     """Points (m, 3) of a body in base."""
-    out: Array = points @ T[:3, :3].T + T[:3, 3]
-    return out
+    return np.asarray(points @ T[:3, :3].T + T[:3, 3])
 
 
 def hull_points(body: Body, T: Array) -> Array:
@@ -128,8 +127,7 @@ def hull_points(body: Body, T: Array) -> Array:
     if body.shape == "box":
         corners = np.array(np.meshgrid(*[(-s / 2, s / 2) for s in body.size])).reshape(3, -1).T
         return _placed(corners, T)
-    poles: Array = T[:3, 3] + body.size[0] * NORMALS
-    return poles
+    return np.asarray(T[:3, 3] + body.size[0] * NORMALS)
 
 
 def convex_hull(points: Array) -> Array:

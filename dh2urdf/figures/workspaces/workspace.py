@@ -5,6 +5,7 @@ from functools import partial
 
 from numpy.typing import ArrayLike
 
+from dh2urdf import workspace as reach
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
 from dh2urdf.doors import finite_array, integer, number
 from dh2urdf.exceptions import ArgumentError, UnreachedError
@@ -12,16 +13,7 @@ from dh2urdf.figures.style import Picture
 from dh2urdf.figures.workspaces.planar_workspace import planar_picture
 from dh2urdf.figures.workspaces.section_workspace import section_picture
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import rpy_to_matrix
-from dh2urdf.workspace import (
-    branch_counts,
-    default_orientation,
-    dexterity,
-    held_values,
-    planar_arm,
-    section,
-    task_of,
-)
+from dh2urdf.transforms import Array, rpy_to_matrix
 
 FINE, COARSE = 221, 75
 """Points along a side of the map of branches and of the map of orientations."""
@@ -79,30 +71,28 @@ def workspace_figure(
         integer(points, "points", *POINTS)
     if orientations is not None:
         integer(orientations, "orientations", 1, ORIENTATIONS)
-    task = task_of(robot)
+    task = reach.task_of(robot)
     if orientations is not None and task.sides == "none":
         raise ArgumentError(f"orientations: they change nothing for {robot.model.name}")
-    flat = planar_arm(robot)
+    flat = reach.planar_arm(robot)
     if flat is not None and not plane and rpy is at is points is None:
         return planar_picture(robot, flat, within_limits=within_limits)
 
-    R = default_orientation(robot, task)
-    if rpy is not None:
-        if robot.n > 6 or task.name == "position":
-            raise ArgumentError(f"rpy: it changes nothing for {robot.model.name}")
-        R = rpy_to_matrix(finite_array(rpy, "rpy", "three angles", shape=(3,)).tolist())
+    R = _orientation(robot, task, rpy)
     counts = shares = None
-    held = held_values(robot, within_limits=within_limits) if robot.n > 6 else None
+    told = [partial(progress, what) if progress else None for what in ("branches", "orientations")]
+    held = reach.held_values(robot, within_limits=within_limits) if robot.n > 6 else None
     if robot.n <= 6:
-        grid = section(robot, plane, at, points or FINE)
-        told = partial(progress, "branches") if progress else None
-        counts = grid, branch_counts(robot, grid, R, within_limits=within_limits, progress=told)
+        grid = reach.section(robot, plane, at, points or FINE)
+        count = reach.branch_counts(robot, grid, R, within_limits=within_limits, progress=told[0])
+        counts = grid, count
     if task.sides != "none":
-        grid = section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
-        told = partial(progress, "orientations") if progress else None
-        count = orientations or TRIED
-        share = dexterity(robot, grid, count, within_limits=within_limits, held=held, progress=told)
-        shares = grid, share, count
+        grid = reach.section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
+        tries = orientations or TRIED
+        share = reach.dexterity(
+            robot, grid, tries, within_limits=within_limits, held=held, progress=told[1]
+        )
+        shares = grid, share, tries
     if not any(panel[1].any() for panel in (counts, shares) if panel):
         name = f"{robot.tip} of {robot.model.name}"
         raise UnreachedError(f"the section {grid.name} misses everything that {name} reaches")
@@ -110,3 +100,12 @@ def workspace_figure(
     return section_picture(
         robot, counts, shares, R, within_limits=within_limits, tried=", ".join(tried)
     )
+
+
+def _orientation(robot: Robot, task: reach.Task, rpy: ArrayLike | None) -> Array:
+    """The orientation in which branches are counted, as asked or the task's own, shape (3, 3)."""
+    if rpy is None:
+        return reach.default_orientation(robot, task)
+    if robot.n > 6 or task.name == "position":
+        raise ArgumentError(f"rpy: it changes nothing for {robot.model.name}")
+    return rpy_to_matrix(finite_array(rpy, "rpy", "three angles", shape=(3,)).tolist())

@@ -19,6 +19,7 @@ UNITS = Units("m", "deg")
 """Units of the cells: bare lengths are metres, bare angles degrees."""
 
 KINDS = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
+SIGNS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
 
 
 class TableTab:
@@ -61,10 +62,7 @@ class TableTab:
         gui = self.gui
         cells = {
             "joint_type": gui.add_dropdown("joint", ("revolute", "prismatic")),
-            "theta": gui.add_text("θ [deg]", ""),
-            "d": gui.add_text("d [m]", ""),
-            "a": gui.add_text("a [m]", ""),
-            "alpha": gui.add_text("α [deg]", ""),
+            **{k: gui.add_text(f"{SIGNS[k]} [{UNITS.of(KINDS[k])}]", "") for k in SIGNS},
             "sign": gui.add_dropdown("sign of q", ("+1", "-1")),
             "lower": gui.add_text("lower [deg or m]", ""),
             "upper": gui.add_text("upper [deg or m]", ""),
@@ -118,13 +116,8 @@ class TableTab:
         }
         for key, text in shown.items():
             self.cells[key].value = text.replace("\N{MINUS SIGN}", "-")
-        i, j = self.row, length_index(self.table, self.row)
-        for key, sign, index in (
-            ("theta", "θ", i),
-            ("d", "d", i),
-            ("a", "a", j),
-            ("alpha", "α", j),
-        ):
+        for key, sign in SIGNS.items():
+            index = length_index(self.table, self.row) if key[0] == "a" else self.row
             self.cells[key].label = f"{subscript(sign, index)} [{UNITS.of(KINDS[key])}]"
 
     def _chosen(self, event: Any) -> None:
@@ -145,15 +138,13 @@ class TableTab:
     def _with_row_cells(self) -> DHTable:
         slides = self.cells["joint_type"].value == "prismatic"
         bound = Kind.LENGTH if slides else Kind.ANGLE
-        found: dict[str, float | None] = {}
+        found: dict[str, float | None] = {"lower": None, "upper": None}
         problems: list[str] = []
-        for key in ("theta", "d", "a", "alpha", "lower", "upper"):
+        for key in (*KINDS, *found):
             text = self.cells[key].value.strip()
-            if not text and key in {"lower", "upper"}:
-                found[key] = None
-                continue
             try:
-                found[key] = parse_cell(text, KINDS.get(key, bound), UNITS)
+                if text or key in KINDS:
+                    found[key] = parse_cell(text, KINDS.get(key, bound), UNITS)
             except TableError as error:
                 problems.append(f"{self.cells[key].label}: {text!r}: {error}")
         if problems:
@@ -164,23 +155,20 @@ class TableTab:
             sign=int(self.cells["sign"].value),
             **found,  # type: ignore[arg-type]
         )
-        return self._with(self._place(), [row])
+        return self._with(row)
 
-    def _place(self) -> int:
-        """Index among all rows of the joint row that is chosen."""
-        joints = [k for k, row in enumerate(self.table.rows) if row.is_joint]
-        return joints[self.row - 1]
-
-    def _with(self, at: int, rows: list[DHRow]) -> DHTable:
-        return replace(self.table, rows=(*self.table.rows[:at], *rows, *self.table.rows[at + 1 :]))
+    def _with(self, *rows: DHRow) -> DHTable:
+        """The table with other rows in place of the joint's that is chosen."""
+        old = self.table.rows
+        at = [k for k, row in enumerate(old) if row.is_joint][self.row - 1]
+        return replace(self.table, rows=(*old[:at], *rows, *old[at + 1 :]))
 
     def _with_rows(self) -> DHTable:
-        at = self._place()
         if self.rows.value == "Remove":
-            return self._with(at, [])
+            return self._with()
         known = set(self.table.joint_names)
         name = next(f"joint_{k}" for k in range(1, 1000) if f"joint_{k}" not in known)
-        return self._with(at, [self.table.rows[at], DHRow(a=0.1, name=name)])
+        return self._with(self.table.joints[self.row - 1], DHRow(a=0.1, name=name))
 
     def _with_text(self) -> DHTable:
         return parse_table(self.text.value, "yaml", "table").table
