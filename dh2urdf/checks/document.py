@@ -17,19 +17,13 @@ from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.exceptions import UrdfError
 
 NUMBERS = {
-    ("origin", "xyz"): 3,
-    ("origin", "rpy"): 3,
-    ("axis", "xyz"): 3,
+    **dict.fromkeys((("origin", "xyz"), ("origin", "rpy"), ("axis", "xyz")), 3),
     **{("limit", key): 1 for key in ("lower", "upper", "effort", "velocity")},
-    **{("dynamics", key): 1 for key in ("damping", "friction")},
-    **{("mimic", key): 1 for key in ("multiplier", "offset")},
-    ("mass", "value"): 1,
     **{("inertia", key): 1 for key in TENSOR},
-    ("box", "size"): 3,
-    ("sphere", "radius"): 1,
-    ("cylinder", "radius"): 1,
-    ("cylinder", "length"): 1,
-    ("mesh", "scale"): 3,
+    **dict.fromkeys((("dynamics", "damping"), ("dynamics", "friction"), ("mass", "value")), 1),
+    **dict.fromkeys((("mimic", "multiplier"), ("mimic", "offset"), ("sphere", "radius")), 1),
+    **dict.fromkeys((("cylinder", "radius"), ("cylinder", "length")), 1),
+    **dict.fromkeys((("box", "size"), ("mesh", "scale")), 3),
     ("color", "rgba"): 4,
 }
 """Attributes that hold numbers, and how many."""
@@ -70,8 +64,7 @@ class Document:
             raise UrdfError(f"{where}:{root.sourceline}: the root is <{tag}>, not <robot>{hint}")
         for tag in ("link", "joint"):
             count_elements(root, tag, where)
-        file = Path(path)
-        return cls(root, file)
+        return cls(root, Path(path))
 
     def end(self, joint: etree._Element, tag: str) -> str:
         """Name of a joint's ``parent`` or ``child`` link; empty where there is none."""

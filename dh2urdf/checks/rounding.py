@@ -111,14 +111,12 @@ def _poses(
 def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Array) -> Array | None:
     """``T_parent_child`` of a joint, shape (m, 4, 4)."""
     origin = joint.find("origin")
-    placed = {"rpy": rpy} if rpy else {}
-    for key in ("xyz", "rpy"):
-        given = None if origin is None else origin.get(key)
-        values = placed.get(key) or (doc.numbers(origin, key) if given else [0.0] * 3)
-        if values is None:
-            return None
-        placed[key] = values
-    T = tf.origin_matrix(placed["xyz"], placed["rpy"])
+    given = {} if origin is None else origin.attrib
+    xyz = doc.numbers(origin, "xyz") if given.get("xyz") else [0.0] * 3
+    rpy = rpy or (doc.numbers(origin, "rpy") if given.get("rpy") else [0.0] * 3)
+    if xyz is None or rpy is None:
+        return None
+    T = tf.origin_matrix(xyz, rpy)
     if doc.kind(joint) not in MOVING:
         return np.broadcast_to(T, (len(q), 4, 4))
     axis = np.array(doc.numbers(joint.find("axis"), "xyz") or (1.0, 0.0, 0.0))

@@ -7,6 +7,7 @@ A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, 
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -108,11 +109,8 @@ def read_number(
 
 def real(low: float, high: float, kind: Kind = Kind.NUMBER) -> Parameter:
     """An option that takes one number between bounds, in [m], [rad] or plain."""
-    return Parameter(
-        converter=lambda _, tokens: read_number(
-            plain(tokens[0].value), "", kind, bounds=(low, high)
-        )
-    )
+    read = partial(read_number, what="", kind=kind, bounds=(low, high))
+    return Parameter(converter=lambda _, tokens: read(plain(tokens[0].value)))
 
 
 def whole(low: int, high: int) -> Parameter:

@@ -61,26 +61,11 @@ class Canvas:
         if self._clip is not None:
             patch.set_clip_path(self._clip, self.axes.transData)
 
-    def line(
-        self,
-        points: Array,
-        colour: str,
-        width: float,
-        *,
-        casing: float = 0.0,
-        dashes: tuple[float, ...] = (),
-        alpha: float = 1.0,
-        cap: str = "round",
-    ) -> None:
-        """Draw a polyline (m, 2) over a white casing so much wider on each side."""
-        style: dict[str, Any] = {"solid_capstyle": cap, "solid_joinstyle": "round"}
-        if casing:
-            self.axes.plot(
-                *points.T, color="white", lw=width + 2 * casing, zorder=self._next(), **style
-            )
-        if dashes:
-            style = {"dashes": dashes, "dash_capstyle": "butt"}
-        self.axes.plot(*points.T, color=colour, lw=width, alpha=alpha, zorder=self._next(), **style)
+    def line(self, points: Array, colour: str, width: float, **style: Any) -> None:
+        """Draw a polyline (m, 2); ``style`` is matplotlib's, ends are round but of dashes."""
+        round_ends: Any = {"solid_capstyle": "round", "solid_joinstyle": "round"}
+        style = round_ends | {"dash_capstyle": "butt", "zorder": self._next()} | style
+        self.axes.plot(*points.T, color=colour, lw=width, **style)
 
     def arrow(self, start: Array, end: Array, colour: str, width: float) -> None:
         """Draw an arrow with a filled head, on a white casing."""
@@ -92,9 +77,10 @@ class Canvas:
         neck = end - head * along
         wing = 0.42 * head * across
         tip = np.stack([end, neck + wing, neck + 0.12 * head * along, neck - wing])
-        self.line(np.stack([start, neck]), "white", width + 2.0, cap="butt")
+        shaft = np.stack([start, neck + 0.2 * head * along])
+        self.line(np.stack([start, neck]), "white", width + 2.0, solid_capstyle="butt")
         self.polygon(tip, "white", "white", 2.0)
-        self.line(np.stack([start, neck + 0.2 * head * along]), colour, width, cap="butt")
+        self.line(shaft, colour, width, solid_capstyle="butt")
         self.polygon(tip, colour, colour, 0.3)
 
     def dot(self, at: Array, colour: str, radius: float, edge: str = "white") -> None:
@@ -116,32 +102,22 @@ class Canvas:
             self.line(np.stack([at - arm * way, at + arm * way]), colour, 1.0)
 
     def text(
-        self,
-        at: Array | tuple[float, float],
-        text: str,
-        size: float,
-        colour: str = INK,
-        *,
-        halo: bool = False,
-        align: str = "center",
-        vertical: str = "center_baseline",
-        weight: str = "normal",
+        self, at: Sequence[float] | Array, text: str, size: float, colour: str = INK, **style: Any
     ) -> None:
-        """Write a text, over a white halo if asked; the text itself stays text in a file."""
-        style: Any = {"fontsize": size, "ha": align, "va": vertical, "fontweight": weight}
+        """Write a text, centred but for ``style``; the text itself stays text in a file."""
+        centred: Any = {"ha": "center", "va": "center_baseline", "fontsize": size}
         x, y = float(at[0]), float(at[1])
-        if halo:
-            from matplotlib.patheffects import Stroke
-
-            under = self.axes.text(x, y, text, color="white", zorder=self._next(), **style)
-            under.set_path_effects([Stroke(linewidth=2.6, foreground="white")])
-        self.axes.text(x, y, text, color=colour, zorder=self._next(), **style)
+        self.axes.text(x, y, text, color=colour, zorder=self._next(), **centred | style)
 
     def label(self, centre: Array, text: str, size: float, colour: str) -> None:
         """Write a text so that its ink is centred, over a white halo."""
+        from matplotlib.patheffects import Stroke
+
         left, bottom, width, height = text_box(text, size)
         corner = centre - np.array([left + width / 2, bottom + height / 2])
-        self.text(corner, text, size, colour, halo=True, align="left", vertical="baseline")
+        halo = [Stroke(linewidth=2.6, foreground="white")]
+        self.text(corner, text, size, "white", ha="left", va="baseline", path_effects=halo)
+        self.text(corner, text, size, colour, ha="left", va="baseline")
 
     def _next(self) -> float:
         """A level above everything drawn so far: painted in the order of calls."""

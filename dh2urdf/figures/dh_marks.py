@@ -103,7 +103,8 @@ class DHMarks:
         way = points[1] - points[0]
         if float(np.linalg.norm(way)) < 1.5:
             return
-        self.canvas.line(points, QUANTITY[key], 3.0, casing=0.8)
+        for colour, width in (("white", 4.6), (QUANTITY[key], 3.0)):
+            self.canvas.line(points, colour, width)
         self.lines.append(Line(points))
         across = np.array([-way[1], way[0]])
         self._label(f"${key}_{{{index}}}$", points.mean(axis=0), across, QUANTITY[key], True)

@@ -72,7 +72,7 @@ class DHPanel:
     def draw(self, canvas: Canvas, left: float, top: float) -> None:
         """Draw the panel below and right of a corner [pt]."""
         right = left + self.width
-        canvas.text((left, top - 8), self.title, SIZE + 1, align="left", weight="bold")
+        canvas.text((left, top - 8), self.title, SIZE + 1, ha="left", weight="bold")
         y = top - 28.0
         _rule(canvas, left, right, y, 1.3)
         self._line(canvas, self.header, left, right, y - ROW / 2)
@@ -82,12 +82,12 @@ class DHPanel:
         y -= ROW * (len(self.rows) + 1)
         _rule(canvas, left, right, y, 1.3)
         for k, note in enumerate(self.notes):
-            canvas.text((left, y - 14.0 * (k + 1)), note, SIZE - 2, MUTED, align="left")
+            canvas.text((left, y - 14.0 * (k + 1)), note, SIZE - 2, MUTED, ha="left")
         draw_key(canvas, left, y - 14.0 * len(self.notes) - 24.0, self.key)
 
     def _line(self, canvas: Canvas, row: list[Cell], left: float, right: float, y: float) -> None:
         if len(row) == 1:
-            canvas.text((left, y), row[0].text, SIZE - 1, row[0].colour, align="left")
+            canvas.text((left, y), row[0].text, SIZE - 1, row[0].colour, ha="left")
             return
         spare = (right - left - sum(self.widths)) / len(KEYS)
         x = left
@@ -97,7 +97,7 @@ class DHPanel:
                 canvas.text((left + 8, y), cell.text, SIZE, cell.colour)
             else:
                 size = SIZE + 1.5 if row is self.header else SIZE
-                canvas.text((x - 4, y), cell.text, size, cell.colour, align="right")
+                canvas.text((x - 4, y), cell.text, size, cell.colour, ha="right")
 
     def _row(self, row: DHRow, i: int) -> list[Cell]:
         if row.origin is not None:
@@ -131,7 +131,7 @@ def draw_key(canvas: Canvas, left: float, top: float, key: list[tuple[str, str]]
         y = top - 14.0 * k
         corners = np.array([[0, -4], [8, -4], [8, 4], [0, 4]], float)
         canvas.polygon(corners + np.array([left, y]), colour)
-        canvas.text((left + 14.0, y), name, SIZE - 2, align="left")
+        canvas.text((left + 14.0, y), name, SIZE - 2, ha="left")
 
 
 def pose_sentence(q: Array, slides: Iterable[bool]) -> str:
@@ -157,4 +157,4 @@ def wrapped(text: str, width: float, size: float) -> list[str]:
 
 
 def _rule(canvas: Canvas, left: float, right: float, y: float, width: float) -> None:
-    canvas.line(np.array([[left, y], [right, y]]), INK, width, cap="butt")
+    canvas.line(np.array([[left, y], [right, y]]), INK, width, solid_capstyle="butt")

@@ -29,14 +29,10 @@ RC: Any = {
     "svg.hashsalt": "dh2urdf",
     "pdf.fonttype": 42,
     "axes.unicode_minus": True,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.edgecolor": INK,
+    **dict.fromkeys(("axes.spines.top", "axes.spines.right"), False),
+    **dict.fromkeys(("axes.edgecolor", "axes.labelcolor", "text.color"), INK),
+    **dict.fromkeys(("xtick.color", "ytick.color"), INK),
     "axes.linewidth": 0.9,
-    "text.color": INK,
-    "axes.labelcolor": INK,
-    "xtick.color": INK,
-    "ytick.color": INK,
     "font.size": 10.0,
 }
 """Settings in force while a figure is made and saved; nobody else's figures see them."""

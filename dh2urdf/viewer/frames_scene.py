@@ -36,14 +36,10 @@ def _arrows(server: Any, name: str, length: float, size: float) -> None:
     """Three arrows along x, y and z under a scene name, in the colours of the axes."""
     for letter, direction in zip("xyz", np.eye(3), strict=True):
         thin = 0.7 if letter == "y" else 1.0
-        server.scene.add_arrows(
-            f"{name}/{letter}",
-            np.array([[np.zeros(3), length * thin * direction]], np.float32),
-            rgb(AXIS[letter]),
-            shaft_radius=thin * SHAFT * size,
-            head_radius=thin * 2.4 * SHAFT * size,
-            head_length=thin * 6.5 * SHAFT * size,
-        )
+        ends = np.array([[np.zeros(3), length * thin * direction]], np.float32)
+        shares = {"shaft_radius": 1.0, "head_radius": 2.4, "head_length": 6.5}
+        sizes = {key: thin * share * SHAFT * size for key, share in shares.items()}
+        server.scene.add_arrows(f"{name}/{letter}", ends, rgb(AXIS[letter]), **sizes)
 
 
 def _label(server: Any, name: str, text: str, place: Array, **options: Any) -> Any:
@@ -78,10 +74,8 @@ class FramesScene:
             _arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
             for letter, direction in (("x", 0), ("z", 2)):
                 name, place = f"/dh/{i}/name_{letter}", 1.15 * length * np.eye(3)[direction]
-                label = _label(
-                    self.server, name, subscript(letter, i), place, font_screen_scale=0.9
-                )
-                self.labels.append(label)
+                text, small = subscript(letter, i), {"font_screen_scale": 0.9}
+                self.labels.append(_label(self.server, name, text, place, **small))
 
     def show(self, q: Array) -> None:
         """Place the frames at q (n,)."""
@@ -198,14 +192,9 @@ class RowScene:
     def _segments(
         self, name: str, points: Array, colour: str, width: float, *, visible: bool = True
     ) -> None:
-        self.server.scene.add_line_segments(
-            f"/row/{name}",
-            points.astype(np.float32),
-            rgb(colour),
-            thickness=width,
-            thickness_units="screen",
-            visible=visible,
-        )
+        style: Any = {"thickness": width, "thickness_units": "screen", "visible": visible}
+        ends = points.astype(np.float32)
+        self.server.scene.add_line_segments(f"/row/{name}", ends, rgb(colour), **style)
 
     def _label(self, name: str, text: str, place: Array, *, visible: bool = True) -> None:
         _label(self.server, f"/row/label_{name}", text, place, visible=visible)

@@ -20,6 +20,8 @@ from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off
 from dh2urdf.transforms import Array, origin_matrix, quaternion_to_matrix
 
+_Cells = Sequence[str] | None
+
 PLACE, TURN, QUATERNION = ("x", "y", "z"), ("roll", "pitch", "yaw"), ("qx", "qy", "qz", "qw")
 MATRIX = tuple(f"t{i}{j}" for i in range(4) for j in range(4))
 
@@ -57,13 +59,7 @@ class Poses(NamedTuple):
 
 
 def pose_of(
-    xyz: Sequence[str] | None,
-    rpy: Sequence[str] | None,
-    matrix: Sequence[str] | None,
-    *,
-    deg: bool,
-    position_only: bool = False,
-    nearest: bool = False,
+    xyz: _Cells, rpy: _Cells, matrix: _Cells, *, deg: bool, position_only: bool, nearest: bool
 ) -> Array:
     """The pose of ``--xyz --rpy`` or of ``--matrix``, shape (4, 4), as it was given.
 

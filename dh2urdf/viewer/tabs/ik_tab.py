@@ -72,15 +72,10 @@ class IKTab:
             if old:
                 old.remove()
         self.ghosts = Ghosts(self.server, drawing, MOST_GHOSTS, self._go)
-        size = max(robot.chain.size, 1e-3)
-        self.target = self.server.scene.add_transform_controls(
-            "/target",
-            scale=GIZMO * size,
-            line_width=3.0,
-            depth_test=False,
-            visible=False,
-            active_axes=dragged_axes(robot),
-        )
+        scale, axes = GIZMO * max(robot.chain.size, 1e-3), dragged_axes(robot)
+        style: Any = {"line_width": 3.0, "depth_test": False, "visible": False}
+        controls = self.server.scene.add_transform_controls
+        self.target = controls("/target", scale=scale, active_axes=axes, **style)
         self.target.on_update(self._dragged)
         self.task.value = default_task(robot)
         self.redundancy.build(robot, q)

@@ -43,15 +43,9 @@ class JointsTab:
 
     def _slider(self, k: int, name: str, value: float) -> Any:
         unit = "mm" if self.robot.slides[k] else "°"
-        low, high = (float(v * self.scale[k]) for v in (self.low[k], self.high[k]))
-        low, high = round(low, 2), round(high, 2)
-        slider = self.gui.add_slider(
-            f"{name} [{unit}]",
-            min=low,
-            max=max(high, low + 0.01),
-            step=0.01,
-            initial_value=self._clipped(k, value, low, high),
-        )
+        low, high = (round(float(v * self.scale[k]), 2) for v in (self.low[k], self.high[k]))
+        at, widest = self._clipped(k, value, low, high), max(high, low + 0.01)
+        slider = self.gui.add_slider(f"{name} [{unit}]", low, widest, 0.01, at)
         slider.on_update(by_visitor(lambda event: self._slid(event, k)))
         return slider
 
