@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import zip_longest
 from pathlib import Path
+from typing import Any
 
 from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Consumer, Verdict
@@ -106,15 +107,10 @@ def ask(consumer: Consumer, path: str | os.PathLike[str]) -> Testimony:
         command = [sys.executable, "-m", "dh2urdf.checks.probe", str(consumer), file]
     with tempfile.TemporaryDirectory() as scratch:
         try:
+            streams: Any = {"capture_output": True, "stdin": subprocess.DEVNULL}
+            decoded: Any = {"text": True, "errors": "replace"}
             run = subprocess.run(
-                command,
-                capture_output=True,
-                text=True,
-                errors="replace",
-                timeout=PATIENCE,
-                check=False,
-                cwd=scratch,
-                stdin=subprocess.DEVNULL,
+                command, timeout=PATIENCE, check=False, cwd=scratch, **streams, **decoded
             )
         except subprocess.TimeoutExpired:
             return Testimony(consumer, "", Verdict.REFUSES, f"no answer within {PATIENCE:.0f} s")
@@ -131,9 +127,8 @@ def ask(consumer: Consumer, path: str | os.PathLike[str]) -> Testimony:
 
 
 def _words(text: str) -> str:
-    lines = list(
-        dict.fromkeys(line.rstrip() for line in text.splitlines() if not NOISE.match(line))
-    )
+    said = (line.rstrip() for line in text.splitlines() if not NOISE.match(line))
+    lines = list(dict.fromkeys(said))
     if len(lines) > LONGEST:
         lines[LONGEST:] = [f"(and {len(lines) - LONGEST} lines more)"]
     return "\n".join(lines)

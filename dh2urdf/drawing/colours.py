@@ -9,14 +9,8 @@ QUANTITY = HTML_COLOURS
 """Colours of theta, d, a and alpha."""
 
 BRANCH_COLOURS = (
-    "#e69f00",
-    "#56b4e9",
-    "#009e73",
-    "#d6c700",
-    "#0072b2",
-    "#d55e00",
-    "#cc79a7",
-    "#7f7f7f",
+    *("#e69f00", "#56b4e9", "#009e73", "#d6c700"),
+    *("#0072b2", "#d55e00", "#cc79a7", "#7f7f7f"),
 )
 """Colours of branches, told apart with any colour vision (Okabe and Ito)."""
 

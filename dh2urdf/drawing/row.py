@@ -108,9 +108,7 @@ def length_index(table: DHTable, i: int) -> int:
 def rounded_degrees(angle: float) -> str:
     """An angle [rad] in degrees: as typed where that is short, else to a hundredth."""
     text = degrees(angle)
-    if len(text) > 7:
-        text = number(round(math.degrees(angle), 2))
-    return f"{text}°"
+    return f"{number(round(math.degrees(angle), 2)) if len(text) > 7 else text}°"
 
 
 def rounded_length(length: float) -> str:

@@ -12,9 +12,9 @@ from dh2urdf.drawing.arm import DrawnArm, drawn_arm, table_of, zero_configuratio
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
 from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
+from dh2urdf.figures.projection import View, best_view
 from dh2urdf.figures.schematic import draw_schematic, schematic_points
 from dh2urdf.figures.solids.ghosts import group_ghosts
-from dh2urdf.figures.solids.projection import View, best_view
 from dh2urdf.figures.solids.solid_paint import (
     BODY,
     floor_discs,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.style import INK, Picture, mpl
 from dh2urdf.transforms import Array
 

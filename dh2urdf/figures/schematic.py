@@ -10,7 +10,7 @@ from dh2urdf.dh import DHConvention, JointType
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.row import DHRowPicture, row_picture
 from dh2urdf.figures.canvas import Canvas
-from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.solid_paint import Paint, paint_parts
 from dh2urdf.figures.solids.solids import Part, outlines
 from dh2urdf.figures.style import INK

@@ -58,9 +58,8 @@ class ArmScene:
 
     def __init__(self, server: Any, drawing: Drawing) -> None:
         self.server, self.drawing = server, drawing
-        self.frames = [
-            server.scene.add_frame(f"/arm/{k}", show_axes=False) for k in range(len(drawing.nodes))
-        ]
+        numbers = range(len(drawing.nodes))
+        self.frames = [server.scene.add_frame(f"/arm/{k}", show_axes=False) for k in numbers]
         self.translucent = False
         self.meshes = [
             add_mesh(server, f"/arm/{k}/{m}", surface, cast_shadow=True, side="front")
@@ -105,20 +104,15 @@ class Ghosts:
 
     def _batch(self, server: Any, k: int) -> Any:
         surface = self.drawing.nodes[k].slim(SLIM)
-        return server.scene.add_batched_meshes_simple(
-            f"/ghosts/{k}",
-            surface.vertices.astype(np.float32),
-            surface.faces,
-            batched_wxyzs=np.tile([1.0, 0.0, 0.0, 0.0], (self.count, 1)).astype(np.float32),
-            batched_positions=np.zeros((self.count, 3), np.float32),
-            batched_scales=np.zeros(self.count, np.float32),
-            batched_colors=self.colours,
-            opacity=GHOST_OPACITY,
-            cast_shadow=False,
-            receive_shadow=False,
-            lod="off",
-            visible=False,
-        )
+        shape = surface.vertices.astype(np.float32), surface.faces
+        poses = {
+            "batched_wxyzs": np.tile([1.0, 0.0, 0.0, 0.0], (self.count, 1)).astype(np.float32),
+            "batched_positions": np.zeros((self.count, 3), np.float32),
+            "batched_scales": np.zeros(self.count, np.float32),
+        }
+        style: Any = {"batched_colors": self.colours, "opacity": GHOST_OPACITY, "lod": "off"}
+        style |= dict.fromkeys(("cast_shadow", "receive_shadow", "visible"), False)
+        return server.scene.add_batched_meshes_simple(f"/ghosts/{k}", *shape, **poses, **style)
 
     def show(self, configurations: Sequence[Array], skip: int = -1) -> None:
         """Show ghost k at configuration k; ``skip`` is the one where the arm itself stands."""

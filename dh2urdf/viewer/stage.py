@@ -48,17 +48,10 @@ def set_stage(
     span = max(float(np.linalg.norm(high - low)), 0.8 * arm.size)
     lowest = float(min([0.0, *(s.vertices[:, 2].min() for s in drawing.nodes[0].surfaces)]))
     cell = 10.0 ** math.floor(math.log10(max(arm.size, 1e-3) / 3.0))
-    server.scene.add_grid(
-        "/floor",
-        infinite_grid=True,
-        position=(0.0, 0.0, lowest),
-        cell_size=cell,
-        section_size=5.0 * cell,
-        cell_color=(232, 234, 238),
-        section_color=(206, 210, 216),
-        fade_distance=5.0 * span,
-        shadow_opacity=0.12,
-    )
+    sizes = {"cell_size": cell, "section_size": 5.0 * cell, "fade_distance": 5.0 * span}
+    colours = {"cell_color": (232, 234, 238), "section_color": (206, 210, 216)}
+    style = {"infinite_grid": True, "shadow_opacity": 0.12}
+    server.scene.add_grid("/floor", position=(0.0, 0.0, lowest), **sizes, **colours, **style)
     camera = server.initial_camera
     eye = middle + DISTANCE * span * DIRECTION / float(np.linalg.norm(DIRECTION))
     camera.position = eye

@@ -21,9 +21,9 @@ from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
 from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
 from dh2urdf.figures.canvas import text_box
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.ghosts import group_ghosts
 from dh2urdf.figures.solids.occlusion import front_depth, occlusion
-from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import Part, arm_parts, convex_hull
 from dh2urdf.figures.style import RC, mpl
 from dh2urdf.transforms import rot_x, rot_y, rot_z, trans

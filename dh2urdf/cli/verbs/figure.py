@@ -3,12 +3,12 @@
 import math
 from typing import Annotated, Literal
 
-import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values
 from dh2urdf.cli.output import emit, emit_json, parse_angles, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
+from dh2urdf.transforms import Array
 
 
 def figure_(
@@ -53,21 +53,21 @@ def figure_(
     arm = robot_of(robot, base, tip)
     eye = parse_angles(view, "--view", 2, deg=True)
     config = parse_configuration(q, arm, deg=deg) if q else None
-    ghosts, names = np.empty((0, arm.n)), list[str]()
+    ghosts, names = list[Array](), list[str]()
     if branches:
         from dh2urdf.drawing.arm import zero_configuration
 
         config = zero_configuration(arm, config)
         found = arm.ik(arm.fk(config), seed=config, within_limits=False)
-        ghosts = found.q[1:]
+        ghosts = list(found.q[1:])
         names = [name or f"solution {k}" for k, name in enumerate(found.branch[1:], 2)]
-        if not len(ghosts):
+        if not ghosts:
             note("this pose has one solution only: nothing to draw as a ghost")
     picture = figure(
         arm,
         config,
         style=style,
-        ghosts=list(ghosts),
+        ghosts=ghosts,
         ghost_names=names,
         frames=frames,
         table=table,

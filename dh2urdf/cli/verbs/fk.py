@@ -46,16 +46,8 @@ def fk_(
     over = np.flatnonzero((config < arm.lower) | (config > arm.upper))
     outside = [arm.joint_names[k] for k in over]
     if json:
-        emit_json(
-            "fk",
-            base=arm.base,
-            tip=arm.tip,
-            q=config,
-            T_base_tip=T,
-            xyz=T[:3, 3],
-            rpy=rpy,
-            outside_limits=outside,
-        )
+        ends, pose = {"base": arm.base, "tip": arm.tip}, {"xyz": T[:3, 3], "rpy": rpy}
+        emit_json("fk", **ends, q=config, T_base_tip=T, **pose, outside_limits=outside)
         return
     if outside:
         note(f"warning: outside the joint limits: {', '.join(map(shown, outside))}")

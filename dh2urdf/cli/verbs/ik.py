@@ -79,12 +79,8 @@ def ik_(
         Bare angles are degrees, and angles are shown in degrees.
     """
     arm = robot_of(robot, base, tip)
-    options: _Options = {
-        "locked": _held(locked, arm, deg=deg),
-        "task": task,
-        "within_limits": within_limits,
-        "nearest": nearest,
-    }
+    options: _Options = {"locked": _held(locked, arm, deg=deg), "task": task}
+    options |= {"within_limits": within_limits, "nearest": nearest}
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     near: _Options = {"seed": goal, "turns": turns}
     if csv is not None:
@@ -124,9 +120,8 @@ def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float]
         if name not in arm.joint_names and name.isdigit() and int(name) < arm.n:
             name = arm.joint_names[int(name)]
         if name not in arm.joint_names:
-            raise ConfigurationError(
-                f"--locked: no joint named {name!r}; there are {', '.join(arm.joint_names)}"
-            )
+            known = ", ".join(arm.joint_names)
+            raise ConfigurationError(f"--locked: no joint named {name!r}; there are {known}")
         if name in held:
             raise ConfigurationError(f"--locked: {name} is held twice")
         row = ["0"] * arm.n
@@ -175,9 +170,7 @@ def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
 
 def _shown(value: float, *, slides: bool, deg: bool) -> str:
     """A joint value with six decimals, in degrees with four."""
-    if deg and not slides:
-        return number(round(math.degrees(value), 4))
-    return number(round(value, 6))
+    return number(round(math.degrees(value), 4) if deg and not slides else round(value, 6))
 
 
 def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
@@ -191,8 +184,7 @@ def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
     for i, (q, residual, branch, free, over) in enumerate(lines, 1):
         cells = [_shown(v, slides=s, deg=deg) for v, s in zip(q, slides, strict=True)]
         parts = [branch] if branch else []
-        if free:
-            parts.append(f"free: {', '.join(arm.joint_names[j] for j in free)}")
+        parts += [f"free: {', '.join(arm.joint_names[j] for j in free)}"] if free else []
         far = [
             f"{arm.joint_names[j]} by {_shown(over[j], slides=slides[j], deg=deg)}"
             for j in np.flatnonzero(over)

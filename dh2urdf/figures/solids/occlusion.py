@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.conversions.write import Body
-from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.solids import Part, hull_points
 from dh2urdf.transforms import Array
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from dh2urdf.figures.canvas import Canvas
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.occlusion import occlusion
-from dh2urdf.figures.solids.projection import View
 from dh2urdf.figures.solids.solids import SHEEN, Face, Part
 from dh2urdf.figures.style import mix
 from dh2urdf.transforms import Array

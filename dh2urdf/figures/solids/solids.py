@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.conversions.write import Body
-from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.projection import View
 from dh2urdf.transforms import Array
 
 AROUND = 48

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.drawing.colours import BRANCH_COLOURS
-from dh2urdf.figures.solids.projection import View
+from dh2urdf.figures.projection import View
 from dh2urdf.figures.style import FAINT, INK, MUTED, RC, Picture, mix, mpl, plain
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array

@@ -56,7 +56,8 @@ def answer(
     except Dh2UrdfError as error:
         return _none(robot, str(error).partition("\n")[0])
     if nearest is None:
-        return _none(robot, _why(robot, T, task=task, within=within, locked=locked))
+        outside = robot.ik(T, within_limits=False, task=task, locked=locked) if within else ()
+        return _none(robot, _why(len(outside)))
     rows, residual, free = np.array(found.q), np.array(found.residual), found.free_joints
     reached = float(np.abs(robot.fk(q) - T).max()) < SAME
     current = _standing(rows, q, free if reached else ())
@@ -68,16 +69,12 @@ def _none(robot: Robot, words: str) -> Answer:
     return Answer(words, np.empty((0, robot.n)), np.empty(0), (), (), -1, None)
 
 
-def _why(
-    robot: Robot, T: Array, *, task: str, within: bool, locked: dict[int, float] | None
-) -> str:
-    """Tell whether limits or reach stand in the way."""
-    if within:
-        outside = len(robot.ik(T, within_limits=False, task=task, locked=locked))
-        if outside:
-            many = "one solution lies" if outside == 1 else f"all {outside} solutions lie"
-            return f"Not within the joint limits: {many} outside them."
-    return "Out of reach: no configuration takes the tip there."
+def _why(outside: int) -> str:
+    """Tell whether limits or reach stand in the way, by the solutions outside the limits."""
+    if not outside:
+        return "Out of reach: no configuration takes the tip there."
+    many = "one solution lies" if outside == 1 else f"all {outside} solutions lie"
+    return f"Not within the joint limits: {many} outside them."
 
 
 def _count_words(count: int, free: tuple[tuple[int, ...], ...], robot: Robot) -> str:
