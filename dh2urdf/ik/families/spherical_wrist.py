@@ -57,18 +57,12 @@ class SphericalWrist(ClosedForm):
     @cached_property
     def kernel(self) -> BatchKernel:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.spherical_wrist import (
-            solve_common_wrist,
-            solve_sliding_arm,
-            solve_turning_arm,
-        )
+        from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
 
-        if self.chain.prismatic.any():
-            return solve_sliding_arm  # type: ignore[no-any-return]
         rows = self.form.rows
-        common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0
+        common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0 and not self.chain.prismatic.any()
         fast = common and self.form.exact and plain_ranges(self.chain)
-        return solve_common_wrist if fast else solve_turning_arm  # type: ignore[no-any-return]
+        return solve_common_wrist if fast else solve_wrist_arm  # type: ignore[no-any-return]
 
 
 def _places_wrist(form: DHForm) -> bool:

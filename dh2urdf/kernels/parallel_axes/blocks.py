@@ -142,8 +142,8 @@ def solve_common_parallel(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
-    m = Ts.shape[0]
-    S = np.empty(ROWS * BLOCK)
+    m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)
+    table, results = (JOINT_OF, ROW_OF, MIRROR_OF), (q, residual, count, branch, free)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
@@ -153,8 +153,7 @@ def solve_common_parallel(
         for k in range(8):
             pair = (k & 1) + 2 * (k >> 2)
             measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
-        table = JOINT_OF, ROW_OF, MIRROR_OF
-        emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
+        emit(form, joints, table, within_limits, place, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:
                 scratch = make_scratch()

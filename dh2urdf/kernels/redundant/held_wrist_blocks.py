@@ -11,8 +11,8 @@ import numpy as np
 from dh2urdf.kernels.numbers import inner_kernel, kernel
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
-from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
-from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, settle, write
+from dh2urdf.kernels.redundant.held_wrist_load import load_block
+from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, emit
 
 JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 ROW_OF = np.array(
@@ -45,21 +45,17 @@ def solve_held_blocks(
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
     constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
-    if m == 0:
-        return
-    same, seen_from_tool = all_equal(values), which[REVERSED] != 0
-    oriented_joints = joints[::-1].copy() if seen_from_tool else joints.copy()
-    S0, S2, place = frames[LINK], frames[LINK + 2], _places(which)
-    prepare_block(frames, which, values, S)
+    seen_from_tool, place, table = which[REVERSED] != 0, _places(which), (JOINT_OF, ROW_OF, MIRRORS)
+    oriented = joints[::-1].copy() if seen_from_tool else joints.copy()
+    S0, S2 = frames[LINK], frames[LINK + 2]
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
-        load_block(frames, which, values, Ts, same, first, n, S)
+        load_block(frames, which, values, Ts, first, n, S)
         place_elbows(S2, form[3, 3], slack, n, S)
         place_shoulders(S0, slack, n, S)
         for arm in range(4):
             finish_arm(form, S0, seen_from_tool, arm, n, S)
-        settle(form, oriented_joints, (JOINT_OF, ROW_OF, MIRRORS), within_limits, n, S)
-        clean = write(place, ROW_OF, False, first, n, S, out)
+        clean = emit(form, oriented, table, within_limits, place, False, first, n, S, out)
         for i in range(first, first + n):
             q[i, :, which[HELD]] = values[i]
         if clean < n:

@@ -28,30 +28,14 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     planar_arm,
     turned,
 )
-from dh2urdf.kernels.spherical_wrist.block_values import (
-    HALF_TURN,
-    MIRRORS,
-    NEGATED,
-    OWN,
-    emit,
-    settle,
-    write,
-)
+from dh2urdf.kernels.spherical_wrist.block_values import HALF_TURN, MIRRORS, NEGATED, OWN, emit
 from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
 from dh2urdf.kernels.spherical_wrist.poses import (
     add_wrist,
     append_wrist,
     make_scratch,
     middle_angle,
-    solve_sliding_arm,
-    solve_turning_arm,
+    solve_wrist_arm,
 )
-from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis, place_wrist
-from dh2urdf.kernels.spherical_wrist.position_arm import (
-    FREE,
-    NICE,
-    SHOULDER_FREE,
-    UPPER_FREE,
-    planar,
-    tool_to_wrist,
-)
+from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis, place_wrist, write_rows
+from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, planar, tool_to_wrist

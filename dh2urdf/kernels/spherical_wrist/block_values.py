@@ -27,8 +27,6 @@ ROUND = 1.5 * 2.0**52
 
 PER_TURN = 1.0 / TWO_PI
 
-IN_ORDER = np.arange(6)
-
 OWN, HALF_TURN, NEGATED = range(3)
 """How the angle of a row is found: from its cosine and sine; half a turn from that of another row;
 the negative of another."""
@@ -55,14 +53,14 @@ def _values(form, joints, table, within_limits, n, S):
             for i in range(n):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
+        elif kind == NEGATED:
+            twice = 2.0 * sign * constant
+            for i in range(n):
+                S[target + i] = -twice - S[other + i]
         else:
-            if kind == NEGATED:
-                twice = 2.0 * sign * constant
-                for i in range(n):
-                    S[target + i] = -twice - S[other + i]
-            else:
-                for i in range(n):
-                    S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
+            for i in range(n):
+                S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
+        if kind != HALF_TURN:
             for i in range(n):
                 turns = (S[target + i] - middle) * PER_TURN
                 S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
@@ -89,15 +87,8 @@ def _limited(lower, upper):
 
 
 @block_kernel
-def settle(form, joints, table, within_limits, n, S):
-    """Joint values of all lanes, and which solutions there are with these.
-
-    Parameters
-    ----------
-    table : three int arrays, shapes (rows,), (8, 6), (rows, 2)
-        Joint of each angle; row of each solution's angle of each joint; row whose angle it is or
-        mirrors, and how.
-    """
+def _settle(form, joints, table, within_limits, n, S):
+    """Joint values of all lanes, and which solutions there are with these."""
     row_of = table[1]
     _values(form, joints, table, within_limits, n, S)
     if not within_limits:
@@ -112,22 +103,17 @@ def settle(form, joints, table, within_limits, n, S):
 
 
 @block_kernel
-def emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free):
-    """Write the solutions of all clean lanes, branches named by number; the others get -1 as count.
-
-    See :func:`settle`.
-    """
-    settle(form, joints, table, within_limits, n, S)
-    write(IN_ORDER, table[1], True, first, n, S, (q, residual, count, branch, free))
-
-
-@block_kernel
-def write(place, row_of, named, first, n, S, out):
+def emit(form, joints, table, within_limits, place, named, first, n, S, out):
     """Write the solutions of all clean lanes, joint j to column ``place[j]``; how many are clean.
 
     The others get a count of -1. A solution that does not exist is written over by the next one.
+    ``table`` (rows,), (8, 6), (rows, 2): joint of each angle; row of each solution's angle of each
+    joint; row whose angle it is or mirrors, and how. ``named``: branches have the number of their
+    solution, else -1.
     """
+    _settle(form, joints, table, within_limits, n, S)
     q, residual, count, branch, free = out
+    row_of = table[1]
     clean = 0
     for i in range(n):
         found, row = 0, first + i

@@ -140,9 +140,10 @@ def _wrists(form, n, S):
 def solve_common_wrist(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
-    """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_turning_arm` for the common geometry."""
-    m = Ts.shape[0]
-    S = np.empty(ROWS * BLOCK)
+    """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
+    m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)
+    table, results = (JOINT_OF, ROW_OF, MIRRORS), (q, residual, count, branch, free)
+    arm = links, joints, form, ends, slack
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
@@ -152,12 +153,9 @@ def solve_common_wrist(
         for k in range(4):
             measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
             copy_residual(k, k + 4, n, S)
-        table = JOINT_OF, ROW_OF, MIRRORS
-        emit(form, joints, table, within_limits, first, n, S, q, residual, count, branch, free)
+        emit(form, joints, table, within_limits, place, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]
-                arm = links, joints, form, ends, slack
-                count[i] = solve_pose(
-                    place_wrist_in_plane, arm, Ts[i], within_limits, out, make_scratch()
-                )
+                scratch = make_scratch()
+                count[i] = solve_pose(place_wrist_in_plane, arm, Ts[i], within_limits, out, scratch)

@@ -21,7 +21,7 @@ from dh2urdf.kernels.certificate import (
     same,
 )
 from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel, root_of_gap
-from dh2urdf.kernels.spherical_wrist.position_any import place_wrist, place_wrist_sliding
+from dh2urdf.kernels.spherical_wrist.position_any import place_wrist
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
 
 MEETING = 1e-5
@@ -223,10 +223,10 @@ def solve_pose(place, arm, T, within_limits, out, scratch):
 
 
 @kernel
-def solve_turning_arm(
+def solve_wrist_arm(
     links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
 ):
-    """All solutions of poses Ts (m, 4, 4) of a 6R arm with a spherical wrist.
+    """All solutions of poses Ts (m, 4, 4) of an arm of six joints with a spherical wrist.
 
     Constants: ``links`` and ``joints`` of the exact chain
     (:mod:`dh2urdf.kernels.certificate.certify`), ``form`` and ``ends`` of its Denavit-Hartenberg
@@ -236,14 +236,3 @@ def solve_turning_arm(
     for i in range(Ts.shape[0]):
         out = q[i], residual[i], branch[i], free[i]
         count[i] = solve_pose(place_wrist, arm, Ts[i], within_limits, out, scratch)
-
-
-@kernel
-def solve_sliding_arm(
-    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
-):
-    """:func:`solve_turning_arm` where some of the first three joints slide."""
-    arm, scratch = (links, joints, form, ends, slack), make_scratch()
-    for i in range(Ts.shape[0]):
-        out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_pose(place_wrist_sliding, arm, Ts[i], within_limits, out, scratch)

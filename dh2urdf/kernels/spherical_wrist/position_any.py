@@ -40,19 +40,10 @@ OBLIQUE = 1e-9
 
 @inner_kernel
 def place_wrist(form, px, py, pz, slack, arm):
-    """All joint values of a turning arm that put the wrist centre at p (frame 0)."""
-    if form[1, 2] == 0.0:
-        return place_wrist_in_plane(form, px, py, pz, slack, arm)
-    Y, V, free = _from_base(form, px, py, pz), _along_arm(form), px * px + py * py <= FREE * FREE
-    pairs = np.empty((4, 4))
-    count = _two_turns(form, Y, V, free, slack, pairs)
-    return _write_rows(form, Y, V, free, slack, count, pairs, arm)
-
-
-@inner_kernel
-def place_wrist_sliding(form, px, py, pz, slack, arm):
-    """All joint values that put the wrist centre at p (frame 0) where some joints slide."""
+    """All joint values that put the wrist centre at p (frame 0)."""
     first, second, third = form[0, 5] != 0.0, form[1, 5] != 0.0, form[2, 5] != 0.0
+    if form[1, 2] == 0.0 and not (first or second or third):
+        return place_wrist_in_plane(form, px, py, pz, slack, arm)
     Y, V = _from_base(form, px, py, pz), _along_arm(form)
     free = not first and px * px + py * py <= FREE * FREE
     pairs = np.empty((8, 4))
@@ -66,7 +57,7 @@ def place_wrist_sliding(form, px, py, pz, slack, arm):
         for k in range(count if first else 0):
             c, s = pairs[k, 0], pairs[k, 1]
             pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], 0.0, c, s
-    return _write_rows(form, Y, V, free, slack, count, pairs, arm)
+    return write_rows(form, Y, V, free, slack, count, pairs, arm)
 
 
 @inner_kernel
@@ -243,7 +234,7 @@ def _nearest(columns, slides, c, s):
 
 
 @inner_kernel
-def _write_rows(form, Y, V, free, slack, count, pairs, arm):
+def write_rows(form, Y, V, free, slack, count, pairs, arm):
     """Joint 2 of all pairs, and rows of ``arm``; where the centre is on axis 2, joint 2 is free."""
     for k in range(count):
         c, s, e, f = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]

@@ -107,12 +107,12 @@ def test_count_equals_that_of_a_search(name):
 def test_block_and_scalar_kernels_agree():
     """The vectorised kernel returns the same solutions and branches as the scalar one."""
     from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
-    from dh2urdf.kernels.spherical_wrist.poses import solve_turning_arm
+    from dh2urdf.kernels.spherical_wrist.poses import solve_wrist_arm
 
     chain = ref.shipped("denso_vs6556")
     solver = SphericalWrist(chain)
     assert solver.kernel is solve_common_wrist
-    checks.check_kernels_agree(chain, solver, solve_turning_arm, 1e-9)
+    checks.check_kernels_agree(chain, solver, solve_wrist_arm, 1e-9)
 
 
 def test_solutions_reach_the_pose_in_pinocchio():
