@@ -12,6 +12,7 @@ from dh2urdf.kernels.chain.forward import (
     joint_times_link,
     load_pose,
     store_pose,
+    times_link,
 )
 from dh2urdf.kernels.chain.held_joint import (
     held_links,

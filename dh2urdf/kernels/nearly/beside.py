@@ -51,8 +51,7 @@ def _solve(A, step):
             return math.inf
         for r in range(6):
             factor = A[r, c] / A[c, c] if r != c else 0.0
-            for k in range(c + 1, 7):
-                A[r, k] -= factor * A[c, k]
+            A[r] -= factor * A[c]
     longest = 0.0
     for c in range(6):
         step[c] = A[c, 6] / A[c, c]
@@ -65,15 +64,11 @@ def _converges(links, joints, T, q, A, step, damped):
     """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
     for _ in range(STEPS):
         error_and_jacobian(links, joints, POSE, T, q, 1.0, damped)
-        for r in range(6):
-            A[r, 6] = damped[2][r]
-            for j in range(6):
-                A[r, j] = damped[0][j, r]
+        A[:, :6], A[:, 6] = damped[0].T, damped[2]
         longest = _solve(A, step)
         if not longest < math.inf:
             return False
-        for j in range(6):
-            q[j] += step[j] * min(1.0, MAX_TURN / max(longest, MAX_TURN))
+        q += step * min(1.0, MAX_TURN / max(longest, MAX_TURN))
     for j in range(6):
         q[j] = principal(q[j])
     return pose_residual(links, joints, T, q) <= POLISH
@@ -104,8 +99,7 @@ def search_beside(links, joints, Ts, q, count):
             start[:] = work[:, 6]
             for way in WAYS:
                 for side in (-way, way):
-                    for j in range(6):
-                        trial[j] = q[i, k, j] + side * start[j]
+                    trial[:] = q[i, k] + side * start
                     if not _converges(links, joints, Ts[i], trial, A, step, damped):
                         continue
                     if count[i] < q.shape[1] and not _is_known(joints, q[i], count[i], trial):

@@ -37,12 +37,8 @@ from dh2urdf.kernels.spherical_wrist import (
 )
 
 JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
-ROW_OF = np.array(
-    [
-        [k & 1, 10 + k, 18 + k, 26 + k, 2 + (k & 1) + 2 * (k >> 2), 6 + (k & 1) + 2 * (k >> 2)]
-        for k in range(8)
-    ]
-)
+K, PAIR = np.arange(8), (np.arange(8) & 1) + 2 * (np.arange(8) >> 2)
+ROW_OF = np.stack([K & 1, 10 + K, 18 + K, 26 + K, 2 + PAIR, 6 + PAIR], 1)
 
 MIRROR_OF = np.array([(r, OWN) for r in range(34)])
 MIRROR_OF[4:6] = (2, NEGATED), (3, NEGATED)

@@ -2,6 +2,7 @@
 
 import math
 
+from dh2urdf.kernels.chain import turned_back
 from dh2urdf.kernels.numbers import inner_kernel
 from dh2urdf.kernels.spherical_wrist import NICE
 
@@ -41,9 +42,7 @@ def seen_arm(form, first, D, cs, origin):
     """
     x = form[first + 2, 0] if origin != 0.0 else 1.0
     x, y, z = _to_frame_six(form, first + 2, cs, x, 0.0, origin)
-    u = D[0, 0] * x + D[0, 1] * y + D[0, 2] * z
-    v = D[1, 0] * x + D[1, 1] * y + D[1, 2] * z
-    w = D[2, 0] * x + D[2, 1] * y + D[2, 2] * z
+    u, v, w = turned_back(D.T, (x, y, z))
     return seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
 
 
@@ -53,11 +52,7 @@ def common_axis(form, first, D, cs):
     kx, ky, kz = 0.0, 0.0, 1.0
     if first == 1:
         kx, ky, kz = form[0, 2] * cs[0, 1], -form[0, 2] * cs[0, 0], form[0, 1]
-    return (
-        kx * D[0, 0] + ky * D[1, 0] + kz * D[2, 0],
-        kx * D[0, 1] + ky * D[1, 1] + kz * D[2, 1],
-        kx * D[0, 2] + ky * D[1, 2] + kz * D[2, 2],
-    )
+    return turned_back(D, (kx, ky, kz))
 
 
 @inner_kernel

@@ -6,7 +6,6 @@ many values; `self_motion` walks along solutions, `paths` shortens a path.
 """
 
 from dh2urdf.kernels.redundant.held_wrist import points_on_curves, solve_held_wrist
-from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
+from dh2urdf.kernels.redundant.held_wrist_blocks import gather_samples, solve_held_blocks
 from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import enter_limits, nearest_members, walk_family
-from dh2urdf.kernels.redundant.sweep import gather_samples

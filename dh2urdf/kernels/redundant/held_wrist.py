@@ -58,20 +58,15 @@ ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 2
 
 @inner_kernel
 def make_scratch():
-    """Arrays that one pose is worked out in."""
-    return (
-        np.empty((2, 4, 4)),  # 0 poses
-        np.empty((3, 4)),  # 1 frame 6 in frame 0
-        np.empty((3, 4, 4)),  # 2 S0, S1, S2
-        np.empty((3, 3)),  # 3 orientation left to the wrist
-        np.empty((8, 5)),  # 4 position solutions
-        np.empty((6, 14)),  # 5 certification
-        np.empty((7, 4, 4)),  # 6 links of the moving joints
-        np.empty((8, 6)),  # 7 candidates
-        np.empty((3, 2, 2)),  # 8 two equations
-        np.empty((3, 5)),  # 9 a quartic
-        np.empty((4, 4)),  # 10 its pairs
-    )
+    """Arrays that one pose is worked out in.
+
+    Two poses; frame 6 in frame 0; S0, S1, S2; orientation left to the wrist; position solutions;
+    certification; links of the moving joints; candidates; two equations, a quartic, its pairs.
+    """
+    poses, D, S, R = np.empty((2, 4, 4)), np.empty((4, 4)), np.empty((3, 4, 4)), np.empty((3, 3))
+    arm, work, links = np.empty((8, 5)), np.empty((6, 14)), np.empty((7, 4, 4))
+    rest, equations = np.empty((8, 6)), (np.empty((3, 2, 2)), np.empty((3, 5)), np.empty((4, 4)))
+    return poses, D, S, R, arm, work, links, rest, equations
 
 
 @inner_kernel
@@ -103,8 +98,8 @@ def _place_wrist(form, D, S, slack, scratch):
     length: a subproblem 6 in q1 and q3. Subproblem 1 gives q2. The rows are as in
     :mod:`dh2urdf.kernels.spherical_wrist.position_arm`, without names of branches.
     """
-    arm, equations, series, pairs = scratch[4], scratch[8], scratch[9], scratch[10]
-    M, N, d = equations[0], equations[1], equations[2, 0]
+    arm, (two, series, pairs) = scratch[4], scratch[8]
+    M, N, d = two[0], two[1], two[2, 0]
     S0, S1, reach = S[0], S[1], form[3, 3]
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     wx, wy, wz = applied(S[2], (0.0, 0.0, reach))

@@ -8,34 +8,15 @@ singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k &
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import kernel
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import load_block
 from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, emit
 
 JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
-ROW_OF = np.array(
-    [
-        [
-            2 + (k & 3),
-            6 + (k & 3),
-            k >> 1 & 1,
-            *(10 + (k & 3) + 4 * j + 12 * (k >> 2) for j in range(3)),
-        ]
-        for k in range(8)
-    ]
-)
-
-
-@inner_kernel
-def _places(which):
-    """Where in the chain the oriented arm's six joints are."""
-    place = np.empty(6, np.int64)
-    for j in range(6):
-        moving = 5 - j if which[REVERSED] != 0 else j
-        place[j] = moving if moving < which[HELD] else moving + 1
-    return place
+K, ARM, OTHER = np.arange(8), np.arange(8) & 3, 12 * (np.arange(8) >> 2)
+ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
 
 
 @kernel
@@ -45,8 +26,10 @@ def solve_held_blocks(
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
     constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
-    seen_from_tool, place, table = which[REVERSED] != 0, _places(which), (JOINT_OF, ROW_OF, MIRRORS)
-    oriented = joints[::-1].copy() if seen_from_tool else joints.copy()
+    seen_from_tool, table = which[REVERSED] != 0, (JOINT_OF, ROW_OF, MIRRORS)
+    oriented, place = joints.copy(), np.delete(np.arange(7), which[HELD])
+    if seen_from_tool:
+        oriented, place = joints[::-1].copy(), place[::-1].copy()
     S0, S2 = frames[LINK], frames[LINK + 2]
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
@@ -60,3 +43,22 @@ def solve_held_blocks(
             q[i, :, which[HELD]] = values[i]
         if clean < n:
             solve_rough(constants, values, Ts, within_limits, first, first + n, out)
+
+
+@kernel
+def gather_samples(found, first, last, samples, q, residual, count, branch, free):
+    """Join the solutions of the samples of a pose, rows in the order of the values.
+
+    ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
+    the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`.
+    """
+    some_q, some_residual, some_count, some_branch, some_free = found
+    for i in range(first, last):
+        total = 0
+        for k in range(samples):
+            row = (i - first) * samples + k
+            for r in range(some_count[row]):
+                q[i, total], residual[i, total] = some_q[row, r], some_residual[row, r]
+                branch[i, total], free[i, total] = some_branch[row, r], some_free[row, r]
+                total += 1
+        count[i] = total

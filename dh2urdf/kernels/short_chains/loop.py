@@ -36,9 +36,7 @@ def _pair_columns(loop, joints, first, second, out):
 
     Joint -1 is absent: its rows are not written.
     """
-    out[0, 0] = 1.0
-    for i in range(1, 8):
-        out[0, i] = 0.0
+    out[0], out[0, 0] = 0.0, 1.0
     if first >= 0:
         dual_times_joint(out[0], joints[first, 0] != 0.0, out[2])
         dual_product(out[0], loop[first], out[0])
@@ -142,9 +140,7 @@ def null_basis(M, size, order, nullity, basis):
     rank = size - nullity
     for k in range(nullity):
         largest = 1.0
-        for i in range(size):
-            basis[k, order[i]] = 0.0
-        basis[k, order[rank + k]] = 1.0
+        basis[k], basis[k, order[rank + k]] = 0.0, 1.0
         for i in range(rank - 1, -1, -1):
             total = -M[rank + k, i]
             for j in range(i + 1, rank):
@@ -153,8 +149,7 @@ def null_basis(M, size, order, nullity, basis):
             value = total / pivot if pivot != 0.0 else 0.0
             basis[k, order[i]] = value
             largest = max(largest, abs(value))
-        for i in range(size):
-            basis[k, i] /= largest
+        basis[k] /= largest
 
 
 @inner_kernel
@@ -172,14 +167,10 @@ def determinant_series(columns, used, M, order, series):
 @inner_kernel
 def add_sample(series, value, k):
     """Add what sample k contributes to the coefficients (7,) of a function of an angle."""
-    for m in range(SAMPLES):
-        series[m] += value * SAMPLE_TABLE[m, k]
+    series += value * SAMPLE_TABLE[:, k]
 
 
 @inner_kernel
 def vanishes(series, zero):
     """Whether a quartic is 0 but for rounding: the size of its third harmonic, which it has not."""
-    largest = 0.0
-    for m in range(5):
-        largest = max(largest, abs(series[m]))
-    return largest <= max(zero, 100.0 * (abs(series[5]) + abs(series[6])))
+    return np.abs(series[:5]).max() <= max(zero, 100.0 * (abs(series[5]) + abs(series[6])))

@@ -17,9 +17,6 @@ ON_AXIS = 1e-10
 SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
 
-ELBOW_UP = 0
-ELBOW_DOWN = 2
-
 
 @kernel
 def planar_rr(l1, l2, x, y, slack, rest, out):
@@ -82,7 +79,7 @@ def solve_planar(
             q[i, k, 0], q[i, k, 1] = t1, sign2 * (t2 - lean)
             if n == 3:
                 q[i, k, 2] = sign3 * (_heading(F, T, plane[1]) - t1 - t2 + lean)
-            residual[i, k], branch[i, k] = -1.0, ELBOW_UP if k == 0 else ELBOW_DOWN
+            residual[i, k], branch[i, k] = -1.0, 2 * k  # elbow up, elbow down
             free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:

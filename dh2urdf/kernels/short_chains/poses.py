@@ -57,19 +57,15 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
 
     Returned are the rows of q in use and the largest nullity that was tried.
     """
-    M, basis, raw = scratch[0:8], scratch[8:14], scratch[14:17]
+    M, basis = scratch[0:8], scratch[8:14]
     size = loop_matrix(columns, used, x[0], x[1], M)
     factor(M, size, order)
+    order[:size] = used[order[:size]]
     tried = 0
     for nullity in range(1, min(4, size)):
         if abs(M[size - nullity, size - nullity]) > FUZZY * abs(M[0, 0]):
             break
-        null_basis(M, size, order, nullity, raw)
-        for k in range(nullity):
-            for i in range(8):
-                basis[k, i] = 0.0
-            for i in range(size):
-                basis[k, used[i]] = raw[k, i]
+        null_basis(M, size, order, nullity, basis)
         count = add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count)
         tried = nullity
     return count, tried

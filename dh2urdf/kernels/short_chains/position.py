@@ -223,9 +223,7 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
             value = s / c if slides[2] else math.atan2(s, c)
         rows = _pair(slides, frames[1], p, v, rest, unit, pairs)
         for row in range(rows):
-            q[count, 0], q[count, 1] = pairs[row, 0], pairs[row, 1]
-            if n == 3:
-                q[count, 2] = value
+            q[count, :2], q[count, 2:] = pairs[row], value
             count += 1
     return count
 

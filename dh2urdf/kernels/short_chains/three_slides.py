@@ -15,11 +15,12 @@ from dh2urdf.kernels.certificate import (
     error_and_jacobian,
     finish_families,
     finish_pose,
+    invert_pose,
     make_damped,
     solve_damped,
     work_array,
 )
-from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
+from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
 from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
 
 DAMPING = 1e-10
@@ -54,27 +55,6 @@ def _turning_links(links, joints, turning, scratch):
 
 
 @inner_kernel
-def _between(A, T, C, B):
-    """``B = A^T R C^T`` of rotations, to the upper left of B (4, 4)."""
-    for i in range(3):
-        u0 = A[0, i] * T[0, 0] + A[1, i] * T[1, 0] + A[2, i] * T[2, 0]
-        u1 = A[0, i] * T[0, 1] + A[1, i] * T[1, 1] + A[2, i] * T[2, 1]
-        u2 = A[0, i] * T[0, 2] + A[1, i] * T[1, 2] + A[2, i] * T[2, 2]
-        for j in range(3):
-            B[i, j] = u0 * C[j, 0] + u1 * C[j, 1] + u2 * C[j, 2]
-
-
-@inner_kernel
-def _turned(first, cosine, sine, second, out):
-    """``first Rz second`` of rotations, to the upper left of out."""
-    for i in range(3):
-        a = first[i, 0] * cosine + first[i, 1] * sine
-        b = first[i, 1] * cosine - first[i, 0] * sine
-        for j in range(3):
-            out[i, j] = a * second[0, j] + b * second[1, j] + first[i, 2] * second[2, j]
-
-
-@inner_kernel
 def _outer(M, B):
     """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
     across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
@@ -97,7 +77,10 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
     count = _turning_links(links, joints, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
     found, q[:] = 1, 0.0
-    _between(scratch[0:4], T, scratch[4 * count : 4 * count + 4], B)
+    # B = R_0^T R R_last^T
+    invert_pose(scratch[4 * count : 4 * count + 4], B)
+    invert_pose(scratch[0:4], M)
+    store_pose(times_link(times_link(load_pose(M), T), B), B)
     if count == 2:
         q[0, turning[0]], q[0, turning[1]] = _outer(scratch[4:8], B)
     else:
@@ -110,8 +93,8 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
         )
         for k in range(found):
             c, s = (c1, s1) if k == 0 else (c2, s2)
-            _turned(first, c, s, second, M)
             q[k, turning[1]] = math.atan2(s, c)
+            store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
         error_and_jacobian(links, joints, POSE, T, q[k], 1.0, damped)

@@ -89,11 +89,8 @@ def stepped(p, a, x, d, z):
 def planar_arm(upper, fore, side, x, y, slack):
     """Both joints of a planar RR arm (lecture notes 8.2), the second with the sign ``side``.
 
-    Returns
-    -------
-    c2, s2, c3, s3 : float
-    exists, dirty : bool
-        Whether (x, y) is within reach; whether it is near a rim or near the first axis.
+    Returns c2, s2, c3, s3, whether (x, y) is within reach, and whether it is dirty: near a rim or
+    near the first axis.
     """
     scale = 2.0 * upper * fore
     square = x * x + y * y
@@ -168,11 +165,3 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
         exists = S[valid + i] > 0.0
         rounding = error <= POLISH
         S[BLOCK * DIRTY + i] += 1.0 if exists and not rounding else 0.0
-
-
-@block_kernel
-def copy_residual(source, target, n, S):
-    """Another solution has the same residual."""
-    source, target = at(RESIDUAL + source), at(RESIDUAL + target)
-    for i in range(n):
-        S[target + i] = S[source + i]

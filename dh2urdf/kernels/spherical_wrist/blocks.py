@@ -20,13 +20,13 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     COS,
     DIRTY,
     MERGED,
+    RESIDUAL,
     ROWS,
     SIN,
     VALID,
     WORK,
     at,
     column,
-    copy_residual,
     load_poses,
     measure,
     planar_arm,
@@ -37,12 +37,8 @@ from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
 from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist_in_plane
 
 JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
-ROW_OF = np.array(
-    [
-        [k & 1, *(2 + (k & 3) + 4 * j + (12 * (k >> 2) if j > 1 else 0) for j in range(5))]
-        for k in range(8)
-    ]
-)
+ARM, OTHER = np.arange(8) & 3, 12 * (np.arange(8) >> 2)
+ROW_OF = np.stack([ARM & 1, 2 + ARM, 6 + ARM, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
 
 PLANE = WORK
 """Per shoulder: x and y of the wrist centre in the arm's plane, the rotation seen from there."""
@@ -152,7 +148,7 @@ def solve_common_wrist(
         _wrists(form, n, S)
         for k in range(4):
             measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
-            copy_residual(k, k + 4, n, S)
+        S[at(RESIDUAL + 4) : at(RESIDUAL + 8)] = S[at(RESIDUAL) : at(RESIDUAL + 4)]
         emit(form, joints, table, within_limits, place, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:

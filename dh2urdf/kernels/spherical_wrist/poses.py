@@ -33,21 +33,6 @@ WRIST_FREE = 0b101000
 
 
 @inner_kernel
-def _orientation_left(form, D, values, R):
-    """``R_36 = R_03^T R_06`` from the values of the first three joints, written to R (3, 3)."""
-    for i in range(3):
-        for j in range(3):
-            R[i, j] = D[i, j]
-    for i in range(3):
-        angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
-        c, s, ca, sa = math.cos(angle), math.sin(angle), form[i, 1], form[i, 2]
-        for j in range(3):
-            x, y, z = R[0, j], R[1, j], R[2, j]
-            x, y = c * x + s * y, c * y - s * x
-            R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
-
-
-@inner_kernel
 def middle_angle(form, x, y, z, slack):
     """How many signs the sine of t5 has, its cosine, and its sine, not negative.
 
@@ -86,9 +71,17 @@ def _above(z, level, square):
 def add_wrist(form, D, values, R, slack, q, branch, free, count):
     """Append the one or two wrists of a position solution, a row of ``arm``; the new count.
 
-    D (3, 4) is frame 6 in frame 0, R (3, 3) scratch; the candidates are q, branch and free.
+    D (4, 4) is frame 6 in frame 0, the orientation left ``R_36 = R_03^T R_06`` goes to R (3, 3);
+    the candidates are q, branch and free.
     """
-    _orientation_left(form, D, values, R)
+    R[:] = D[:3, :3]
+    for i in range(3):
+        angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
+        c, s, ca, sa = math.cos(angle), math.sin(angle), form[i, 1], form[i, 2]
+        for j in range(3):
+            x, y, z = R[0, j], R[1, j], R[2, j]
+            x, y = c * x + s * y, c * y - s * x
+            R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
     return append_wrist(form, values, R, slack, q, branch, free, count)
 
 
@@ -201,7 +194,7 @@ def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out
 def make_scratch():
     """Frame 6 in frame 0, a rotation, position solutions, certification, candidates."""
     many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
-    return np.empty((3, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
+    return np.empty((4, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
 
 
 @inlined_kernel

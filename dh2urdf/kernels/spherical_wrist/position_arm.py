@@ -10,6 +10,7 @@ mask of free joints; and returns how many.
 
 import math
 
+from dh2urdf.kernels.chain import load_pose, store_pose, times_link
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, root_of_gap
 
 FREE = 5e-10
@@ -26,16 +27,8 @@ UPPER_FREE = 0b000010 | WRIST_MASK
 
 @inner_kernel
 def tool_to_wrist(ends, T, D):
-    """Frame 6 in frame 0, ``D = base^-1 T tool^-1``, both inverses in ``ends``; D (3, 4)."""
-    for i in range(3):
-        a, b, c, t = ends[0, i, 0], ends[0, i, 1], ends[0, i, 2], ends[0, i, 3]
-        r0 = a * T[0, 0] + b * T[1, 0] + c * T[2, 0]
-        r1 = a * T[0, 1] + b * T[1, 1] + c * T[2, 1]
-        r2 = a * T[0, 2] + b * T[1, 2] + c * T[2, 2]
-        r3 = a * T[0, 3] + b * T[1, 3] + c * T[2, 3] + t
-        for j in range(4):
-            D[i, j] = r0 * ends[1, 0, j] + r1 * ends[1, 1, j] + r2 * ends[1, 2, j]
-        D[i, 3] += r3
+    """Frame 6 in frame 0, ``D = base^-1 T tool^-1``, both inverses in ``ends``; D (4, 4)."""
+    store_pose(times_link(times_link(load_pose(ends[0]), T), ends[1]), D)
 
 
 @inner_kernel
