@@ -41,8 +41,4 @@ from dh2urdf.kernels.certificate.newton import (
 from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.certificate.numeric import find_solutions
 from dh2urdf.kernels.certificate.reverse import invert_pose, invert_poses, reverse_joints, turn_back
-from dh2urdf.kernels.certificate.singular_families import (
-    free_joints,
-    null_direction,
-    one_of_each_family,
-)
+from dh2urdf.kernels.certificate.singular_families import free_joints, null_direction

@@ -46,10 +46,11 @@ from dh2urdf.kernels.chain import (
 from dh2urdf.kernels.numbers import circle_pair, inner_kernel, kernel
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
+    SHOULDER_FREE,
+    UPPER_FREE,
     append_wrist,
     elbow_on_axis,
     tool_to_wrist,
-    write_rows,
 )
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
@@ -119,10 +120,15 @@ def _place_wrist(form, D, S, slack, scratch):
         count = elbow_on_axis(N, d, 0.0, slack, pairs)
     else:
         count = circle_pair(M, N, d, slack, series, pairs)
-    start, fore = applied_inverse(S0, (0.0, 0.0, pz)), applied(S1, (0.0, 0.0, wz))
-    Y = start, turned_back(S0, (px, py, 0.0)), turned_back(S0, (py, -px, 0.0))
-    V = fore, turned_back(S1.T, (wx, wy, 0.0)), turned_back(S1.T, (-wy, wx, 0.0))
-    return write_rows(form, Y, V, free, -slack, count, pairs, arm)
+    for k in range(count):
+        c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
+        yx, yy, _ = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
+        vx, vy, _ = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
+        upper_free = vx * vx + vy * vy <= FREE * FREE
+        arm[k, 0], arm[k, 2], arm[k, 3] = math.atan2(s1, c1), math.atan2(s3, c3), -1.0
+        arm[k, 1] = 0.0 if upper_free else math.atan2(vx * yy - vy * yx, vx * yx + vy * yy)
+        arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
+    return max(count, 0)
 
 
 @inner_kernel

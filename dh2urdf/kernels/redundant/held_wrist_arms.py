@@ -31,6 +31,7 @@ from dh2urdf.kernels.spherical_wrist import (
     column,
     dot,
     minus,
+    stepped,
     turned,
 )
 
@@ -210,12 +211,7 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
             lever = minus(lever, p)
             e = dot(f, lever) - dot(x, e), dot(g, lever) - dot(y, e), dot(h, lever) - dot(z, e)
         else:
-            a, b, d = lever
-            e = (
-                e[0] + f[0] * a + g[0] * b + h[0] * d,
-                e[1] + f[1] * a + g[1] * b + h[1] * d,
-                e[2] + f[2] * a + g[2] * b + h[2] * d,
-            )
+            e = stepped(stepped(e, lever[0], f, lever[1], g), lever[2], h, 0.0, h)
         turn = dot(f, f) + dot(g, g) + dot(h, h)
         S[WRIST + BLOCK * 6 + i] = math.sqrt(max(dot(e, e), 0.5 * turn))
 

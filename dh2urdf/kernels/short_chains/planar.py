@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import finish_pose, work_array
-from dh2urdf.kernels.chain import applied
+from dh2urdf.kernels.chain import applied, turned_back
 from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
 
 ON_AXIS = 1e-10
@@ -91,9 +91,5 @@ def solve_planar(
 @inner_kernel
 def _heading(F, T, N):
     """Angle about the axes from the tool at q = 0 to T: that of ``F R N``."""
-    g0, g1 = 0.0, 0.0
-    for j in range(3):
-        across = T[j, 0] * N[0, 0] + T[j, 1] * N[1, 0] + T[j, 2] * N[2, 0]
-        g0 += F[0, j] * across
-        g1 += F[1, j] * across
-    return math.atan2(g1, g0)
+    x, y, _ = turned_back(F.T, turned_back(T.T, (N[0, 0], N[1, 0], N[2, 0])))
+    return math.atan2(y, x)
