@@ -38,5 +38,12 @@ from dh2urdf.kernels.spherical_wrist.poses import (
     middle_angle,
     solve_wrist_arm,
 )
-from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis, place_wrist, write_rows
-from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, planar, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis, place_wrist
+from dh2urdf.kernels.spherical_wrist.position_arm import (
+    FREE,
+    NICE,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    planar,
+    tool_to_wrist,
+)

@@ -57,7 +57,7 @@ def place_wrist(form, px, py, pz, slack, arm):
         for k in range(count if first else 0):
             c, s = pairs[k, 0], pairs[k, 1]
             pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], 0.0, c, s
-    return write_rows(form, Y, V, free, slack, count, pairs, arm)
+    return _write_rows(form, Y, V, free, slack, count, pairs, arm)
 
 
 @inner_kernel
@@ -234,7 +234,7 @@ def _nearest(columns, slides, c, s):
 
 
 @inner_kernel
-def write_rows(form, Y, V, free, slack, count, pairs, arm):
+def _write_rows(form, Y, V, free, slack, count, pairs, arm):
     """Joint 2 of all pairs, and rows of ``arm``; where the centre is on axis 2, joint 2 is free."""
     for k in range(count):
         c, s, e, f = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
