@@ -99,17 +99,14 @@ class NearFamily(SolverBase):
     def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
         """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
         from dh2urdf.kernels.certificate import finish_batch
-        from dh2urdf.kernels.nearly import search_beside
+        from dh2urdf.kernels.nearly import add_candidates, search_beside
 
         wide = Outputs.of(len(rows), WIDTH, 6)
         if len(rows):
             found = Outputs.of(len(rows), self.kmax, 6)
             self.general.solve_unfinished(Ts, found)
             wide.q[:, : self.kmax], wide.counts[:] = found.q, found.counts
-            for r in range(self.kmax):
-                more = np.flatnonzero(-1 - out.counts[rows] > r)
-                wide.q[more, wide.counts[more]] = out.q[rows[more], r]
-                wide.counts[more] += 1
+            add_candidates(rows, out.q, out.counts, wide.q, wide.counts)
             finish_batch(self.links, self.joints, Ts, False, *wide)
             search_beside(self.links, self.joints, Ts, wide.q, wide.counts)
             finish_batch(self.links, self.joints, Ts, within_limits, *wide)

@@ -4,4 +4,4 @@
 """
 
 from dh2urdf.kernels.nearly.beside import search_beside
-from dh2urdf.kernels.nearly.poses import solve_near_parallel, solve_near_wrist
+from dh2urdf.kernels.nearly.poses import add_candidates, solve_near_parallel, solve_near_wrist

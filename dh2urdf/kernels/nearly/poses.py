@@ -96,3 +96,16 @@ def solve_near_parallel(
         found = add_pairs(form, first, pairs, slack, q[i], branch[i], free[i], scratch)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = _settle(links, joints, Ts[i], trust, doubt, *out, found, start, work, damped)
+
+
+@kernel
+def add_candidates(rows, q, count, wide, wide_count):
+    """Append the candidates of the poses in doubt, rows (d,) of q (m, kmax, n), to wide (d, k, n).
+
+    The count of a pose in doubt is -1 minus that of its candidates.
+    """
+    for d in range(rows.shape[0]):
+        i = rows[d]
+        for r in range(-1 - count[i]):
+            wide[d, wide_count[d]] = q[i, r]
+            wide_count[d] += 1

@@ -31,7 +31,6 @@ from dh2urdf.kernels.spherical_wrist import (
     column,
     dot,
     minus,
-    stepped,
     turned,
 )
 
@@ -154,16 +153,20 @@ def finish_arm(form, S0, seen_from_tool, arm, n, S):
 @block_kernel
 def _reach(S0, arm, n, S):
     """``A = Z1 S0 Z2 S1 Z3 S2`` of one arm of every lane."""
-    u, v = (S0[0, 0], S0[0, 1], S0[0, 2]), (S0[1, 0], S0[1, 1], S0[1, 2])
-    w = S0[2, 0], S0[2, 1], S0[2, 2]
+    u00, u10, u20, u01, u11, u21 = S0[0, 0], S0[1, 0], S0[2, 0], S0[0, 1], S0[1, 1], S0[2, 1]
+    u02, u12, u22 = S0[0, 2], S0[1, 2], S0[2, 2]
     t1, t2 = at(T1 + arm), at(T2 + arm)
     for j in range(4):
         fore, target = at(FORE + 12 * (arm >> 1) + 3 * j), ARM + BLOCK * 3 * j & MASK
         for i in range(n):
             x, y, z = S[fore + i], S[fore + BLOCK + i], S[fore + BLOCK * 2 + i]
             c, s = S[t2 + i], S[t2 + TURN + i]
-            r = c * x - s * y, s * x + c * y, z
-            x, y, z = dot(u, r), dot(v, r), dot(w, r)
+            x, y = c * x - s * y, s * x + c * y
+            x, y, z = (
+                u00 * x + u01 * y + u02 * z,
+                u10 * x + u11 * y + u12 * z,
+                u20 * x + u21 * y + u22 * z,
+            )
             c, s = S[t1 + i], S[t1 + TURN + i]
             S[target + i], S[target + BLOCK + i] = c * x - s * y, s * x + c * y
             S[target + BLOCK * 2 + i] = z
@@ -211,7 +214,12 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
             lever = minus(lever, p)
             e = dot(f, lever) - dot(x, e), dot(g, lever) - dot(y, e), dot(h, lever) - dot(z, e)
         else:
-            e = stepped(stepped(e, lever[0], f, lever[1], g), lever[2], h, 0.0, h)
+            a, b, d = lever
+            e = (
+                e[0] + f[0] * a + g[0] * b + h[0] * d,
+                e[1] + f[1] * a + g[1] * b + h[1] * d,
+                e[2] + f[2] * a + g[2] * b + h[2] * d,
+            )
         turn = dot(f, f) + dot(g, g) + dot(h, h)
         S[WRIST + BLOCK * 6 + i] = math.sqrt(max(dot(e, e), 0.5 * turn))
 

@@ -11,7 +11,7 @@ import numpy as np
 from dh2urdf.kernels.numbers import kernel
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
-from dh2urdf.kernels.redundant.held_wrist_load import load_block
+from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
 from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, emit
 
 JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
@@ -26,14 +26,18 @@ def solve_held_blocks(
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
     constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
-    seen_from_tool, table = which[REVERSED] != 0, (JOINT_OF, ROW_OF, MIRRORS)
+    if m == 0:
+        return
+    same, seen_from_tool = all_equal(values), which[REVERSED] != 0
+    table = JOINT_OF, ROW_OF, MIRRORS
     oriented, place = joints.copy(), np.delete(np.arange(7), which[HELD])
     if seen_from_tool:
         oriented, place = joints[::-1].copy(), place[::-1].copy()
     S0, S2 = frames[LINK], frames[LINK + 2]
+    prepare_block(frames, which, values, S)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
-        load_block(frames, which, values, Ts, first, n, S)
+        load_block(frames, which, values, Ts, same, first, n, S)
         place_elbows(S2, form[3, 3], slack, n, S)
         place_shoulders(S0, slack, n, S)
         for arm in range(4):

@@ -38,10 +38,31 @@ LOADED = LEVER + 6
 
 
 @inner_kernel
-def load_block(frames, which, values, Ts, first, n, S):
-    """Target, S1 and lever of each pose, one a lane."""
-    _held_joint(which[SLIDES] != 0, values, first, n, S)
-    _links_and_levers(frames, n, S)
+def all_equal(values):
+    """Whether all poses have the same held value."""
+    for i in range(1, values.shape[0]):
+        if values[i] != values[0]:
+            return False
+    return True
+
+
+@inner_kernel
+def prepare_block(frames, which, values, S):
+    """Rows of S that all blocks have in common as long as the held value is that of the first."""
+    slides, value = which[SLIDES] != 0, values[0]
+    for i in range(BLOCK):
+        S[BLOCK * HELD_COS + i] = 1.0 if slides else math.cos(value)
+        S[BLOCK * HELD_SIN + i] = 0.0 if slides else math.sin(value)
+        S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
+    _links_and_levers(frames, BLOCK, S)
+
+
+@inner_kernel
+def load_block(frames, which, values, Ts, same, first, n, S):
+    """Target, S1 and lever of each pose, one a lane; ``same``: all have the first one's value."""
+    if not same:
+        _held_joint(which[SLIDES] != 0, values, first, n, S)
+        _links_and_levers(frames, n, S)
     seen_from_tool, last = which[REVERSED] != 0, which[ORIENTED] == 6
     load_poses(frames[SIDES:], 0.0, Ts, first, n, S)
     if seen_from_tool != last:
@@ -55,15 +76,19 @@ def load_block(frames, which, values, Ts, first, n, S):
 @block_kernel
 def _held_joint(slides, values, first, n, S):
     """Cosine, sine and slide of the held joint of every lane."""
+    if slides:
+        for i in range(n):
+            S[BLOCK * HELD_SLIDE + i] = values[first + i]
+        return
     far = 0.0
     for i in range(n):
-        turn, slide = (0.0, values[first + i]) if slides else (values[first + i], 0.0)
-        S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine_sine(turn)
-        S[BLOCK * HELD_SLIDE + i] = slide
-        far += 0.0 if abs(turn) <= LARGEST else 1.0
-    for i in range(n if far > 0.0 else 0):
-        S[BLOCK * HELD_COS + i] = math.cos(values[first + i])
-        S[BLOCK * HELD_SIN + i] = math.sin(values[first + i])
+        value = values[first + i]
+        S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine_sine(value)
+        far += 0.0 if abs(value) <= LARGEST else 1.0
+    if far > 0.0:
+        for i in range(n):
+            S[BLOCK * HELD_COS + i] = math.cos(values[first + i])
+            S[BLOCK * HELD_SIN + i] = math.sin(values[first + i])
 
 
 @block_kernel

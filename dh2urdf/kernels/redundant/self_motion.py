@@ -60,13 +60,19 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
 @inner_kernel
 def distance2(q, seed):
     """Squared distance."""
-    return np.square(q - seed).sum()
+    total = 0.0
+    for i in range(q.shape[0]):
+        total += (q[i] - seed[i]) * (q[i] - seed[i])
+    return total
 
 
 @inner_kernel
 def dot(v, w):
     """Scalar product."""
-    return (v * w).sum()
+    total = 0.0
+    for i in range(v.shape[0]):
+        total += v[i] * w[i]
+    return total
 
 
 @inner_kernel
@@ -85,7 +91,10 @@ def part_inside(joints, q, step, length):
 @inner_kernel
 def _outside(joints, q):
     """Whether a joint is beyond its limits."""
-    return np.any(q > joints[:, 2]) or np.any(q < joints[:, 1])
+    for i in range(q.shape[0]):
+        if q[i] > joints[i, 2] or q[i] < joints[i, 1]:
+            return True
+    return False
 
 
 @inner_kernel

@@ -26,7 +26,6 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     measure,
     minus,
     planar_arm,
-    stepped,
     turned,
 )
 from dh2urdf.kernels.spherical_wrist.block_values import HALF_TURN, MIRRORS, NEGATED, OWN, emit
