@@ -247,7 +247,7 @@ def test_wrist_centre_on_axis_1_names_joint_1():
     for _ in range(5):
         D = ref.random_pose(rng, 0.0)
         D[:3, 3] = 0.0, 0.0, rng.uniform(0.2, 0.4)
-        T = form.base @ D @ form.tool
+        T = form.frames[0] @ D @ form.tool
         solutions, free = checks.solved(chain, T)
         assert len(solutions) == 4
         assert set(free.tolist()) == {0b111001}
@@ -277,7 +277,7 @@ def test_near_axis_1_both_shoulders_are_found(power):
     rng = np.random.default_rng(13)
     D = np.array([ref.random_pose(rng, 0.0) for _ in range(200)])
     D[:, :3, 3] = 0.6 * 10.0**-power, -0.8 * 10.0**-power, 0.3
-    found = ref.solve(chain, form.base @ D @ form.tool)
+    found = ref.solve(chain, form.frames[0] @ D @ form.tool)
     assert (found.count == 8).all()
     assert_margin(found.residual[ref.exists(found)], RESIDUAL, 1000)
     assert not found.free[ref.exists(found)].any()

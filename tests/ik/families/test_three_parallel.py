@@ -131,7 +131,7 @@ def test_over_axis_1_every_joint_is_free():
     for height in (0.3, 0.5, 0.7):
         D = ref.random_pose(rng, 0.0)
         D[:3, 3] = 0.0, 0.0, height
-        T = form.base @ D @ form.tool
+        T = form.frames[0] @ D @ form.tool
         solutions, free = checks.solved(chain, T)
         assert len(solutions) == 4
         for q, mask in zip(solutions, free, strict=True):
