@@ -48,23 +48,10 @@ def chain_to_dh(
 ) -> AssignedTable:
     """Assign DH frames to a chain (lecture notes section 4) and write down the table.
 
-    Parameters
-    ----------
-    convention : DHConvention
-    name : str
-        Name of the table.
-    x_rule : XRule
-        Which way x points along a common normal.
-    compact : bool
-        Give pairs of axes whose common normal is far away an extra fixed step instead.
-    signs : sequence of n ints, optional
-        -1 where z is to point against the joint's positive direction; the row's sign makes up
-        for it, so q stays what it was.
-
-    Returns
-    -------
-    AssignedTable
-        FK of the table equals FK of the chain, up to rounding.
+    With ``compact`` pairs of axes whose common normal is far away get an extra fixed step instead.
+    ``signs`` are -1 where z is to point against the joint's positive direction; the row's sign
+    makes up for it, so q stays what it was. FK of the table equals that of the chain, up to
+    rounding.
     """
     convention = DHConvention(convention)
     rule = XRule(x_rule)

@@ -171,25 +171,15 @@ def _across_first(L: Array, pair: AxisPair, height: float, turn: float) -> Norma
 
 def flipped(n: Normal) -> Normal:
     """The same transform with x the other way: ``X(a, alpha) = Rz(pi) X(-a, -alpha) Rz(pi)``."""
-    return Normal(
-        wrap(n.phi1 + math.pi),
-        n.s1,
-        0.0 - n.a,
-        wrap(-n.alpha),
-        0.0 - n.beta,
-        wrap(n.phi2 + math.pi),
-        n.s2,
-    )
+    phi1, phi2 = wrap(n.phi1 + math.pi), wrap(n.phi2 + math.pi)
+    return Normal(phi1, n.s1, 0.0 - n.a, wrap(-n.alpha), 0.0 - n.beta, phi2, n.s2)
 
 
-def compose(n: Normal, convention: DHConvention) -> Array:
-    """The transform that a factorisation stands for, shape (4, 4)."""
-    X = tf.trans(n.a, 0, 0) @ tf.rot_x(n.alpha)
-    Y = tf.rot_y(n.beta)
-    middle = X @ Y if convention is DHConvention.STANDARD else Y @ X
+def compose(n: Normal) -> Array:
+    """The transform that a factorisation in the standard order stands for, shape (4, 4)."""
     first = tf.rot_z(n.phi1) @ tf.trans(0, 0, n.s1)
     second = tf.rot_z(n.phi2) @ tf.trans(0, 0, n.s2)
-    T: Array = first @ middle @ second
+    T: Array = first @ (tf.trans(n.a, 0, 0) @ tf.rot_x(n.alpha) @ tf.rot_y(n.beta)) @ second
     return T
 
 

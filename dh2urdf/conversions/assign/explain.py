@@ -8,8 +8,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.assigned_table import AssignedTable
-from dh2urdf.conversions.assign.axis_pairs import AxisCase, AxisPair, Normal, common_normal
-from dh2urdf.conversions.assign.frame_assignment import Assignment
+from dh2urdf.conversions.assign.axis_pairs import AxisCase, Normal, common_normal
 from dh2urdf.conversions.assign.frame_ends import BaseChoice, ToolChoice
 from dh2urdf.dh import DHConvention, DHRow, JointType
 from dh2urdf.transforms import Array
@@ -64,24 +63,19 @@ def length_words(length: float) -> str:
 
 def explain_frames(found: AssignedTable, chain: SerialChain) -> tuple[FrameStep, ...]:
     """One step a frame, 0 to n; axes of sliding joints have no place of their own."""
-    frames = found.table.frames(np.zeros(found.table.n))
-    rows = found.table.joints
     standard = found.assignment.convention is DHConvention.STANDARD
-    steps = [_step(0, frames[0], chain.names[0], None, _first(found, chain))]
-    for i in range(1, found.assignment.n):
-        joint = chain.names[i] if standard else chain.names[i - 1]
-        text = _between(found, chain, i, frames, rows)
-        pair = found.assignment.pairs[i - 1]
-        steps.append(_step(i, frames[i], joint, pair.case, text))
-    n = found.assignment.n
-    name = "" if standard else chain.names[-1]
-    steps.append(_step(n, frames[n], name, None, _last(found, rows[-1])))
+    frames = found.table.frames(np.zeros(chain.n))
+    names = (*chain.names, "") if standard else (chain.names[0], *chain.names)
+    cases = (None, *(pair.case for pair in found.assignment.pairs), None)
+    between = (_between(found, chain, i, _point(frames[i][:3, 3])) for i in range(1, chain.n))
+    texts = (_first(found, chain), *between, _last(found))
+    steps = []
+    for i, T in enumerate(frames):
+        origin, x, z = (
+            (float(a) + 0.0, float(b) + 0.0, float(c) + 0.0) for a, b, c in T.T[[3, 0, 2], :3]
+        )
+        steps.append(FrameStep(i, names[i], cases[i], origin, x, z, texts[i]))
     return tuple(steps)
-
-
-def _step(i: int, T: Array, joint: str, case: AxisCase | None, text: str) -> FrameStep:
-    origin, x, z = (tuple(float(v) + 0.0 for v in T[:3, k]) for k in (3, 0, 2))
-    return FrameStep(i, joint, case, origin, x, z, text)  # type: ignore[arg-type]
 
 
 def _first(found: AssignedTable, chain: SerialChain) -> str:
@@ -110,13 +104,10 @@ def _first(found: AssignedTable, chain: SerialChain) -> str:
     return text + why[start.choice]
 
 
-def _between(
-    found: AssignedTable, chain: SerialChain, i: int, frames: Array, rows: Sequence[DHRow]
-) -> str:
+def _between(found: AssignedTable, chain: SerialChain, i: int, origin: str) -> str:
     """Step 3 of the notes, for the frame between joints i and i + 1."""
-    assignment = found.assignment
-    pair, normal = assignment.pairs[i - 1], assignment.normals[i - 1]
-    standard = assignment.convention is DHConvention.STANDARD
+    rows = found.table.joints
+    standard = found.assignment.convention is DHConvention.STANDARD
     z1, z2 = (f"z_{i - 1}", f"z_{i}") if standard else (f"z_{i}", f"z_{i + 1}")
     z_own, owner = (z2, i + 1) if standard else (z1, i)
     parts = [f"{z_own} is the axis of joint {owner} ({chain.names[owner - 1]})."]
@@ -125,8 +116,7 @@ def _between(
             "The joint slides, so only its direction is given; the axis is drawn where the table "
             "gets the fewest lengths."
         )
-    origin = _point(frames[i][:3, 3])
-    parts.append(_case(assignment, found.links[i], pair, normal, i, (z1, z2), origin))
+    parts.append(_case(found, i, z1, z2, z_own, origin))
     row = rows[i - 1]
     numbers = f"theta_{i} = {angle_words(row.theta)}, d_{i} = {length_words(row.d)}"
     nxt = row if standard else rows[i]
@@ -135,19 +125,12 @@ def _between(
     return " ".join(parts) + f" So {numbers}{_variable(row, i)}, {crossing}{place}."
 
 
-def _case(
-    found: Assignment,
-    link: Array,
-    pair: AxisPair,
-    normal: Normal,
-    i: int,
-    z: tuple[str, str],
-    origin: str,
-) -> str:
-    z1, z2 = z
+def _case(table: AssignedTable, i: int, z1: str, z2: str, z_own: str, origin: str) -> str:
+    found = table.assignment
+    pair, normal = found.pairs[i - 1], found.normals[i - 1]
     how = "antiparallel" if pair.opposed else "parallel"
     if found.compact[i - 1]:
-        far = common_normal(link, pair)
+        far = common_normal(table.links[i], pair)
         return (
             f"{z1} and {z2} are {pair.tilt:.3g} rad from {how}: their common normal lies "
             f"{max(abs(far.s1), abs(far.s2)):.3g} m away. The frame stays at the arm, at {origin}; "
@@ -158,35 +141,26 @@ def _case(
         return (
             f"Case 1: {z1} and {z2} are not coplanar. Their common normal is "
             f"{length_words(pair.distance)} m long; o_{i} is where it meets "
-            f"{_own(found, z)}, {origin}. {_direction(normal, i, z1)}"
-        )
-    if pair.case is AxisCase.PARALLEL:
-        return (
-            f"Case 2: {z1} and {z2} are {how}, {length_words(pair.distance)} m apart; any common "
-            f"normal will do, and {_chosen(found, i)}. o_{i} is {origin}. "
-            f"{_direction(normal, i, z1)}"
+            f"{z_own}, {origin}. {_direction(normal, i, z1)}"
         )
     if pair.case is AxisCase.INTERSECTING:
         return (
             f"Case 3: {z1} and {z2} intersect at o_{i} = {origin}. x_{i} is normal to both; "
             "of its two directions the one that leaves the fewest joint angles non-zero at q = 0."
         )
+    own = i == 1 and found.start.base is not None
+    chosen = "through joint 1's own origin" if own else f"with d_{i} = 0"
+    if pair.case is AxisCase.PARALLEL:
+        return (
+            f"Case 2: {z1} and {z2} are {how}, {length_words(pair.distance)} m apart; any common "
+            f"normal will do, and the one {chosen} is taken. o_{i} is {origin}. "
+            f"{_direction(normal, i, z1)}"
+        )
     return (
         f"Cases 2 and 3 at once: {z1} and {z2} are one line"
         f"{', in opposite directions' if pair.opposed else ''}. x_{i} may point anywhere and the "
-        f"origin lie anywhere on it: {_chosen(found, i)}, o_{i} = {origin}."
+        f"origin lie anywhere on it: the one {chosen} is taken, o_{i} = {origin}."
     )
-
-
-def _own(found: Assignment, z: tuple[str, str]) -> str:
-    return z[1] if found.convention is DHConvention.STANDARD else z[0]
-
-
-def _chosen(found: Assignment, i: int) -> str:
-    """Which of the many common normals of parallel axes was taken."""
-    if i > 1 or found.start.base is None:
-        return f"the one with d_{i} = 0 is taken"
-    return "the one through joint 1's own origin is taken"
 
 
 def _direction(normal: Normal, i: int, z1: str) -> str:
@@ -208,9 +182,10 @@ def _variable(row: DHRow, i: int) -> str:
     return f" at q_{i} = 0 (the variable is {kind}_{i} {sign} q_{i})"
 
 
-def _last(found: AssignedTable, row: DHRow) -> str:
+def _last(found: AssignedTable) -> str:
     """Step 4 of the notes."""
     end, n, table = found.assignment.end, found.assignment.n, found.table
+    row = table.joints[-1]
     numbers = f"theta_{n} = {angle_words(row.theta)}, d_{n} = {length_words(row.d)}"
     if found.assignment.convention is DHConvention.STANDARD:
         numbers += f", a_{n} = {length_words(row.a)}, alpha_{n} = {angle_words(row.alpha)}"

@@ -21,12 +21,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from typing import NamedTuple
 
 from dh2urdf import transforms as tf
 from dh2urdf.conversions.assign.axis_pairs import AxisPair, Normal, across, classify, common_normal
-from dh2urdf.conversions.assign.frame_directions import choose_directions
-from dh2urdf.conversions.assign.frame_ends import End, EndPlacer, Start, first_frame, slide_turn
+from dh2urdf.conversions.assign.frame_directions import Ends, choose_directions
+from dh2urdf.conversions.assign.frame_ends import End, Start, first_frame, last_frames, slide_turn
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import Array
 
@@ -130,15 +131,15 @@ class FrameAssigner:
     def assign(self, links: Array) -> Assignment:
         """The frames of the chain, the axes of its sliding joints where ``links`` have them."""
         start, ends, pairs, normals, slid = self._place(links)
-        path = choose_directions(start.phi, pairs, normals, ends, self.prismatic, self.strict)
-        base, theta, d = start.base, list(path.theta), _offsets(start, path.normals, path.end)
+        path, end = choose_directions(start.phi, pairs, normals, ends, self.prismatic, self.strict)
+        base, theta, d = start.base, list(path.theta), _offsets(start, path.normals, end)
         if base is None:
             base = links[0] @ slide_turn(theta[0], d[0])
             theta[0] = d[0] = 0.0
         return Assignment(
             self.convention,
             start,
-            path.end,
+            end,
             base,
             tuple(theta),
             tuple(d),
@@ -160,9 +161,7 @@ class FrameAssigner:
         between = (normal.a for normal in normals)
         return (*d, *between, *base[:3, 3], *end.tool[:3, 3], start.a, end.a)
 
-    def _place(
-        self, links: Array
-    ) -> tuple[Start, EndPlacer, list[AxisPair], list[Normal], list[bool]]:
+    def _place(self, links: Array) -> tuple[Start, Ends, list[AxisPair], list[Normal], list[bool]]:
         """Everything but the directions of x, which do not bear on any length."""
         start = first_frame(links[0], self.convention, self.ref.size)
         pairs, normals, slid = [], [], []
@@ -174,7 +173,7 @@ class FrameAssigner:
             slid.append(near)
             s = normal.s2
         own = self._own_height(len(links) - 2, s)
-        ends = EndPlacer(links[-1], self.convention, own, self.ref.size)
+        ends = partial(last_frames, links[-1], self.convention, own, self.ref.size)
         return start, ends, pairs, normals, slid
 
     def _normal(self, L: Array, i: int, s: float | None) -> tuple[AxisPair, Normal, bool]:

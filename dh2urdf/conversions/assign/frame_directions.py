@@ -25,17 +25,10 @@ Ends = Callable[[float], tuple[End, ...]]
 
 
 class Directions(NamedTuple):
-    """A complete choice: theta of every joint [rad], the factorisations as turned, the end."""
+    """Choices up to one axis: every theta [rad], the factorisations as turned, what is left.
 
-    theta: tuple[float, ...]
-    normals: tuple[Normal, ...]
-    end: End
-
-
-class _Path(NamedTuple):
-    """Choices up to one axis; phi is the turn left over about it [rad].
-
-    ``open`` means that the theta of this axis will be 0, whatever comes.
+    ``phi`` is the turn left over about the axis [rad]; ``open`` means that its theta will be 0,
+    whatever comes.
     """
 
     theta: tuple[float, ...]
@@ -51,14 +44,14 @@ def choose_directions(
     ends: Ends,
     prismatic: Sequence[bool],
     strict: bool,
-) -> Directions:
+) -> tuple[Directions, End]:
     """Turn the factorisations of all pairs so that the table gets simplest.
 
     ``phi`` is the turn about axis 1 that the base leaves [rad], None where frame 0 is free to
     turn; ``ends`` gives the choices of frame n for a turn left over about the last axis;
     ``strict`` keeps x away from the axis before it even where that costs theta a half turn.
     """
-    paths = [_Path((), (), phi, phi is None)]
+    paths = [Directions((), (), phi, phi is None)]
     for i, (pair, normal) in enumerate(zip(pairs, normals, strict=True)):
         slide_first = prismatic[i] and not prismatic[i + 1]
         steps = [
@@ -67,19 +60,17 @@ def choose_directions(
             for turned in _ways(path, pair, normal, strict)
         ]
         paths = _best_by_end(steps)
-    best: tuple[Cost, Directions] | None = None
-    for path in paths:
-        for end in ends(path.phi or 0.0):
-            last = _settle(path, end.phi1)
-            leftover = sum(abs(angle) > HALF_TURN for angle in tf.matrix_to_rpy(end.tool))
-            cost = _cost(last.theta, leftover)
-            if best is None or cost < best[0]:
-                best = cost, Directions(last.theta, last.normals, end)
-    assert best is not None
-    return best[1]
+    complete = [(_settle(path, end.phi1), end) for path in paths for end in ends(path.phi or 0.0)]
+    return min(complete, key=_cost_with_end)
 
 
-def _ways(path: _Path, pair: AxisPair, normal: Normal, strict: bool) -> Iterator[Normal]:
+def _cost_with_end(choice: tuple[Directions, End]) -> Cost:
+    """What a complete choice costs: turns that the tool is left with count as theta do."""
+    leftover = sum(abs(angle) > HALF_TURN for angle in tf.matrix_to_rpy(choice[1].tool))
+    return _cost(choice[0].theta, leftover)
+
+
+def _ways(path: Directions, pair: AxisPair, normal: Normal, strict: bool) -> Iterator[Normal]:
     """The directions of x that one pair allows after the choices before it."""
     if pair.any_direction:
         swing = -(path.phi or 0.0) - normal.phi1
@@ -94,13 +85,13 @@ def _ways(path: _Path, pair: AxisPair, normal: Normal, strict: bool) -> Iterator
     yield back if half and not strict else away
 
 
-def _step(path: _Path, normal: Normal, leave_open: bool) -> _Path:
+def _step(path: Directions, normal: Normal, leave_open: bool) -> Directions:
     """Extend a path by one pair."""
     settled = _settle(path, normal.phi1)
     return settled._replace(normals=(*settled.normals, normal), phi=normal.phi2, open=leave_open)
 
 
-def _settle(path: _Path, phi1: float) -> _Path:
+def _settle(path: Directions, phi1: float) -> Directions:
     """Add the theta of the axis that the path ended on."""
     normals, theta = path.normals, path.theta
     value = wrap((path.phi or 0.0) + phi1)
@@ -110,7 +101,7 @@ def _settle(path: _Path, phi1: float) -> _Path:
         normals = (*normals[:-1], _swung(normals[-1], swing, opposed))
         theta = (*theta[:-1], wrap(theta[-1] + swing))
     settled = 0.0 if path.open and normals else value
-    return _Path((*theta, settled), normals, path.phi, path.open)
+    return Directions((*theta, settled), normals, path.phi, path.open)
 
 
 def _swung(normal: Normal, swing: float, opposed: bool) -> Normal:
@@ -119,9 +110,9 @@ def _swung(normal: Normal, swing: float, opposed: bool) -> Normal:
     return normal._replace(phi1=normal.phi1 + swing, phi2=normal.phi2 + back)
 
 
-def _best_by_end(paths: Sequence[_Path]) -> list[_Path]:
+def _best_by_end(paths: Sequence[Directions]) -> list[Directions]:
     """Of the paths that leave the same turn, the cheapest."""
-    best: list[_Path] = []
+    best: list[Directions] = []
     for path in paths:
         for k, other in enumerate(best):
             if path.open == other.open and _same(path.phi, other.phi):

@@ -85,60 +85,43 @@ def first_frame(L: Array, convention: DHConvention, size: float) -> Start:
     return Start(BaseChoice.FREE, None, 0.0, 0.0, None, None)
 
 
-class EndPlacer:
-    """Frame n (step 4 of the notes), for whatever turn the frames before it leave.
+def last_frames(
+    M: Array, convention: DHConvention, own: float, size: float, phi: float
+) -> tuple[End, ...]:
+    """Frame n (step 4 of the notes): the choices with a turn phi about the last axis left over.
 
     M is the tool in the frame of the last joint, ``own`` the height of that joint's own origin
     [m] (modified convention only), ``size`` the length of the arm [m].
     """
-
-    def __init__(self, M: Array, convention: DHConvention, own: float, size: float) -> None:
-        self._M, self._convention, self._own, self._size = M, convention, own, size
-        self._pair = classify(M, size)
-        self._turn = math.atan2(float(M[1, 0]), float(M[0, 0]))
-        self._reached = self._reach()
-
-    def __call__(self, phi: float) -> tuple[End, ...]:
-        """The choices there are with a turn phi about the last axis left over [rad]."""
-        if self._reached:
-            return self._reached
-        if self._convention is DHConvention.MODIFIED:
-            return self._own_frame(phi)
-        return (self._tool_point(phi),)
-
-    def _reach(self) -> tuple[End, ...]:
-        """The tool frame itself, where four DH motions lead there."""
-        M, pair = self._M, self._pair
-        z = float(M[2, 3])
-        if self._convention is DHConvention.MODIFIED:
-            on_axis = pair.any_direction and not pair.opposed
-            if on_axis and abs(z - self._own) <= REACHED * self._size:
-                return (End(ToolChoice.TOOL, self._turn, self._own, 0.0, 0.0, np.eye(4)),)
-            return ()
-        n = across(M, pair, z, self._turn) if pair.parallel else common_normal(M, pair)
+    pair, z = classify(M, size), float(M[2, 3])
+    turn = math.atan2(float(M[1, 0]), float(M[0, 0]))
+    if convention is DHConvention.MODIFIED:
+        on_axis = pair.any_direction and not pair.opposed
+        if on_axis and abs(z - own) <= REACHED * size:
+            return (End(ToolChoice.TOOL, turn, own, 0.0, 0.0, np.eye(4)),)
+        # The joint's own origin: Craig leaves it free, URDFs place it with care.
         return tuple(
-            End(ToolChoice.TOOL, way.phi1, way.s1, way.a, way.alpha, np.eye(4))
-            for way in (n, flipped(n))
-            if _is_none(way.phi2, way.s2, self._size)
+            End(ToolChoice.OWN, phi1, own, 0.0, 0.0, tf.inverse(slide_turn(phi1, own)) @ M)
+            for phi1 in (0.0, -phi, *([turn] if pair.parallel else []))
         )
+    n = across(M, pair, z, turn) if pair.parallel else common_normal(M, pair)
+    reached = tuple(
+        End(ToolChoice.TOOL, way.phi1, way.s1, way.a, way.alpha, np.eye(4))
+        for way in (n, flipped(n))
+        if _is_none(way.phi2, way.s2, size)
+    )
+    return reached or (_tool_point(M, phi, size),)
 
-    def _tool_point(self, phi: float) -> End:
-        """Standard: origin at the tool's, z_n along the last axis; the tool takes the turn."""
-        x, y, z = (float(v) for v in self._M[:3, 3])
-        a = math.hypot(x, y) if math.hypot(x, y) > REACHED * self._size else 0.0
-        phi1 = math.atan2(y, x) if a > 0 else -phi
-        if a > 0 and abs(wrap(phi + phi1)) > math.pi - REACHED:
-            phi1, a = wrap(phi1 + math.pi), -a
-        tool = tf.inverse(slide_turn(phi1, z) @ tf.trans(a, 0, 0)) @ self._M
-        return End(ToolChoice.TOOL_POINT, phi1, z, a, 0.0, tool)
 
-    def _own_frame(self, phi: float) -> tuple[End, ...]:
-        """Modified: at the joint's own origin. Craig leaves it free, URDFs place it with care."""
-        ends = []
-        for phi1 in (0.0, -phi, *([self._turn] if self._pair.parallel else [])):
-            tool = tf.inverse(slide_turn(phi1, self._own)) @ self._M
-            ends.append(End(ToolChoice.OWN, phi1, self._own, 0.0, 0.0, tool))
-        return tuple(ends)
+def _tool_point(M: Array, phi: float, size: float) -> End:
+    """Standard: origin at the tool's, z_n along the last axis; the tool takes the turn."""
+    x, y, z = (float(v) for v in M[:3, 3])
+    a = math.hypot(x, y) if math.hypot(x, y) > REACHED * size else 0.0
+    phi1 = math.atan2(y, x) if a > 0 else -phi
+    if a > 0 and abs(wrap(phi + phi1)) > math.pi - REACHED:
+        phi1, a = wrap(phi1 + math.pi), -a
+    tool = tf.inverse(slide_turn(phi1, z) @ tf.trans(a, 0, 0)) @ M
+    return End(ToolChoice.TOOL_POINT, phi1, z, a, 0.0, tool)
 
 
 def _is_none(turn: float, slide: float, size: float) -> bool:

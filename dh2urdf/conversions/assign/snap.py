@@ -18,7 +18,7 @@ from dh2urdf.conversions.assign.assigned_table import AssignedTable, chain_to_dh
 from dh2urdf.conversions.assign.axis_pairs import PARALLEL, across, classify, common_normal, compose
 from dh2urdf.conversions.assign.frame_assignment import references
 from dh2urdf.conversions.chains import table_poses, turn_slide
-from dh2urdf.dh import DHConvention, DHTable
+from dh2urdf.dh import DHTable
 from dh2urdf.doors import number
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array, pose_error
@@ -110,21 +110,20 @@ def _snap_link(
 ) -> Iterator[tuple[str, float, float, Array]]:
     """What is set right between two axes, one after the other, and the link with it."""
     pair = classify(L, size)
-    standard = DHConvention.STANDARD
     if pair.parallel or pair.tilt <= tolerance:
-        n = across(L, pair, height, 0.0, standard)
+        n = across(L, pair, height)
         straight = math.pi if pair.opposed else 0.0
         fixed = n._replace(alpha=straight, beta=0.0)
         if pair.tilt > 0:
             before = math.pi - pair.tilt if pair.opposed else pair.tilt
-            yield "angle", before, straight, compose(fixed, standard)
+            yield "angle", before, straight, compose(fixed)
     else:
         n = common_normal(L, pair)
         fixed = n._replace(alpha=near_angle(n.alpha, tolerance))
         if abs(fixed.alpha - n.alpha) > PARALLEL:
-            yield "angle", n.alpha, fixed.alpha, compose(fixed, standard)
+            yield "angle", n.alpha, fixed.alpha, compose(fixed)
     if 0 < abs(n.a) <= tolerance:
-        yield "distance", n.a, 0.0, compose(fixed._replace(a=0.0), standard)
+        yield "distance", n.a, 0.0, compose(fixed._replace(a=0.0))
 
 
 def snap_table(table: DHTable, tolerance: float, qs: Array) -> tuple[DHTable, list[Change]]:

@@ -31,13 +31,11 @@ def carry(table: DHTable, source: ChainSource) -> DHTable:
 def _carried(
     row: DHRow, T_base_joint: Array, T_base_dh: Array, body: Inertial | None, drive: Actuation
 ) -> DHRow:
+    """The row with its drive, and with a body given in the chain's frame of its joint."""
     row = replace(row, **asdict(drive))
-    return row if body is None else _with_body(row, body, inverse(T_base_dh) @ T_base_joint)
-
-
-def _with_body(row: DHRow, body: Inertial, T_dh_joint: Array) -> DHRow:
-    """The row with a body given in the chain's frame of its joint."""
-    moved = body.moved(T_dh_joint)
+    if body is None:
+        return row
+    moved = body.moved(inverse(T_base_dh) @ T_base_joint)
     x, y, z = (float(v) for v in _cleared(moved.com, 1e-3))
     m = _cleared(0.5 * (moved.inertia + moved.inertia.T), 0.0)
     return replace(row, mass=body.mass, com=(x, y, z), inertia=six_of(m))

@@ -51,19 +51,11 @@ def typed_to_chain(
 ) -> SerialChain:
     """The chain of typed axes, all given in the base frame at q = 0.
 
-    Parameters
-    ----------
-    source : array_like
-        Shape (n, 6): screw axes ``(omega, v)`` with ``v = -omega x p`` for a point p on the axis
-        [m], or ``omega = 0`` and the direction v of a sliding joint (Lynch and Park, *Modern
-        Robotics*, section 4.1). Shape (n, 2, 3): a direction and a point [m] each. Shape
-        (n, 4, 4): frames with z along the axis.
-    joint_types : str or sequence, optional
-        Such as ``"RRPR"``; all revolute where left out. Screws tell it themselves.
-    tool : array_like, shape (4, 4), optional
-        ``T_base_tool`` at q = 0. Without it the tool is the last joint's frame.
-    names : sequence of str, optional
-        Joint names; ``joint_1``, ... where left out.
+    Shape (n, 6): screw axes ``(omega, v)`` with ``v = -omega x p`` for a point p on the axis [m],
+    or ``omega = 0`` and the direction v of a sliding joint (Lynch and Park, *Modern Robotics*,
+    section 4.1). Shape (n, 2, 3): a direction and a point [m] each. Shape (n, 4, 4): frames with
+    z along the axis. All joints turn where ``joint_types`` is left out, but screws tell it
+    themselves; without ``tool``, ``T_base_tool`` at q = 0, it is the last joint's frame.
 
     Raises
     ------
@@ -72,9 +64,29 @@ def typed_to_chain(
     PoseError
         A frame or tool that is not a rigid pose.
     """
+    given = _checked(source)
+    if given.shape[1:] == (4, 4):
+        frames, types = list(tf.check_pose(given, what="joint frames")), _types(joint_types, given)
+    elif given.shape[1:] == (6,):
+        frames, types = _screws(given)
+    else:
+        types = _types(joint_types, given)
+        frames = [_frame(i, axis, point) for i, (axis, point) in enumerate(given, 1)]
+    poses = [np.eye(4), *frames, frames[-1] if tool is None else _tool_pose(tool)]
+    n = len(frames)
+    return SerialChain(
+        links=np.stack([tf.inverse(a) @ b for a, b in pairwise(poses)]),
+        joint_types=types,
+        names=_names(names, n),
+        lower=np.full(n, -math.inf),
+        upper=np.full(n, math.inf),
+    )
+
+
+def _checked(source: ArrayLike) -> Array:
+    """Typed axes of one of the three shapes, their numbers within bounds."""
     given = real_array(source, "joint axes", "numbers", UrdfError)
-    shaped = given.ndim in (2, 3) and given.shape[1:] in ((6,), (2, 3), (4, 4)) and len(given) > 0
-    if not shaped:
+    if given.shape[1:] not in ((6,), (2, 3), (4, 4)) or len(given) == 0:
         raise UrdfError(
             f"joint axes of shape {given.shape}: allowed are (n, 6) screws, (n, 2, 3) directions "
             "and points, (n, 4, 4) frames"
@@ -84,31 +96,15 @@ def typed_to_chain(
     fits = (np.abs(given) <= LENGTH).reshape(len(given), -1).all(axis=1)
     if not fits.all():
         raise UrdfError(f"joint {int(np.argmin(fits)) + 1}: NaN, infinity or beyond {LENGTH:.0e}")
-    if given.shape[1:] == (4, 4):
-        frames, types = list(tf.check_pose(given, what="joint frames")), _types(joint_types, given)
-    elif given.shape[1:] == (6,):
-        frames, types = _screws(given)
-    else:
-        types = _types(joint_types, given)
-        frames = [_frame(i, axis, point) for i, (axis, point) in enumerate(given, 1)]
-    n = len(frames)
-    T_base_tool = frames[-1]
-    if tool is not None:
-        matrix = real_array(
-            getattr(tool, "homogeneous", tool), "tool", "a (4, 4) matrix", UrdfError
-        )
-        if matrix.shape != (4, 4) or not (np.abs(matrix) <= LENGTH).all():
-            raise UrdfError(f"tool: expected one (4, 4) matrix of numbers up to {LENGTH:g}")
-        T_base_tool = tf.check_pose(matrix, what="tool")
-    labels = _names(names, n)
-    poses = [np.eye(4), *frames, T_base_tool]
-    return SerialChain(
-        links=np.stack([tf.inverse(a) @ b for a, b in pairwise(poses)]),
-        joint_types=types,
-        names=labels,
-        lower=np.full(n, -math.inf),
-        upper=np.full(n, math.inf),
-    )
+    return given
+
+
+def _tool_pose(tool: ArrayLike) -> Array:
+    given = getattr(tool, "homogeneous", tool)
+    matrix = real_array(given, "tool", "a (4, 4) matrix", UrdfError)
+    if matrix.shape != (4, 4) or not (np.abs(matrix) <= LENGTH).all():
+        raise UrdfError(f"tool: expected one (4, 4) matrix of numbers up to {LENGTH:g}")
+    return tf.check_pose(matrix, what="tool")
 
 
 def _list(given: object, what: str, expected: str, n: int) -> list[Any]:
