@@ -59,13 +59,7 @@ class Change:
 
 
 def snap_tolerance(snap: float | bool | None) -> float:
-    """The tolerance that an argument ``snap`` stands for; 0 for none.
-
-    Raises
-    ------
-    UrdfError
-        Not a number between 0 and 0.1.
-    """
+    """The tolerance that an argument ``snap`` stands for, 0 for none; at most 0.1."""
     if snap is None or snap is False:
         return 0.0
     if snap is True:

@@ -71,20 +71,12 @@ def carried_joint_frames(model: pin.Model, path: ChainPath, chain: SerialChain) 
 
 @dataclass(frozen=True, eq=False)
 class Coupling:
-    """``q_chain = matrix @ q + offset``.
+    """``q_chain = matrix @ q + offset``, with matrix (chain.n, n) and offset (chain.n,).
 
-    Parameters
-    ----------
-    matrix : array, shape (chain.n, n)
-    offset : array, shape (chain.n,)
-    names : tuple of n str
-        The leading joints.
-    lower, upper : array, shape (n,)
-        Bounds within which every follower stays in its own.
-    first : tuple of n int
-        For each value, the first joint of the chain that it moves.
-    warnings : tuple of str
-        Joints whose own bounds leave nothing of those of the others, and so count for nothing.
+    ``names`` are the n leading joints, ``lower`` and ``upper`` the bounds within which every
+    follower stays in its own, ``first`` for each value the first joint of the chain that it
+    moves. ``warnings`` name joints whose own bounds leave nothing of those of the others, and so
+    count for nothing.
     """
 
     matrix: Array
@@ -117,9 +109,8 @@ def couple(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
         matrix[k, v] = factor
         first[v] = min(first[v], k)
         if factor:
-            ends = sorted(
-                ((bound - constant) / factor) for bound in (chain.lower[k], chain.upper[k])
-            )
+            own = chain.lower[k], chain.upper[k]
+            ends = sorted((bound - constant) / factor for bound in own)
             low, high = max(lower[v], ends[0]), min(upper[v], ends[1])
             if low <= high:
                 lower[v], upper[v] = low, high

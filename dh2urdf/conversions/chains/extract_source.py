@@ -61,15 +61,8 @@ def read_source(
 
 
 def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
-    found = ChainSource(
-        chain,
-        name,
-        "base",
-        "tool",
-        bodies=(None,) * chain.n,
-        drives=(Actuation(),) * chain.n,
-        origin=origin,
-    )
+    bodies, drives = (None,) * chain.n, (Actuation(),) * chain.n
+    found = ChainSource(chain, name, "base", "tool", bodies, drives, origin=origin)
     return Source(found, screw_referee(chain))
 
 
@@ -90,13 +83,13 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
     given = read_description(source, base, tip)
     found = tree_to_chain(given.tree, given.base, given.tip)
     found = replace(found, warnings=(*given.mends, *found.warnings))
+    model, names = given.model, (found.base, found.tip)
     if given.addresses:
-        names = found.base, found.tip
-        ends = [0 if name == given.tree.root else frame_id(given.model, name) for name in names]
+        ends = [0 if name == given.tree.root else frame_id(model, name) for name in names]
         indices = [given.addresses[name] for name in found.chain.names]
-        return Source(found, addressed_referee(given.model, ends[0], ends[1], indices))
-    base_tip = frame_id(given.model, found.base), frame_id(given.model, found.tip)
-    referee = model_referee(given.model, *base_tip, found.chain.names)
+        return Source(found, addressed_referee(model, ends[0], ends[1], indices))
+    start, end = (frame_id(model, name) for name in names)
+    referee = model_referee(model, start, end, found.chain.names)
     return Source(found, referee, _embedded(given.root, given.tree.where, found))
 
 

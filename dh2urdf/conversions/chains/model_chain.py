@@ -49,13 +49,7 @@ def tip_names(model: pin.Model) -> list[str]:
 
 
 def frame_id(model: pin.Model, name: str) -> int:
-    """Index of a link, or else of any frame, by name.
-
-    Raises
-    ------
-    NameNotFoundError
-        No such frame; the message lists the links.
-    """
+    """Index of a link, or else of any frame, by name; NameNotFoundError lists the links."""
     instance(model, "model", pin.Model), text(name, "base or tip")
     for kind in (pin.FrameType.BODY, pin.FrameType.FIXED_JOINT, pin.FrameType.OP_FRAME):
         if model.existFrame(name, kind):
@@ -64,13 +58,7 @@ def frame_id(model: pin.Model, name: str) -> int:
 
 
 def chain_path(model: pin.Model, base: int, tip: int) -> ChainPath:
-    """The joints between frames base and tip (indices).
-
-    Raises
-    ------
-    UrdfError
-        No joint between them, or one with more than one degree of freedom.
-    """
+    """The joints between frames base and tip (indices), each of one degree of freedom."""
     up = list(model.supports[model.frames[base].parentJoint])
     down = list(model.supports[model.frames[tip].parentJoint])
     while up and down and up[0] == down[0]:
@@ -111,11 +99,10 @@ def model_to_chain(model: pin.Model, path: ChainPath) -> SerialChain:
         turn[:3, :3] = frame_with_z(-axis if k < path.up else axis)
         frames.append(data.oMi[i].homogeneous @ turn)
     frames.append(data.oMf[path.tip].homogeneous)
-    links = [_relative(a, b) for a, b in pairwise(frames)]
     slides = [kind is JointType.PRISMATIC for kind in types]
     lower, upper = zip(*map(_limits, [model] * len(types), path.ids, slides), strict=True)
     return SerialChain(
-        links=np.stack(links),
+        links=np.stack([_relative(a, b) for a, b in pairwise(frames)]),
         joint_types=tuple(types),
         names=tuple(model.names[i] for i in path.ids),
         lower=np.array(lower),
@@ -231,15 +218,7 @@ def _drive(model: pin.Model, i: int) -> Actuation:
 
 
 def _default_tip(model: pin.Model, base: int) -> int:
-    """The tip with the most joints from the base.
-
-    Among tips on the same last joint a usual name wins, then the last in the file.
-
-    Raises
-    ------
-    UrdfError
-        Tips of different branches with equally many joints; the message lists them.
-    """
+    """The tip with the most joints from the base; on one last joint a usual name, or the last."""
     found: dict[tuple[int, ...], list[int]] = {}
     refused = UrdfError("the model has no chain of revolute and prismatic joints")
     for name in tip_names(model):

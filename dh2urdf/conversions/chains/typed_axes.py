@@ -177,13 +177,7 @@ def _frame(i: int, axis: Array, point: Array) -> Array:
 
 
 def read_axes(path: Path) -> tuple[SerialChain, str]:
-    """The chain of a file of joint axes, and its name.
-
-    Raises
-    ------
-    UrdfError
-        Not such a file; the message names the key.
-    """
+    """The chain of a file of joint axes, and its name; UrdfError names the key that is wrong."""
     where = shown(path)
     try:
         content = yaml_values(read_text(path, TABLE_BYTES, UrdfError), where)

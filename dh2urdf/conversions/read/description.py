@@ -131,17 +131,11 @@ def _from_mjcf(root: etree._Element, path: Path, base: str | None, tip: str | No
 
 
 def bare_model(tree: KinematicTree, root: etree._Element, chain: Collection[str]) -> pin.Model:
-    """Pinocchio's model of a URDF: its links with their inertias, its joints and their numbers.
+    """Pinocchio's model of a URDF, its joints off the chain held at 0.
 
-    The numbers of origins and axes are the file's own, read anew; nothing else is left for
-    urdfdom to stumble over.
-
-    Parameters
-    ----------
-    root : lxml element
-        The document, as :func:`~dh2urdf.conversions.read.urdf_tree.read_urdf` leaves it.
-    chain : collection of str
-        Joints that move; all others are held at 0.
+    The numbers of origins and axes are those of the document as
+    :func:`~dh2urdf.conversions.read.urdf_tree.read_urdf` leaves it, read anew; nothing else is
+    left for urdfdom to stumble over.
     """
     robot = etree.Element("robot", name=tree.name)
     for name, link in tree.links.items():

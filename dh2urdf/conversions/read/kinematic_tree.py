@@ -157,13 +157,7 @@ class KinematicTree:
 
 
 def find_path(tree: KinematicTree, base: str, tip: str) -> list[Step]:
-    """All joints from base up to the common ancestor and down to the tip.
-
-    Raises
-    ------
-    NameNotFoundError, UrdfError
-        No such link, nothing moves between them, or a joint of another kind is on the way.
-    """
+    """All joints from base up to the common ancestor and down to the tip, some of them moving."""
     steps = _way(tree, tree.check_link(base), tree.check_link(tip))
     ends, moving = f"{shown(base)!r} and {shown(tip)!r}", 0
     for step in steps:
@@ -188,13 +182,7 @@ def choose_ends(tree: KinematicTree, base: str | None, tip: str | None) -> tuple
 
     Among leaves on one last joint a usual name (``tool0``, ...) wins, then the deepest, then the
     last in the file. Where several branches are equally long but share most of their joints, a
-    hand on an arm, the chain ends at the link where they part.
-
-    Raises
-    ------
-    NameNotFoundError
-    UrdfError
-        Several chains of the same length; the message offers their tips.
+    hand on an arm, the chain ends at the link where they part; else UrdfError offers their tips.
     """
     start = tree.root if base is None else tree.check_link(base)
     if tip is not None:

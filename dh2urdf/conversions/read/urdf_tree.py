@@ -24,35 +24,20 @@ def read_urdf(
 ) -> KinematicTree:
     """Links and joints of a ``<robot>``; what is mended is mended in the document too.
 
-    Parameters
-    ----------
-    where : str
-        Name of the file, for messages.
-    base, tip : str, optional
-        Ends of the chain that is wanted, which tell what of a broken tree matters.
-
-    Raises
-    ------
-    UrdfError
-        Too large, or links and joints that matter do not form one tree.
+    ``base`` and ``tip`` are the ends of the chain that is wanted: they tell what of a broken tree
+    matters. A file that is too large raises UrdfError, as do links and joints that matter and do
+    not form one tree; ``where`` names the file in messages.
     """
     if root.tag != "robot":
         raise UrdfError(f"{where}:{root.sourceline}: root element is <{root.tag}>, not <robot>")
     for tag in ("link", "joint"):
         if count_elements(root, tag, where) == 0:
             raise UrdfError(f"{where}:{root.sourceline}: <robot> has no {tag}s")
-    forest = _Forest(root, UrdfReader(where))
-    return forest.tree(base, tip)
+    return _Forest(root, UrdfReader(where)).tree(base, tip)
 
 
 def count_elements(root: etree._Element, tag: str, where: str) -> int:
-    """Number of links or joints of a ``<robot>``.
-
-    Raises
-    ------
-    UrdfError
-        More than are read.
-    """
+    """Number of links or joints of a ``<robot>``; more than are read raise UrdfError."""
     count = sum(1 for _ in root.iterchildren(tag))
     if count > LINKS:
         raise UrdfError(f"{where}:{root.sourceline}: {count} {tag}s; up to {LINKS} are read")
