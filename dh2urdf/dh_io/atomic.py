@@ -50,7 +50,6 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
         sign = error.object[error.start]
         raise OutputError(f"{shown(where)}: cannot write {sign!r} as UTF-8") from None
     try:
-        target = Path(os.path.realpath(where))
         mode = None
         with contextlib.suppress(FileNotFoundError):
             mode = where.stat().st_mode
@@ -61,9 +60,7 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
             with open(where, "wb", opener=opener) as stream:
                 stream.write(data)
             return where
-        if mode is not None and not os.access(target, os.W_OK):
-            raise PermissionError(errno.EACCES, "")
-        _replace(target, data, mode)
+        _replace(Path(os.path.realpath(where)), data, mode)
     except (OSError, ValueError) as error:
         raise OutputError(f"{where}: cannot write: {_reason(error)}") from None
     return where
@@ -98,6 +95,8 @@ def _with_reader(path: str, flags: int) -> int:
 
 def _replace(target: Path, data: bytes, mode: int | None) -> None:
     """Write data beside the target, then move it into place."""
+    if mode is not None and not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, "")
     handle, temporary = tempfile.mkstemp(prefix=".dh2urdf-", suffix=".tmp", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
