@@ -1,10 +1,10 @@
 """The certificate: candidates of any solver become solutions of the exact chain, or nothing.
 
 `newton` is Newton's method and the residual; `certify` accepts what reaches the target and keeps
-each solution once; `double_roots` unites those that the residual cannot tell apart (``FLAT``);
-`singular_families` finds the joints that move freely; `finish` does the last two for a pose and for
-a batch, `arrange` turns solutions to a seed. `damped` and `numeric` are least squares from any
-start, `newton_6r` is Newton in lanes, `reverse` brings solutions of the reversed chain back.
+each solution once; `singular_families` finds the joints that move freely; `finish` does the latter
+for a pose and for a batch, and for what a solver of the reversed chain found, after it has united
+solutions that the residual cannot tell apart (``FLAT``); `arrange` turns solutions to a seed.
+`damped` and `numeric` are least squares from any start, `newton_6r` is Newton in lanes.
 """
 
 from dh2urdf.kernels.certificate.arrange import measure_all, measure_and_sort, turn_to
@@ -17,6 +17,7 @@ from dh2urdf.kernels.certificate.certify import (
     TWO_PI,
     copy_rows,
     finish_pose,
+    is_known,
     move,
     principal,
     same,
@@ -29,7 +30,15 @@ from dh2urdf.kernels.certificate.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.certificate.finish import ALL_MEMBERS, finish_batch, finish_families
+from dh2urdf.kernels.certificate.finish import (
+    ALL_MEMBERS,
+    finish_batch,
+    finish_families,
+    invert_pose,
+    invert_poses,
+    reverse_joints,
+    turn_back,
+)
 from dh2urdf.kernels.certificate.newton import (
     MAX_TURN,
     POLISH,
@@ -40,5 +49,4 @@ from dh2urdf.kernels.certificate.newton import (
 )
 from dh2urdf.kernels.certificate.newton_6r import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.certificate.numeric import find_solutions
-from dh2urdf.kernels.certificate.reverse import invert_pose, invert_poses, reverse_joints, turn_back
 from dh2urdf.kernels.certificate.singular_families import free_joints, null_direction

@@ -45,17 +45,24 @@ def principal(angle):
 
 @inner_kernel
 def same(joints, q, p, reach, free):
-    """Whether two configurations with principal angles differ by at most ``reach`` a joint.
+    """Whether two configurations differ by at most ``reach`` a joint, up to full turns.
 
     The joints in the mask ``free`` may differ by any amount.
     """
     for i in range(q.shape[0]):
-        gap = abs(q[i] - p[i])
-        if (free >> i) & 1:
-            continue
-        if gap > reach and (joints[i, 0] != 0.0 or gap < TWO_PI - reach):
+        gap = q[i] - p[i] if joints[i, 0] != 0.0 else principal(q[i] - p[i])
+        if abs(gap) > reach and not (free >> i) & 1:
             return False
     return True
+
+
+@inner_kernel
+def is_known(joints, q, count, p):
+    """Whether p (n,) is one of the first rows of q (kmax, n)."""
+    for k in range(count):
+        if same(joints, q[k], p, CLUSTER, NO_JOINT):
+            return True
+    return False
 
 
 @inner_kernel
@@ -116,28 +123,11 @@ def copy_rows(source, count, target):
 def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
-    Parameters
-    ----------
-    links : array, shape (n + 1, 4, 4)
-    joints : array, shape (n, 3)
-        Sliding, lower, upper.
-    T : array, shape (4, 4)
-        Target ``T_base_tool``.
-    within_limits : bool
-        Drop what no full turn brings into the limits; a free joint may be outside, for another
-        member of its family may not.
-    q : array, shape (kmax, n)
-        Candidates in the first ``count`` rows, any turn.
-    residual : array, shape (kmax,)
-        Residuals that the caller measured on the exact chain, or negative: not yet.
-    branch, free : int64 array, shape (kmax,)
-        Branch code and mask of free joints; moved along with their candidate.
-    count : int
-    work : array
-        From :func:`dh2urdf.kernels.certificate.newton.work_array`.
+    They are the first ``count`` rows of q (kmax, n), in any turn; ``residual`` has what the caller
+    measured on the exact chain, or a negative number: not yet. Branch codes and masks of free
+    joints move along. ``within_limits`` drops what no full turn brings into the limits; a free
+    joint may be outside, for another member of its family may not. ``work``: a `work_array`.
 
-    Notes
-    -----
     Two solutions are one if no joint differs by more than ``CLUSTER`` or the square root of
     their residual: on the rim of the workspace two branches meet as a square root. The one with
     the smaller residual stays, or the first if it reaches the pose to rounding.

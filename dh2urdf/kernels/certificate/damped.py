@@ -9,7 +9,13 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.newton import damped_step, residual_of, turn_between, work_array
+from dh2urdf.kernels.certificate.newton import (
+    damped_step,
+    residual_of,
+    turn_between,
+    way_between,
+    work_array,
+)
 from dh2urdf.kernels.chain import jacobian_rows
 from dh2urdf.kernels.numbers import inner_kernel
 
@@ -34,59 +40,43 @@ def make_damped(n):
 
 
 @inner_kernel
-def pose_and_jacobian(links, joints, T, q, unit, damped):
-    """Pose of q (n,) as twelve scalars; its error and the Jacobian's columns go to ``damped``.
+def error_and_jacobian(links, joints, task, T, q, unit, damped):
+    """Residual of q (n,) at a task [m and rad]; its error and the Jacobian go to ``damped``.
 
     The error is (position / unit, rotation vector as long as the sine of its angle) from the
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
     """
     J, _, e, _ = damped
     r = jacobian_rows(links, joints[:, 0], q, J)
-    e[0], e[1], e[2] = (T[0, 3] - r[3]) / unit, (T[1, 3] - r[7]) / unit, (T[2, 3] - r[11]) / unit
-    e[3], e[4], e[5], trace = turn_between(r, T)
-    if trace < 1.0:
-        size = max(math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]), 1e-6)
-        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
+    x, y, z = way_between(r, T)
+    e[0], e[1], e[2] = x / unit, y / unit, z / unit
     for i in range(q.shape[0]):
         J[i, 0], J[i, 1], J[i, 2] = J[i, 0] / unit, J[i, 1] / unit, J[i, 2] / unit
-    return r
-
-
-@inner_kernel
-def reduce_to_task(task, T, r, damped):
-    """Reduce error and Jacobian in ``damped`` to a task; the residual [m and rad].
-
-    The pose r is what :func:`pose_and_jacobian` found.
-    """
-    J, _, e, _ = damped
-    x, y, z = T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
     position = math.sqrt(x * x + y * y + z * z)
-    if task == POSE:
-        return residual_of(r, T)
     if task == POSITION:
-        for i in range(J.shape[0]):
+        for i in range(q.shape[0]):
             J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
         e[3], e[4], e[5] = 0.0, 0.0, 0.0
         return position
     zx, zy, zz = r[2], r[6], r[10]
-    for i in range(J.shape[0]):
-        along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
-        J[i, 3], J[i, 4], J[i, 5] = J[i, 3] - along * zx, J[i, 4] - along * zy, J[i, 5] - along * zz
-    e[3] = zy * T[2, 2] - zz * T[1, 2]
-    e[4] = zz * T[0, 2] - zx * T[2, 2]
-    e[5] = zx * T[1, 2] - zy * T[0, 2]
+    if task == POSE:
+        e[3], e[4], e[5], trace = turn_between(r, T)
+        beyond = trace < 1.0
+    else:
+        for i in range(q.shape[0]):
+            along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
+            for k, part in enumerate((zx, zy, zz)):
+                J[i, 3 + k] -= along * part
+        e[3] = zy * T[2, 2] - zz * T[1, 2]
+        e[4] = zz * T[0, 2] - zx * T[2, 2]
+        e[5] = zx * T[1, 2] - zy * T[0, 2]
+        beyond = zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0
     turn = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
-    if zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0:
+    if beyond:
         size = max(turn, 1e-6)
         e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
         turn = math.pi
-    return max(position, turn)
-
-
-@inner_kernel
-def error_and_jacobian(links, joints, task, T, q, unit, damped):
-    """:func:`pose_and_jacobian` of a task, and the residual of q against T."""
-    return reduce_to_task(task, T, pose_and_jacobian(links, joints, T, q, unit, damped), damped)
+    return residual_of(r, T) if task == POSE else max(position, turn)
 
 
 @inner_kernel

@@ -1,15 +1,14 @@
 """Newton's method on the exact chain, and the residual that it works on.
 
-A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joint: 1.0 where it
-slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none). A target T
-is a pose (4, 4), or a point (3,) for the tool's origin: then only the position counts.
+``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certificate.certify`. A target T is a pose
+(4, 4), or a point (3,) for the tool's origin: then only the position counts.
 """
 
 import math
 
 import numpy as np
 
-from dh2urdf.kernels.chain import joint_times_link, load_pose
+from dh2urdf.kernels.chain import jacobian_rows, joint_times_link, load_pose
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
 
 POLISH = 1e-13
@@ -94,37 +93,16 @@ def pose_residual(links, joints, T, q):
 def normal_equations(links, joints, T, q, work):
     """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
 
-    J is the geometric Jacobian at the tip in base axes (Spong, eqs. 4.57 to 4.60). Written to
-    ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
+    J as of :func:`jacobian_rows`. Written to ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
     """
-    n = q.shape[0]
-    r = load_pose(links[0])
-    for i in range(n):
-        work[i, 0], work[i, 1], work[i, 2] = r[3], r[7], r[11]
-        work[i, 3], work[i, 4], work[i, 5] = r[2], r[6], r[10]
-        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    r = jacobian_rows(links, joints[:, 0], q, work)
     px, py, pz = way_between(r, T)
     ex, ey, ez = 0.0, 0.0, 0.0
     if T.ndim == 2:
         ex, ey, ez, _ = turn_between(r, T)
-    for i in range(n):
-        zx, zy, zz = work[i, 3], work[i, 4], work[i, 5]
-        if joints[i, 0] != 0.0:
-            work[i, 0], work[i, 1], work[i, 2] = zx, zy, zz
-            work[i, 3], work[i, 4], work[i, 5] = 0.0, 0.0, 0.0
-        else:
-            x, y, z = r[3] - work[i, 0], r[7] - work[i, 1], r[11] - work[i, 2]
-            work[i, 0] = zy * z - zz * y
-            work[i, 1] = zz * x - zx * z
-            work[i, 2] = zx * y - zy * x
-        work[i, 6] = (
-            work[i, 0] * px
-            + work[i, 1] * py
-            + work[i, 2] * pz
-            + work[i, 3] * ex
-            + work[i, 4] * ey
-            + work[i, 5] * ez
-        )
+    for i in range(q.shape[0]):
+        linear = work[i, 0] * px + work[i, 1] * py + work[i, 2] * pz
+        work[i, 6] = linear + work[i, 3] * ex + work[i, 4] * ey + work[i, 5] * ez
         for j in range(i + 1):
             total = 0.0
             for k in range(6 if T.ndim == 2 else 3):

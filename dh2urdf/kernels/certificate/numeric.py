@@ -12,12 +12,11 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI
+from dh2urdf.kernels.certificate.certify import ACCEPT, is_known
 from dh2urdf.kernels.certificate.damped import (
     add_transposed,
+    error_and_jacobian,
     make_damped,
-    pose_and_jacobian,
-    reduce_to_task,
     solve_damped,
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
@@ -46,8 +45,7 @@ def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
         for v in range(q.shape[0]):
             total += coupling[k, v] * q[v]
         work[k] = total
-    r = pose_and_jacobian(links, joints, T, work, unit, whole)
-    residual = reduce_to_task(task, T, r, whole)
+    residual = error_and_jacobian(links, joints, task, T, work, unit, whole)
     for a in range(6):
         part[2][a] = whole[2][a]
         for v in range(q.shape[0]):
@@ -106,43 +104,14 @@ def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best,
     return least
 
 
-@inner_kernel
-def _is_new(bounds, q, found, count):
-    """Whether values q (n,) differ from all found ones by more than full turns."""
-    for k in range(count):
-        far = False
-        for i in range(q.shape[0]):
-            gap = abs(q[i] - found[k, i])
-            if bounds[i, 0] == 0.0:
-                gap = abs(gap - TWO_PI * math.floor(gap / TWO_PI + 0.5))
-            far = far or gap > CLUSTER
-        if not far:
-            return False
-    return True
-
-
 @kernel
 def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, starts, q, residual):
-    """Different solutions of one pose T (4, 4), from one start after the other.
+    """Different solutions of one pose T (4, 4), from one start (s, n) after the other.
 
-    Parameters
-    ----------
-    links, joints
-        The chain, see :mod:`dh2urdf.kernels.certificate.certify`; its size is ``unit`` [m].
-    coupling, offset : arrays, shapes (chain.n, n), (chain.n,)
-    bounds : array, shape (n, 3)
-        Sliding, lower, upper of the values.
-    task : int
-        See :mod:`dh2urdf.kernels.certificate.damped`.
-    starts : array, shape (s, n)
-        Overwritten.
-    q, residual : arrays, shapes (k, n), (k,), out
-        The search ends when they are full.
-
-    Returns
-    -------
-    count, tried : int
-        Number of solutions and of starts that were used.
+    The chain is of the size ``unit`` [m]; ``coupling`` (chain.n, n) and ``offset`` (chain.n,) lead
+    to its joints, ``bounds`` (n, 3) are of the values: sliding, lower, upper. Solutions go to q
+    (k, n) and ``residual`` (k,); the search ends when these are full. The starts are overwritten.
+    Returns the number of solutions and of starts that were used.
     """
     n, m = starts.shape[1], offset.shape[0]
     scratch = np.empty(m), np.empty(n), make_damped(m), make_damped(n)
@@ -152,7 +121,7 @@ def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, start
         least = _from_start(
             links, joints, coupling, offset, bounds, task, T, unit, starts[s], best, scratch
         )
-        if least <= ACCEPT and _is_new(bounds, best, q, count):
+        if least <= ACCEPT and not is_known(bounds, q, count, best):
             for i in range(n):
                 q[count, i] = best[i]
             residual[count] = least

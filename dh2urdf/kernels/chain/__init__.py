@@ -1,10 +1,12 @@
 """The serial chain: forward kinematics and Jacobian, one configuration and many.
 
 `forward` is the product of links and joints, `lanes` the same for a block of configurations side
-by side, `links` carries points and directions, `held_joint` holds one joint at a value.
+by side, `held_joint` holds one joint at a value.
 """
 
 from dh2urdf.kernels.chain.forward import (
+    applied,
+    applied_inverse,
     chain_fk_batch,
     chain_frames_batch,
     chain_jacobian_batch,
@@ -13,6 +15,7 @@ from dh2urdf.kernels.chain.forward import (
     load_pose,
     store_pose,
     times_link,
+    turned_back,
 )
 from dh2urdf.kernels.chain.held_joint import (
     held_links,
@@ -20,6 +23,6 @@ from dh2urdf.kernels.chain.held_joint import (
     held_poses,
     insert_held,
     insert_held_batch,
+    inverse_pose,
 )
 from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine
-from dh2urdf.kernels.chain.links import applied, applied_inverse, turned_back

@@ -62,15 +62,11 @@ def joint_times_link(r, slides, q, link):
 
 
 @helper_kernel
-def _load_row(link, i):
-    """The four scalars of a row of a pose."""
-    return link[i, 0], link[i, 1], link[i, 2], link[i, 3]
-
-
-@helper_kernel
 def load_pose(link):
     """The twelve scalars of a pose."""
-    return _load_row(link, 0) + _load_row(link, 1) + _load_row(link, 2)
+    first = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
+    second = link[1, 0], link[1, 1], link[1, 2], link[1, 3]
+    return first + second + (link[2, 0], link[2, 1], link[2, 2], link[2, 3])
 
 
 @helper_kernel
@@ -82,13 +78,32 @@ def store_pose(r, T):
     T[3, 0], T[3, 1], T[3, 2], T[3, 3] = 0.0, 0.0, 0.0, 1.0
 
 
-@njit(cache=True, nogil=True)
-def chain_fk(links, prismatic, q, T):
-    """``T_base_tool`` of one configuration q (n,), written to T (4, 4)."""
-    r = load_pose(links[0])
-    for i in range(q.shape[0]):
-        r = joint_times_link(r, prismatic[i], q[i], links[i + 1])
-    store_pose(r, T)
+@helper_kernel
+def applied(A, v):
+    """The point ``A v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z + A[0, 3],
+        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z + A[1, 3],
+        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z + A[2, 3],
+    )
+
+
+@helper_kernel
+def applied_inverse(A, v):
+    """The point ``A^-1 v``."""
+    return turned_back(A, (v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]))
+
+
+@helper_kernel
+def turned_back(A, v):
+    """The direction ``A^-1 v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[1, 0] * y + A[2, 0] * z,
+        A[0, 1] * x + A[1, 1] * y + A[2, 1] * z,
+        A[0, 2] * x + A[1, 2] * y + A[2, 2] * z,
+    )
 
 
 @njit(cache=True, nogil=True)
@@ -106,7 +121,10 @@ def chain_fk_batch(links, prismatic, q, T):
             lanes_fk(links, prismatic, q[first:last], T[first:last], x, S)
         else:
             for k in range(first, last):
-                chain_fk(links, prismatic, q[k], T[k])
+                r = load_pose(links[0])
+                for i in range(q.shape[1]):
+                    r = joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
+                store_pose(r, T[k])
                 finite &= math.isfinite(T[k, 0, 3])
     return finite
 

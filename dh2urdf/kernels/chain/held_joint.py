@@ -5,13 +5,13 @@ or the last of the chain, into the pose, and the rest is the same arm for every 
 """
 
 from dh2urdf.kernels.chain.forward import (
+    applied_inverse,
     joint_times_link,
     load_pose,
     store_pose,
     times_joint,
     times_link,
 )
-from dh2urdf.kernels.chain.links import applied_inverse
 from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
 
 UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
@@ -33,16 +33,16 @@ def held_pose(links, slides, k, value, T, out):
     of the chain up to ``links[n - 1]``.
     """
     if k == 0:
-        store_pose(times_link(_inverse(links[0]), T), out)
+        store_pose(times_link(inverse_pose(links[0]), T), out)
         store_pose(joint_times_link(UNMOVED, slides, -value, out), out)
     else:
-        store_pose(_inverse(links[links.shape[0] - 1]), out)
+        store_pose(inverse_pose(links[links.shape[0] - 1]), out)
         store_pose(times_joint(times_link(load_pose(T), out), slides, -value), out)
 
 
 @helper_kernel
-def _inverse(A):
-    """The twelve scalars of ``A^-1``."""
+def inverse_pose(A):
+    """The twelve scalars of ``A^-1`` for a rigid pose (4, 4)."""
     x, y, z = applied_inverse(A, (0.0, 0.0, 0.0))
     first, second = (A[0, 0], A[1, 0], A[2, 0], x), (A[0, 1], A[1, 1], A[2, 1], y)
     third = A[0, 2], A[1, 2], A[2, 2], z

@@ -5,9 +5,7 @@ array, entry e of lane i at ``S[BLOCK * e + i]``, and every loop over the lanes 
 length and no branch, which the compiler turns into vector instructions.
 """
 
-from numba import njit
-
-from dh2urdf.kernels.numbers import UNCACHED, VECTOR, lane_kernel
+from dh2urdf.kernels.numbers import entry_kernel, lane_kernel
 
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14
@@ -26,10 +24,6 @@ S4, S5, S6 = 2.75573137070700676789e-06, -2.50507602534068634195e-08, 1.58969099
 C1, C2, C3 = 4.16666666666666019037e-02, -1.38888888888741095749e-03, 2.48015872894767294178e-05
 C4, C5, C6 = -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.13596475577881948265e-11
 """Least maximum polynomials of sine and cosine on +-pi/4, published with fdlibm's k_sin, k_cos."""
-
-
-_lane_kernel = njit(cache=True, **UNCACHED, **VECTOR)
-"""Compiles with fused multiply-add and without a test of every division."""
 
 
 @lane_kernel
@@ -51,14 +45,14 @@ def cosine_sine(x):
     return sign * (-s if odd else c), sign * (c if odd else s)
 
 
-@_lane_kernel
+@entry_kernel
 def sincos_lanes(x, S):
     """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S."""
     for i in range(BLOCK):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = cosine_sine(x[i])
 
 
-@_lane_kernel
+@entry_kernel
 def _start(link, S):
     """All lanes at a link's pose."""
     for r in range(3):
@@ -68,7 +62,7 @@ def _start(link, S):
                 S[BLOCK * (4 * r + c) + i] = value
 
 
-@_lane_kernel
+@entry_kernel
 def _turn_and_step(link, S):
     """``T Rot_z(q) link`` in all lanes."""
     a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
@@ -86,7 +80,7 @@ def _turn_and_step(link, S):
             S[BLOCK * (4 * r + 3) + i] = x * a03 + y * a13 + z * a23 + p
 
 
-@_lane_kernel
+@entry_kernel
 def _slide(x, S):
     """``T Trans_z(q)`` in all lanes; the cosines and sines become those of no turn."""
     for i in range(BLOCK):
@@ -95,7 +89,7 @@ def _slide(x, S):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = 1.0, 0.0
 
 
-@_lane_kernel
+@entry_kernel
 def fits(q):
     """Whether every value of q (BLOCK, n) is a number up to ``LARGEST``."""
     outside = 0.0
@@ -105,7 +99,7 @@ def fits(q):
     return outside == 0.0
 
 
-@_lane_kernel
+@entry_kernel
 def lanes_fk(links, prismatic, q, T, x, S):
     """``T_base_tool`` T (BLOCK, 4, 4) of configurations q (BLOCK, n).
 

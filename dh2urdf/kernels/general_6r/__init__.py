@@ -2,8 +2,7 @@
 
 `poses` is the solver (after Raghavan and Roth 1993), `arm` what it knows of an arm; `roots` closes
 the loop and finds the values of the hidden joint: `elimination` and `resultant` make the
-polynomial, `arc_samples` and `arc_roots` its real roots; `follow` and `loop_angles` lead from a
-root to solutions.
+polynomial, `arc_samples` and `arc_roots` its real roots; `follow` leads from a root to solutions.
 """
 
 from dh2urdf.kernels.general_6r.poses import (

@@ -158,18 +158,13 @@ def _add(roots, slopes, count, angle, slope):
 def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
     """Append the real roots on one arc; their number.
 
-    Parameters
-    ----------
-    stack : (STACK, 19)
-        The arc's Bernstein coefficients in the first row; overwritten.
-    centre, half_tan, noise : float
-        Middle of the arc [rad], tangent of a quarter of its length, size of f that may be zero.
-    spans : (2, SPANS + 1), in and out
-        ``spans[0, 0]`` spans of doubt, each from ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f
-        is so small, or a root so uncertain, that it should be sampled anew.
-    roots, slopes : (24,), out
-        Angles [rad] and |f'| there; the slope is 0 where two roots (nearly) fall together or a
-        complex pair is close to the real axis. ``count`` are there already.
+    The first row of ``stack`` has the arc's Bernstein coefficients, and is overwritten; ``centre``
+    is its middle [rad], ``half_tan`` the tangent of a quarter of its length, ``noise`` the size of
+    f that may be zero. ``spans[0, 0]`` spans of doubt are widened or appended, each from
+    ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f is so small, or a root so uncertain, that it
+    should be sampled anew. ``roots`` and ``slopes`` (24,), of which ``count`` are there already,
+    get angles [rad] and |f'|; the slope is 0 where two roots (nearly) fall together or a complex
+    pair is close to the real axis.
     """
     stack[0, 17], stack[0, 18] = -half_tan, half_tan
     top = np.int64(0)

@@ -130,10 +130,7 @@ def window_arc(samples, half_tan, series, arcs):
     """
     for k in range(LANES):
         t = half_tan * NODE[k]
-        weight = 1.0 + t * t
-        weight *= weight
-        weight *= weight
-        samples[k] *= weight * weight
+        samples[k] *= (1.0 + t * t) ** DEGREE
     _transform(samples, WINDOW_TABLE, series)
     for i in range(TERMS):
         arcs[i, 0] = series[i]

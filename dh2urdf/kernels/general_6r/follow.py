@@ -7,12 +7,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import chain_frames, newton_step, pose_error
-from dh2urdf.kernels.general_6r.loop_angles import other_joints
-from dh2urdf.kernels.general_6r.resultant import resultants, split_pairs, two_joints
+from dh2urdf.kernels.certificate import TWO_PI, chain_frames, newton_step, pose_error
+from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
 from dh2urdf.kernels.numbers import LANES, MASK, inlined, null_vectors, vector_kernel
-
-TWO_PI = 2.0 * math.pi
 
 TOLERANCE = 1e-9
 """Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
@@ -140,7 +137,7 @@ def _place(k, found, out_q, out_residual, arm):
         far = 0.0
         for i in range(6):
             d = abs(q[i] - out_q[f, i])
-            far = max(far, min(d, 2.0 * math.pi - d))
+            far = max(far, min(d, TWO_PI - d))
         loose = max(residual, out_residual[f])
         if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
             place = f
@@ -228,9 +225,9 @@ def accounted(e, count, found, out_q, arm):
 
 
 @vector_kernel
-def isolated(found, kept, least):
-    """Whether no solution's Jacobian has a determinant below the least."""
-    for f in range(found):
-        if kept[f] < least:
-            return False
-    return True
+def how_many_below(values, count, least):
+    """How many of the first values are below the least."""
+    below = 0
+    for k in range(count):
+        below += 1 if values[k] < least else 0
+    return below

@@ -18,15 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST
-from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, isolated
-from dh2urdf.kernels.general_6r.roots import (
-    eliminate,
-    find_roots,
-    nudge,
-    place_target,
-    prepare,
-    simple_roots,
-)
+from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
+from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
 from dh2urdf.kernels.numbers import entry_kernel, inlined
 
 Array: TypeAlias = NDArray[np.float64]
@@ -140,17 +133,9 @@ def _place(arm: Arm, links: Array) -> None:
 
 
 def plan_general_6r(links: Array) -> Arm:
-    """Prepare an arm of six revolute joints.
+    """The record (1,) by which :func:`solve_general_6r` solves an arm with these links (7, 4, 4).
 
-    Parameters
-    ----------
-    links : (7, 4, 4)
-        ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
-
-    Returns
-    -------
-    array, shape (1,)
-        The record that `solve_general_6r` takes.
+    ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
     """
     arm = np.zeros(1, ARM_6R)
     _place(arm, links)
@@ -173,13 +158,13 @@ def replan_general_6r(arm: Arm, links: Array) -> Arm:
 @inlined
 def _solve_pose(T, out_q, out_residual, arm):
     """All solutions of one pose; their number."""
-    spans, first, trials = arm["spans"], arm["first"], arm["trials"]
+    spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
     place_target(T, arm)
     found = np.int64(0)
     first[0] = 1.0
     for trial in range(CROWDED_ATTEMPTS * trials):
         if trial == ATTEMPTS * trials and (
-            isolated(found, arm["kept"], CROWDED) or not isolated(found, arm["kept"], SINGULAR)
+            how_many_below(kept, found, CROWDED) == 0 or how_many_below(kept, found, SINGULAR) > 0
         ):
             break
         e = trial % trials
@@ -190,37 +175,29 @@ def _solve_pose(T, out_q, out_residual, arm):
         count = find_roots(arm)
         if count < 0:
             continue
-        simple = simple_roots(count, arm["slopes"])
+        # a double root has a slope of 0
+        simple = count - how_many_below(arm["slopes"], count, 1e-300)
         if count > 0:
             found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
             if trial == 0:
                 first[0], first[1] = seeded, spans[0, 0]
         whole = retried == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
-        apart = before > 0 and trial >= trials and isolated(found, arm["kept"], CROWDED)
+        apart = before > 0 and trial >= trials and how_many_below(kept, found, CROWDED) == 0
         clear = spans[1, 0] == 0.0 and (whole or apart)
         sure = seeded < COARSE if before == 0 else found == before
         fits = found % 2 == 0 and found >= simple and found + trial > 0
-        if clear and sure and fits and isolated(found, arm["kept"], SINGULAR):
+        if clear and sure and fits and how_many_below(kept, found, SINGULAR) == 0:
             break
     return found
 
 
 @entry_kernel
 def solve_general_6r(arms, Ts, out_q, out_residual, out_count):
-    """All solutions of many poses.
+    """All solutions of poses Ts (m, 4, 4), by a record ``arms`` (1,) of :func:`plan_general_6r`.
 
-    Parameters
-    ----------
-    arms : record array, shape (1,)
-        From `plan_general_6r`; not to be shared between threads.
-    Ts : array, shape (m, 4, 4)
-        Targets ``T_base_tool``.
-    out_q : array, shape (m, 16, 6), out
-        Joint angles in (-pi, pi] [rad].
-    out_residual : array, shape (m, 16), out
-        Larger of position error [m] and orientation error [rad].
-    out_count : int64 array, shape (m,), out
-        Number of solutions written.
+    Angles in (-pi, pi] go to out_q (m, 16, 6), the larger of position error [m] and orientation
+    error [rad] to out_residual (m, 16), how many there are to out_count (m,). The record is not to
+    be shared between threads.
     """
     arm = arms[0]
     if arm["ready"] == 0:

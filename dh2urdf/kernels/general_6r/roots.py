@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.chain import load_pose, times_link
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arc
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
@@ -55,18 +56,10 @@ NUDGE = 1e-3
 def place_target(T, arm):
     """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
     ends, chain, target, size = arm["ends"], arm["chain"], arm["target"], arm["size"]
-    for i in range(3):
-        for j in range(4):
-            target[4 * i + j] = T[i, j]
-    for i in range(3):
-        b0, b1, b2 = ends[0, i, 0], ends[0, i, 1], ends[0, i, 2]
-        x0 = b0 * T[0, 0] + b1 * T[1, 0] + b2 * T[2, 0]
-        x1 = b0 * T[0, 1] + b1 * T[1, 1] + b2 * T[2, 1]
-        x2 = b0 * T[0, 2] + b1 * T[1, 2] + b2 * T[2, 2]
-        x3 = b0 * T[0, 3] + b1 * T[1, 3] + b2 * T[2, 3] + ends[0, i, 3]
-        for j in range(4):
-            t = x0 * ends[1, 0, j] + x1 * ends[1, 1, j] + x2 * ends[1, 2, j]
-            chain[5, 4 * i + j] = (t + x3) / size if j == 3 else t
+    r = times_link(times_link(load_pose(ends[0]), T), ends[1])
+    for e in range(12):
+        target[e] = T[e // 4, e % 4]
+        chain[5, e] = r[e] / size if e % 4 == 3 else r[e]
 
 
 @vector_kernel
@@ -191,13 +184,3 @@ def find_roots(arm):
         spans[0, 0] = last
         k += 1
     return count
-
-
-@vector_kernel
-def simple_roots(count, slopes):
-    """How many of the roots are simple."""
-    simple = 0
-    for r in range(count):
-        if slopes[r] > 0.0:
-            simple += 1
-    return simple

@@ -9,18 +9,16 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import (
-    CLUSTER,
     MAX_TURN,
-    NO_JOINT,
     POLISH,
     POSE,
     error_and_jacobian,
+    is_known,
     make_damped,
     normal_equations,
     null_direction,
     pose_residual,
     principal,
-    same,
     work_array,
 )
 from dh2urdf.kernels.numbers import inner_kernel, kernel
@@ -74,15 +72,6 @@ def _converges(links, joints, T, q, A, step, damped):
     return pose_residual(links, joints, T, q) <= POLISH
 
 
-@inner_kernel
-def _is_known(joints, q, count, p):
-    """Whether p (n,) is one of the first rows of q (kmax, n)."""
-    for k in range(count):
-        if same(joints, q[k], p, CLUSTER, NO_JOINT):
-            return True
-    return False
-
-
 @kernel
 def search_beside(links, joints, Ts, q, count):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4).
@@ -102,6 +91,6 @@ def search_beside(links, joints, Ts, q, count):
                     trial[:] = q[i, k] + side * start
                     if not _converges(links, joints, Ts[i], trial, A, step, damped):
                         continue
-                    if count[i] < q.shape[1] and not _is_known(joints, q[i], count[i], trial):
+                    if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
                         q[i, count[i]] = trial
                         count[i] += 1

@@ -7,8 +7,6 @@ side by side), `poses` (checks of many poses).
 
 from dh2urdf.kernels.numbers.circles import circle_pair
 from dh2urdf.kernels.numbers.compiled import (
-    UNCACHED,
-    VECTOR,
     block_kernel,
     helper_kernel,
     inlined_kernel,
