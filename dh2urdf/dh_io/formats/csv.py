@@ -13,7 +13,9 @@ def read_csv(text: str, report: Report) -> Keys:
     for number, line in enumerate(text.split("\n"), 1):
         if not line.strip():
             continue
-        if line.lstrip().startswith("#") and not (delimiter == "" and _looks_like_header(line)):
+        # #,theta,d,a,alpha is a header, not a comment
+        heads = not delimiter and line.lstrip().startswith(("#,", "#;", "#\t"))
+        if line.lstrip().startswith("#") and not heads:
             if entry := metadata(line, number, report):
                 grid.meta.append(entry)
             continue
@@ -28,11 +30,6 @@ def read_csv(text: str, report: Report) -> Keys:
             hint = "the first row names the columns, in any order: name,type,theta,d,a,alpha"
             report.stop(Mark(number, 1), "no header row with theta, d, a and alpha", hint)
     return grid_document(grid, report)
-
-
-def _looks_like_header(line: str) -> bool:
-    """Tell ``#,theta,d,a,alpha`` from a comment."""
-    return any(line.lstrip().startswith("#" + mark) for mark in ",;\t")
 
 
 def _cells(line: str, number: int, delimiter: str, report: Report) -> list[Scalar]:
