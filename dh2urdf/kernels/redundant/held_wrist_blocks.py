@@ -62,7 +62,9 @@ def gather_samples(found, first, last, samples, q, residual, count, branch, free
         for k in range(samples):
             row = (i - first) * samples + k
             for r in range(some_count[row]):
-                q[i, total], residual[i, total] = some_q[row, r], some_residual[row, r]
+                for j in range(q.shape[2]):
+                    q[i, total, j] = some_q[row, r, j]
+                residual[i, total] = some_residual[row, r]
                 branch[i, total], free[i, total] = some_branch[row, r], some_free[row, r]
                 total += 1
         count[i] = total

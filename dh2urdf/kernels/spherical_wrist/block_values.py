@@ -53,14 +53,14 @@ def _values(form, joints, table, within_limits, n, S):
             for i in range(n):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
-        elif kind == NEGATED:
-            twice = 2.0 * sign * constant
-            for i in range(n):
-                S[target + i] = -twice - S[other + i]
         else:
-            for i in range(n):
-                S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
-        if kind != HALF_TURN:
+            if kind == NEGATED:
+                twice = 2.0 * sign * constant
+                for i in range(n):
+                    S[target + i] = -twice - S[other + i]
+            else:
+                for i in range(n):
+                    S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
             for i in range(n):
                 turns = (S[target + i] - middle) * PER_TURN
                 S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
@@ -112,8 +112,13 @@ def emit(form, joints, table, within_limits, place, named, first, n, S, out):
     solution, else -1.
     """
     _settle(form, joints, table, within_limits, n, S)
+    return _write(place, table[1], named, first, n, S, out)
+
+
+@block_kernel
+def _write(place, row_of, named, first, n, S, out):
+    """The second half of :func:`emit`."""
     q, residual, count, branch, free = out
-    row_of = table[1]
     clean = 0
     for i in range(n):
         found, row = 0, first + i
