@@ -1,19 +1,39 @@
-"""Any arm of six revolute joints: elimination, then Newton on the exact chain."""
+"""Any arm of six revolute joints: elimination, then Newton on the exact chain.
+
+Which eliminations suit an arm is found by trying all twelve on random poses.
+"""
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task, notice_if_slow
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.transforms import Array
 
-if TYPE_CHECKING:
-    from dh2urdf.kernels.general_6r import Arm
+Arm: TypeAlias = NDArray[np.void]
+"""What the kernel knows of an arm, and the arrays that it works in: one record."""
+
+TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
+"""Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
+
+POSES = 24
+"""Random poses on which each elimination is tried."""
+
+USABLE = 0.3
+"""Part of the best elimination's solutions that another must find to be kept."""
+
+WORTH = 0.03
+"""Solutions a pose that one more digit in the seeds outweighs."""
+
+DEAREST = 6.0
+"""Most digits that spans of doubt, which take time, count for."""
 
 TRIALS = 6
 """Random poses by which a plan is tried."""
@@ -41,15 +61,11 @@ class General6R(SolverBase):
     @cached_property
     def plan(self) -> Arm:
         """The eliminations that suit the arm; they are chosen when first asked for."""
-        from dh2urdf.kernels.general_6r import plan_general_6r
-
         with notice_if_slow():
             return plan_general_6r(self.links)
 
     def like(self, chain: SerialChain) -> General6R:
         """The solver of a chain that differs little, with the same eliminations if they do."""
-        from dh2urdf.kernels.general_6r import replan_general_6r
-
         solver = General6R(chain, self.task)
         solver.plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))
         return solver if solver.finds_itself() else General6R(chain, self.task)
@@ -91,3 +107,109 @@ class General6R(SolverBase):
         """Solve poses Ts (m, 4, 4) in two jitted calls."""
         self.solve_unfinished(Ts, out)
         self._finish(self.links, self.joints, Ts, within_limits, *out)
+
+
+def _z(angle: float, offset: float) -> Array:
+    """Turn about z, then shift along it."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, offset], [0, 0, 0, 1.0]])
+
+
+def _short_links(links: Array) -> Array:
+    """The same chain with each joint's origin slid along its axis, so that the links are short.
+
+    Minimises ``sum |t_i - a_i e3 + a_(i+1) R_i e3|^2`` over the slides a_1 ... a_6.
+    """
+    matrix, rhs = np.zeros((15, 6)), np.zeros(15)
+    for i in range(1, 6):
+        rows = slice(3 * i - 3, 3 * i)
+        matrix[rows, i - 1] = [0.0, 0.0, -1.0]
+        matrix[rows, i] = links[i, :3, 2]
+        rhs[rows] = -links[i, :3, 3]
+    slides = np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0]
+    short = links.copy()
+    for i in range(6):
+        short[i] = short[i] @ _z(0.0, slides[i])
+        short[i + 1] = _z(TURN[i], -slides[i]) @ short[i + 1]
+    return short
+
+
+def _flat(transforms: Array) -> Array:
+    """Rows (12,) of transforms (k, 4, 4)."""
+    return np.ascontiguousarray(transforms[:, :3, :]).reshape(-1, 12)
+
+
+def _random_poses(links: Array) -> Array:
+    """Reachable poses (POSES, 4, 4), the same ones each time."""
+    rng = np.random.default_rng(0)
+    poses = np.empty((POSES, 4, 4))
+    for m, q in enumerate(rng.uniform(-math.pi, math.pi, (POSES, 6))):
+        T = links[0]
+        for i in range(6):
+            T = T @ _z(q[i], 0.0) @ links[i + 1]
+        poses[m] = T
+    return poses
+
+
+def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
+    """The eliminations to keep, best first: by solutions found, then by precision."""
+    from dh2urdf.kernels.general_6r import MOST, solve_general_6r
+
+    eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
+    outputs = np.empty((1, 16, 6)), np.empty((1, 16)), np.zeros(1, np.int64)
+    found, digits = np.zeros(12), np.zeros(12)
+    for k, elimination in enumerate(eliminations):
+        _choose(arm, [elimination])
+        for m in range(POSES):
+            solve_general_6r(arm, poses[m : m + 1], *outputs)
+            seeded, spans = arm["first"][0]
+            found[k] += outputs[2][0] / POSES
+            digits[k] -= min(math.log10(max(seeded, 1e-16)) + min(spans, DEAREST), 0.0) / POSES
+    order = np.argsort(-found - digits * WORTH)
+    return [eliminations[k] for k in order if found[k] >= USABLE * found.max()][:MOST]
+
+
+def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
+    """Prepare some eliminations."""
+    from dh2urdf.kernels.general_6r import solve_general_6r
+
+    arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
+    arm["ready"] = 0
+    solve_general_6r(
+        arm, np.empty((0, 4, 4)), np.empty((0, 16, 6)), np.empty((0, 16)), np.empty(0, np.int64)
+    )
+
+
+def _place(arm: Arm, links: Array) -> None:
+    """Set the links (7, 4, 4) of an arm."""
+    short = _short_links(links)
+    size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
+    arm["links"], arm["size"], arm["ends"] = _flat(links), size, np.linalg.inv(short[[0, 6]])
+    arm["turns"] = np.cos(TURN), np.sin(TURN), TURN
+    arm["chain"][0, :5] = _flat(short[1:6])
+    arm["chain"][0, :5, 3::4] /= size
+
+
+def plan_general_6r(links: Array) -> Arm:
+    """The record (1,) by which the kernel solves an arm with these links (7, 4, 4).
+
+    ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
+    """
+    from dh2urdf.kernels.general_6r import ARM_6R
+
+    arm = np.zeros(1, ARM_6R)
+    _place(arm, links)
+    _choose(arm, _rank(arm, _random_poses(links)))
+    return arm
+
+
+def replan_general_6r(arm: Arm, links: Array) -> Arm:
+    """The record of an arm with other links (7, 4, 4), with the eliminations of an arm.
+
+    Some 20 times faster than :func:`plan_general_6r`. Eliminations that are good for one arm are
+    so for nearly all that differ in the value of a held joint.
+    """
+    other = arm.copy()
+    _place(other, links)
+    _choose(other, [tuple(row) for row in arm["choices"][0, : arm["trials"][0]].tolist()])
+    return other

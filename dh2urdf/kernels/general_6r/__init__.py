@@ -5,9 +5,5 @@ the loop and finds the values of the hidden joint: `elimination` and `resultant`
 polynomial, `arc_samples` and `arc_roots` its real roots; `follow` leads from a root to solutions.
 """
 
-from dh2urdf.kernels.general_6r.poses import (
-    Arm,
-    plan_general_6r,
-    replan_general_6r,
-    solve_general_6r,
-)
+from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST
+from dh2urdf.kernels.general_6r.poses import solve_general_6r

@@ -15,7 +15,8 @@ from general_6r_arms import (
 )
 from margins import assert_apart, assert_margin
 
-from dh2urdf.kernels.general_6r.poses import plan_general_6r, replan_general_6r, solve_general_6r
+from dh2urdf.ik.families.general_6r import plan_general_6r, replan_general_6r
+from dh2urdf.kernels.general_6r import solve_general_6r
 
 
 def solve_poses(rows, poses):
