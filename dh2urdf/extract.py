@@ -7,7 +7,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from dh2urdf.conversions.assign import XRule
+from dh2urdf.conversions.assign import (
+    XRule,
+    chain_to_dh,
+    explain_frames,
+    flip_signs,
+    near_misses,
+    references,
+    snap_chain,
+    snap_table,
+    snap_tolerance,
+)
 from dh2urdf.dh import DHConvention, DHTable, JointType
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io.files import shown
@@ -131,16 +141,6 @@ def extract_dh(
         The table differs from the source by more than rounding (only with ``compact=False``,
         where a common normal is too far away for sixteen digits).
     """
-    from dh2urdf.conversions.assign import (
-        chain_to_dh,
-        explain_frames,
-        flip_signs,
-        near_misses,
-        references,
-        snap_chain,
-        snap_table,
-        snap_tolerance,
-    )
     from dh2urdf.conversions.chains import carry, configurations, read_source, table_poses
 
     convention = convention_of(convention)
@@ -175,16 +175,11 @@ def extract_dh(
     table = carry(assigned.table, found)
     error = pose_error(table_poses(table, qs), truth)
     if tolerance == 0 and not error <= allowed:
-        hint = "" if compact else "; leave compact on, or snap"
-        raise VerificationError(
-            f"{found.name}: the table differs from Pinocchio's reading of the source by "
-            f"{error:.3g} (allowed {allowed:.1g}){hint}"
-        )
+        raise VerificationError(_refusal(found.name, error, allowed, compact))
     origin = f"{SIGNATURE} from {found.origin}, {found.base} to {found.tip}"
     checked = f"against Pinocchio, {_largest(error, len(qs))}"
     table = replace(table, source=origin, checked=checked)
-    steps = explain_frames(assigned, chain)
-    ends = found.base, found.tip
+    steps, ends = explain_frames(assigned, chain), (found.base, found.tip)
     return Extraction(table, *ends, error, len(qs), steps, tuple(changes), tuple(warnings))
 
 
@@ -193,6 +188,15 @@ def _assigned_anew(written: DHTable, error: float) -> str:
     differs = f"differs from its joints by {error:.2g}"
     misfit = f"has {written.n} joints" if error == math.inf else differs
     return f"the table that the file carries {misfit}; frames are assigned anew"
+
+
+def _refusal(name: str, error: float, allowed: float, compact: bool) -> str:
+    """Why a table that was found is not given."""
+    hint = "" if compact else "; leave compact on, or snap"
+    return (
+        f"{name}: the table differs from Pinocchio's reading of the source by {error:.3g} "
+        f"(allowed {allowed:.1g}){hint}"
+    )
 
 
 def _largest(error: float, count: int) -> str:
