@@ -26,6 +26,7 @@ ARMS = {
     "ur5": "three parallel axes",
     "fanuc_crx10ia": "general 6R",
     "franka_fer": "seven joints, one held",
+    "kuka_iiwa14": "seven joints, swept",
     "planar_rr": "planar",
     "omron_cobra600": "SCARA",
 }
@@ -36,7 +37,7 @@ import dh2urdf
 name, batch, single = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
 begin = time.process_time()
 robot = dh2urdf.Robot.from_dh(name)
-how = {"locked": {robot.n - 1: 0.3}} if robot.n == 7 else {}
+how = {"locked": {robot.n - 1: 0.3}} if name == "franka_fer" else {}
 q = np.random.default_rng(1).uniform(-2.0, 2.0, (batch, robot.n))
 q[:, list(how.get("locked", ()))] = 0.3
 poses = robot.fk(q)
@@ -73,7 +74,7 @@ def main() -> None:
 
 def _row(name: str, other: Path, folder: Path, given: argparse.Namespace) -> list[str]:
     """What both need for an arm, and their ratios."""
-    poses = given.poses // (20 if "6R" in ARMS[name] else 1)
+    poses = given.poses // (20 if "6R" in ARMS[name] or "swept" in ARMS[name] else 1)
     sides = {"now": ROOT, "then": other}
     found: dict[str, list[dict]] = {side: [] for side in sides}
     for number in range(given.rounds + 1):
