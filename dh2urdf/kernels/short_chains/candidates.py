@@ -131,7 +131,9 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
             s, t = (big, square) if root == 0 else (constant, big)
             if abs(s) + abs(t) <= VANISHING * scale:
                 continue
-            point[:] = (s * p + t * r) / (abs(s) + abs(t))
+            size = 1.0 / (abs(s) + abs(t))
+            for i in range(8):
+                point[i] = size * (s * p[i] + t * r[i])
             count = _append(point, shape, joints, x, unit, q, count)
     return count, conditions
 
@@ -169,5 +171,6 @@ def _hold(basis, nullity, shape, place, slides, value, unit):
         known = v * basis[3 + left, start] - u * basis[3 + left, start + step]
         for k in range(left):
             factor = (v * basis[3 + k, start] - u * basis[3 + k, start + step]) / known
-            basis[3 + k] -= factor * basis[3 + left]
+            for i in range(8):
+                basis[3 + k, i] -= factor * basis[3 + left, i]
     return left

@@ -167,10 +167,14 @@ def determinant_series(columns, used, M, order, series):
 @inner_kernel
 def add_sample(series, value, k):
     """Add what sample k contributes to the coefficients (7,) of a function of an angle."""
-    series += value * SAMPLE_TABLE[:, k]
+    for m in range(SAMPLES):
+        series[m] += value * SAMPLE_TABLE[m, k]
 
 
 @inner_kernel
 def vanishes(series, zero):
     """Whether a quartic is 0 but for rounding: the size of its third harmonic, which it has not."""
-    return np.abs(series[:5]).max() <= max(zero, 100.0 * (abs(series[5]) + abs(series[6])))
+    largest = 0.0
+    for m in range(5):
+        largest = max(largest, abs(series[m]))
+    return largest <= max(zero, 100.0 * (abs(series[5]) + abs(series[6])))

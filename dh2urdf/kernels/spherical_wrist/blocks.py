@@ -148,7 +148,8 @@ def solve_common_wrist(
         _wrists(form, n, S)
         for k in range(4):
             measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
-        S[at(RESIDUAL + 4) : at(RESIDUAL + 8)] = S[at(RESIDUAL) : at(RESIDUAL + 4)]
+        for i in range(at(4)):
+            S[at(RESIDUAL + 4) + i] = S[at(RESIDUAL) + i]
         emit(form, joints, table, within_limits, place, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:

@@ -74,7 +74,8 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
     D (4, 4) is frame 6 in frame 0, the orientation left ``R_36 = R_03^T R_06`` goes to R (3, 3);
     the candidates are q, branch and free.
     """
-    R[:] = D[:3, :3]
+    for i in range(3):
+        R[i, 0], R[i, 1], R[i, 2] = D[i, 0], D[i, 1], D[i, 2]
     for i in range(3):
         angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
         c, s, ca, sa = math.cos(angle), math.sin(angle), form[i, 1], form[i, 2]
