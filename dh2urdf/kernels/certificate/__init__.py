@@ -12,7 +12,6 @@ from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     ANYWHERE,
     CLUSTER,
-    NO_JOINT,
     ROUNDING,
     TWO_PI,
     copy_rows,
