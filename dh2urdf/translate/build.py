@@ -1,0 +1,87 @@
+"""Translate the kernels and compile them into the package: what an installation runs.
+
+``python -m dh2urdf.translate.build`` does it in place; with the name of a kernel it prints the C.
+"""
+
+import shutil
+import subprocess
+import sys
+import sysconfig
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.entries import argument_types, entries
+from dh2urdf.translate.extension import LEVELS, Extension
+from dh2urdf.translate.inference import Inference
+from dh2urdf.translate.sources import fingerprint
+
+FLAGS = [
+    "-std=c99",
+    "-O3",
+    "-ffp-contract=off",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fPIC",
+    "-w",
+]
+"""Contraction and whatever else reorders arithmetic stays off: all machines get the same bits."""
+
+NAME = "_kernels"
+
+
+def compiler() -> list[str]:
+    """The system's C compiler, or the one that comes as a wheel."""
+    for name in ("cc", "gcc", "clang"):
+        if path := shutil.which(name):
+            return [path]
+    return [sys.executable, "-m", "ziglang", "cc"]
+
+
+def texts(names: list[str] | None = None) -> dict[str, str]:
+    """The C files of all entries, or of some, by their names."""
+    inference = Inference()
+    for name, function in entries().items():
+        if names is None or name.rpartition(".")[2] in names:
+            inference.add_entry(function, argument_types(function))
+    extension = Extension(CFile(inference), NAME, fingerprint())
+    kernels = extension.kernels()
+    return {"kernels.h": extension.header(), "kernels.c": kernels, "doors.c": extension.doors()}
+
+
+def build(target: Path) -> None:
+    """Compile the extension to a file, which appears whole or not at all."""
+    cc, include = compiler(), sysconfig.get_paths()["include"]
+    with TemporaryDirectory() as folder:
+        for name, text in texts().items():
+            Path(folder, name).write_text(text)
+        jobs = [["-c", "doors.c", "-o", "doors.o", f"-I{include}"]]
+        for level, (march, _) in LEVELS.items():
+            flags = [march] if march else []
+            jobs.append([*flags, f"-DTABLE=entries_{level}", "-c", "kernels.c", "-o", f"{level}.o"])
+        with ThreadPoolExecutor() as pool:
+            list(pool.map(lambda job: _run([*cc, *FLAGS, *job], folder), jobs))
+        objects = ["doors.o", *(f"{level}.o" for level in LEVELS)]
+        _run([*cc, "-shared", *objects, "-o", "built.so", "-lm"], folder)
+        partial = target.with_suffix(".partial")
+        shutil.copy(Path(folder, "built.so"), partial)
+        partial.replace(target)
+
+
+def _run(words: list[str], folder: str) -> None:
+    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
+
+
+def place() -> Path:
+    """Where the extension belongs."""
+    return Path(__file__).parent.parent / f"{NAME}.abi3.so"
+
+
+if __name__ == "__main__":
+    if sys.argv[1:]:
+        print(texts(sys.argv[1:])["kernels.c"])
+    else:
+        build(place())

@@ -1,0 +1,83 @@
+"""The entries of the package: which they are, and the types that their annotations give."""
+
+import inspect
+import re
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from dh2urdf.translate.source import SubsetError
+from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
+
+ROOM = "dh2urdf.kernels"
+
+ELEMENTS_OF: dict[Any, Type] = {float: "float", int: "int", bool: "bool"}
+
+
+def modules() -> list[Path]:
+    """Files of the kernels, in the order of their names."""
+    found = import_module(ROOM)
+    return sorted(Path(str(found.__file__)).parent.rglob("*.py"))
+
+
+def entries() -> dict[str, Callable[..., Any]]:
+    """All kernels that Python calls, by module and name."""
+    from dh2urdf.kernels.numbers.engine import INTERPRETED
+
+    top = Path(str(import_module(ROOM).__file__)).parent
+    for path in modules():
+        parts = path.relative_to(top).with_suffix("").parts
+        import_module(".".join([ROOM, *(p for p in parts if p != "__init__")]))
+    return dict(sorted(INTERPRETED.items()))
+
+
+def argument_types(function: Callable[..., Any]) -> list[Type]:
+    """Types of an entry's arguments."""
+    hints = get_type_hints(function, include_extras=True)
+    names = inspect.signature(function).parameters
+    if missing := [name for name in names if name not in hints]:
+        path, line = inspect.getsourcefile(function), function.__code__.co_firstlineno
+        raise SubsetError(f"{path}:{line}: {function.__name__}: no type for {', '.join(missing)}")
+    return [_type_of(hints[name]) for name in names]
+
+
+def _type_of(hint: Any) -> Type:
+    if hint in ELEMENTS_OF:
+        return ELEMENTS_OF[hint]
+    if get_origin(hint) is tuple:
+        return Tuple(tuple(_type_of(item) for item in get_args(hint)))
+    assert get_origin(hint) is Annotated, hint
+    array, *shape = get_args(hint)
+    if isinstance(shape[0], np.dtype):
+        return Array(Record(str(shape[1]), shape[0]), tuple(shape[2:]))
+    dtype = np.dtype(get_args(get_args(array)[1])[0])
+    return Array(ELEMENTS[dtype.kind], tuple(shape))
+
+
+def fixed(types: list[Type], sizes: dict[str, int]) -> list[Type]:
+    """The types with numbers in the place of some lengths."""
+    return [_fixed(t, sizes) for t in types]
+
+
+def _fixed(t: Type, sizes: dict[str, int]) -> Type:
+    if isinstance(t, Tuple):
+        return Tuple(tuple(_fixed(x, sizes) for x in t.items))
+    if isinstance(t, Array):
+        return Array(t.element, tuple(_size(d, sizes) for d in t.shape), t.constant)
+    return t
+
+
+def _size(d: int | str | None, sizes: dict[str, int]) -> int | str | None:
+    if not isinstance(d, str):
+        return d
+    text = d
+    for name, value in sizes.items():
+        text = re.sub(rf"\b{name}\b", str(value), text)
+    total = re.fullmatch(r"(\d+)(?: ([+*]) (\d+))?", text)
+    if not total:
+        return text
+    a, sign, b = total.groups()
+    return int(a) if sign is None else int(a) + int(b) if sign == "+" else int(a) * int(b)

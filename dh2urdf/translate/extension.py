@@ -1,0 +1,232 @@
+"""The entries as functions of a Python extension: arrays checked once, at the door.
+
+The extension takes arrays by the buffer protocol and needs Python's stable interface only. Each
+level of processor is the same C, compiled once more; the table of its entries is chosen when the
+extension is imported.
+"""
+
+from dh2urdf.translate.c_file import INCLUDES, CFile
+from dh2urdf.translate.inference import Instance
+from dh2urdf.translate.types import Array, Record, Tuple, Type
+
+LEVELS = {
+    "v4": ("-march=x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),
+    "v3": ("-march=x86-64-v3", "avx2 bmi bmi2 fma"),
+    "any": ("", ""),
+}
+"""Best first: how each is compiled, and what the processor must have."""
+
+MANY = 256
+"""Poses of a call from which on other threads may run meanwhile."""
+
+FORMATS = {"float": ("d", 8), "int": ("l", 8), "bool": ("?", 1)}
+
+COMMON = r"""
+typedef struct { Py_buffer view[MOST]; int count; } Taken;
+
+static void give_back(Taken *taken)
+{
+    for (int i = 0; i < taken->count; i++) {
+        PyBuffer_Release(&taken->view[i]);
+    }
+}
+
+/* Memory of an array in C order with a number of dimensions and a size of its elements. */
+static Py_buffer *take(Taken *taken, PyObject *given, const char *name, int dimensions,
+    int size, char kind)
+{
+    Py_buffer *view = &taken->view[taken->count];
+    if (PyObject_GetBuffer(given, view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) {
+        return NULL;
+    }
+    taken->count++;
+    const char found = view->format[0] == 'q' ? 'l' : view->format[0];
+    if (view->ndim != dimensions || view->itemsize != size || (kind && found != kind)) {
+        PyErr_Format(PyExc_TypeError, "%s: expected an array of %d dimensions, %d bytes each",
+            name, dimensions, size);
+        return NULL;
+    }
+    return view;
+}
+
+static int differs(const char *name, Py_ssize_t found, Py_ssize_t expected)
+{
+    if (found == expected) {
+        return 0;
+    }
+    PyErr_Format(PyExc_ValueError, "%s: a length is %zd, expected %zd", name, found, expected);
+    return 1;
+}
+"""
+
+
+class Extension:
+    """Text of the file with the entries, beside that of the kernels."""
+
+    def __init__(self, file: CFile, module: str, sources: str) -> None:
+        self.file, self.module, self.sources = file, module, sources
+        self.entries = file.inference.entries
+
+        file.exported = False
+        self.bodies = file.bodies()
+
+    def kernels(self) -> str:
+        """The kernels, and their entries in the table of a level."""
+        names = ", ".join(e.name for e in self.entries)
+        lines = ['#include "kernels.h"', *self.file.definitions()]
+        return "\n".join(lines) + f"{self.bodies}\nconst Entries TABLE = {{{names}}};\n"
+
+    def header(self) -> str:
+        """Types that both files share."""
+        lines = ["typedef struct {"]
+        for e in self.entries:
+            parameters = ", ".join(self.file.parameters(e, lambda p: p)) or "void"
+            lines.append(f"    {self.file.declaration(e.returned, f'(*{e.name})({parameters})')};")
+        lines += ["} Entries;", *(f"extern const Entries entries_{level};" for level in LEVELS), ""]
+        return "\n".join([*INCLUDES, *self.file.types(), "", *lines])
+
+    def doors(self) -> str:
+        """The functions that Python calls."""
+        out = ["#define PY_SSIZE_T_CLEAN", "#define Py_LIMITED_API 0x030B0000"]
+        out += ["#include <Python.h>", '#include "kernels.h"']
+        most = max(sum(_arrays(t) for t in e.arguments) for e in self.entries)
+        out += [f"#define MOST {most}", COMMON, "static const Entries *entries;"]
+        out += [self._door(e) for e in self.entries]
+        out.append("static PyMethodDef methods[] = {")
+        for e in self.entries:
+            call = f"(PyCFunction)(void (*)(void))py_{e.name}"
+            out.append(f'    {{"{_public(e)}", {call}, METH_FASTCALL, NULL}},')
+        out += ["    {NULL, NULL, 0, NULL},", "};", ""]
+        return "\n".join(out) + self._module()
+
+    def _module(self) -> str:
+        lines = []
+        for level, (_, features) in LEVELS.items():
+            has = [f'__builtin_cpu_supports("{f}")' for f in features.split()]
+            test = " && ".join(has) or "1"
+            lines.append(
+                f"    if (!entries && {test}) {{\n        entries = &entries_{level};\n    }}"
+            )
+        choose = "\n".join(lines)
+        return f"""
+static struct PyModuleDef definition = {{
+    PyModuleDef_HEAD_INIT, "{self.module}", NULL, -1, methods, NULL, NULL, NULL, NULL,
+}};
+
+PyMODINIT_FUNC PyInit_{self.module}(void)
+{{
+    __builtin_cpu_init();
+{choose}
+    PyObject *module = PyModule_Create(&definition);
+    if (module && PyModule_AddStringConstant(module, "SOURCES", "{self.sources}") < 0) {{
+        Py_DECREF(module);
+        return NULL;
+    }}
+    return module;
+}}
+"""
+
+    def _door(self, e: Instance) -> str:
+        names = e.source.parameters
+        lines = [f"static PyObject *py_{e.name}(PyObject *self, PyObject *const *args,"]
+        lines += ["    Py_ssize_t given)", "{", "    (void)self;", "    Taken taken;"]
+        lines += ["    taken.count = 0;", "    PyObject *answer = NULL;"]
+        lines += [f"    Py_ssize_t {x} = -1;" for x in e.lengths()]
+        lines += [f"    if (given != {len(names)}) {{"]
+        lines += [f'        PyErr_SetString(PyExc_TypeError, "{len(names)} arguments");']
+        lines += ["        return NULL;", "    }"]
+        handed: list[str] = []
+        checks: list[str] = []
+        for i, (name, t) in enumerate(zip(names, e.arguments, strict=True)):
+            text, value = self._taken(name, f"args[{i}]", t, f"a{i}", checks)
+            lines += text
+            handed.append(value)
+        lines += checks
+        bound = [f"(int){x}" for x in e.lengths()]
+        call = f"entries->{e.name}({', '.join([*bound, *handed])})"
+        if e.returned is not None:
+            call = f"{self.file.declaration(e.returned, 'found')} = {call}"
+        many = "poses" if "poses" in e.lengths() else ""
+        if many and e.returned is None:
+            lines += [f"    if (poses >= {MANY}) {{", "        Py_BEGIN_ALLOW_THREADS"]
+            lines += [f"        {call};", "        Py_END_ALLOW_THREADS", "    } else {"]
+            lines += [f"        {call};", "    }"]
+        else:
+            lines.append(f"    {call};")
+        lines += [
+            f"    answer = {_answer(e.returned, 'found')};",
+            "done:",
+            "    give_back(&taken);",
+        ]
+        return "\n".join([*lines, "    return answer;", "}", ""])
+
+    def _taken(
+        self, name: str, given: str, t: Type, at: str, checks: list[str]
+    ) -> tuple[list[str], str]:
+        """Lines that take an argument, and the expression that stands for it.
+
+        What compares lengths goes to ``checks``: it waits until all arguments are there.
+        """
+        if t == "float":
+            lines = [f"    const double {at} = PyFloat_AsDouble({given});"]
+            return [*lines, *_failed(f"{at} == -1.0 && PyErr_Occurred()")], at
+        if t == "int":
+            lines = [f"    const long {at} = PyLong_AsLong({given});"]
+            return [*lines, *_failed(f"{at} == -1 && PyErr_Occurred()")], f"(int){at}"
+        if t == "bool":
+            lines = [f"    const int {at} = PyObject_IsTrue({given});"]
+            return [*lines, *_failed(f"{at} < 0")], f"{at} != 0"
+        if isinstance(t, Tuple):
+            lines = _failed(f"!PyTuple_Check({given}) || PyTuple_Size({given}) != {len(t.items)}")
+            values = []
+            for i, item in enumerate(t.items):
+                part = f"PyTuple_GetItem({given}, {i})"
+                more, value = self._taken(f"{name}[{i}]", part, item, f"{at}_{i}", checks)
+                lines += more
+                values.append(value)
+            return lines, f"({self.file.tuple_name(t)}){{{', '.join(values)}}}"
+        assert isinstance(t, Array)
+        kind, size = "0", ""
+        if isinstance(t.element, Record):
+            size = str(t.element.dtype.itemsize)
+        else:
+            letter, width = FORMATS[t.element]
+            kind, size = f"'{letter}'", str(width)
+        call = f'take(&taken, {given}, "{name}", {len(t.shape)}, {size}, {kind})'
+        lines = [f"    Py_buffer *{at} = {call};", *_failed(f"!{at}")]
+        for k, d in enumerate(t.shape):
+            found = f"{at}->shape[{k}]"
+            if isinstance(d, str) and d.isidentifier():
+                lines += [f"    {d} = {d} < 0 ? {found} : {d};"]
+            if d is not None:
+                checks += _failed(f'differs("{name}", {found}, {d})')
+        return lines, f"{at}->buf"
+
+
+def _failed(test: str) -> list[str]:
+    return [f"    if ({test}) {{", "        goto done;", "    }"]
+
+
+def _arrays(t: Type) -> int:
+    return sum(map(_arrays, t.items)) if isinstance(t, Tuple) else int(isinstance(t, Array))
+
+
+def _public(e: Instance) -> str:
+    """Name of an entry for Python: with its module, which may have a namesake."""
+    return f"{e.source.module.__name__}.{e.source.name}"
+
+
+def _answer(t: Type, name: str) -> str:
+    """A value for Python."""
+    if t is None:
+        return "Py_NewRef(Py_None)"
+    if isinstance(t, Tuple):
+        letters = "".join({"float": "d", "int": "i", "bool": "N"}[str(x)] for x in t.items)
+        parts = [
+            f"PyBool_FromLong({name}.f{i})" if x == "bool" else f"{name}.f{i}"
+            for i, x in enumerate(t.items)
+        ]
+        return f'Py_BuildValue("({letters})", {", ".join(parts)})'
+    return {"float": "PyFloat_FromDouble", "int": "PyLong_FromLong", "bool": "PyBool_FromLong"}[
+        str(t)
+    ] + f"({name})"
