@@ -399,7 +399,9 @@ class Walk:
         if isinstance(right, Array) and len(right.shape) != len(left.shape):
             self.instance.refuse(s, f"{told(left)} and {told(right)}", "a loop")
         sliced = isinstance(target, ast.Subscript) and isinstance(target.slice, ast.Slice)
-        if None in left.shape[1:] or (left.shape[0] is None and not (sliced and target.slice.upper)):
+        if None in left.shape[1:] or (
+            left.shape[0] is None and not (sliced and target.slice.upper)
+        ):
             self.instance.refuse(s, "an array whose length is not known", "a loop")
         self.instance.elementwise.add(target)
 

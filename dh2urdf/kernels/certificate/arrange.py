@@ -1,17 +1,34 @@
 """Solutions of one pose towards a seed: full turns, residuals, order."""
 
 import math
+from typing import Annotated
 
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import TWO_PI
 from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
 from dh2urdf.kernels.certificate.newton import pose_residual
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints,
+    Links,
+    Pose,
+    Poses,
+    Solutions,
+    Values,
+    entry,
+)
 
 
-@kernel
-def turn_to(joints, slack, reference, q):
+@entry
+def turn_to(
+    joints: Joints,
+    slack: float,
+    reference: Annotated[Floats, "references", "n"],
+    q: Annotated[Floats, "solutions", "n"],
+):
     """Bring each angle of q (k, n) into the turn nearest to the reference (k or 1, n), in place.
 
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
@@ -35,7 +52,6 @@ def turn_to(joints, slack, reference, q):
                 q[k, i] = lower
 
 
-@inner_kernel
 def _swap(q, residual, branch, free, distance, a, b):
     """Exchange two rows."""
     for i in range(q.shape[1]):
@@ -46,7 +62,6 @@ def _swap(q, residual, branch, free, distance, a, b):
     distance[a], distance[b] = distance[b], distance[a]
 
 
-@inner_kernel
 def _measure(links, joints, task, T, q, damped):
     """Residual of a configuration q (n,) on the exact chain, of what a task asks for."""
     if task == POSE:
@@ -54,8 +69,16 @@ def _measure(links, joints, task, T, q, damped):
     return error_and_jacobian(links, joints, task, T, q, 1.0, damped)
 
 
-@kernel
-def measure_all(links, joints, task, Ts, q, count, residual):
+@entry
+def measure_all(
+    links: Links,
+    joints: Joints,
+    task: int,
+    Ts: Poses,
+    q: Solutions,
+    count: Counts,
+    residual: Values,
+):
     """Residuals (m, k) of configurations q (m, k, n), the first ``count[i]`` of each pose Ts[i]."""
     damped = make_damped(q.shape[2])
     for i in range(q.shape[0]):
@@ -63,8 +86,18 @@ def measure_all(links, joints, task, Ts, q, count, residual):
             residual[i, k] = _measure(links, joints, task, Ts[i], q[i, k], damped)
 
 
-@kernel
-def measure_and_sort(links, joints, task, T, seed, q, residual, branch, free):
+@entry
+def measure_and_sort(
+    links: Links,
+    joints: Joints,
+    task: int,
+    T: Pose,
+    seed: Annotated[Floats, "n"],
+    q: Annotated[Floats, "solutions", "n"],
+    residual: Annotated[Floats, "solutions"],
+    branch: Annotated[Integers, "solutions"],
+    free: Annotated[Integers, "solutions"],
+):
     """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
 
     They are sorted in place, with their branch codes and masks of free joints; residuals go to

@@ -12,7 +12,6 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate.newton import POLISH, polish, pose_residual
-from dh2urdf.kernels.numbers import helper_kernel, inner_kernel
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -35,7 +34,6 @@ FAR = 4.0 * math.pi
 """Angle [rad] beyond which full turns round a value by more than the chain rounds a pose."""
 
 
-@helper_kernel
 def principal(angle):
     """Bring an angle into [-pi, pi]."""
     if -math.pi <= angle <= math.pi:
@@ -43,7 +41,6 @@ def principal(angle):
     return angle - TWO_PI * math.floor(angle / TWO_PI + 0.5)
 
 
-@inner_kernel
 def same(joints, q, p, reach, free):
     """Whether two configurations differ by at most ``reach`` a joint, up to full turns.
 
@@ -56,7 +53,6 @@ def same(joints, q, p, reach, free):
     return True
 
 
-@inner_kernel
 def is_known(joints, q, count, p):
     """Whether p (n,) is one of the first rows of q (kmax, n)."""
     for k in range(count):
@@ -65,7 +61,6 @@ def is_known(joints, q, count, p):
     return False
 
 
-@inner_kernel
 def _into_limits(links, joints, T, within_limits, q, residual, free):
     """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual there, or infinity.
 
@@ -100,7 +95,6 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
     return pose_residual(links, joints, T, q)
 
 
-@inner_kernel
 def move(q, residual, branch, free, source, target):
     """Copy one row of the candidates over another."""
     for i in range(q.shape[1]):
@@ -108,7 +102,6 @@ def move(q, residual, branch, free, source, target):
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
 
 
-@inner_kernel
 def copy_rows(source, count, target):
     """Copy the first rows (q, residual, branch, free) that fit; returns how many."""
     count = min(count, target[0].shape[0])
@@ -119,7 +112,6 @@ def copy_rows(source, count, target):
     return count
 
 
-@inner_kernel
 def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
@@ -155,7 +147,6 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     return turn_inside(links, joints, T, within_limits, q, residual, branch, free, kept)
 
 
-@inner_kernel
 def turn_inside(links, joints, T, within_limits, q, residual, branch, free, count):
     """Turn solutions by full turns, near or into their limits; how many are left."""
     solutions = np.int64(0)

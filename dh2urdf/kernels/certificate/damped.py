@@ -17,7 +17,6 @@ from dh2urdf.kernels.certificate.newton import (
     work_array,
 )
 from dh2urdf.kernels.chain import jacobian_rows
-from dh2urdf.kernels.numbers import inner_kernel
 
 RESTORED = 1e-13
 """Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""
@@ -32,14 +31,12 @@ POSE, POSITION, POSITION_AXIS = 0, 1, 2
 """Tasks: the whole pose, its position, its position and the direction of the tool's z axis."""
 
 
-@inner_kernel
 def make_damped(n):
     """Scratch for n joints: Jacobian (n, 6), `work_array` of six, its right side and solution."""
     work = work_array(6)
     return np.empty((n, 6)), work, work[:, 6], work[:, 7]
 
 
-@inner_kernel
 def error_and_jacobian(links, joints, task, T, q, unit, damped):
     """Residual of q (n,) at a task [m and rad]; its error and the Jacobian go to ``damped``.
 
@@ -79,7 +76,6 @@ def error_and_jacobian(links, joints, task, T, q, unit, damped):
     return residual_of(r, T) if task == POSE else max(position, turn)
 
 
-@inner_kernel
 def solve_damped(damped, damping):
     """``y = (J J^T + damping)^-1 e``, e and y in ``damped``."""
     J, work, _, _ = damped
@@ -94,7 +90,6 @@ def solve_damped(damped, damping):
     damped_step(work, damping + FLOOR * trace)
 
 
-@inner_kernel
 def add_transposed(damped, factor, dq):
     """``dq += factor J^T y``; returns the largest entry of the sum."""
     J, _, _, y = damped
@@ -108,7 +103,6 @@ def add_transposed(damped, factor, dq):
     return largest
 
 
-@inner_kernel
 def restore(links, joints, task, T, unit, q, dq, damped):
     """Newton's method by shortest steps, q (n,) in place; returns the residual.
 

@@ -25,7 +25,7 @@ from dh2urdf.kernels.certificate.newton import (
 )
 from dh2urdf.kernels.certificate.singular_families import free_joints, one_of_each_family
 from dh2urdf.kernels.chain import inverse_pose, store_pose
-from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers import Codes, Counts, Joints, Links, Poses, Solutions, Values, entry
 
 ALL_MEMBERS = np.empty(0)
 """In the place of rest values: all members of a family stay."""
@@ -41,7 +41,6 @@ ACROSS = 1e-10
 """Damping of the step by which such a middle is brought back across the way, not along it."""
 
 
-@inlined_kernel
 def _one(links, joints, T, q, p, accuracy, middle, start, work):
     """Whether q and p are near, and the pose is reached as well half way between them.
 
@@ -76,7 +75,6 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
     return True
 
 
-@inner_kernel
 def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch, work):
     """Keep one of each group of solutions that are one, the best; the new count.
 
@@ -98,7 +96,6 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
     return kept
 
 
-@inlined_kernel
 def finish_families(links, joints, T, rest, within_limits, rows, count, trial, work):
     """Solutions of :func:`.certify.finish_pose` without limits, merged, with their free joints.
 
@@ -116,8 +113,18 @@ def finish_families(links, joints, T, rest, within_limits, rows, count, trial, w
     return count
 
 
-@kernel
-def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, free):
+@entry
+def finish_batch(
+    links: Links,
+    joints: Joints,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions,
+    residual: Values,
+    count: Counts,
+    branch: Codes,
+    free: Codes,
+):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose Ts[i], in place.
 
     The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
@@ -134,20 +141,18 @@ def finish_batch(links, joints, Ts, within_limits, q, residual, count, branch, f
         )
 
 
-@inner_kernel
 def invert_pose(T, out):
     """``out = T^-1`` for a rigid pose (4, 4)."""
     store_pose(inverse_pose(T), out)
 
 
-@kernel
-def invert_poses(Ts, out):
+@entry
+def invert_poses(Ts: Poses, out: Poses):
     """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
     for i in range(Ts.shape[0]):
         invert_pose(Ts[i], out[i])
 
 
-@inner_kernel
 def reverse_joints(q, free):
     """Reverse the joints of a configuration q (n,) in place; the mask of its free ones, too."""
     n, mask = q.shape[0], 0
@@ -158,8 +163,18 @@ def reverse_joints(q, free):
     return mask
 
 
-@kernel
-def turn_back(links, joints, Ts, within_limits, q, residual, count, branch, free):
+@entry
+def turn_back(
+    links: Links,
+    joints: Joints,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions,
+    residual: Values,
+    count: Counts,
+    branch: Codes,
+    free: Codes,
+):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
 
     The reversed chain measures its position error at the other end.

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.chain import jacobian_rows, joint_times_link, load_pose
-from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers import entry
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
@@ -34,13 +34,12 @@ VALLEY = 1e3
 and what is asked for beyond is noise along a direction in which the pose hardly changes."""
 
 
-@kernel
-def work_array(n):
+@entry
+def work_array(n: int):
     """Scratch of a chain of n joints: Jacobian, right side, solution, triangle."""
     return np.empty((n, n + 8))
 
 
-@helper_kernel
 def residual_of(r, T):
     """Residual of a pose r (twelve scalars) against a target T.
 
@@ -57,7 +56,6 @@ def residual_of(r, T):
     return math.sqrt(max(x * x + y * y + z * z, ex * ex + ey * ey + ez * ez))
 
 
-@helper_kernel
 def way_between(r, T):
     """Way from the origin of r to that of T."""
     if T.ndim == 1:
@@ -65,7 +63,6 @@ def way_between(r, T):
     return T[0, 3] - r[3], T[1, 3] - r[7], T[2, 3] - r[11]
 
 
-@helper_kernel
 def turn_between(r, T):
     """Rotation vector (sine long) from r to T in base axes, and ``trace(r^T T)``."""
     ex = r[4] * T[2, 0] - r[8] * T[1, 0] + r[5] * T[2, 1] - r[9] * T[1, 1]
@@ -80,7 +77,6 @@ def turn_between(r, T):
     return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
 
 
-@inner_kernel
 def pose_residual(links, joints, T, q):
     """Residual of one configuration q (n,) on the exact chain against T."""
     r = load_pose(links[0])
@@ -89,7 +85,6 @@ def pose_residual(links, joints, T, q):
     return residual_of(r, T)
 
 
-@inner_kernel
 def normal_equations(links, joints, T, q, work):
     """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
 
@@ -110,7 +105,6 @@ def normal_equations(links, joints, T, q, work):
             work[i, 8 + j] = total
 
 
-@inner_kernel
 def factor(work, damping):
     """Cholesky factor of ``work[:, 8:] + damping``, in place over the lower triangle.
 
@@ -127,7 +121,6 @@ def factor(work, damping):
                 work[i, 8 + j] = part / work[j, 8 + j]
 
 
-@inner_kernel
 def substitute(work):
     """Solve for the right side ``work[:, 6]`` by the factor, into ``work[:, 7]``; longest entry."""
     n = work.shape[0]
@@ -146,7 +139,6 @@ def substitute(work):
     return longest
 
 
-@inner_kernel
 def damped_step(work, damping):
     """Solve ``(J^T J + damping) dq = J^T e``, dq in ``work[:, 7]``; longest entry.
 
@@ -156,7 +148,6 @@ def damped_step(work, damping):
     return substitute(work)
 
 
-@inner_kernel
 def polish(links, joints, T, q, work):
     """Newton's method on the exact chain, q (n,) in place; returns the residual.
 
@@ -199,7 +190,6 @@ def polish(links, joints, T, q, work):
     return best
 
 
-@inner_kernel
 def _move_along(q, work, longest, residual):
     """Add the step in ``work[:, 7]`` to q, shortened to ``MAX_TURN`` and ``VALLEY``."""
     most = min(MAX_TURN, VALLEY * math.sqrt(residual))

@@ -8,22 +8,13 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    COLUMN,
-    LANES,
-    MASK,
-    inlined,
-    reduce_columns,
-    solve_upper,
-    vector_kernel,
-)
+from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, reduce_columns, solve_upper
 
 FRAME = 12 * LANES
 LARGEST_STEP = 0.5
 """A Newton step [rad] is shortened to this."""
 
 
-@vector_kernel
 def chain_frames(steps, cosines, sines, n, frames):
     """``F_0 = steps[0]``, ``F_i = F_(i-1) Z_i steps[i]`` for n lanes, to seven runs of twelve.
 
@@ -53,7 +44,6 @@ def chain_frames(steps, cosines, sines, n, frames):
                 frames[g + 3 * LANES + k] = x * a03 + y * a13 + z * a23 + p
 
 
-@inlined
 def pose_error(target, frames, n, error, position, angle):
     """Twist from the last frame to the target (12,), in base axes.
 
@@ -83,7 +73,6 @@ def pose_error(target, frames, n, error, position, angle):
         angle[k] = turn if trace > 1.0 else 3.0
 
 
-@vector_kernel
 def _newton_system(frames, error, n, A):
     """``J step = error`` of n lanes, J the geometric Jacobian at the tip in base axes.
 
@@ -108,7 +97,6 @@ def _newton_system(frames, error, n, A):
             A[b + k] = error[o + k]
 
 
-@vector_kernel
 def _damped_system(J, weight, n, order, A):
     """``(J^T J + |error|^2) step = J^T error`` of a system ``J step = error``, ``order`` unknowns.
 
@@ -139,7 +127,6 @@ def _damped_system(J, weight, n, order, A):
                 A[a + k] += J[o + k] * J[o + k]
 
 
-@inlined
 def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines):
     """Turn the joints of n lanes by a Newton step, shortened to half a radian.
 

@@ -9,6 +9,7 @@ matrix but for joints that mimic others.
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from dh2urdf.kernels.certificate.damped import (
     make_damped,
     solve_damped,
 )
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import Floats, Pose, entry
 
 MOST_STEPS = 60
 """Steps from one start; a good one takes ten to twenty."""
@@ -37,7 +38,6 @@ DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
 
 
-@inner_kernel
 def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
     """Residual of values q (n,); its error and the Jacobian of the values go to ``part``."""
     for k in range(offset.shape[0]):
@@ -56,7 +56,6 @@ def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
     return residual
 
 
-@inner_kernel
 def _step(bounds, damping, unit, q, dq, part):
     """Damped step of the values into dq (n,), without those at a limit that would go beyond it."""
     n = q.shape[0]
@@ -82,7 +81,6 @@ def _step(bounds, damping, unit, q, dq, part):
         q[i] = min(max(q[i] + scale * dq[i], bounds[i, 1]), bounds[i, 2])
 
 
-@inner_kernel
 def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best, scratch):
     """Follow the steps from q (n,); the residual of the best values, which go to best (n,)."""
     work, dq, whole, part = scratch
@@ -104,8 +102,20 @@ def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best,
     return least
 
 
-@kernel
-def find_solutions(links, joints, coupling, offset, bounds, task, T, unit, starts, q, residual):
+@entry
+def find_solutions(
+    links: Annotated[Floats, "moving + 1", 4, 4],
+    joints: Annotated[Floats, "moving", 3],
+    coupling: Annotated[Floats, "moving", "n"],
+    offset: Annotated[Floats, "moving"],
+    bounds: Annotated[Floats, "n", 3],
+    task: int,
+    T: Pose,
+    unit: float,
+    starts: Annotated[Floats, "starts", "n"],
+    q: Annotated[Floats, "solutions", "n"],
+    residual: Annotated[Floats, "solutions"],
+):
     """Different solutions of one pose T (4, 4), from one start (s, n) after the other.
 
     The chain is of the size ``unit`` [m]; ``coupling`` (chain.n, n) and ``offset`` (chain.n,) lead

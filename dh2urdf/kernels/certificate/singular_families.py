@@ -12,7 +12,6 @@ from dh2urdf.kernels.certificate.newton import (
     polish,
     substitute,
 )
-from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
@@ -28,7 +27,6 @@ MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
 
 
-@inlined_kernel
 def null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
 
@@ -58,7 +56,6 @@ def null_direction(work):
     return 1.0 / (size * trace)
 
 
-@inlined_kernel
 def free_joints(links, joints, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 
@@ -89,7 +86,6 @@ def free_joints(links, joints, T, q, trial, work):
     return mask if away > 0.25 * WALK * WALK else np.int64(0)
 
 
-@inner_kernel
 def one_of_each_family(joints, rest, q, residual, branch, free, count):
     """Keep one representative of each singular family; the new count.
 
@@ -112,7 +108,6 @@ def one_of_each_family(joints, rest, q, residual, branch, free, count):
     return kept
 
 
-@inner_kernel
 def _at_rest(joints, rest, q, mask):
     """Whether the first joint of a mask is at its rest value, up to full turns."""
     first = 0

@@ -5,38 +5,34 @@ or ``Trans_z(q_i)`` where ``prismatic[i]``.
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
-from numba import njit
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
-from dh2urdf.kernels.numbers import helper_kernel
+from dh2urdf.kernels.numbers import Flags, Floats, Links, Poses, entry, sincos
 
 
-@helper_kernel
 def _slid(a, b, c, d, q):
     """One row of ``R Trans_z(q)``."""
     return a, b, c, d + c * q
 
 
-@helper_kernel
 def _turned(a, b, c, d, cosine, sine):
     """One row of ``R Rot_z``."""
     return a * cosine + b * sine, b * cosine - a * sine, c, d
 
 
-@helper_kernel
 def times_joint(r, slides, q):
     """``R Z(q)`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
     a0, b0, c0, d0, a1, b1, c1, d1, a2, b2, c2, d2 = r
     if slides:
         return _slid(a0, b0, c0, d0, q) + _slid(a1, b1, c1, d1, q) + _slid(a2, b2, c2, d2, q)
-    c, s = math.cos(q), math.sin(q)
+    c, s = sincos(q)[1], sincos(q)[0]
     first, second = _turned(a0, b0, c0, d0, c, s), _turned(a1, b1, c1, d1, c, s)
     return first + second + _turned(a2, b2, c2, d2, c, s)
 
 
-@helper_kernel
 def _row_times_link(a, b, c, d, link):
     """One row of ``R link``."""
     return (
@@ -47,7 +43,6 @@ def _row_times_link(a, b, c, d, link):
     )
 
 
-@helper_kernel
 def times_link(r, link):
     """``R link`` of a pose held in twelve scalars."""
     first = _row_times_link(r[0], r[1], r[2], r[3], link)
@@ -55,13 +50,11 @@ def times_link(r, link):
     return first + second + _row_times_link(r[8], r[9], r[10], r[11], link)
 
 
-@helper_kernel
 def joint_times_link(r, slides, q, link):
     """``R Z(q) link`` of a pose held in twelve scalars."""
     return times_link(times_joint(r, slides, q), link)
 
 
-@helper_kernel
 def load_pose(link):
     """The twelve scalars of a pose."""
     first = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
@@ -69,7 +62,6 @@ def load_pose(link):
     return first + second + (link[2, 0], link[2, 1], link[2, 2], link[2, 3])
 
 
-@helper_kernel
 def store_pose(r, T):
     """Write twelve scalars as a homogeneous matrix."""
     T[0, 0], T[0, 1], T[0, 2], T[0, 3] = r[0], r[1], r[2], r[3]
@@ -78,7 +70,6 @@ def store_pose(r, T):
     T[3, 0], T[3, 1], T[3, 2], T[3, 3] = 0.0, 0.0, 0.0, 1.0
 
 
-@helper_kernel
 def applied(A, v):
     """The point ``A v``."""
     x, y, z = v
@@ -89,13 +80,11 @@ def applied(A, v):
     )
 
 
-@helper_kernel
 def applied_inverse(A, v):
     """The point ``A^-1 v``."""
     return turned_back(A, (v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]))
 
 
-@helper_kernel
 def turned_back(A, v):
     """The direction ``A^-1 v``."""
     x, y, z = v
@@ -106,8 +95,10 @@ def turned_back(A, v):
     )
 
 
-@njit(cache=True, nogil=True)
-def chain_fk_batch(links, prismatic, q, T):
+@entry
+def chain_fk_batch(
+    links: Links, prismatic: Annotated[Flags, "n"], q: Annotated[Floats, "poses", "n"], T: Poses
+):
     """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4).
 
     Whole blocks go side by side; the rest, and angles of a thousand turns, one by one. Returns
@@ -129,8 +120,14 @@ def chain_fk_batch(links, prismatic, q, T):
     return finite
 
 
-@njit(cache=True, nogil=True)
-def chain_frames_batch(links, prismatic, frames, q, T):
+@entry
+def chain_frames_batch(
+    links: Links,
+    prismatic: Annotated[Flags, "n"],
+    frames: Annotated[Floats, "n + 1", 4, 4],
+    q: Annotated[Floats, "poses", "n"],
+    T: Annotated[Floats, "poses", "n + 1", 4, 4],
+):
     """Frames carried by the joints of configurations q (m, n), written to T (m, n + 1, 4, 4).
 
     ``T[:, 0] = frames[0]`` in base; ``T[:, i] = (pose after Z_i) frames[i]``.
@@ -144,7 +141,6 @@ def chain_frames_batch(links, prismatic, frames, q, T):
             r = times_link(r, links[i + 1])
 
 
-@helper_kernel
 def jacobian_rows(links, slides, q, J):
     """Geometric Jacobian at the tip in base axes, joint i in row i of J (n, 6 or more); the tip.
 
@@ -167,8 +163,13 @@ def jacobian_rows(links, slides, q, J):
     return r
 
 
-@njit(cache=True, nogil=True)
-def chain_jacobian_batch(links, prismatic, q, J):
+@entry
+def chain_jacobian_batch(
+    links: Links,
+    prismatic: Annotated[Flags, "n"],
+    q: Annotated[Floats, "poses", "n"],
+    J: Annotated[Floats, "poses", 6, "n"],
+):
     """:func:`jacobian_rows` of q (m, n), as columns to J (m, 6, n).
 
     These are Pinocchio's ``LOCAL_WORLD_ALIGNED``.

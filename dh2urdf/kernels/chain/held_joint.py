@@ -4,6 +4,8 @@ The held joint k disappears into one link, ``links[k] Z_k(v) links[k + 1]``; whe
 or the last of the chain, into the pose, and the rest is the same arm for every value.
 """
 
+from typing import Annotated
+
 from dh2urdf.kernels.chain.forward import (
     applied_inverse,
     joint_times_link,
@@ -12,20 +14,18 @@ from dh2urdf.kernels.chain.forward import (
     times_joint,
     times_link,
 )
-from dh2urdf.kernels.numbers import helper_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers import Codes, Counts, Floats, Integers, Poses, entry
 
 UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 """The twelve scalars of the identity."""
 
 
-@inner_kernel
 def held_links(links, slides, k, value, out):
     """Links (n, 4, 4) of the chain without joint k, from those with it, (n + 1, 4, 4)."""
     out[:k], out[k + 1 :] = links[:k], links[k + 2 :]
     store_pose(joint_times_link(load_pose(links[k]), slides, value, links[k + 1]), out[k])
 
 
-@inner_kernel
 def held_pose(links, slides, k, value, T, out):
     """The pose that the chain without its first (k = 0) or last joint has to reach.
 
@@ -40,7 +40,6 @@ def held_pose(links, slides, k, value, T, out):
         store_pose(times_joint(times_link(load_pose(T), out), slides, -value), out)
 
 
-@helper_kernel
 def inverse_pose(A):
     """The twelve scalars of ``A^-1`` for a rigid pose (4, 4)."""
     x, y, z = applied_inverse(A, (0.0, 0.0, 0.0))
@@ -49,14 +48,20 @@ def inverse_pose(A):
     return first + second + third
 
 
-@kernel
-def held_poses(links, slides, k, values, Ts, out):
+@entry
+def held_poses(
+    links: Annotated[Floats, "links", 4, 4],
+    slides: bool,
+    k: int,
+    values: Annotated[Floats, "poses"],
+    Ts: Poses,
+    out: Poses,
+):
     """:func:`held_pose` for poses Ts (m, 4, 4), each with its value."""
     for i in range(Ts.shape[0]):
         held_pose(links, slides, k, values[i], Ts[i], out[i])
 
 
-@inner_kernel
 def insert_held(k, value, found, q, free, count):
     """Solutions of the rest, found (kmax, n - 1), with joint k in its place, to q (kmax, n)."""
     low = (1 << k) - 1
@@ -66,8 +71,16 @@ def insert_held(k, value, found, q, free, count):
         free[r] = (free[r] & low) | ((free[r] & ~low) << 1)
 
 
-@kernel
-def insert_held_batch(k, values, found, free_found, q, count, free):
+@entry
+def insert_held_batch(
+    k: int,
+    values: Annotated[Floats, "poses"],
+    found: Annotated[Floats, "poses", "solutions", "n"],
+    free_found: Annotated[Integers, "poses", "solutions"],
+    q: Annotated[Floats, "poses", "solutions", "n + 1"],
+    count: Counts,
+    free: Codes,
+):
     """:func:`insert_held` for a batch."""
     for i in range(q.shape[0]):
         for r in range(count[i]):

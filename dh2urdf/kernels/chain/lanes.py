@@ -5,7 +5,7 @@ array, entry e of lane i at ``S[BLOCK * e + i]``, and every loop over the lanes 
 length and no branch, which the compiler turns into vector instructions.
 """
 
-from dh2urdf.kernels.numbers import entry_kernel, lane_kernel
+from dh2urdf.kernels.numbers import entry
 
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14
@@ -26,7 +26,6 @@ C4, C5, C6 = -2.75573143513906633035e-07, 2.08757232129817482790e-09, -1.1359647
 """Least maximum polynomials of sine and cosine on +-pi/4, published with fdlibm's k_sin, k_cos."""
 
 
-@lane_kernel
 def cosine_sine(x):
     """Cosine and sine of an angle up to ``LARGEST`` without branches, within 2e-16.
 
@@ -45,14 +44,14 @@ def cosine_sine(x):
     return sign * (-s if odd else c), sign * (c if odd else s)
 
 
-@entry_kernel
+@entry
 def sincos_lanes(x, S):
     """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S."""
     for i in range(BLOCK):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = cosine_sine(x[i])
 
 
-@entry_kernel
+@entry
 def _start(link, S):
     """All lanes at a link's pose."""
     for r in range(3):
@@ -62,7 +61,7 @@ def _start(link, S):
                 S[BLOCK * (4 * r + c) + i] = value
 
 
-@entry_kernel
+@entry
 def _turn_and_step(link, S):
     """``T Rot_z(q) link`` in all lanes."""
     a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
@@ -80,7 +79,7 @@ def _turn_and_step(link, S):
             S[BLOCK * (4 * r + 3) + i] = x * a03 + y * a13 + z * a23 + p
 
 
-@entry_kernel
+@entry
 def _slide(x, S):
     """``T Trans_z(q)`` in all lanes; the cosines and sines become those of no turn."""
     for i in range(BLOCK):
@@ -89,7 +88,7 @@ def _slide(x, S):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = 1.0, 0.0
 
 
-@entry_kernel
+@entry
 def fits(q):
     """Whether every value of q (BLOCK, n) is a number up to ``LARGEST``."""
     outside = 0.0
@@ -99,7 +98,7 @@ def fits(q):
     return outside == 0.0
 
 
-@entry_kernel
+@entry
 def lanes_fk(links, prismatic, q, T, x, S):
     """``T_base_tool`` T (BLOCK, 4, 4) of configurations q (BLOCK, n).
 

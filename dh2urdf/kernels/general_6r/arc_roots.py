@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_samples import TERMS
-from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, atan2
 
 STACK = 40
 """Rows that the halving needs at most."""
@@ -41,7 +41,6 @@ SPANS = 31
 """Spans of doubt that are remembered."""
 
 
-@vector_kernel
 def _evaluate(row, x, scratch):
     """f, f' and f'' at x in [0, 1] of a row of Bernstein coefficients (de Casteljau)."""
     y = 1.0 - x
@@ -55,7 +54,6 @@ def _evaluate(row, x, scratch):
     return y * p + x * q, 16.0 * (q - p), 240.0 * (a - 2.0 * b + c)
 
 
-@vector_kernel
 def _bracketed_root(row, low, high, x, rising, tolerance, scratch):
     """The root between low and high, Newton from x kept in the bracket, and f' there."""
     df = 0.0
@@ -74,7 +72,6 @@ def _bracketed_root(row, low, high, x, rising, tolerance, scratch):
     return x, df
 
 
-@vector_kernel
 def _extremum(row, x, scratch):
     """The place in [0, 1] where f' vanishes, Newton from x, with f, f', f'' there."""
     f, df, ddf = _evaluate(row, x, scratch)
@@ -87,7 +84,6 @@ def _extremum(row, x, scratch):
     return x, f, df, ddf
 
 
-@vector_kernel
 def _shape(row):
     """Sign changes, first crossing, place of the smallest size, that size and the largest."""
     positive = row[0] > 0.0
@@ -107,7 +103,6 @@ def _shape(row):
     return changes, crossing, place / (TERMS - 1), smallest, largest
 
 
-@vector_kernel
 def _halve(stack, top):
     """De Casteljau at the middle: row ``top`` keeps the right half, ``top + 1`` gets the left."""
     for i in range(TERMS):
@@ -119,13 +114,11 @@ def _halve(stack, top):
     stack[top, 17] = middle
 
 
-@vector_kernel
 def _angle(centre, row, x):
     """The angle at x in [0, 1] of a row."""
-    return centre + 2.0 * math.atan(row[17] + x * (row[18] - row[17]))
+    return centre + 2.0 * atan2(row[17] + x * (row[18] - row[17]), 1.0)
 
 
-@vector_kernel
 def _doubt(spans, row, centre):
     """Widen the last span of doubt to a row, or begin one."""
     n = int(spans[0, 0])
@@ -137,7 +130,6 @@ def _doubt(spans, row, centre):
         spans[0, 0], spans[0, n], spans[1, n] = n, low, high
 
 
-@vector_kernel
 def _pair(row, x, f, ddf, rising, length, scratch):
     """The two roots beside an extremum at x that lies across the axis, with f' there."""
     h = math.sqrt(abs(2.0 * f / ddf))
@@ -147,14 +139,12 @@ def _pair(row, x, f, ddf, rising, length, scratch):
     return a, da, b, db
 
 
-@vector_kernel
 def _add(roots, slopes, count, angle, slope):
     """Append a root; their number."""
     roots[count], slopes[count] = angle, slope
     return count + 1
 
 
-@inlined
 def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
     """Append the real roots on one arc; their number.
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, atan2, sincos
 
 DEGREE = 8
 TERMS = 2 * DEGREE + 1
@@ -64,7 +64,6 @@ ARC_TABLE = _arc_table()
 WINDOW_TABLE = _window_table()
 
 
-@vector_kernel
 def _transform(samples, table, series):
     """``series = samples @ table``."""
     for m in range(table.shape[1]):
@@ -75,7 +74,6 @@ def _transform(samples, table, series):
             series[m] += f * table[k, m]
 
 
-@vector_kernel
 def _largest(series, first, last):
     """Largest size of some coefficients."""
     largest = 0.0
@@ -84,7 +82,6 @@ def _largest(series, first, last):
     return largest
 
 
-@inlined
 def circle_arcs(samples, series, turned, arcs):
     """Bernstein coefficients of f on 24 arcs from samples (24,) around the circle.
 
@@ -113,15 +110,13 @@ def circle_arcs(samples, series, turned, arcs):
     return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)
 
 
-@inlined
 def window_nodes(centre, half_tan, hidden):
     """Cosines and sines, (2, 24), of the places at which a window is sampled."""
     for k in range(LANES):
-        q = centre + 2.0 * math.atan(half_tan * NODE[k])
-        hidden[0, k], hidden[1, k] = math.cos(q), math.sin(q)
+        q = centre + 2.0 * atan2(half_tan * NODE[k], 1.0)
+        hidden[0, k], hidden[1, k] = sincos(q)[1], sincos(q)[0]
 
 
-@inlined
 def window_arc(samples, half_tan, series, arcs):
     """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
 

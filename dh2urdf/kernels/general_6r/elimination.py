@@ -17,8 +17,6 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import inlined, lane_kernel, vector_kernel
-
 HALF_SQRT3 = math.sqrt(0.75)
 INV_SQRT3 = math.sqrt(1.0 / 3.0)
 SQRT2 = math.sqrt(2.0)
@@ -26,7 +24,6 @@ RIGHT_ORDER = np.array([4, 5, 7, 8, 3, 6, 1, 2, 0])
 """Rows c1c2, c1s2, s1c2, s1s2, c1, s1, c2, s2, 1 of the right side among (1, c1, s1)(1, c2, s2)."""
 
 
-@vector_kernel
 def close_loop(chain, shift, reverse, loop):
     """Write the transforms after each label of the loop ``Z_1 C_1 ... C_5 Z_6 = target``.
 
@@ -42,7 +39,6 @@ def close_loop(chain, shift, reverse, loop):
                 loop[i, e] = chain[joint, e]
 
 
-@vector_kernel
 def _invert(a, out):
     """Inverse of a rigid transform (12,)."""
     for i in range(3):
@@ -51,7 +47,6 @@ def _invert(a, out):
         out[4 * i + 3] = -(a[i] * a[3] + a[4 + i] * a[7] + a[8 + i] * a[11])
 
 
-@lane_kernel
 def line_functions(line, out, column):
     """The fourteen functions of the line through p along l, to a column of out (14, m)."""
     lx, ly, lz, px, py, pz = line
@@ -68,7 +63,6 @@ def line_functions(line, out, column):
     out[13, column] = pp * lz - pl2 * pz
 
 
-@lane_kernel
 def _move_line(a, line):
     """``a (l, p)`` of a line held as six scalars, a (12,)."""
     lx, ly, lz, px, py, pz = line
@@ -82,7 +76,6 @@ def _move_line(a, line):
     )
 
 
-@lane_kernel
 def move_line_back(a, line):
     """``a^-1 (l, p)`` of a line held as six scalars, a (12,)."""
     lx, ly, lz, px, py, pz = line
@@ -97,7 +90,6 @@ def move_line_back(a, line):
     )
 
 
-@lane_kernel
 def _turn_line(sample, line):
     """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
     lx, ly, lz, px, py, pz = line
@@ -109,7 +101,6 @@ def _turn_line(sample, line):
     return c * lx - s * ly, s * lx + c * ly, lz, c * px - s * py, s * px + c * py, pz
 
 
-@vector_kernel
 def left_coefficients(loop, left):
     """Coefficients of the left side's fourteen functions, to left (14, 27).
 
@@ -134,7 +125,6 @@ def left_coefficients(loop, left):
                 _powers_of_samples(left[f], i, 1, SQRT2)
 
 
-@lane_kernel
 def _series_of_samples(row, i, stride):
     """``(1, cos, sin)`` in place of samples at 0, 120 and -120 degrees."""
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
@@ -143,7 +133,6 @@ def _series_of_samples(row, i, stride):
     row[i + 2 * stride] = (y1 - y2) * INV_SQRT3
 
 
-@lane_kernel
 def _powers_of_samples(row, i, stride, scale):
     """The same in (1, 2 t / scale, t^2), t the tangent of half the angle, times ``1 + t^2``."""
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
@@ -151,7 +140,6 @@ def _powers_of_samples(row, i, stride, scale):
     row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
-@inlined
 def right_coefficients(loop, samples, right):
     """Coefficients of the right side's fourteen functions of joints 1 and 2, to right (9, 14)."""
     start = move_line_back(loop[5], (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
@@ -169,7 +157,6 @@ def right_coefficients(loop, samples, right):
             right[r, f] = samples[f, RIGHT_ORDER[r]]
 
 
-@inlined
 def reduce_right(right, beta, basis):
     """Householder QR of the eight non-constant columns of the right side, its rows (9, 14).
 
@@ -208,7 +195,6 @@ def reduce_right(right, beta, basis):
                     basis[r, i] += d * right[j, i]
 
 
-@inlined
 def six_equations(right, basis, lefts, e, equations):
     """Project left side e on the null space: ``equations`` (6, 27), columns as in left.
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import TWO_PI, chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
-from dh2urdf.kernels.numbers import LANES, MASK, inlined, null_vectors, vector_kernel
+from dh2urdf.kernels.numbers import LANES, MASK, atan2, null_vectors, sincos
 
 TOLERANCE = 1e-9
 """Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
@@ -41,7 +41,6 @@ AT_ROOT = 1e-4
 known to 1e-8 at best, to the root of that where four solutions nearly meet."""
 
 
-@vector_kernel
 def _seeds(e, roots, count, copies, arm):
     """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
 
@@ -56,7 +55,7 @@ def _seeds(e, roots, count, copies, arm):
     n = (lanes + 7) // 8 * 8
     for k in range(n):
         root = roots[min(k // copies, count - 1)]
-        hidden[0, k], hidden[1, k] = math.cos(root), math.sin(root)
+        hidden[0, k], hidden[1, k] = sincos(root)[1], sincos(root)[0]
         c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
     resultants(arm["equations"], hidden, n, arm["A"], W, arm["determinant"], arm["V"], arm["beta"])
     for copy in range(copies):
@@ -78,7 +77,6 @@ def _seeds(e, roots, count, copies, arm):
     return lanes
 
 
-@vector_kernel
 def _polish(lanes, damped, arm):
     """Newton on the exact chain until every lane has converged or has ceased to.
 
@@ -118,7 +116,6 @@ def _polish(lanes, damped, arm):
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
 
 
-@vector_kernel
 def _place(k, found, out_q, out_residual, arm):
     """Store lane k unless it missed the target or is known.
 
@@ -131,7 +128,7 @@ def _place(k, found, out_q, out_residual, arm):
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
         return found, -1
     for i in range(6):
-        q[i] = math.atan2(sines[i * LANES + k], cosines[i * LANES + k])
+        q[i] = atan2(sines[i * LANES + k], cosines[i * LANES + k])
     place, singular, members = found, -1, 0
     for f in range(found):
         far = 0.0
@@ -160,7 +157,6 @@ def _place(k, found, out_q, out_residual, arm):
     return max(found, place + 1), place
 
 
-@vector_kernel
 def _at_root(e, root, q, arm):
     """Whether the hidden joint of elimination e has the value of a root at a solution q (6,)."""
     shift, turns = arm["choices"][e, 0], arm["turns"]
@@ -171,7 +167,6 @@ def _at_root(e, root, q, arm):
     return abs(gap - math.floor(gap + 0.5)) < AT_ROOT / TWO_PI
 
 
-@inlined
 def follow(e, count, found, out_q, out_residual, arm):
     """Append the solutions that a list of roots leads to.
 
@@ -203,7 +198,6 @@ def follow(e, count, found, out_q, out_residual, arm):
     return found, again, worst
 
 
-@vector_kernel
 def accounted(e, count, found, out_q, arm):
     """Whether every root has as many solutions with its value as it has multiplicity.
 
@@ -224,7 +218,6 @@ def accounted(e, count, found, out_q, arm):
     return True
 
 
-@vector_kernel
 def how_many_below(values, count, least):
     """How many of the first values are below the least."""
     below = 0

@@ -10,11 +10,14 @@ for a pose. So the arm's record holds several, best first; a pose for which one 
 looked at again, first with new samples where the polynomial is small, then with the next one.
 """
 
+from typing import Annotated, Any
+
 import numpy as np
 
+from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
 from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
-from dh2urdf.kernels.numbers import entry_kernel, inlined
+from dh2urdf.kernels.numbers import Counts, Floats, Poses, entry
 
 COARSE = 1e-2
 """Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:
@@ -31,7 +34,6 @@ CROWDED_ATTEMPTS = 7
 """The same where solutions are close together yet apart: each round may lead to others."""
 
 
-@inlined
 def _solve_pose(T, out_q, out_residual, arm):
     """All solutions of one pose; their number."""
     spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
@@ -67,8 +69,14 @@ def _solve_pose(T, out_q, out_residual, arm):
     return found
 
 
-@entry_kernel
-def solve_general_6r(arms, Ts, out_q, out_residual, out_count):
+@entry
+def solve_general_6r(
+    arms: Annotated[Any, ARM_6R, "arm_6r", 1],
+    Ts: Poses,
+    out_q: Annotated[Floats, "poses", 16, 6],
+    out_residual: Annotated[Floats, "poses", 16],
+    out_count: Counts,
+):
     """All solutions of poses Ts (m, 4, 4), by the record ``arms`` (1,) of an arm.
 
     Angles in (-pi, pi] go to out_q (m, 16, 6), the larger of position error [m] and orientation

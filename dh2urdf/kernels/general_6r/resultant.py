@@ -22,7 +22,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import chain_frames
 from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, move_line_back
-from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, inlined, reduce_columns, vector_kernel
+from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, reduce_columns
 
 HALF = 3 * LANES
 LEFT = 3 * 12 * LANES
@@ -33,7 +33,6 @@ LOWER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0, 1.0 / SQRT2, 1.0, 1.0 / SQRT
 HIGHER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0 / SQRT2, 1.0, 1.0 / SQRT2, 1.0]])
 
 
-@vector_kernel
 def _fill(equations, term, hidden, n, A, column):
     """One column of the six equations at the hidden joint's values."""
     for r in range(len(equations)):
@@ -43,7 +42,6 @@ def _fill(equations, term, hidden, n, A, column):
             A[a + k] = e0 + e1 * hidden[0, k] + e2 * hidden[1, k]
 
 
-@vector_kernel
 def _keep_lower_half(A, source, W, target, half):
     """Copy rows 3 to 5 of a column of A to a half of a column of W."""
     a = (source * COLUMN + HALF) & MASK
@@ -52,7 +50,6 @@ def _keep_lower_half(A, source, W, target, half):
         W[w + k] = A[a + k]
 
 
-@vector_kernel
 def resultants(equations, hidden, n, A, W, determinant, V, beta):
     """Determinants at n values of the hidden joint; W (6 x 6 lanes) is left triangular.
 
@@ -76,7 +73,6 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
         determinant[k] *= W[last + k]
 
 
-@inlined
 def two_joints(b, n, cosines, sines):
     """Joints 4 and 5, in six runs of LANES, from the rank-one vectors ``(v, x v)``."""
     for k in range(n):
@@ -97,7 +93,6 @@ def two_joints(b, n, cosines, sines):
         cosines[4 * LANES + k], sines[4 * LANES + k] = c * h, s * h
 
 
-@vector_kernel
 def _pencil(b, second, k, columns, rows):
     """Matrix of which the combinations c of two vectors with ``N2 c = x N1 c`` are eigenvectors.
 
@@ -125,7 +120,6 @@ def _pencil(b, second, k, columns, rows):
     return a00, a01, a10, a11, gap / (cosine * cosine + (a00 + a11) * (a00 + a11))
 
 
-@inlined
 def split_pairs(b, second, n):
     """Two rank-one vectors ``(v, x v)`` from a plane of null vectors, in lanes 2k and 2k + 1.
 
@@ -150,13 +144,11 @@ def split_pairs(b, second, n):
             b[i * LANES + k] = (c0 * b[i * LANES + k] + c1 * second[i * LANES + k]) * h
 
 
-@vector_kernel
 def _entries(a):
     """Entries of a transform (12,) as scalars, which no writing in a loop can change."""
     return a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]
 
 
-@inlined
 def _functions(loop, frames, n, out):
     """The fourteen functions of axis 6's line, to out (14, LANES)."""
     second = _entries(loop[1])
@@ -167,7 +159,6 @@ def _functions(loop, frames, n, out):
         line_functions(move_line_back(second, (lx, ly, lz, px, py, pz)), out, k)
 
 
-@vector_kernel
 def _project(basis, row, constant, functions, n, out):
     """Row of Q^T times (functions - constant), to a run of out."""
     w0 = basis[row, 0]
@@ -183,7 +174,6 @@ def _project(basis, row, constant, functions, n, out):
             out[o + k] += w * functions[f, k]
 
 
-@inlined
 def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions, y):
     """Joints 1, 2 and 6 of n lanes.
 
@@ -209,7 +199,6 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
     _last_joint(loop, frames, n, cosines, sines)
 
 
-@inlined
 def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]

@@ -3,8 +3,6 @@
 Everything works on the record `ARM_6R`.
 """
 
-import math
-
 import numpy as np
 
 from dh2urdf.kernels.chain import load_pose, times_link
@@ -28,7 +26,7 @@ from dh2urdf.kernels.general_6r.elimination import (
     six_equations,
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
-from dh2urdf.kernels.numbers import LANES, inlined, vector_kernel
+from dh2urdf.kernels.numbers import LANES, sincos
 
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
@@ -52,7 +50,6 @@ NUDGE = 1e-3
 """Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
 
 
-@vector_kernel
 def place_target(T, arm):
     """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
     ends, chain, target, size = arm["ends"], arm["chain"], arm["target"], arm["size"]
@@ -62,7 +59,6 @@ def place_target(T, arm):
         chain[5, e] = r[e] / size if e % 4 == 3 else r[e]
 
 
-@vector_kernel
 def nudge(chain, attempt):
     """Move the target of the eliminations a little, another way at each attempt.
 
@@ -84,7 +80,6 @@ def nudge(chain, attempt):
     chain[5, 11] -= 0.60 * t
 
 
-@vector_kernel
 def prepare(arm):
     """The left sides of the eliminations, as far as they do not depend on the pose."""
     choices = arm["choices"]
@@ -93,7 +88,6 @@ def prepare(arm):
         left_coefficients(arm["loop"], arm["lefts"][e])
 
 
-@vector_kernel
 def eliminate(e, arm):
     """The six equations of elimination e."""
     loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
@@ -108,7 +102,6 @@ def eliminate(e, arm):
     six_equations(right, basis, lefts, left, arm["equations"])
 
 
-@inlined
 def _sample(k, arm):
     """Bernstein coefficients from new samples, one arc a column of ``arcs``.
 
@@ -123,7 +116,8 @@ def _sample(k, arm):
             hidden[0, i], hidden[1, i] = CIRCLE_COS[i], CIRCLE_SIN[i]
     else:
         middle = 0.5 * (spans[0, k] + spans[1, k])
-        half_tan = math.tan(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
+        sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
+        half_tan = sine / cosine
         window_nodes(middle, half_tan, hidden)
     lanes = hidden.shape[1]
     resultants(arm["equations"], hidden, lanes, arm["A"], arm["W"], determinant, arm["V"], beta)
@@ -134,7 +128,6 @@ def _sample(k, arm):
     return (LANES if noise < HOPELESS * largest else 0), middle, half_tan, noise
 
 
-@vector_kernel
 def _keep(roots, slopes, first, count, low, high, inside):
     """Of the roots from ``first`` on keep those inside, or outside, of an interval."""
     kept = first
@@ -145,7 +138,6 @@ def _keep(roots, slopes, first, count, low, high, inside):
     return kept
 
 
-@vector_kernel
 def find_roots(arm):
     """Roots of the polynomial and its slopes there, to ``roots`` and ``slopes``.
 

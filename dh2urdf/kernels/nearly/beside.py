@@ -5,6 +5,7 @@ the others lie along the direction in which the pose hardly changes.
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from dh2urdf.kernels.certificate import (
     principal,
     work_array,
 )
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import Counts, Floats, Joints6, Links6, Poses, entry
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
@@ -33,7 +34,6 @@ STEPS = 15
 """Newton steps; where they have not converged, there is nothing."""
 
 
-@inner_kernel
 def _solve(A, step):
     """Solve six equations, the rows of A (6, 7), by elimination with pivots; the longest entry.
 
@@ -57,7 +57,6 @@ def _solve(A, step):
     return longest
 
 
-@inner_kernel
 def _converges(links, joints, T, q, A, step, damped):
     """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
     for _ in range(STEPS):
@@ -72,8 +71,14 @@ def _converges(links, joints, T, q, A, step, damped):
     return pose_residual(links, joints, T, q) <= POLISH
 
 
-@kernel
-def search_beside(links, joints, Ts, q, count):
+@entry
+def search_beside(
+    links: Links6,
+    joints: Joints6,
+    Ts: Poses,
+    q: Annotated[Floats, "poses", "solutions", 6],
+    count: Counts,
+):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4).
 
     ``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certificate.certify`; six turning joints.

@@ -7,6 +7,8 @@ candidate moves far, does not converge, falls together with another, is one of a
 has a nearly singular Jacobian, and where there is none.
 """
 
+from typing import Annotated
+
 import numpy as np
 
 from dh2urdf.kernels.certificate import (
@@ -19,14 +21,28 @@ from dh2urdf.kernels.certificate import (
     polish,
     solve_damped,
 )
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Codes8,
+    Counts,
+    Ends,
+    Floats,
+    Integers,
+    Joints6,
+    Links6,
+    Poses,
+    Rows6,
+    Solutions,
+    Solutions8,
+    Three,
+    Values8,
+    entry,
+)
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
 
-@inner_kernel
 def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, start, work, damped):
     """Certify the candidates q of one pose; how many are left, or -1 minus that where in doubt.
 
@@ -51,8 +67,21 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
     return -1 - left if doubt or left < found else left
 
 
-@kernel
-def solve_near_wrist(links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free):
+@entry
+def solve_near_wrist(
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    trust: Three,
+    Ts: Poses,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
+):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
     D, R, arm, work, _ = wrist_scratch()
     start, damped = np.empty(6), make_damped(6)
@@ -66,7 +95,6 @@ def solve_near_wrist(links, joints, form, ends, slack, trust, Ts, q, residual, c
         count[i] = _settle(links, joints, Ts[i], trust, False, *out, found, start, work, damped)
 
 
-@inner_kernel
 def _in_line(form, first, pairs, slack, D, pair, cs, regular):
     """Whether axis 6 is nearly along the common normal for a pair: joint 6 is badly known."""
     outer = 0 if first == 1 else 3
@@ -80,9 +108,20 @@ def _in_line(form, first, pairs, slack, D, pair, cs, regular):
     return False
 
 
-@kernel
+@entry
 def solve_near_parallel(
-    links, joints, form, ends, slack, trust, Ts, q, residual, count, branch, free
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    trust: Three,
+    Ts: Poses,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
 ):
     """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
     scratch = parallel_scratch()
@@ -98,8 +137,14 @@ def solve_near_parallel(
         count[i] = _settle(links, joints, Ts[i], trust, doubt, *out, found, start, work, damped)
 
 
-@kernel
-def add_candidates(rows, q, count, wide, wide_count):
+@entry
+def add_candidates(
+    rows: Annotated[Integers, "rows"],
+    q: Solutions,
+    count: Counts,
+    wide: Annotated[Floats, "rows", "wide", "n"],
+    wide_count: Annotated[Integers, "rows"],
+):
     """Append the candidates of the poses in doubt, rows (d,) of q (m, kmax, n), to wide (d, k, n).
 
     The count of a pose in doubt is -1 minus that of its candidates.

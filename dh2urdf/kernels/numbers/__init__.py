@@ -1,37 +1,50 @@
-"""Numbers: how kernels are compiled, trigonometric equations, lanes.
+"""Numbers: which form of the kernels runs, elementary functions, trigonometric equations, lanes.
 
-Read `compiled` first (options of all kernels), then `trig` (equations that closed forms end in),
-`circles` (two equations in two angles), `dual_quaternions`, `lanes` (QR of many 6 x 6 systems
-side by side), `poses` (checks of many poses).
+Read `engine` first (compiled or interpreted), then `shapes` (what entries take), `elementary`
+(sine and cosine, arctangent, ..., the same bits on every machine), `trig` (equations that closed
+forms end in), `circles` (two equations in two angles), `dual_quaternions`, `lanes` (QR of many
+6 x 6 systems side by side), `poses` (checks of many poses).
 """
 
 from dh2urdf.kernels.numbers.circles import circle_pair
-from dh2urdf.kernels.numbers.compiled import (
-    block_kernel,
-    helper_kernel,
-    inlined_kernel,
-    inner_kernel,
-    kernel,
-    lane_kernel,
-)
 from dh2urdf.kernels.numbers.dual_quaternions import (
     dual_conjugate,
     dual_of_pose,
     dual_product,
     dual_times_joint,
 )
+from dh2urdf.kernels.numbers.elementary import acos, asin, atan2, hypot, sincos
+from dh2urdf.kernels.numbers.engine import entry
 from dh2urdf.kernels.numbers.lanes import (
     COLUMN,
     LANES,
     MASK,
-    entry_kernel,
-    inlined,
     null_vectors,
     reduce_columns,
     solve_upper,
-    vector_kernel,
 )
 from dh2urdf.kernels.numbers.poses import first_bad_pose, pad_solutions
+from dh2urdf.kernels.numbers.shapes import (
+    Codes,
+    Codes8,
+    Counts,
+    Ends,
+    Flags,
+    Floats,
+    Integers,
+    Joints,
+    Joints6,
+    Links,
+    Links6,
+    Pose,
+    Poses,
+    Rows6,
+    Solutions,
+    Solutions8,
+    Three,
+    Values,
+    Values8,
+)
 from dh2urdf.kernels.numbers.trig import (
     add_square,
     arctangent,

@@ -2,11 +2,9 @@
 
 import math
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel
 from dh2urdf.kernels.numbers.trig import TINY, linear_trig, trig_roots
 
 
-@inner_kernel
 def circle_pair(M, N, d, slack, scratch, out):
     """Solve ``M (cos x, sin x) + N (cos y, sin y) = d``, two equations: subproblem 6.
 
@@ -37,7 +35,6 @@ def circle_pair(M, N, d, slack, scratch, out):
     return rows
 
 
-@inner_kernel
 def _one_by_one(M, N, d, slack, out):
     """Solve :func:`circle_pair` where N has rank 1 or 0: first x, then y."""
     first = N[0, 0] * N[0, 0] + N[0, 1] * N[0, 1]
@@ -70,7 +67,6 @@ def _one_by_one(M, N, d, slack, out):
     return rows
 
 
-@inner_kernel
 def _two_ellipses(M, N, d, det, slack, scratch, out):
     """Solve :func:`circle_pair` where M is regular: ``|M^-1 (d - N (c, s))| = 1`` in y."""
     u0 = (M[1, 1] * d[0] - M[0, 1] * d[1]) / det

@@ -6,12 +6,14 @@ geometry", 2013). Scalar part first.
 """
 
 import math
+from typing import Annotated
 
-from dh2urdf.kernels.numbers.compiled import inner_kernel, kernel
+from dh2urdf.kernels.numbers.engine import entry
+from dh2urdf.kernels.numbers.shapes import Floats, Pose
 
 
-@kernel
-def dual_of_pose(T, unit, out):
+@entry
+def dual_of_pose(T: Pose, unit: float, out: Annotated[Floats, 8]):
     """Write the dual quaternion of T (4, 4), lengths divided by ``unit``, to out (8,).
 
     The largest of the four components is taken from the diagonal (Shepperd 1978).
@@ -40,14 +42,12 @@ def dual_of_pose(T, unit, out):
     out[7] = tz * w + tx * y - ty * x
 
 
-@inner_kernel
 def dual_conjugate(a, out):
     """Write the inverse of a unit dual quaternion: vector parts with the other sign."""
     out[0], out[1], out[2], out[3] = a[0], -a[1], -a[2], -a[3]
     out[4], out[5], out[6], out[7] = a[4], -a[5], -a[6], -a[7]
 
 
-@inner_kernel
 def _hamilton(a, i, b, j):
     """Hamilton's product of the quaternions at a[i:] and b[j:]."""
     p, q, r, s = a[i], a[i + 1], a[i + 2], a[i + 3]
@@ -60,7 +60,6 @@ def _hamilton(a, i, b, j):
     )
 
 
-@inner_kernel
 def dual_product(a, b, out):
     """Write ``a b`` to out (8,), which may be a or b."""
     r0, r1, r2, r3 = _hamilton(a, 0, b, 0)
@@ -70,7 +69,6 @@ def dual_product(a, b, out):
     out[4], out[5], out[6], out[7] = m0 + n0, m1 + n1, m2 + n2, m3 + n3
 
 
-@inner_kernel
 def dual_times_joint(a, slides, out):
     """Write ``a k`` (turning) or ``a e k`` (sliding) to out (8,): the factor of v."""
     w, x, y, z = a[0], a[1], a[2], a[3]

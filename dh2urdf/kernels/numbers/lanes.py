@@ -15,10 +15,6 @@ unroll them, ten times the code to optimise and nothing gained.
 
 import math
 
-from numba import njit
-
-from dh2urdf.kernels.numbers.compiled import UNCACHED, VECTOR
-
 LANES = 24
 COLUMN = 6 * LANES
 MASK = 0xFFFFF
@@ -26,17 +22,7 @@ TINY = 1e-300
 PIVOT = 1e-60
 SWEEPS = 2
 
-vector_kernel = njit(no_cpython_wrapper=True, **UNCACHED, **VECTOR)
-"""For kernels to call: with fused multiply-add and without a test of every division."""
 
-entry_kernel = njit(cache=True, **UNCACHED, **VECTOR)
-"""Likewise, for Python to call: its machine code is kept with all that it calls."""
-
-inlined = njit(inline="always", no_cpython_wrapper=True, **UNCACHED, **VECTOR)
-"""Likewise, as a part of its callers: for functions with one caller, which saves much time."""
-
-
-@vector_kernel
 def _make_reflector(V, A, column, row, n, scale, beta):
     """Reflection ``H = 1 + beta v v^T`` that clears a column of A below ``row``.
 
@@ -68,7 +54,6 @@ def _make_reflector(V, A, column, row, n, scale, beta):
         A[start + pivot + k] = value
 
 
-@vector_kernel
 def _reflect(V, A, column, n, beta):
     """Apply the reflection to one column of A."""
     a = (column * COLUMN) & MASK
@@ -86,7 +71,6 @@ def _reflect(V, A, column, n, beta):
         A[a + 120 + k] = a5 + d * v5
 
 
-@vector_kernel
 def reduce_columns(A, count, width, n, scale, V, beta):
     """Triangularise the first ``count`` of ``width`` columns of n lanes in place.
 
@@ -99,7 +83,6 @@ def reduce_columns(A, count, width, n, scale, V, beta):
             _reflect(V, A, c, n, beta)
 
 
-@vector_kernel
 def solve_upper(A, b, n):
     """Back substitution ``R x = b`` for the upper triangle R of A, lane by lane, in place.
 
@@ -117,7 +100,6 @@ def solve_upper(A, b, n):
                 b[y + k] -= A[a + k] * b[x + k]
 
 
-@vector_kernel
 def solve_upper_transposed(A, b, n):
     """Forward substitution ``R^T x = b`` for the upper triangle R of A, lane by lane, in place."""
     for j in range(len(b) // LANES):
@@ -132,7 +114,6 @@ def solve_upper_transposed(A, b, n):
             b[x + k] /= A[d + k] + PIVOT
 
 
-@inlined
 def null_vectors(A, known, b, first, n):
     """Unit vectors b that R maps to nearly nothing: inverse iteration on ``R^T R``.
 
@@ -153,7 +134,6 @@ def null_vectors(A, known, b, first, n):
             solve_upper(A, b, n)
 
 
-@vector_kernel
 def _orthogonalise(b, n, second):
     """Take the part along the unit vector b out of ``second``, lane by lane."""
     for k in range(n):
@@ -164,7 +144,6 @@ def _orthogonalise(b, n, second):
             second[i * LANES + k] -= d * b[i * LANES + k]
 
 
-@vector_kernel
 def _normalise(b, n):
     """Scale the six entries of every lane to unit length, safe against overflow."""
     for k in range(n):

@@ -1,6 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
-from dh2urdf.kernels.numbers.compiled import block_kernel, kernel
+from dh2urdf.kernels.numbers.engine import entry
+from dh2urdf.kernels.numbers.shapes import Codes, Counts, Poses, Solutions, Values
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""
@@ -15,7 +16,6 @@ BLOCK = 64
 """Poses that are looked at together."""
 
 
-@block_kernel
 def _count_rigid(Ts, first, last):
     """How many of these poses are finite, right-handed and orthonormal within the tolerances.
 
@@ -41,8 +41,8 @@ def _count_rigid(Ts, first, last):
     return count
 
 
-@kernel
-def first_bad_pose(Ts):
+@entry
+def first_bad_pose(Ts: Poses):
     """Index of the first of the poses Ts (m, 4, 4) that is not in SE(3), or -1."""
     m = Ts.shape[0]
     for first in range(0, m, BLOCK):
@@ -55,8 +55,10 @@ def first_bad_pose(Ts):
     return -1
 
 
-@kernel
-def pad_solutions(q, residual, count, branch, free, nothing):
+@entry
+def pad_solutions(
+    q: Solutions, residual: Values, count: Counts, branch: Codes, free: Codes, nothing: float
+):
     """Write ``nothing`` (NaN), branch -1 and no free joints after the last solution of a pose.
 
     Returns whether any solution has free joints.

@@ -5,12 +5,12 @@ roots is clamped at its rim: a square root of a number that rounding made negati
 residual of the chain decides later whether the merged root is a solution.
 """
 
-import cmath
 import math
+from typing import Annotated
 
-from numba import njit
-
-from dh2urdf.kernels.numbers.compiled import helper_kernel, inner_kernel, kernel
+from dh2urdf.kernels.numbers.elementary import hypot, sincos
+from dh2urdf.kernels.numbers.engine import entry
+from dh2urdf.kernels.numbers.shapes import Floats
 
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""
@@ -35,7 +35,6 @@ A6, A7, A8 = -0.06666424885738255, 0.05878928997834775, -0.05230454270650244
 A9, A10, A11 = 0.04551593220626549, -0.034570561981427744, 0.016285756855221028
 
 
-@helper_kernel
 def root_of_gap(gap, size, slack):
     """Square root of a gap that vanishes where two roots merge; -1.0 beyond the rim.
 
@@ -47,7 +46,6 @@ def root_of_gap(gap, size, slack):
     return math.sqrt(gap)
 
 
-@inner_kernel
 def linear_trig(a, b, d, slack):
     """Solve ``a cos(x) + b sin(x) = d``: the core of subproblems 3 and 4.
 
@@ -75,7 +73,6 @@ def linear_trig(a, b, d, slack):
     )
 
 
-@inner_kernel
 def elbow_angle(upper, fore, square, slack):
     """Cosine and sine of the elbow of a planar RR arm (lecture notes 8.2).
 
@@ -97,7 +94,6 @@ def elbow_angle(upper, fore, square, slack):
     return 2, 0.5 * (inner - outer) / scale, outer_root * inner_root / scale
 
 
-@inner_kernel
 def add_square(series, weight, constant, cosine, sine):
     """Add ``weight (constant + cosine cos x + sine sin x)^2`` to a series of degree 2."""
     series[0] += weight * (constant * constant + 0.5 * (cosine * cosine + sine * sine))
@@ -107,8 +103,13 @@ def add_square(series, weight, constant, cosine, sine):
     series[4] += weight * cosine * sine
 
 
-@kernel
-def trig_roots(series, degree, cosines, sines):
+@entry
+def trig_roots(
+    series: Annotated[Floats, "terms"],
+    degree: int,
+    cosines: Annotated[Floats, "most"],
+    sines: Annotated[Floats, "most"],
+):
     """Find the real roots of a trigonometric polynomial of low degree.
 
     ``f(x) = series[0] + sum_m series[2 m - 1] cos(m x) + series[2 m] sin(m x)``, m up to
@@ -133,60 +134,71 @@ def trig_roots(series, degree, cosines, sines):
         cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
         return found
     size = 2 * degree
-    start = cmath.exp(0.4j)
-    turn = cmath.exp(complex(0.0, 2.0 * math.pi / size))
     for k in range(size):
-        cosines[k], sines[k] = start.real, start.imag
-        start *= turn
+        sines[k], cosines[k] = sincos(0.4 + 2.0 * math.pi * k / size)
     for _ in range(SWEEPS):
         if _aberth_sweep(series, degree, cosines, sines) < SETTLED:
             break
     found = 0
     for k in range(size):
-        radius = math.hypot(cosines[k], sines[k])
+        radius = hypot(cosines[k], sines[k])
         if abs(radius - 1.0) < ON_CIRCLE:
             cosines[found], sines[found] = cosines[k] / radius, sines[k] / radius
             found += 1
     return found
 
 
-@inner_kernel
+def _times(x, y, u, v):
+    """``(x + i y) (u + i v)``."""
+    return x * u - y * v, x * v + y * u
+
+
+def _over(x, y, u, v):
+    """``(x + i y) / (u + i v)``, by Smith's method."""
+    if abs(u) >= abs(v):
+        ratio = v / u
+        scale = u + v * ratio
+        return (x + y * ratio) / scale, (y - x * ratio) / scale
+    ratio = u / v
+    scale = u * ratio + v
+    return (x * ratio + y) / scale, (y * ratio - x) / scale
+
+
 def _aberth_sweep(series, degree, real, imaginary):
     """Move each root by one step of Aberth's method; returns the longest relative step."""
     longest = 0.0
     size = 2 * degree
     for k in range(size):
-        z = complex(real[k], imaginary[k])
-        value, slope = 0.0j, 0.0j
+        x, y = real[k], imaginary[k]
+        value, slope = (0.0, 0.0), (0.0, 0.0)
         for j in range(size + 1):
             m = degree - j
-            if m == 0:
-                term = complex(series[0], 0.0)
-            elif m > 0:
-                term = complex(0.5 * series[2 * m - 1], -0.5 * series[2 * m])
-            else:
-                term = complex(0.5 * series[-2 * m - 1], 0.5 * series[-2 * m])
-            slope = slope * z + value
-            value = value * z + term
-        if abs(value) < 1e-300:
+            u = series[0] if m == 0 else 0.5 * series[2 * abs(m) - 1]
+            v = 0.0 if m == 0 else 0.5 * series[2 * abs(m)]
+            a, b = _times(*slope, x, y)
+            slope = a + value[0], b + value[1]
+            a, b = _times(*value, x, y)
+            value = a + u, b + (v if m < 0 else -v)
+        if hypot(*value) < 1e-300:
             continue
-        denominator = slope / value
+        a, b = _over(*slope, *value)
         for j in range(size):
             if j != k:
-                gap = z - complex(real[j], imaginary[j])
-                if abs(gap) > 1e-300:
-                    denominator -= 1.0 / gap
-        if abs(denominator) < 1e-300:
+                gap = x - real[j], y - imaginary[j]
+                if hypot(*gap) > 1e-300:
+                    u, v = _over(1.0, 0.0, *gap)
+                    a, b = a - u, b - v
+        if hypot(a, b) < 1e-300:
             continue
-        step = 1.0 / denominator
-        real[k] -= step.real
-        imaginary[k] -= step.imag
-        longest = max(longest, abs(step) / max(abs(z), 1e-6))
+        u, v = _over(1.0, 0.0, a, b)
+        real[k] -= u
+        imaginary[k] -= v
+        longest = max(longest, hypot(u, v) / max(hypot(x, y), 1e-6))
     return longest
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-def arctangent(y, x):
+@entry
+def arctangent(y: float, x: float):
     """``atan2(y, x)`` without branches, for loops that become vector code; within 5e-16.
 
     The quotient is brought below ``tan(pi / 8)`` by ``atan(t) = pi/4 + atan((t-1) / (t+1))``

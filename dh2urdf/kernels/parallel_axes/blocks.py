@@ -9,7 +9,18 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import block_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Codes8,
+    Counts,
+    Ends,
+    Joints6,
+    Links6,
+    Poses,
+    Rows6,
+    Solutions8,
+    Values8,
+    entry,
+)
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
 from dh2urdf.kernels.spherical_wrist import (
@@ -49,7 +60,6 @@ PLANE = WORK
 """Per shoulder and wrist: where the planar arm has to reach, and its heading; four rows each."""
 
 
-@block_kernel
 def _shoulders(form, slack, n, S):
     """Joint 1 from the offset of the arm's plane, joint 5 from the slope of axis 6."""
     ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
@@ -84,7 +94,6 @@ def _shoulders(form, slack, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@block_kernel
 def _planes(form, n, S):
     """Where the planar arm has to reach and how it points, for both shoulders and wrists."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
@@ -110,7 +119,6 @@ def _planes(form, n, S):
             S[rows + BLOCK * 3 + i] = ca1 * (c1 * h1 - s1 * h0) + sa1 * h2
 
 
-@block_kernel
 def _elbows(form, slack, n, S):
     """Joints 2, 3 and 4 of all eight arms: planar RRR (lecture notes 8.2)."""
     upper, fore = form[1, 0], form[2, 0]
@@ -133,9 +141,20 @@ def _elbows(form, slack, n, S):
             S[result + i] = exists if reached else 0.0
 
 
-@kernel
+@entry
 def solve_common_parallel(
-    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
 ):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
     m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)

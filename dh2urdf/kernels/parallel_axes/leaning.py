@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import TWO_PI
-from dh2urdf.kernels.numbers import inner_kernel
+from dh2urdf.kernels.numbers import asin, atan2, hypot, sincos
 from dh2urdf.kernels.parallel_axes.plane import last_joint, seen_arm
 
 TRIALS = 64
@@ -32,7 +32,6 @@ ETA = 1e-15
 """What rounding does to height and slope, for an arm of about a metre."""
 
 
-@inner_kernel
 def levels(form, D, rise, slope):
     """Height and slope of the pose D (3, 4) less those of the arm, linear in (1, c4, s4)."""
     ca3, sa3, a4, ca4, sa4 = form[2, 1], form[2, 2], form[3, 0], form[3, 1], form[3, 2]
@@ -43,21 +42,18 @@ def levels(form, D, rise, slope):
     slope[0], slope[1], slope[2] = D[2, 2] - ca5 * z0, -ca5 * z1, 0.0
 
 
-@inner_kernel
 def _level(row, c4, e):
     """A row of :func:`levels` at an offset e from ``c4 = +-1``, without cancellation."""
-    half = math.sin(0.5 * e)
-    return row[0] + row[1] * c4 - 2.0 * row[1] * c4 * half * half + row[2] * c4 * math.sin(e)
+    half = sincos(0.5 * e)[0]
+    return row[0] + row[1] * c4 - 2.0 * row[1] * c4 * half * half + row[2] * c4 * sincos(e)[0]
 
 
-@inner_kernel
 def _common_direction(form, c4, e):
     """What the common direction of axes 1, 2, 3 has across axis 5, seen after joint 4."""
-    k, half = form[2, 2] * c4, math.sin(0.5 * e)
-    return k * math.sin(e), -2.0 * k * form[3, 1] * half * half
+    k, half = form[2, 2] * c4, sincos(0.5 * e)[0]
+    return k * sincos(e)[0], -2.0 * k * form[3, 1] * half * half
 
 
-@inner_kernel
 def _offset(form, rise, slope, c4, nominal, c5, s5):
     """The e that goes with t5, and whether height and slope are those of the pose to rounding."""
     k, e = form[2, 2] * c4, nominal
@@ -74,19 +70,17 @@ def _offset(form, rise, slope, c4, nominal, c5, s5):
     return e, abs(high) <= eta and abs(steep) <= eta
 
 
-@inner_kernel
 def _beyond(form, D, cs, c4, e, c5, s5):
     """Set t4 and t5 in cs; how far the planar arm is from reaching, not positive if it does."""
-    s4 = math.sin(e)
+    s4 = sincos(e)[0]
     cs[3, 0], cs[3, 1] = c4 * math.sqrt((1.0 - s4) * (1.0 + s4)), c4 * s4
     cs[4, 0], cs[4, 1] = c5, s5
     last_joint(form, 0, D, cs)
     x, y, _ = seen_arm(form, 0, D, cs, 1.0)
-    length = math.hypot(D[0, 3] - x, D[1, 3] - y)
+    length = hypot(D[0, 3] - x, D[1, 3] - y)
     return max(abs(form[0, 0] - form[1, 0]) - length, length - form[0, 0] - form[1, 0])
 
 
-@inner_kernel
 def _keep(cs, pairs, count):
     """Append the t4 and t5 in cs; the new count."""
     if count < pairs.shape[0]:
@@ -96,16 +90,14 @@ def _keep(cs, pairs, count):
     return count
 
 
-@inner_kernel
 def _try(form, D, cs, rise, slope, c4, nominal, t5):
     """Set t4 and t5 in cs; how far the planar arm is from reaching, infinite if t4 does not fit."""
-    c5, s5 = math.cos(t5), math.sin(t5)
+    c5, s5 = sincos(t5)[1], sincos(t5)[0]
     e, fits = _offset(form, rise, slope, c4, nominal, c5, s5)
     beyond = _beyond(form, D, cs, c4, e, c5, s5)
     return beyond if fits else math.inf
 
 
-@inner_kernel
 def _dip(form, D, cs, rise, slope, c4, nominal, t5):
     """Where between the neighbours of a trial t5 the planar arm is nearest to reaching."""
     low, high = t5 - TWO_PI / TRIALS, t5 + TWO_PI / TRIALS
@@ -119,7 +111,6 @@ def _dip(form, D, cs, rise, slope, c4, nominal, t5):
     return 0.5 * (low + high)
 
 
-@inner_kernel
 def _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs):
     """The middle of every arc of t5 that is found by trying; how many. ``beyond`` (TRIALS,)."""
     start = 0
@@ -149,18 +140,17 @@ def _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs):
     return count
 
 
-@inner_kernel
 def _fifth(form, rise, slope, c4, e, side):
     """Cosine and sine of the t5 that goes with e, on either side; (0, 0) if there is none."""
     fx, fy = _common_direction(form, c4, e)
-    f = math.copysign(math.hypot(fx, fy), fx)
+    f = math.copysign(hypot(fx, fy), fx)
     if f == 0.0:
         return 0.0, 0.0
     a, b = form[4, 0] * f, form[4, 2] * f
     c, s = _level(rise, c4, e), _level(slope, c4, e)
     if a != 0.0 and b != 0.0:
         c, s = c / a, s / b
-        r = math.hypot(c, s) if side > 0.0 else 0.0
+        r = hypot(c, s) if side > 0.0 else 0.0
         c, s = (c / r, s / r) if r > 0.0 else (0.0, 0.0)
     else:
         known = s / b if a == 0.0 else c / a
@@ -171,7 +161,6 @@ def _fifth(form, rise, slope, c4, e, side):
     return (c * fx - s * fy) / f, (s * fx + c * fy) / f
 
 
-@inner_kernel
 def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
     """Append arcs between the trials, met by trying e near its root; the new count."""
     row = rise if form[4, 0] == 0.0 else slope
@@ -187,7 +176,7 @@ def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
             if c5 == 0.0 and s5 == 0.0:
                 continue
             if _beyond(form, D, cs, c4, e, c5, s5) <= 0.0:
-                turn = math.atan2(s5, c5) / TWO_PI - 0.5 / TRIALS
+                turn = atan2(s5, c5) / TWO_PI - 0.5 / TRIALS
                 below = math.floor((turn - math.floor(turn)) * TRIALS) % TRIALS
                 if not beyond[below] <= 0.0 and not beyond[(below + 1) % TRIALS] <= 0.0:
                     count = _keep(cs, pairs, count)
@@ -195,7 +184,6 @@ def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
     return count
 
 
-@inner_kernel
 def pairs_of_leaning(form, D, cs, c4, s4, pairs):
     """Values of t4 and t5 about a root (c4, s4) near which axis 5 is in line with 1, 2, 3.
 
@@ -205,7 +193,7 @@ def pairs_of_leaning(form, D, cs, c4, s4, pairs):
     """
     rise, slope, beyond = np.empty(3), np.empty(3), np.empty(TRIALS)
     levels(form, D, rise, slope)
-    nominal = math.asin(s4) if c4 > 0.0 else math.asin(-s4)
+    nominal = asin(s4) if c4 > 0.0 else asin(-s4)
     c4 = 1.0 if c4 > 0.0 else -1.0
     count = _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs)
     count = _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count)

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import add_square, circle_pair, inner_kernel, linear_trig, trig_roots
+from dh2urdf.kernels.numbers import add_square, circle_pair, hypot, linear_trig, sincos, trig_roots
 from dh2urdf.kernels.parallel_axes.leaning import levels
 from dh2urdf.kernels.spherical_wrist import FREE
 
@@ -37,7 +37,6 @@ LEANING = 1e-4
 t4 may have moved it anywhere."""
 
 
-@inner_kernel
 def pairs_of_meeting(form, D, slack, pair):
     """Joint 1 where axes 2, 3, 4 are parallel and 5 meets 6: subproblem 4.
 
@@ -50,14 +49,13 @@ def pairs_of_meeting(form, D, slack, pair):
     count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
     free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
     if free:
-        count, c1, s1 = 1, math.cos(form[0, 4]), math.sin(form[0, 4])
+        count, c1, s1 = 1, sincos(form[0, 4])[1], sincos(form[0, 4])[0]
     for k in range(count):
         pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
         pair[k, 2], pair[k, 3] = 1.0, 0.0
     return -count if free else count
 
 
-@inner_kernel
 def _pairs_behind_one(form, D, slack, pair):
     """Joints 1 and 5 where axes 2, 3, 4 are parallel; the number of pairs.
 
@@ -87,7 +85,6 @@ def _pairs_behind_one(form, D, slack, pair):
     return pairs
 
 
-@inner_kernel
 def _pairs_in_line(form, D, offset, c5, pair, pairs):
     """Append pairs where axis 6 is nearly along the common normal, t5 near 0 or pi; the new count.
 
@@ -98,7 +95,7 @@ def _pairs_in_line(form, D, offset, c5, pair, pairs):
     """
     ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
     sign = form[3, 1] * form[4, 1] - sa4 * sa5 * c5
-    across = math.hypot(D[0, 2], D[1, 2])
+    across = hypot(D[0, 2], D[1, 2])
     if abs(abs(sign) - 1.0) > STRAIGHT or across == 0.0:
         return pairs
     sign = 1.0 if sign > 0.0 else -1.0
@@ -124,25 +121,24 @@ def _pairs_in_line(form, D, offset, c5, pair, pairs):
         r = (-b + (root if k == 0 else -root)) / a
         x, y = ((N * r - F) / M, r) if abs(M) >= abs(N) else (r, (F + M * r) / N)
         x, y = _settle_in_line(start, sa1, px, py, F, B, N, x, y)
-        cx, sx = math.cos(x), math.sin(x)
+        cx, sx = sincos(x)[1], sincos(x)[0]
         pair[pairs, 0], pair[pairs, 1] = c1 * cx - s1 * sx, s1 * cx + c1 * sx
-        pair[pairs, 2], pair[pairs, 3] = c5 * math.cos(y), c5 * math.sin(y)
+        pair[pairs, 2], pair[pairs, 3] = c5 * sincos(y)[1], c5 * sincos(y)[0]
         pairs += 1
     return pairs
 
 
-@inner_kernel
 def _settle_in_line(start, sa1, px, py, F, B, N, x, y):
     """Newton's method on the equations of :func:`_pairs_in_line`, higher powers included."""
     vx, vy, vz, c1, s1 = start
     for _ in range(NEWTON_STEPS):
-        sx, h = math.sin(x), math.sin(0.5 * x)
+        sx, h = sincos(x)[0], sincos(0.5 * x)[0]
         dc, ds = -s1 * sx - 2.0 * c1 * h * h, c1 * sx - 2.0 * s1 * h * h
-        ux, uy, sy, g = vx + sa1 * ds, vy - sa1 * dc, math.sin(y), math.sin(0.5 * y)
+        ux, uy, sy, g = vx + sa1 * ds, vy - sa1 * dc, sincos(y)[0], sincos(0.5 * y)[0]
         f1 = 0.5 * (ux * ux + uy * uy + vz * vz) - 2.0 * B * g * g
         f2 = F + sa1 * (px * ds - py * dc) - N * sy
         f1x, f1y = sa1 * (ux * (c1 + dc) + uy * (s1 + ds)), -B * sy
-        f2x, f2y = sa1 * (px * (c1 + dc) + py * (s1 + ds)), -N * math.cos(y)
+        f2x, f2y = sa1 * (px * (c1 + dc) + py * (s1 + ds)), -N * sincos(y)[1]
         det = f1x * f2y - f1y * f2x
         if det == 0.0:
             break
@@ -153,7 +149,6 @@ def _settle_in_line(start, sa1, px, py, F, B, N, x, y):
     return x, y
 
 
-@inner_kernel
 def _add_leaning(c4, s4, pair, pairs):
     """Append a t4 at which t5 is nearly free, once for both roots beside it; the new count."""
     for j in range(pairs):
@@ -163,7 +158,6 @@ def _add_leaning(c4, s4, pair, pairs):
     return pairs + 1
 
 
-@inner_kernel
 def _pairs_before_four(form, D, slack, pair):
     """Joints 4 and 5 where axes 1, 2, 3 are parallel; the number of pairs.
 
@@ -206,14 +200,13 @@ def _pairs_before_four(form, D, slack, pair):
             c1, s1, c2, s2 = fx * n1 - fy * n2, fy * n1 + fx * n2, 1.0, 0.0
         for j in range(found):
             c5, s5 = (c1, s1) if j == 0 else (c2, s2)
-            r = math.hypot(c5, s5)
+            r = hypot(c5, s5)
             pair[pairs, 0], pair[pairs, 1], pair[pairs, 4] = c4, s4, 0.0
             pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
             pairs += 1
     return pairs
 
 
-@inner_kernel
 def outer_pairs(form, first, D, slack, pair):
     """Pairs of outer joints of one pose D (3, 4); their number, negative where joint 1 is free."""
     if first == 0:

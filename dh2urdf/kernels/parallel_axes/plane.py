@@ -1,13 +1,10 @@
 """An arm with three parallel axes, seen from the plane in which they turn."""
 
-import math
-
 from dh2urdf.kernels.chain import turned_back
-from dh2urdf.kernels.numbers import inner_kernel
+from dh2urdf.kernels.numbers import hypot, sincos
 from dh2urdf.kernels.spherical_wrist import NICE
 
 
-@inner_kernel
 def seen_from_plane(form, first, c1, s1, x, y, z):
     """A vector of frame 0 in the frame of the parallel axes, which joint 1 turns or not."""
     if first == 0:
@@ -17,7 +14,6 @@ def seen_from_plane(form, first, c1, s1, x, y, z):
     return x, ca * y + sa * z, ca * z - sa * y
 
 
-@inner_kernel
 def _to_frame_six(form, last, cs, x, z, origin):
     """The vector (x, 0, z) of the frame after the last parallel axis, seen in frame 6.
 
@@ -34,7 +30,6 @@ def _to_frame_six(form, last, cs, x, z, origin):
     return x, y, z
 
 
-@inner_kernel
 def seen_arm(form, first, D, cs, origin):
     """The way from the last parallel axis to frame 6 (1.0), or that link's direction (0.0).
 
@@ -46,7 +41,6 @@ def seen_arm(form, first, D, cs, origin):
     return seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
 
 
-@inner_kernel
 def common_axis(form, first, D, cs):
     """The direction k of the parallel axes, seen in frame 6: ``k^T R``."""
     kx, ky, kz = 0.0, 0.0, 1.0
@@ -55,7 +49,6 @@ def common_axis(form, first, D, cs):
     return turned_back(D, (kx, ky, kz))
 
 
-@inner_kernel
 def last_joint(form, first, D, cs):
     """Cosine and sine of t6 into cs: subproblem 1; the sine of axis 6 to the parallel axes.
 
@@ -64,11 +57,11 @@ def last_joint(form, first, D, cs):
     rx, ry, _ = common_axis(form, first, D, cs)
     cs[5, 0], cs[5, 1] = 1.0, 0.0
     x, y, _ = _to_frame_six(form, first + 2, cs, 0.0, 1.0, 0.0)
-    in_line = math.hypot(rx, ry)
+    in_line = hypot(rx, ry)
     c6, s6 = x * rx + y * ry, y * rx - x * ry
-    r = math.hypot(c6, s6)
+    r = hypot(c6, s6)
     if in_line <= NICE or r == 0.0:
-        cs[5, 0], cs[5, 1] = math.cos(form[5, 4]), math.sin(form[5, 4])
+        cs[5, 0], cs[5, 1] = sincos(form[5, 4])[1], sincos(form[5, 4])[0]
     else:
         cs[5, 0], cs[5, 1] = c6 / r, s6 / r
     return in_line

@@ -15,7 +15,20 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Codes8,
+    Counts,
+    Ends,
+    Joints6,
+    Links6,
+    Poses,
+    Rows6,
+    Solutions8,
+    Values8,
+    atan2,
+    entry,
+    hypot,
+)
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import common_axis, last_joint, seen_arm, seen_from_plane
@@ -34,7 +47,6 @@ ROUNDING = 1e-12
 """Turn of the tool [rad] that rounding, also of t1 near its own rim, explains."""
 
 
-@inner_kernel
 def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     """Turn t6, free or nearly so, so that the planar arm reaches (lecture notes 8.2).
 
@@ -46,7 +58,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     near, far = abs(upper - fore), upper + fore
     bx, by, _ = seen_arm(form, first, D, cs, 1.0)
     cx, cy = x + bx, y + by
-    distance, radius, length = math.hypot(cx, cy), math.hypot(bx, by), math.hypot(x, y)
+    distance, radius, length = hypot(cx, cy), hypot(bx, by), hypot(x, y)
     if near <= length <= far or distance * radius == 0.0:
         return x, y
     low, high = max(near, abs(distance - radius)), min(far, distance + radius)
@@ -61,7 +73,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
         sine = -sine
     vx, vy = radius * (ux * cosine - uy * sine), radius * (uy * cosine + ux * sine)
     c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
-    if in_line > FREE and in_line * math.hypot(1.0 - c, s) > ROUNDING:
+    if in_line > FREE and in_line * hypot(1.0 - c, s) > ROUNDING:
         return x, y
     _, _, up = seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
     s = -s if up > 0.0 else s
@@ -69,7 +81,6 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     return cx - vx, cy - vy
 
 
-@inner_kernel
 def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free, count):
     """Append the elbows of one set of outer joints; returns the new count."""
     in_line = last_joint(form, first, D, cs)
@@ -85,14 +96,14 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free,
     if in_line <= VAGUE:
         x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
     hx, hy, _ = seen_arm(form, first, D, cs, 0.0)
-    heading = math.atan2(hy, hx)
+    heading = atan2(hy, hx)
     if x * x + y * y <= FREE * FREE:
         mask |= 0b101 << first
     up = 1.0 if (first == 1 and form[0, 2] > 0.0) == (shoulder == 0) else -1.0
     elbows = planar(form[first, 0], form[first + 1, 0], x, y, up, slack, arm, 0)
     for elbow in range(elbows):
         for i in range(6):
-            t = math.atan2(cs[i, 1], cs[i, 0])
+            t = atan2(cs[i, 1], cs[i, 0])
             if first <= i < first + 2:
                 t = arm[elbow, 1 + i - first]
             elif i == first + 2:
@@ -104,15 +115,13 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free,
     return count
 
 
-@inner_kernel
 def slope_of_last(form, D, cs, slack):
     """Joint 5 into cs where axes 5 and 6 meet; the number of its signs, 1 if axis 6 is in line."""
     x, y, z = common_axis(form, 1, D, cs)
     wrists, cs[4, 0], cs[4, 1] = middle_angle(form, x, y, z, slack)
-    return min(wrists, 1) if math.hypot(x, y) <= FREE else wrists
+    return min(wrists, 1) if hypot(x, y) <= FREE else wrists
 
 
-@inner_kernel
 def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
     """From ``pairs`` of outer joints of one pose to candidates in q (8, 6); their count.
 
@@ -145,7 +154,6 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
     return found
 
 
-@inner_kernel
 def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out, scratch):
     """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
 
@@ -160,7 +168,6 @@ def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out
     return copy_rows(many, found, out)
 
 
-@inner_kernel
 def make_scratch():
     """Frame 6 in frame 0, pairs, cosines and sines, certification, arcs, candidates, elbows."""
     many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
@@ -168,9 +175,20 @@ def make_scratch():
     return D, np.empty((8, 5)), cs, np.empty((6, 14)), arcs, many, np.empty((2, 5))
 
 
-@kernel
+@entry
 def solve_three_parallel(
-    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
 ):
     """All solutions of poses Ts (m, 4, 4); q (m, 8, 6), the rest as its first axes.
 

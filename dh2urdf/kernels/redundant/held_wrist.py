@@ -19,7 +19,7 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
-import math
+from typing import Annotated
 
 import numpy as np
 
@@ -43,7 +43,19 @@ from dh2urdf.kernels.chain import (
     store_pose,
     turned_back,
 )
-from dh2urdf.kernels.numbers import circle_pair, inner_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints6,
+    Pose,
+    Poses,
+    Rows6,
+    atan2,
+    circle_pair,
+    entry,
+    sincos,
+)
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
@@ -57,7 +69,6 @@ HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 24, 26
 
 
-@inner_kernel
 def make_scratch():
     """Arrays that one pose is worked out in.
 
@@ -70,7 +81,6 @@ def make_scratch():
     return poses, D, S, R, arm, work, links, rest, equations
 
 
-@inner_kernel
 def oriented_pose(frames, which, value, T, scratch):
     """The target of the oriented chain, into ``scratch[1]``; S0, S1, S2 into ``scratch[2]``."""
     poses, D, S = scratch[0], scratch[1], scratch[2]
@@ -91,7 +101,6 @@ def oriented_pose(frames, which, value, T, scratch):
             store_pose(load_pose(frames[LINK + i]), S[i])
 
 
-@inner_kernel
 def _place_wrist(form, D, S, slack, scratch):
     """Joints 1, 2, 3 that put the wrist centre where D has it: rows of ``arm``; how many.
 
@@ -125,24 +134,22 @@ def _place_wrist(form, D, S, slack, scratch):
         yx, yy, _ = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
         vx, vy, _ = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
         upper_free = vx * vx + vy * vy <= FREE * FREE
-        arm[k, 0], arm[k, 2], arm[k, 3] = math.atan2(s1, c1), math.atan2(s3, c3), -1.0
-        arm[k, 1] = 0.0 if upper_free else math.atan2(vx * yy - vy * yx, vx * yx + vy * yy)
+        arm[k, 0], arm[k, 2], arm[k, 3] = atan2(s1, c1), atan2(s3, c3), -1.0
+        arm[k, 1] = 0.0 if upper_free else atan2(vx * yy - vy * yx, vx * yx + vy * yy)
         arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
     return max(count, 0)
 
 
-@inner_kernel
 def _orientation_left(D, S, values, R):
     """``R_36 = S2^T Z3^T S1^T Z2^T S0^T Z1^T R_06``, to R (3, 3)."""
     for j in range(3):
         x, y, z = D[0, j], D[1, j], D[2, j]
         for i in range(3):
-            c, s = math.cos(values[i]), math.sin(values[i])
+            c, s = sincos(values[i])[1], sincos(values[i])[0]
             x, y, z = turned_back(S[i], (c * x + s * y, c * y - s * x, z))
         R[0, j], R[1, j], R[2, j] = x, y, z
 
 
-@inner_kernel
 def held_candidates(form, frames, which, slack, value, T, q, branch, free, scratch):
     """Candidates of one pose, q (8, 6) in the chain's order without the held joint; how many."""
     oriented_pose(frames, which, value, T, scratch)
@@ -158,7 +165,6 @@ def held_candidates(form, frames, which, slack, value, T, q, branch, free, scrat
     return found
 
 
-@inner_kernel
 def solve_held_pose(
     frames, which, form, joints, slack, value, T, within_limits, q, residual, branch, free, scratch
 ):
@@ -172,7 +178,6 @@ def solve_held_pose(
     return found
 
 
-@inner_kernel
 def solve_rough(constants, values, Ts, within_limits, first, last, out):
     """Solve those of the poses ``first`` to ``last - 1`` whose count is negative."""
     q, residual, count, branch, free = out
@@ -183,9 +188,21 @@ def solve_rough(constants, values, Ts, within_limits, first, last, out):
             count[i] = solve_held_pose(*constants, values[i], Ts[i], within_limits, *rows, scratch)
 
 
-@kernel
+@entry
 def solve_held_wrist(
-    frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
+    frames: Annotated[Floats, 30, 4, 4],
+    which: Annotated[Integers, 5],
+    form: Rows6,
+    joints: Joints6,
+    slack: float,
+    values: Annotated[Floats, "poses"],
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 8, 7],
+    residual: Annotated[Floats, "poses", 8],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 8],
+    free: Annotated[Integers, "poses", 8],
 ):
     """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7)."""
     count[:] = -1
@@ -193,8 +210,19 @@ def solve_held_wrist(
     solve_rough(constants, values, Ts, within_limits, 0, Ts.shape[0], out)
 
 
-@kernel
-def points_on_curves(frames, which, form, joints, slack, values, T, unit, q, count):
+@entry
+def points_on_curves(
+    frames: Annotated[Floats, 30, 4, 4],
+    which: Annotated[Integers, 5],
+    form: Rows6,
+    joints: Annotated[Floats, 7, 3],
+    slack: float,
+    values: Annotated[Floats, "poses"],
+    T: Pose,
+    unit: float,
+    q: Annotated[Floats, "poses", 8, 7],
+    count: Counts,
+):
     """Solutions of one pose T (4, 4) on its curves near the held values (m,); q (m, 8, 7).
 
     With a large slack also a value that just misses a curve gives a candidate. All seven joints

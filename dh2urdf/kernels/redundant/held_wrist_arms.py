@@ -15,7 +15,6 @@ changes signs that cancel: its forward kinematics are the same numbers, and so i
 import math
 
 from dh2urdf.kernels.certificate import POLISH
-from dh2urdf.kernels.numbers import block_kernel, lane_kernel
 from dh2urdf.kernels.redundant.held_wrist_load import LEVER, LOADED, UPPER, pose_axes
 from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
@@ -51,7 +50,6 @@ WRIST = ARM + BLOCK * 12
 arm would need more checks of what overlaps in one loop than the compiler makes vector code for."""
 
 
-@block_kernel
 def place_elbows(S2, reach, slack, n, S):
     """Joint 3 from the distance of the wrist centre, both values, and what it carries."""
     wx, wy = S2[0, 2] * reach + S2[0, 3], S2[1, 2] * reach + S2[1, 3]
@@ -80,7 +78,6 @@ def place_elbows(S2, reach, slack, n, S):
             _carry(x, y, z, 1.0 if j == 3 else 0.0, elbow, 12 * elbow + 3 * j, n, S)
 
 
-@block_kernel
 def _carry(wx, wy, wz, moves, elbow, row, n, S):
     """``S1 Z3 w`` to three rows from ``FORE + row`` on, for a direction w, or a point: it moves."""
     turn, target, M = at(T3 + elbow), at(FORE + row), at(UPPER)
@@ -92,7 +89,6 @@ def _carry(wx, wy, wz, moves, elbow, row, n, S):
         S[target + BLOCK * 2 + i] = dot(column(S, M + BLOCK * 6 + i, BLOCK), v) + moves * t[2]
 
 
-@block_kernel
 def place_shoulders(S0, slack, n, S):
     """Joints 1 and 2 of all four arms from the height and the direction of the wrist centre.
 
@@ -131,7 +127,6 @@ def place_shoulders(S0, slack, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@block_kernel
 def finish_arm(form, S0, seen_from_tool, arm, n, S):
     """Joints 4, 5 and 6 of one arm of every lane, and the residual of both its solutions."""
     _reach(S0, arm, n, S)
@@ -150,7 +145,6 @@ def finish_arm(form, S0, seen_from_tool, arm, n, S):
         S[result + i], S[result + BLOCK * 4 + i] = error, error
 
 
-@block_kernel
 def _reach(S0, arm, n, S):
     """``A = Z1 S0 Z2 S1 Z3 S2`` of one arm of every lane."""
     u00, u10, u20, u01, u11, u21 = S0[0, 0], S0[1, 0], S0[2, 0], S0[0, 1], S0[1, 1], S0[2, 1]
@@ -172,7 +166,6 @@ def _reach(S0, arm, n, S):
             S[target + BLOCK * 2 + i] = z
 
 
-@block_kernel
 def _wrist(sa4, sa5, n, S):
     """ZYZ angles of ``A^T R`` with a positive sine of joint 5."""
     for i in range(n):
@@ -192,7 +185,6 @@ def _wrist(sa4, sa5, n, S):
         S[WRIST + BLOCK * 5 + i] = -dot((x, y, z), column(S, BLOCK + i, BLOCK * 3))
 
 
-@block_kernel
 def _measure(sa4, sa5, seen_from_tool, n, S):
     """Residual of every lane by forward kinematics of the oriented arm.
 
@@ -224,7 +216,6 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
         S[WRIST + BLOCK * 6 + i] = math.sqrt(max(dot(e, e), 0.5 * turn))
 
 
-@lane_kernel
 def _turned_upright(c, s, sa, x, y, z):
     """The axes x, y, z of a frame after ``Rot_z Rot_x(alpha)`` with a right angle alpha."""
     x, (y0, y1, y2) = turned(c, s, x, y)

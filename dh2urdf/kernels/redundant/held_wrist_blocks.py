@@ -6,9 +6,22 @@ singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k &
 ``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
+from typing import Annotated
+
 import numpy as np
 
-from dh2urdf.kernels.numbers import kernel
+from dh2urdf.kernels.numbers import (
+    Codes,
+    Counts,
+    Floats,
+    Integers,
+    Joints6,
+    Poses,
+    Rows6,
+    Solutions,
+    Values,
+    entry,
+)
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
@@ -19,9 +32,21 @@ K, ARM, OTHER = np.arange(8), np.arange(8) & 3, 12 * (np.arange(8) >> 2)
 ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
 
 
-@kernel
+@entry
 def solve_held_blocks(
-    frames, which, form, joints, slack, values, Ts, within_limits, q, residual, count, branch, free
+    frames: Annotated[Floats, 30, 4, 4],
+    which: Annotated[Integers, 5],
+    form: Rows6,
+    joints: Joints6,
+    slack: float,
+    values: Annotated[Floats, "poses"],
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 8, 7],
+    residual: Annotated[Floats, "poses", 8],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 8],
+    free: Annotated[Integers, "poses", 8],
 ):
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
@@ -49,8 +74,24 @@ def solve_held_blocks(
             solve_rough(constants, values, Ts, within_limits, first, first + n, out)
 
 
-@kernel
-def gather_samples(found, first, last, samples, q, residual, count, branch, free):
+@entry
+def gather_samples(
+    found: tuple[
+        Annotated[Floats, "samples_in", "some", "n"],
+        Annotated[Floats, "samples_in", "some"],
+        Annotated[Integers, "samples_in"],
+        Annotated[Integers, "samples_in", "some"],
+        Annotated[Integers, "samples_in", "some"],
+    ],
+    first: int,
+    last: int,
+    samples: int,
+    q: Solutions,
+    residual: Values,
+    count: Counts,
+    branch: Codes,
+    free: Codes,
+):
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
     ``found`` are the five arrays of a solver for (last - first) samples poses; the others are

@@ -12,10 +12,8 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
-import math
-
 from dh2urdf.kernels.chain import LARGEST, cosine_sine
-from dh2urdf.kernels.numbers import block_kernel, inner_kernel, lane_kernel
+from dh2urdf.kernels.numbers import sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
     FACTORS,
@@ -37,7 +35,6 @@ LOADED = LEVER + 6
 """First row that is free for what is worked out from these."""
 
 
-@inner_kernel
 def all_equal(values):
     """Whether all poses have the same held value."""
     for i in range(1, values.shape[0]):
@@ -46,18 +43,16 @@ def all_equal(values):
     return True
 
 
-@inner_kernel
 def prepare_block(frames, which, values, S):
     """Rows of S that all blocks have in common as long as the held value is that of the first."""
     slides, value = which[SLIDES] != 0, values[0]
     for i in range(BLOCK):
-        S[BLOCK * HELD_COS + i] = 1.0 if slides else math.cos(value)
-        S[BLOCK * HELD_SIN + i] = 0.0 if slides else math.sin(value)
+        S[BLOCK * HELD_COS + i] = 1.0 if slides else sincos(value)[1]
+        S[BLOCK * HELD_SIN + i] = 0.0 if slides else sincos(value)[0]
         S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
     _links_and_levers(frames, BLOCK, S)
 
 
-@inner_kernel
 def load_block(frames, which, values, Ts, same, first, n, S):
     """Target, S1 and lever of each pose, one a lane; ``same``: all have the first one's value."""
     if not same:
@@ -73,7 +68,6 @@ def load_block(frames, which, values, Ts, same, first, n, S):
         _invert(n, S)
 
 
-@block_kernel
 def _held_joint(slides, values, first, n, S):
     """Cosine, sine and slide of the held joint of every lane."""
     if slides:
@@ -87,11 +81,10 @@ def _held_joint(slides, values, first, n, S):
         far += 0.0 if abs(value) <= LARGEST else 1.0
     if far > 0.0:
         for i in range(n):
-            S[BLOCK * HELD_COS + i] = math.cos(values[first + i])
-            S[BLOCK * HELD_SIN + i] = math.sin(values[first + i])
+            S[BLOCK * HELD_COS + i] = sincos(values[first + i])[1]
+            S[BLOCK * HELD_SIN + i] = sincos(values[first + i])[0]
 
 
-@block_kernel
 def _links_and_levers(frames, n, S):
     """S1 and lever of every lane: ``a cos v + b sin v + d slide + t`` in each of their rows."""
     for k in range(15):
@@ -102,14 +95,12 @@ def _links_and_levers(frames, n, S):
             S[row + i] = turned + (d * S[BLOCK * HELD_SLIDE + i] + t)
 
 
-@lane_kernel
 def pose_axes(S, i):
     """Axes x, y, z of the pose of lane i."""
     x, y = column(S, i, BLOCK * 3), column(S, BLOCK + i, BLOCK * 3)
     return x, y, column(S, BLOCK * 2 + i, BLOCK * 3)
 
 
-@block_kernel
 def _invert(n, S):
     """The pose of every lane turned into its inverse."""
     for i in range(n):
@@ -121,7 +112,6 @@ def _invert(n, S):
         S[BLOCK * 11 + i] = -dot(z, p)
 
 
-@block_kernel
 def _turn(G, way, n, S):
     """``G V^-1`` before the pose of every lane; ``G V`` where ``way`` is -1."""
     g00, g01, g02, g03 = G[0, 0], G[0, 1], G[0, 2], G[0, 3]

@@ -9,11 +9,12 @@ Ito and Kunisch 2002).
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
 from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import Floats, Integers, Joints, Links, Pose, Poses, entry
 from dh2urdf.kernels.redundant.self_motion import (
     HELD,
     LONGEST,
@@ -47,14 +48,26 @@ RETURNS = 10
 """Trials to move one pose without leaving its limits."""
 
 
-@inner_kernel
 def step_length(a, b, jump, penalty):
     """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
     return math.sqrt(distance2(a, b)) + (penalty if np.abs(b - a).max() > jump else 0.0)
 
 
-@kernel
-def onward(links, joints, T, unit, jump, penalty, q, cost, solutions, q_out, cost_out, parent):
+@entry
+def onward(
+    links: Links,
+    joints: Joints,
+    T: Pose,
+    unit: float,
+    jump: float,
+    penalty: float,
+    q: Annotated[Floats, "states", "n"],
+    cost: Annotated[Floats, "states"],
+    solutions: Annotated[Floats, "ways", "n"],
+    q_out: Annotated[Floats, "ends", "n"],
+    cost_out: Annotated[Floats, "ends"],
+    parent: Annotated[Integers, "ends"],
+):
     """Ways on from the states q (f, n) of one pose to the next pose T (4, 4).
 
     First each state follows the arm by the shortest step, and into the limits if it has left
@@ -88,7 +101,6 @@ def onward(links, joints, T, unit, jump, penalty, q, cost, solutions, q_out, cos
                 cost_out[k], parent[k], q_out[k] = whole, i, trial[0]
 
 
-@inner_kernel
 def _length(start, q, jump, penalty):
     """Length of the path q (m, n) from the start (0 or 1, n), with a penalty for each jump."""
     total = 0.0
@@ -99,7 +111,6 @@ def _length(start, q, jump, penalty):
     return total
 
 
-@inner_kernel
 def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     """Add the step from a (row i - 1) to b (row i) to gradient and Hessian."""
     length = math.sqrt(KINK * KINK + distance2(a, b))
@@ -112,7 +123,6 @@ def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     diagonal[i] += (1.0 - along_b * along_b) / length
 
 
-@inner_kernel
 def _solve(g, diagonal, beside, x, bound, pivot):
     """Newton step x (m,); where a bound is finite x is there."""
     m = g.shape[0]
@@ -129,7 +139,6 @@ def _solve(g, diagonal, beside, x, bound, pivot):
             x[i] = (x[i] - (beside[i + 1] * x[i + 1] if i + 1 < m else 0.0)) / pivot[i]
 
 
-@inner_kernel
 def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
     """Newton step x (m,) between bounds: beyond one x is set to it, pushed off it is let go."""
     m = g.shape[0]
@@ -156,7 +165,6 @@ def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
         x[i] = min(max(x[i], low[i], -radius), high[i], radius)
 
 
-@inner_kernel
 def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
     """Move each pose's q by x along its self-motion, less where a limit is in the way."""
     for i in range(q.shape[0]):
@@ -178,8 +186,17 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
             trial[i] = q[i]
 
 
-@kernel
-def shorten(links, joints, Ts, unit, start, jump, penalty, q):
+@entry
+def shorten(
+    links: Links,
+    joints: Joints,
+    Ts: Poses,
+    unit: float,
+    start: Annotated[Floats, "starts", "n"],
+    jump: float,
+    penalty: float,
+    q: Annotated[Floats, "poses", "n"],
+):
     """Shorten a path q (m, n) through poses Ts (m, 4, 4), in place; returns its length.
 
     The step from ``start`` (0 or 1, n) counts too. ``links``, ``joints``, ``unit`` are as for

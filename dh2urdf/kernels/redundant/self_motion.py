@@ -10,6 +10,7 @@ curve that takes most off the joints' excess, in the sense of least squares.
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
@@ -22,7 +23,7 @@ from dh2urdf.kernels.certificate import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.numbers import inner_kernel, kernel
+from dh2urdf.kernels.numbers import Flags, Floats, Joints, Links, Pose, entry
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -44,7 +45,6 @@ SHORTEST = 1e-10
 """Part of a step below which there is no way on: a limit is in the way."""
 
 
-@inner_kernel
 def _project(links, joints, task, T, unit, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
     error_and_jacobian(links, joints, task, T, q, unit, damped)
@@ -57,7 +57,6 @@ def _project(links, joints, task, T, unit, q, seed, step, damped):
     return math.sqrt(dot(step, step))
 
 
-@inner_kernel
 def distance2(q, seed):
     """Squared distance."""
     total = 0.0
@@ -66,7 +65,6 @@ def distance2(q, seed):
     return total
 
 
-@inner_kernel
 def dot(v, w):
     """Scalar product."""
     total = 0.0
@@ -75,7 +73,6 @@ def dot(v, w):
     return total
 
 
-@inner_kernel
 def part_inside(joints, q, step, length):
     """Part of ``length`` that a straight step can go inside the limits."""
     part = length
@@ -88,7 +85,6 @@ def part_inside(joints, q, step, length):
     return part
 
 
-@inner_kernel
 def _outside(joints, q):
     """Whether a joint is beyond its limits."""
     for i in range(q.shape[0]):
@@ -97,7 +93,6 @@ def _outside(joints, q):
     return False
 
 
-@inner_kernel
 def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
@@ -128,8 +123,18 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         gap2 = distance2(q, seed)
 
 
-@kernel
-def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residual):
+@entry
+def nearest_members(
+    links: Links,
+    joints: Joints,
+    task: int,
+    T: Pose,
+    unit: float,
+    within_limits: bool,
+    q: Annotated[Floats, "solutions", "n"],
+    seed: Annotated[Floats, "n"],
+    residual: Annotated[Floats, "solutions"],
+):
     """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
 
     In place, in the turns that they are in; their residuals (k,) go to ``residual``. ``links`` and
@@ -144,7 +149,6 @@ def nearest_members(links, joints, task, T, unit, within_limits, q, seed, residu
         residual[k] = error_and_jacobian(links, joints, task, T, q[k], unit, damped)
 
 
-@inner_kernel
 def excess(joints, q, i):
     """How far joint i has to go to be inside its limits."""
     if q[i] > joints[i, 2]:
@@ -154,7 +158,6 @@ def excess(joints, q, i):
     return 0.0
 
 
-@inner_kernel
 def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
     size = _project(links, joints, task, T, unit, q, q + guess, tangent, damped)
@@ -162,8 +165,15 @@ def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     return size > 1e-6
 
 
-@kernel
-def enter_limits(links, joints, T, unit, q, entered):
+@entry
+def enter_limits(
+    links: Links,
+    joints: Joints,
+    T: Pose,
+    unit: float,
+    q: Annotated[Floats, "solutions", "n"],
+    entered: Annotated[Flags, "solutions"],
+):
     """Move solutions q (k, n) along their curves into the limits; one joint to spare.
 
     They are in the turns nearest to their limits. Where ``entered`` (k,) says that one is not
@@ -197,8 +207,17 @@ def enter_limits(links, joints, T, unit, q, entered):
             q[k] = trial
 
 
-@kernel
-def walk_family(links, joints, task, T, unit, length, q, members):
+@entry
+def walk_family(
+    links: Links,
+    joints: Joints,
+    task: int,
+    T: Pose,
+    unit: float,
+    length: float,
+    q: Annotated[Floats, "n"],
+    members: Annotated[Floats, 2, "members", "n"],
+):
     """Members (2, k, n) of the family through q (n,), by walking away from it both ways.
 
     Steps have a ``length`` [rad or m]; the other arguments are those of :func:`nearest_members`.

@@ -7,7 +7,7 @@ two slides) is zero in every vector.
 
 import math
 
-from dh2urdf.kernels.numbers import inner_kernel
+from dh2urdf.kernels.numbers import atan2, sincos
 
 VANISHING = 1e-9
 """Size, of vectors with a largest entry of 1, at which a condition is no condition: rounding."""
@@ -20,7 +20,6 @@ SLACK = 1e-6
 """Relative negative discriminant that is clamped to a double root; the residual decides."""
 
 
-@inner_kernel
 def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
     """Append the configurations that a null space holds to q; the new count of its rows.
 
@@ -47,7 +46,6 @@ def add_candidates(basis, nullity, shape, joints, x, rest, unit, q, count):
     return count
 
 
-@inner_kernel
 def _append(w, shape, joints, x, unit, q, count):
     """Append the configuration of one null vector, if it is one and there is room."""
     if count >= q.shape[0]:
@@ -63,7 +61,6 @@ def _append(w, shape, joints, x, unit, q, count):
     return count + 1 if ok else count
 
 
-@inner_kernel
 def _split(w, at, first, second, joints, unit, row):
     """Take a product apart: the larger column is the first joint's, the larger row the other's.
 
@@ -84,11 +81,10 @@ def _split(w, at, first, second, joints, unit, row):
     return True
 
 
-@inner_kernel
 def _write(u, v, joint, joints, unit, row):
     """The joint value of (u : v); False where there is none."""
     if joints[joint, 0] == 0.0:
-        row[joint] = 2.0 * math.atan2(v, u)
+        row[joint] = 2.0 * atan2(v, u)
         return abs(u) + abs(v) > VANISHING
     if abs(u) <= VANISHING * abs(v) or u == 0.0:
         return False
@@ -96,7 +92,6 @@ def _write(u, v, joint, joints, unit, row):
     return True
 
 
-@inner_kernel
 def _mixed(p, r, at):
     """Half of the mixed determinant of the 2 x 2 slots of two vectors."""
     return 0.5 * (
@@ -104,7 +99,6 @@ def _mixed(p, r, at):
     )
 
 
-@inner_kernel
 def _meet_line(basis, at, shape, joints, x, unit, q, count):
     """Append the points of the line between basis rows ``at`` and ``at + 1`` that are products.
 
@@ -138,13 +132,12 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
     return count, conditions
 
 
-@inner_kernel
 def _hold(basis, nullity, shape, place, slides, value, unit):
     """Vectors of the null space with one joint at a value, to rows 3, 4, 5 of the basis; how many.
 
     ``place`` is 0, 1, 3 or 4: joint a, b, c or d.
     """
-    u, v = math.cos(0.5 * value), math.sin(0.5 * value)
+    u, v = sincos(0.5 * value)[1], sincos(0.5 * value)[0]
     if slides:
         u, v = 1.0, 0.5 * value / unit
     at = 0 if place < 2 else 4

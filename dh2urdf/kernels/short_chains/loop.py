@@ -15,10 +15,11 @@ The matrix is kept by columns: row k of an array is column k of M.
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import dual_product, dual_times_joint, inner_kernel, kernel
+from dh2urdf.kernels.numbers import Floats, Integers, Joints, dual_product, dual_times_joint, entry
 
 SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""
@@ -30,7 +31,6 @@ SAMPLE_TABLE = np.stack(
 ) * (2.0 / SAMPLES)
 
 
-@inner_kernel
 def _pair_columns(loop, joints, first, second, out):
     """Products ``z_a L_a z_b L_b`` to out (4, 8), row 2 i + j with z_a the i-th factor of joint a.
 
@@ -48,8 +48,13 @@ def _pair_columns(loop, joints, first, second, out):
             dual_product(out[k + 1], loop[second], out[k + 1])
 
 
-@kernel
-def loop_columns(loop, joints, order, out):
+@entry
+def loop_columns(
+    loop: Annotated[Floats, "n", 8],
+    joints: Joints,
+    order: Annotated[Integers, 7],
+    out: Annotated[Floats, 12, 8],
+):
     """Columns of A_0 (rows 0 to 3 of out (12, 8)), A_1 (4 to 7) and -B (8 to 11).
 
     From the links of the closed loop (n, 8), L_n with the target, and its joints a, b, x, c, d in
@@ -68,8 +73,14 @@ def loop_columns(loop, joints, order, out):
         out[8 + k, 0], out[8 + k, 4] = -out[8 + k, 0], -out[8 + k, 4]
 
 
-@kernel
-def loop_matrix(columns, used, u, v, M):
+@entry
+def loop_matrix(
+    columns: Annotated[Floats, 12, 8],
+    used: Annotated[Integers, 8],
+    u: float,
+    v: float,
+    M: Annotated[Floats, 8, 8],
+):
     """M at (u_x : v_x), column ``used[k]`` of the pairs (0 to 3 left, 4 to 7 right) in row k.
 
     Returns the number of columns; ``used`` is -1 after the last.
@@ -88,7 +99,6 @@ def loop_matrix(columns, used, u, v, M):
     return size
 
 
-@inner_kernel
 def factor(M, size, order):
     """Householder's QR with column pivoting, in place; R in the leading entries of the rows.
 
@@ -130,7 +140,6 @@ def factor(M, size, order):
     return determinant
 
 
-@inner_kernel
 def null_basis(M, size, order, nullity, basis):
     """Vectors that a matrix from :func:`factor` takes to (nearly) zero, to basis (nullity, 8).
 
@@ -152,7 +161,6 @@ def null_basis(M, size, order, nullity, basis):
         basis[k] /= largest
 
 
-@inner_kernel
 def determinant_series(columns, used, M, order, series):
     """``det M`` along x: coefficients of 1, cos y, sin y, ..., cos 3y, sin 3y to series (7,).
 
@@ -164,14 +172,12 @@ def determinant_series(columns, used, M, order, series):
         add_sample(series, factor(M, 8, order), k)
 
 
-@inner_kernel
 def add_sample(series, value, k):
     """Add what sample k contributes to the coefficients (7,) of a function of an angle."""
     for m in range(SAMPLES):
         series[m] += value * SAMPLE_TABLE[m, k]
 
 
-@inner_kernel
 def vanishes(series, zero):
     """Whether a quartic is 0 but for rounding: the size of its third harmonic, which it has not."""
     largest = 0.0

@@ -4,12 +4,24 @@
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
 from dh2urdf.kernels.certificate import finish_pose, work_array
 from dh2urdf.kernels.chain import applied, turned_back
-from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints,
+    Links,
+    Poses,
+    atan2,
+    elbow_angle,
+    entry,
+    hypot,
+)
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""
@@ -18,8 +30,16 @@ SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
 
 
-@kernel
-def planar_rr(l1, l2, x, y, slack, rest, out):
+@entry
+def planar_rr(
+    l1: float,
+    l2: float,
+    x: float,
+    y: float,
+    slack: float,
+    rest: float,
+    out: Annotated[Floats, 2, 2],
+):
     """Both elbows of the planar RR arm.
 
     ``cos t2 = (x^2 + y^2 - l1^2 - l2^2) / (2 l1 l2)`` with its sine of either sign, and
@@ -40,25 +60,35 @@ def planar_rr(l1, l2, x, y, slack, rest, out):
         return 1, True
     for k in range(count):
         sine = -s2 if k == 0 else s2
-        out[k, 0] = math.atan2(y, x) - math.atan2(l2 * sine, l1 + l2 * c2)
-        out[k, 1] = math.atan2(sine, c2)
+        out[k, 0] = atan2(y, x) - atan2(l2 * sine, l1 + l2 * c2)
+        out[k, 1] = atan2(sine, c2)
     return count, False
 
 
-@inner_kernel
 def _one_link(l1, l2, x, y, slack, rest, out):
     """The arm with a link of no length: a circle, and one angle free."""
-    length, distance = l1 + l2, math.hypot(x, y)
+    length, distance = l1 + l2, hypot(x, y)
     if abs(distance - length) > slack * length:
         return 0, False
-    t = math.atan2(y, x)
+    t = atan2(y, x)
     out[0, 0], out[0, 1] = (t, rest) if l1 > 0.0 else (rest, t - rest)
     return 1, True
 
 
-@kernel
+@entry
 def solve_planar(
-    links, joints, plane, form, pose, Ts, within_limits, q, residual, count, branch, free
+    links: Links,
+    joints: Joints,
+    plane: Annotated[Floats, 2, 4, 4],
+    form: Annotated[Floats, 9],
+    pose: bool,
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 2, "n"],
+    residual: Annotated[Floats, "poses", 2],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 2],
+    free: Annotated[Integers, "poses", 2],
 ):
     """Solve poses Ts (m, 4, 4), or their positions, of two or three joints with parallel axes.
 
@@ -88,8 +118,7 @@ def solve_planar(
             count[i] = finish_pose(links, joints, T[:3, 3], within_limits, *out, rows, work)
 
 
-@inner_kernel
 def _heading(F, T, N):
     """Angle about the axes from the tool at q = 0 to T: that of ``F R N``."""
     x, y, _ = turned_back(F.T, turned_back(T.T, (N[0, 0], N[1, 0], N[2, 0])))
-    return math.atan2(y, x)
+    return atan2(y, x)

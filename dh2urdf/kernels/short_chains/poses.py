@@ -6,7 +6,7 @@ family, the joints that move along it are found by walking a little, and one rep
 the one whose first free joint is at rest.
 """
 
-import math
+from typing import Annotated
 
 import numpy as np
 
@@ -18,7 +18,21 @@ from dh2urdf.kernels.certificate import (
     work_array,
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.numbers import dual_conjugate, dual_of_pose, inner_kernel, kernel, trig_roots
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints,
+    Links,
+    Pose,
+    Poses,
+    atan2,
+    dual_conjugate,
+    dual_of_pose,
+    entry,
+    sincos,
+    trig_roots,
+)
 from dh2urdf.kernels.short_chains.candidates import add_candidates
 from dh2urdf.kernels.short_chains.loop import (
     SAMPLES,
@@ -41,8 +55,14 @@ ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
 
 
-@kernel
-def close_loop(ends, T, unit, pose, loop):
+@entry
+def close_loop(
+    ends: Annotated[Floats, 2, 4, 4],
+    T: Pose,
+    unit: float,
+    pose: Pose,
+    loop: Annotated[Floats, "n", 8],
+):
     """Write the last link of the loop, ``(L_0^-1 T L_n^-1)^-1``, to the last row of loop."""
     r = joint_times_link(load_pose(ends[0]), False, 0.0, T)
     store_pose(joint_times_link(r, False, 0.0, ends[1]), pose)
@@ -51,7 +71,6 @@ def close_loop(ends, T, unit, pose, loop):
     dual_conjugate(last, last)
 
 
-@inner_kernel
 def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q, count):
     """Append the candidates of the matrix at x, for each nullity that it may have.
 
@@ -71,7 +90,6 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
     return count, tried
 
 
-@inner_kernel
 def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q, count):
     """Append all candidates that one cut of the loop gives.
 
@@ -90,14 +108,14 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     determinant_series(columns, used, scratch[0:8], order, series)
     doubt = vanishes(series, ZERO)
     if doubt:
-        y = 2.0 * math.atan(0.5 * rest[x] / unit) if joints[x, 0] != 0.0 else rest[x]
-        roots[1, 0], roots[2, 0] = math.cos(y), math.sin(y)
+        y = 2.0 * atan2(0.5 * rest[x] / unit, 1.0) if joints[x, 0] != 0.0 else rest[x]
+        roots[1, 0], roots[2, 0] = sincos(y)[1], sincos(y)[0]
         found = 1
     else:
         found = trig_roots(series, 2, roots[1], roots[2])
     for k in range(found):
-        half = 0.5 * math.atan2(roots[2, k], roots[1, k])
-        here = (math.cos(half), math.sin(half))
+        half = 0.5 * atan2(roots[2, k], roots[1, k])
+        here = (sincos(half)[1], sincos(half)[0])
         count, nullity = _from_matrix(
             columns, shape, used, joints, here, rest, unit, scratch, order, q, count
         )
@@ -105,9 +123,21 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     return count, doubt
 
 
-@kernel
+@entry
 def solve_short_chains(
-    links, joints, ends, loop, plan, rest_unit, Ts, within_limits, q, residual, count, branch, free
+    links: Links,
+    joints: Joints,
+    ends: Annotated[Floats, 2, 4, 4],
+    loop: Annotated[Floats, "n", 8],
+    plan: Annotated[Integers, "cuts", 2, 8],
+    rest_unit: Annotated[Floats, "n + 1"],
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 8, "n"],
+    residual: Annotated[Floats, "poses", 8],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 8],
+    free: Annotated[Integers, "poses", 8],
 ):
     """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 

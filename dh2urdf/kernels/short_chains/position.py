@@ -12,6 +12,7 @@ Two turning joints stand on their common normal: ``A = Trans_x(a) Rot_x(alpha)``
 """
 
 import math
+from typing import Annotated
 
 import numpy as np
 
@@ -24,7 +25,18 @@ from dh2urdf.kernels.certificate import (
     work_array,
 )
 from dh2urdf.kernels.chain import applied, applied_inverse
-from dh2urdf.kernels.numbers import inner_kernel, kernel, trig_roots
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints,
+    Links,
+    Poses,
+    atan2,
+    entry,
+    sincos,
+    trig_roots,
+)
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 
 FEW = 24
@@ -43,22 +55,19 @@ STEEP = 0.1
 """Cosine between a slide and the axis before it from which the height alone gives the slide."""
 
 
-@inner_kernel
 def _dot(v, w):
     """Scalar product."""
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 
 
-@inner_kernel
 def _turn(v, w, rest):
     """Angle about z from v to w; ``rest`` where both are on the axis."""
     c, s = v[0] * w[0] + v[1] * w[1], v[0] * w[1] - v[1] * w[0]
     if abs(c) + abs(s) < 1e-30:
         return rest
-    return math.atan2(s, c)
+    return atan2(s, c)
 
 
-@inner_kernel
 def _line(slides, A, p, v):
     """Line ``w + t direction`` that one slide t moves a point along, and where the turn has it.
 
@@ -70,7 +79,6 @@ def _line(slides, A, p, v):
     return applied_inverse(A, p), (-A[2, 0], -A[2, 1], -A[2, 2]), v
 
 
-@inner_kernel
 def _condition(slides, A, p, v):
     """F(v): zero where joints 1 and 2 can bring v to p."""
     if not slides[0] and not slides[1]:
@@ -92,7 +100,6 @@ def _condition(slides, A, p, v):
     return steep * steep * lengths + 2.0 * steep * rise * along + rise * rise
 
 
-@inner_kernel
 def _slide_values(w, direction, square, height, unit):
     """Values t at which ``w + t direction`` has a squared length and a height.
 
@@ -115,7 +122,6 @@ def _slide_values(w, direction, square, height, unit):
     return (1 if good_second else 0), second, 0.0
 
 
-@inner_kernel
 def _two_turns(A, p, v, rest, unit, out):
     """Values of two turning joints that bring v to p, to out (2, 2); how many."""
     a, c, s = A[0, 3], A[2, 2], A[2, 1]
@@ -137,15 +143,14 @@ def _two_turns(A, p, v, rest, unit, out):
         if abs(error) > WRONG * unit or (side == 1 and other == 0.0):
             continue
         real, imaginary = v[0] * x + v[1] * y, v[0] * y - v[1] * x
-        q2 = rest[1] if radius2 < TINY * TINY * scale else math.atan2(imaginary, real)
-        c2, s2 = math.cos(q2), math.sin(q2)
+        q2 = rest[1] if radius2 < TINY * TINY * scale else atan2(imaginary, real)
+        c2, s2 = sincos(q2)[1], sincos(q2)[0]
         w = applied(A, (v[0] * c2 - v[1] * s2, v[0] * s2 + v[1] * c2, v[2]))
         out[rows, 0], out[rows, 1] = _turn(w, p, rest[0]), q2
         rows += 1
     return rows
 
 
-@inner_kernel
 def _pair(slides, A, p, v, rest, unit, out):
     """Values of joints 1 and 2 that bring v to p, to out (2, 2); how many."""
     if not slides[0] and not slides[1]:
@@ -169,7 +174,6 @@ def _pair(slides, A, p, v, rest, unit, out):
     return count
 
 
-@inner_kernel
 def _third(slides, B, tip, cosine, sine):
     """The point as joint 2 sees it, ``B Z_3 tip`` at (cos, sin); a slide is ``sin / cos``."""
     x, y, z = tip
@@ -178,32 +182,30 @@ def _third(slides, B, tip, cosine, sine):
     return applied(B, (cosine * x - sine * y, sine * x + cosine * y, z))
 
 
-@inner_kernel
 def _third_joint(slides, frames, tip, p, rest, unit, roots):
     """Values of joint 3, as cosine and sine in rows 1 and 2 of roots; how many."""
     series = roots[0]
     series[:] = 0.0
     for k in range(SAMPLES):
         half = 0.5 * SAMPLE_ANGLE[k]
-        c, s, weight = math.cos(SAMPLE_ANGLE[k]), math.sin(SAMPLE_ANGLE[k]), 1.0
+        c, s, weight = sincos(SAMPLE_ANGLE[k])[1], sincos(SAMPLE_ANGLE[k])[0], 1.0
         if slides[2]:
-            c, s = math.cos(half), unit * math.sin(half)
+            c, s = sincos(half)[1], unit * sincos(half)[0]
             weight = c * c * c * c
         v = _third(slides[2], frames[2], tip, c, s)
         add_sample(series, weight * _condition(slides, frames[1], p, v), k)
     if vanishes(series, 0.0):
-        roots[1, 0] = 1.0 if slides[2] else math.cos(rest[2])
-        roots[2, 0] = rest[2] if slides[2] else math.sin(rest[2])
+        roots[1, 0] = 1.0 if slides[2] else sincos(rest[2])[1]
+        roots[2, 0] = rest[2] if slides[2] else sincos(rest[2])[0]
         return 1
     count = trig_roots(series, 2, roots[1], roots[2])
     if slides[2]:
         for k in range(count):
-            half = 0.5 * math.atan2(roots[2, k], roots[1, k])
-            roots[1, k], roots[2, k] = math.cos(half), unit * math.sin(half)
+            half = 0.5 * atan2(roots[2, k], roots[1, k])
+            roots[1, k], roots[2, k] = sincos(half)[1], unit * sincos(half)[0]
     return count
 
 
-@inner_kernel
 def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
     """Candidate configurations of one point, to q (FEW, n); how many."""
     n = q.shape[1]
@@ -220,7 +222,7 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
             if slides[2] and abs(c) < 1e-9:
                 continue
             v = _third(slides[2], frames[2], tip, c, s)
-            value = s / c if slides[2] else math.atan2(s, c)
+            value = s / c if slides[2] else atan2(s, c)
         rows = _pair(slides, frames[1], p, v, rest, unit, pairs)
         for row in range(rows):
             q[count, :2], q[count, 2:] = pairs[row], value
@@ -228,9 +230,20 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
     return count
 
 
-@kernel
+@entry
 def solve_short_positions(
-    links, joints, frames, tip, rest_unit, Ts, within_limits, q, residual, count, branch, free
+    links: Links,
+    joints: Joints,
+    frames: Annotated[Floats, "n", 4, 4],
+    tip: Annotated[Floats, 3],
+    rest_unit: Annotated[Floats, "n + 1"],
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 4, "n"],
+    residual: Annotated[Floats, "poses", 4],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 4],
+    free: Annotated[Integers, "poses", 4],
 ):
     """Solve the origins of poses Ts (m, 4, 4) of a chain of n <= 3 joints.
 

@@ -4,7 +4,7 @@
 equations, gives the slides.
 """
 
-import math
+from typing import Annotated
 
 import numpy as np
 
@@ -21,7 +21,17 @@ from dh2urdf.kernels.certificate import (
     work_array,
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
-from dh2urdf.kernels.numbers import inner_kernel, kernel, linear_trig
+from dh2urdf.kernels.numbers import (
+    Counts,
+    Floats,
+    Integers,
+    Joints,
+    Links,
+    Poses,
+    atan2,
+    entry,
+    linear_trig,
+)
 
 DAMPING = 1e-10
 """Added to the normal equations of the slides, which may lie in a plane: then they move as little
@@ -37,7 +47,6 @@ ROWS = 20
 """Rows of scratch: four links and the middle rotation, 4 x 4."""
 
 
-@inner_kernel
 def _turning_links(links, joints, turning, scratch):
     """Products of the links between the turning joints, to rows of scratch; how many turn."""
     count = 0
@@ -54,20 +63,18 @@ def _turning_links(links, joints, turning, scratch):
     return count
 
 
-@inner_kernel
 def _outer(M, B):
     """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
     across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
     if across <= IN_LINE * IN_LINE:
         c = M[0, 0] * B[0, 0] + M[1, 0] * B[1, 0]
         s = M[0, 1] * B[0, 0] + M[1, 1] * B[1, 0]
-        return 0.0, math.atan2(s, c)
-    x = math.atan2(B[1, 2] * M[0, 2] - B[0, 2] * M[1, 2], B[0, 2] * M[0, 2] + B[1, 2] * M[1, 2])
-    y = math.atan2(M[2, 1] * B[2, 0] - M[2, 0] * B[2, 1], M[2, 0] * B[2, 0] + M[2, 1] * B[2, 1])
+        return 0.0, atan2(s, c)
+    x = atan2(B[1, 2] * M[0, 2] - B[0, 2] * M[1, 2], B[0, 2] * M[0, 2] + B[1, 2] * M[1, 2])
+    y = atan2(M[2, 1] * B[2, 0] - M[2, 0] * B[2, 1], M[2, 0] * B[2, 0] + M[2, 1] * B[2, 1])
     return x, y
 
 
-@inner_kernel
 def _candidates(links, joints, T, q, turning, scratch, damped):
     """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
@@ -93,7 +100,7 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
         )
         for k in range(found):
             c, s = (c1, s1) if k == 0 else (c2, s2)
-            q[k, turning[1]] = math.atan2(s, c)
+            q[k, turning[1]] = atan2(s, c)
             store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
@@ -104,8 +111,19 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
     return max(found, 0)
 
 
-@kernel
-def solve_three_slides(links, joints, rest, Ts, within_limits, q, residual, count, branch, free):
+@entry
+def solve_three_slides(
+    links: Links,
+    joints: Joints,
+    rest: Annotated[Floats, "n"],
+    Ts: Poses,
+    within_limits: bool,
+    q: Annotated[Floats, "poses", 4, "n"],
+    residual: Annotated[Floats, "poses", 4],
+    count: Counts,
+    branch: Annotated[Integers, "poses", 4],
+    free: Annotated[Integers, "poses", 4],
+):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
     Of a family the member stays whose first free joint is at its value in ``rest`` (n,). ``links``

@@ -10,7 +10,6 @@ pose is solved again by the careful scalar kernel: here is no code for edges.
 import math
 
 from dh2urdf.kernels.certificate import POLISH
-from dh2urdf.kernels.numbers import block_kernel, lane_kernel
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -38,31 +37,26 @@ joint values, whether these are inside their limits, and for eight solutions whe
 and their residual; the rest belongs to the family."""
 
 
-@lane_kernel
 def at(k):
     """Where row k starts."""
     return BLOCK * k & MASK
 
 
-@lane_kernel
 def column(S, start, step):
     """Three entries of S, ``step`` apart."""
     return S[start], S[start + step], S[start + 2 * step]
 
 
-@lane_kernel
 def dot(v, w):
     """Scalar product."""
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 
 
-@lane_kernel
 def minus(v, w):
     """Difference."""
     return v[0] - w[0], v[1] - w[1], v[2] - w[2]
 
 
-@lane_kernel
 def turned(c, s, x, y):
     """The axes x, y of a frame after ``Rot_z``, by cosine and sine."""
     (x0, x1, x2), (y0, y1, y2) = x, y
@@ -70,7 +64,6 @@ def turned(c, s, x, y):
     return x, (c * y0 - s * x0, c * y1 - s * x1, c * y2 - s * x2)
 
 
-@lane_kernel
 def turned_and_tilted(c, s, ca, sa, x, y, z):
     """The axes x, y, z of a frame after ``Rot_z Rot_x(alpha)``, by cosines and sines."""
     x, (y0, y1, y2) = turned(c, s, x, y)
@@ -79,13 +72,11 @@ def turned_and_tilted(c, s, ca, sa, x, y, z):
     return x, y, (ca * z0 - sa * y0, ca * z1 - sa * y1, ca * z2 - sa * y2)
 
 
-@lane_kernel
 def stepped(p, a, x, d, z):
     """``p + a x + d z``."""
     return p[0] + a * x[0] + d * z[0], p[1] + a * x[1] + d * z[1], p[2] + a * x[2] + d * z[2]
 
 
-@lane_kernel
 def planar_arm(upper, fore, side, x, y, slack):
     """Both joints of a planar RR arm (lecture notes 8.2), the second with the sign ``side``.
 
@@ -107,7 +98,6 @@ def planar_arm(upper, fore, side, x, y, slack):
     return c2, s2, c3, s3, product > 0.0, touching or square < MERGED * size
 
 
-@block_kernel
 def load_poses(ends, lift, Ts, first, n, S):
     """Frame 6 in frame 0 (moved up by ``lift``), ``base^-1 T tool^-1``, to the rows of the pose."""
     B, E = ends[0], ends[1]
@@ -127,7 +117,6 @@ def load_poses(ends, lift, Ts, first, n, S):
         S[BLOCK * DIRTY + i] = 0.0
 
 
-@block_kernel
 def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     """Residual of one solution of every lane by forward kinematics, t1 ... t6 its angles' rows.
 

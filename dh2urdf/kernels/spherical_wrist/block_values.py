@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import CLUSTER, TWO_PI
-from dh2urdf.kernels.numbers import arctangent, block_kernel, helper_kernel
+from dh2urdf.kernels.numbers import arctangent
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     COS,
@@ -39,7 +39,6 @@ MIRRORS = np.array(
 ``(q4 + pi, -q5, q6 + pi)``."""
 
 
-@block_kernel
 def _values(form, joints, table, within_limits, n, S):
     """Joint values of all angles, in the turn nearest to the middle of the limits."""
     joint_of, _, mirror_of = table
@@ -73,20 +72,17 @@ def _values(form, joints, table, within_limits, n, S):
                 S[BLOCK * DIRTY + i] += 1.0 if touching else 0.0
 
 
-@helper_kernel
 def _middle(lower, upper):
     """Where the values of a joint lie around."""
     return 0.5 * (lower + upper) if upper - lower < math.inf else 0.0
 
 
-@helper_kernel
 def _limited(lower, upper):
     """Whether the limits leave out a part of the turn around their middle."""
     middle = _middle(lower, upper)
     return lower > middle - math.pi or upper < middle + math.pi
 
 
-@block_kernel
 def _settle(form, joints, table, within_limits, n, S):
     """Joint values of all lanes, and which solutions there are with these."""
     row_of = table[1]
@@ -102,7 +98,6 @@ def _settle(form, joints, table, within_limits, n, S):
                 S[valid + i] *= S[flag + i]
 
 
-@block_kernel
 def emit(form, joints, table, within_limits, place, named, first, n, S, out):
     """Write the solutions of all clean lanes, joint j to column ``place[j]``; how many are clean.
 
@@ -115,7 +110,6 @@ def emit(form, joints, table, within_limits, place, named, first, n, S, out):
     return _write(place, table[1], named, first, n, S, out)
 
 
-@block_kernel
 def _write(place, row_of, named, first, n, S, out):
     """The second half of :func:`emit`."""
     q, residual, count, branch, free = out

@@ -13,7 +13,18 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import block_kernel, kernel
+from dh2urdf.kernels.numbers import (
+    Codes8,
+    Counts,
+    Ends,
+    Joints6,
+    Links6,
+    Poses,
+    Rows6,
+    Solutions8,
+    Values8,
+    entry,
+)
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     CLEAR,
@@ -44,7 +55,6 @@ PLANE = WORK
 """Per shoulder: x and y of the wrist centre in the arm's plane, the rotation seen from there."""
 
 
-@block_kernel
 def _shoulders(form, slack, n, S):
     """Joint 1, and the pose seen from the arm's plane, for both shoulders."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
@@ -80,7 +90,6 @@ def _shoulders(form, slack, n, S):
                 S[rows + BLOCK * (8 + j) + i] = ca1 * r2 - sa1 * y
 
 
-@block_kernel
 def _elbows(form, slack, n, S):
     """Joints 2 and 3 of all four arms: planar RR (lecture notes 8.2)."""
     upper = form[1, 0]
@@ -102,7 +111,6 @@ def _elbows(form, slack, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@block_kernel
 def _wrists(form, n, S):
     """ZYZ angles of what is left of the rotation, for all four arms and both wrists."""
     ca3, sa3, sa4, sa5 = form[2, 1], form[2, 2], form[3, 2], form[4, 2]
@@ -132,9 +140,20 @@ def _wrists(form, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@kernel
+@entry
 def solve_common_wrist(
-    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
 ):
     """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
     m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)

@@ -20,7 +20,22 @@ from dh2urdf.kernels.certificate import (
     principal,
     same,
 )
-from dh2urdf.kernels.numbers import inlined_kernel, inner_kernel, kernel, root_of_gap
+from dh2urdf.kernels.numbers import (
+    Codes8,
+    Counts,
+    Ends,
+    Joints6,
+    Links6,
+    Poses,
+    Rows6,
+    Solutions8,
+    Values8,
+    atan2,
+    entry,
+    hypot,
+    root_of_gap,
+    sincos,
+)
 from dh2urdf.kernels.spherical_wrist.position_any import place_wrist
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
 
@@ -32,7 +47,6 @@ WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
 
 
-@inner_kernel
 def middle_angle(form, x, y, z, slack):
     """How many signs the sine of t5 has, its cosine, and its sine, not negative.
 
@@ -53,11 +67,10 @@ def middle_angle(form, x, y, z, slack):
         sine = root_of_gap(sine2, 1.0, slack)
         if sine < 0.0:
             return 0, 1.0, 0.0
-    length = math.hypot(cosine, sine)
+    length = hypot(cosine, sine)
     return (1 if sine == 0.0 else 2), cosine / length, sine / length
 
 
-@inlined_kernel
 def _above(z, level, square):
     """``z - level`` for the z of a unit vector with ``x^2 + y^2 = square``; exact near +-1."""
     if abs(level - 1.0) < 1e-12:
@@ -67,7 +80,6 @@ def _above(z, level, square):
     return z - level
 
 
-@inner_kernel
 def add_wrist(form, D, values, R, slack, q, branch, free, count):
     """Append the one or two wrists of a position solution, a row of ``arm``; the new count.
 
@@ -78,7 +90,7 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
         R[i, 0], R[i, 1], R[i, 2] = D[i, 0], D[i, 1], D[i, 2]
     for i in range(3):
         angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
-        c, s, ca, sa = math.cos(angle), math.sin(angle), form[i, 1], form[i, 2]
+        c, s, ca, sa = sincos(angle)[1], sincos(angle)[0], form[i, 1], form[i, 2]
         for j in range(3):
             x, y, z = R[0, j], R[1, j], R[2, j]
             x, y = c * x + s * y, c * y - s * x
@@ -86,13 +98,12 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
     return append_wrist(form, values, R, slack, q, branch, free, count)
 
 
-@inner_kernel
 def append_wrist(form, values, R, slack, q, branch, free, count):
     """:func:`add_wrist` for a known orientation ``R_36`` (3, 3)."""
     wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
-    in_line = math.hypot(wx, wy)
+    in_line = hypot(wx, wy)
     mask = int(values[4])
     if in_line <= FREE:
         wrists = min(wrists, 1)
@@ -100,19 +111,19 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
     for wrist in range(wrists):
         a, b = s5 * sa5, -(c5 * sa5 * ca4 + sa4 * ca5)
         if in_line <= NICE:
-            c4, s4 = math.cos(form[3, 4]), math.sin(form[3, 4])
+            c4, s4 = sincos(form[3, 4])[1], sincos(form[3, 4])[0]
         else:
             c4, s4 = a * wx + b * wy, a * wy - b * wx
-            r = math.hypot(c4, s4)
+            r = hypot(c4, s4)
             c4, s4 = c4 / r, s4 / r
         x, y = c5 * c4 - s5 * ca4 * s4, c5 * s4 + s5 * ca4 * c4
         c6 = x * R[0, 0] + y * R[1, 0] + s5 * sa4 * R[2, 0]
         s6 = -(x * R[0, 1] + y * R[1, 1] + s5 * sa4 * R[2, 1])
         for i in range(3):
             q[count, i] = form[i, 6] * (values[i] - form[i, 3 if form[i, 5] != 0.0 else 4])
-        q[count, 3] = form[3, 6] * (math.atan2(s4, c4) - form[3, 4])
-        q[count, 4] = form[4, 6] * (math.atan2(s5, c5) - form[4, 4])
-        q[count, 5] = form[5, 6] * (math.atan2(s6, c6) - form[5, 4])
+        q[count, 3] = form[3, 6] * (atan2(s4, c4) - form[3, 4])
+        q[count, 4] = form[4, 6] * (atan2(s5, c5) - form[4, 4])
+        q[count, 5] = form[5, 6] * (atan2(s6, c6) - form[5, 4])
         branch[count] = int(values[3]) + 4 * wrist if values[3] >= 0.0 else -1
         free[count] = mask
         s5 = -s5
@@ -120,7 +131,6 @@ def append_wrist(form, values, R, slack, q, branch, free, count):
     return count
 
 
-@inner_kernel
 def roots_meet(joints, arm, rows):
     """Whether two position solutions nearly coincide: rounding may have parted a double root.
 
@@ -134,7 +144,6 @@ def roots_meet(joints, arm, rows):
     return False
 
 
-@inner_kernel
 def add_merged(links, joints, form, rows, slack, T, scratch):
     """Candidates of position solutions whose double roots were merged; their count.
 
@@ -155,7 +164,6 @@ def add_merged(links, joints, form, rows, slack, T, scratch):
     return kept
 
 
-@inner_kernel
 def hidden(joints, many, merged, k):
     """Whether candidate k is, but for rounding, a member of a family among the merged ones.
 
@@ -171,7 +179,6 @@ def hidden(joints, many, merged, k):
     return False
 
 
-@inner_kernel
 def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out, scratch):
     """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
 
@@ -191,14 +198,12 @@ def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out
     return copy_rows(many, found, out)
 
 
-@inner_kernel
 def make_scratch():
     """Frame 6 in frame 0, a rotation, position solutions, certification, candidates."""
     many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
     return np.empty((4, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
 
 
-@inlined_kernel
 def solve_pose(place, arm, T, within_limits, out, scratch):
     """All solutions of one pose in ``out``, positions by the function ``place``; their count.
 
@@ -216,9 +221,20 @@ def solve_pose(place, arm, T, within_limits, out, scratch):
     return finish_wrists(links, joints, form, found, merged, slack, T, within_limits, out, scratch)
 
 
-@kernel
+@entry
 def solve_wrist_arm(
-    links, joints, form, ends, slack, Ts, within_limits, q, residual, count, branch, free
+    links: Links6,
+    joints: Joints6,
+    form: Rows6,
+    ends: Ends,
+    slack: float,
+    Ts: Poses,
+    within_limits: bool,
+    q: Solutions8,
+    residual: Values8,
+    count: Counts,
+    branch: Codes8,
+    free: Codes8,
 ):
     """All solutions of poses Ts (m, 4, 4) of an arm of six joints with a spherical wrist.
 

@@ -10,17 +10,17 @@ left.
 Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 """
 
-import math
-
 import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT
 from dh2urdf.kernels.numbers import (
     add_square,
+    atan2,
     circle_pair,
-    inner_kernel,
+    hypot,
     linear_trig,
     root_of_gap,
+    sincos,
     trig_roots,
 )
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import dot, minus
@@ -38,7 +38,6 @@ OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
 
 
-@inner_kernel
 def place_wrist(form, px, py, pz, slack, arm):
     """All joint values that put the wrist centre at p (frame 0)."""
     first, second, third = form[0, 5] != 0.0, form[1, 5] != 0.0, form[2, 5] != 0.0
@@ -60,28 +59,26 @@ def place_wrist(form, px, py, pz, slack, arm):
     return _write_rows(form, Y, V, free, slack, count, pairs, arm)
 
 
-@inner_kernel
 def _from_base(form, px, py, pz):
     """The columns of y."""
     a, ca, sa, d = form[0, 0], form[0, 1], form[0, 2], form[0, 3]
     if form[0, 5] != 0.0:
-        c, s = math.cos(form[0, 4]), math.sin(form[0, 4])
+        c, s = sincos(form[0, 4])[1], sincos(form[0, 4])[0]
         x, y = c * px + s * py, c * py - s * px
         return (x - a, ca * y + sa * pz, ca * pz - sa * y), (0.0, -sa, -ca), (0.0, 0.0, 0.0)
     z = pz - d
     return (-a, sa * z, ca * z), (px, ca * py, -sa * py), (py, -ca * px, sa * px)
 
 
-@inner_kernel
 def _along_arm(form):
     """The columns of v, turned by theta_2 where joint 2 slides, lifted by d_2 where it turns."""
     a, ca, sa, lift = form[1, 0], form[1, 1], form[1, 2], form[1, 3]
     c, s = 1.0, 0.0
     if form[1, 5] != 0.0:
-        c, s, lift = math.cos(form[1, 4]), math.sin(form[1, 4]), 0.0
+        c, s, lift = sincos(form[1, 4])[1], sincos(form[1, 4])[0], 0.0
     x, y, z = form[2, 0], -form[2, 2] * form[3, 3], form[2, 1] * form[3, 3]
     if form[2, 5] != 0.0:
-        e, f = math.cos(form[2, 4]), math.sin(form[2, 4])
+        e, f = sincos(form[2, 4])[1], sincos(form[2, 4])[0]
         k, C, S = (e * x - f * y, f * x + e * y, z), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
     else:
         k, C, S = (0.0, 0.0, z + form[2, 3]), (x, y, 0.0), (-y, x, 0.0)
@@ -90,26 +87,22 @@ def _along_arm(form):
     return _turned(k, c, s), _turned(C, c, s), _turned(S, c, s)
 
 
-@inner_kernel
 def _turned(v, c, s):
     """``Rot_z v``."""
     return c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]
 
 
-@inner_kernel
 def _turned_up(v, c, s):
     """``Rot_x v``."""
     return v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]
 
 
-@inner_kernel
 def _at(columns, c, s):
     """``k + c C + s S``."""
     k, C, S = columns
     return k[0] + c * C[0] + s * S[0], k[1] + c * C[1] + s * S[1], k[2] + c * C[2] + s * S[2]
 
 
-@inner_kernel
 def _two_turns(form, Y, V, free, slack, pairs):
     """Joints 1 and 3 turn: a subproblem 6, of joint 3 alone where joint 1 is free."""
     (k, C, S), (m, E, F) = Y, V
@@ -136,7 +129,6 @@ def _two_turns(form, Y, V, free, slack, pairs):
     return count
 
 
-@inner_kernel
 def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
     """One turns, one slides: the slide eliminated, rows (c, s, t, 0).
 
@@ -154,7 +146,7 @@ def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
     if oblique:
         rise, steep, fall = rise / slope, steep / slope, fall / slope
     if free:
-        count, cosines[0], sines[0] = 1, math.cos(nice), math.sin(nice)
+        count, cosines[0], sines[0] = 1, sincos(nice)[1], sincos(nice)[0]
     elif oblique:
         series[0] = length + 2.0 * along * rise
         series[1], series[2] = 2.0 * (along * steep - dot(k, C)), 2.0 * (along * fall - dot(k, S))
@@ -181,7 +173,6 @@ def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
     return rows
 
 
-@inner_kernel
 def _two_slides(form, Y, V, slack, pairs):
     """Joints 1 and 3 slide: linear equations, or a subproblem 4 in the angle of joint 2.
 
@@ -213,7 +204,6 @@ def _two_slides(form, Y, V, slack, pairs):
     return rows
 
 
-@inner_kernel
 def _nearest(columns, slides, c, s):
     """The value of a joint, as a row has it, at which its point is nearest to axis 2; the distance.
 
@@ -227,13 +217,12 @@ def _nearest(columns, slides, c, s):
     if slides:
         c += move
     else:
-        e, f = math.cos(move), math.sin(move)
+        e, f = sincos(move)[1], sincos(move)[0]
         c, s = c * e - s * f, s * e + c * f
     x, y, _ = _at(columns, c, s)
-    return c, s, math.hypot(x, y)
+    return c, s, hypot(x, y)
 
 
-@inner_kernel
 def _write_rows(form, Y, V, free, slack, count, pairs, arm):
     """Joint 2 of all pairs, and rows of ``arm``; where the centre is on axis 2, joint 2 is free."""
     for k in range(count):
@@ -241,7 +230,7 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
         (x, y, z), (vx, vy, vz) = _at(Y, c, s), _at(V, e, f)
         arm[k, 1], arm[k, 4] = z - vz, 0.0
         if form[1, 5] == 0.0:
-            arm[k, 1] = math.atan2(vx * y - vy * x, vx * x + vy * y)
+            arm[k, 1] = atan2(vx * y - vy * x, vx * x + vy * y)
             if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
                 near_c, near_s, off = _nearest(Y, form[0, 5] != 0.0, c, s)
                 near_e, near_f, miss = _nearest(V, form[2, 5] != 0.0, e, f)
@@ -251,13 +240,12 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
                     arm[k, 4] = UPPER_FREE if off <= ACCEPT else 0.0
         if free:
             arm[k, 4] = SHOULDER_FREE
-        arm[k, 0] = c if form[0, 5] != 0.0 else math.atan2(s, c)
-        arm[k, 2] = e if form[2, 5] != 0.0 else math.atan2(f, e)
+        arm[k, 0] = c if form[0, 5] != 0.0 else atan2(s, c)
+        arm[k, 2] = e if form[2, 5] != 0.0 else atan2(f, e)
         arm[k, 3] = -1.0
     return max(count, 0)
 
 
-@inner_kernel
 def elbow_on_axis(N, d, nice, slack, pairs):
     """The wrist centre on axis 1: q1 is free, and q3 alone has to satisfy both equations."""
     det = N[0, 0] * N[1, 1] - N[0, 1] * N[1, 0]
@@ -265,12 +253,12 @@ def elbow_on_axis(N, d, nice, slack, pairs):
     if abs(det) > 1e-12 * first * second:
         c = (N[1, 1] * d[0] - N[0, 1] * d[1]) / det
         s = (N[0, 0] * d[1] - N[1, 0] * d[0]) / det
-        r = math.hypot(c, s)
+        r = hypot(c, s)
         count, c1, s1, c2, s2 = (1, c / r, s / r, c, s) if r > 0.0 else (0, 1.0, 0.0, 1.0, 0.0)
     else:
         i = 0 if first >= second else 1
         count, c1, s1, c2, s2 = linear_trig(N[i, 0], N[i, 1], d[i], slack)
     for k in range(count):
-        pairs[k, 0], pairs[k, 1] = math.cos(nice), math.sin(nice)
+        pairs[k, 0], pairs[k, 1] = sincos(nice)[1], sincos(nice)[0]
         pairs[k, 2], pairs[k, 3] = (c1, s1) if k == 0 else (c2, s2)
     return count

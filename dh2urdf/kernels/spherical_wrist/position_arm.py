@@ -8,10 +8,8 @@ Each function writes rows to ``arm`` (8, 5): the three joint values as DH variab
 mask of free joints; and returns how many.
 """
 
-import math
-
 from dh2urdf.kernels.chain import load_pose, store_pose, times_link
-from dh2urdf.kernels.numbers import elbow_angle, inner_kernel, root_of_gap
+from dh2urdf.kernels.numbers import atan2, elbow_angle, hypot, root_of_gap
 
 FREE = 5e-10
 """Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned
@@ -25,13 +23,11 @@ SHOULDER_FREE = 0b000001 | WRIST_MASK
 UPPER_FREE = 0b000010 | WRIST_MASK
 
 
-@inner_kernel
 def tool_to_wrist(ends, T, D):
     """Frame 6 in frame 0, ``D = base^-1 T tool^-1``, both inverses in ``ends``; D (4, 4)."""
     store_pose(times_link(times_link(load_pose(ends[0]), T), ends[1]), D)
 
 
-@inner_kernel
 def place_wrist_in_plane(form, px, py, pz, slack, arm):
     """Axis 2 parallel to 3: p fixes the arm's plane, subproblem 4; in it a planar RR arm.
 
@@ -41,7 +37,7 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
     pz -= form[0, 3]
     a1, ca1, sa1, a2 = form[0, 0], form[0, 1], form[0, 2], form[1, 0]
     wx, wy, wz = form[2, 0], -form[2, 2] * form[3, 3], form[2, 1] * form[3, 3]
-    forearm, lean = math.hypot(wx, wy), math.atan2(wy, wx)
+    forearm, lean = hypot(wx, wy), atan2(wy, wx)
     lateral = wz + form[1, 3] + form[2, 3]
     y = (pz - ca1 * lateral) / sa1
     offset = ca1 * y - sa1 * lateral
@@ -60,7 +56,7 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
         if square <= NICE * NICE:
             q1 = form[0, 4]
         else:
-            q1 = math.atan2(py * reach - px * offset, px * reach + py * offset)
+            q1 = atan2(py * reach - px * offset, px * reach + py * offset)
         up = 1.0 if sa1 * reach > 0.0 or (reach == 0.0 and sa1 > 0.0) else -1.0
         found = planar(a2, forearm, x, y, up, slack, arm, rows)
         for k in range(rows, rows + found):
@@ -76,7 +72,6 @@ def place_wrist_in_plane(form, px, py, pz, slack, arm):
     return rows
 
 
-@inner_kernel
 def planar(upper, fore, x, y, up, slack, arm, row):
     """Planar RR arm (lecture notes 8.2): angles t2 and t3 in columns 1 and 2 from ``row`` on.
 
@@ -88,8 +83,8 @@ def planar(upper, fore, x, y, up, slack, arm, row):
     for k in range(count):
         s3 = side * sine
         along, across = upper + fore * cosine, fore * s3
-        arm[row + k, 1] = math.atan2(y * along - x * across, x * along + y * across)
-        arm[row + k, 2] = math.atan2(s3, cosine)
+        arm[row + k, 1] = atan2(y * along - x * across, x * along + y * across)
+        arm[row + k, 2] = atan2(s3, cosine)
         arm[row + k, 3] = 2.0 * k
         arm[row + k, 4] = 0.0
         side = -side
