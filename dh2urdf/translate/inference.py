@@ -66,6 +66,16 @@ class Instance:
         """Refuse a node of the body."""
         self.source.refuse(node, found, instead)
 
+    def reached(self, statements: list[ast.stmt]) -> Iterator[ast.stmt]:
+        """Statements up to one that is known to return."""
+        for s in statements:
+            yield s
+            taken = self.decided(s.test) if isinstance(s, ast.If) else None
+            if taken is not None and isinstance(s, ast.If):
+                block = s.body if taken else s.orelse
+                if block and isinstance(block[-1], ast.Return):
+                    return
+
     def lengths(self) -> list[str]:
         """Names of the lengths that it is handed."""
         arrays = (t for t in _leaves(self.arguments) if isinstance(t, Array))
@@ -248,16 +258,22 @@ class Inference:
                 if isinstance(s, ast.For | ast.While | ast.If):
                     setattr(s, block, self._with_makers(source, getattr(s, block)))
             if isinstance(s, ast.Assign):
-                swap = _Swap()
-                for n in [n for n in ast.walk(s.value) if isinstance(n, ast.Call)]:
-                    callee = self._kernel(source, n.func)
-                    if callee is not None and self._is_maker(self._source(callee)):
-                        before, value = self._spelled_out(source, self._source(callee), n, s)
-                        out += before
-                        swap.by[n] = value
-                s = swap.visit(s)
+                before, s.value = self._without_makers(source, s.value, s)
+                out += before
             out.append(s)
         return out
+
+    def _without_makers(
+        self, source: Source, value: ast.expr, where: ast.stmt
+    ) -> tuple[list[ast.stmt], ast.expr]:
+        """The statements of the kernels called in an expression, and what is left of that."""
+        out, swap = list[ast.stmt](), _Swap()
+        for n in [n for n in ast.walk(value) if isinstance(n, ast.Call)]:
+            callee = self._kernel(source, n.func)
+            if callee is not None and self._is_maker(self._source(callee)):
+                before, swap.by[n] = self._spelled_out(source, self._source(callee), n, where)
+                out += before
+        return out, swap.visit(value)
 
     def _spelled_out(
         self, source: Source, other: Source, call: ast.Call, where: ast.stmt
@@ -282,12 +298,12 @@ class Inference:
         last = part[-1]
         assert isinstance(last, ast.Return)
         assert last.value is not None
-        placed = [ast.copy_location(s, where) for s in [*out, *part[:-1]]]
-        for s in placed:
-            for n in ast.walk(s):
-                if hasattr(n, "lineno") or isinstance(n, ast.expr | ast.stmt):
-                    n.lineno = where.lineno
-        return placed, last.value
+        before, value = self._without_makers(source, last.value, where)
+        placed = [*out, *part[:-1], *before]
+        for n in (n for s in placed for n in ast.walk(s)):
+            if isinstance(n, ast.expr | ast.stmt):
+                ast.copy_location(n, where)
+        return placed, value
 
 
 class _Swap(ast.NodeTransformer):
@@ -308,7 +324,7 @@ class Walk:
 
     def block(self, statements: list[ast.stmt]) -> None:
         """Statements one after the other."""
-        for s in statements:
+        for s in self.instance.reached(statements):
             self._statement(s)
 
     def _statement(self, s: ast.stmt) -> None:
@@ -519,6 +535,13 @@ class Walk:
         length = high - low if isinstance(low, int) and isinstance(high, int) else None
         if low == 0:
             length = high
+        if (
+            s.lower is not None
+            and isinstance(s.upper, ast.BinOp)
+            and isinstance(s.upper.op, ast.Add)
+        ):
+            if ast.dump(s.upper.left) == ast.dump(s.lower):
+                length = inst.size(s.upper.right)
         return Array(rest.element, (length, *rest.shape[1:]), rest.constant)
 
     def _call(self, n: ast.Call) -> Type:

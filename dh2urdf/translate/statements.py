@@ -67,7 +67,7 @@ class Body(Expressions):
 
     def block(self, statements: list[ast.stmt]) -> None:
         """Statements one after the other."""
-        for s in statements:
+        for s in self.instance.reached(statements):
             self._statement(s)
 
     def _inner(self, statements: list[ast.stmt]) -> None:

@@ -32,9 +32,8 @@ POSE, POSITION, POSITION_AXIS = 0, 1, 2
 
 
 def make_damped(n):
-    """Scratch for n joints: Jacobian (n, 6), `work_array` of six, its right side and solution."""
-    work = work_array(6)
-    return np.empty((n, 6)), work, work[:, 6], work[:, 7]
+    """Scratch for n joints: Jacobian (n, 6), and `work_array` of six for error and solution."""
+    return np.empty((n, 6)), work_array(6)
 
 
 def error_and_jacobian(links, joints, task, T, q, unit, damped):
@@ -43,42 +42,43 @@ def error_and_jacobian(links, joints, task, T, q, unit, damped):
     The error is (position / unit, rotation vector as long as the sine of its angle) from the
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
     """
-    J, _, e, _ = damped
-    r = jacobian_rows(links, joints[:, 0], q, J)
+    J, work = damped
+    r = jacobian_rows(links, joints, q, J)
     x, y, z = way_between(r, T)
-    e[0], e[1], e[2] = x / unit, y / unit, z / unit
+    work[0, 6], work[1, 6], work[2, 6] = x / unit, y / unit, z / unit
     for i in range(q.shape[0]):
         J[i, 0], J[i, 1], J[i, 2] = J[i, 0] / unit, J[i, 1] / unit, J[i, 2] / unit
     position = math.sqrt(x * x + y * y + z * z)
     if task == POSITION:
         for i in range(q.shape[0]):
             J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
-        e[3], e[4], e[5] = 0.0, 0.0, 0.0
+        work[3, 6], work[4, 6], work[5, 6] = 0.0, 0.0, 0.0
         return position
     zx, zy, zz = r[2], r[6], r[10]
     if task == POSE:
-        e[3], e[4], e[5], trace = turn_between(r, T)
+        work[3, 6], work[4, 6], work[5, 6], trace = turn_between(r, T)
         beyond = trace < 1.0
     else:
         for i in range(q.shape[0]):
             along = zx * J[i, 3] + zy * J[i, 4] + zz * J[i, 5]
-            for k, part in enumerate((zx, zy, zz)):
-                J[i, 3 + k] -= along * part
-        e[3] = zy * T[2, 2] - zz * T[1, 2]
-        e[4] = zz * T[0, 2] - zx * T[2, 2]
-        e[5] = zx * T[1, 2] - zy * T[0, 2]
+            J[i, 3] -= along * zx
+            J[i, 4] -= along * zy
+            J[i, 5] -= along * zz
+        work[3, 6] = zy * T[2, 2] - zz * T[1, 2]
+        work[4, 6] = zz * T[0, 2] - zx * T[2, 2]
+        work[5, 6] = zx * T[1, 2] - zy * T[0, 2]
         beyond = zx * T[0, 2] + zy * T[1, 2] + zz * T[2, 2] < 0.0
-    turn = math.sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+    turn = math.sqrt(work[3, 6] * work[3, 6] + work[4, 6] * work[4, 6] + work[5, 6] * work[5, 6])
     if beyond:
         size = max(turn, 1e-6)
-        e[3], e[4], e[5] = e[3] / size, e[4] / size, e[5] / size
+        work[3, 6], work[4, 6], work[5, 6] = work[3, 6] / size, work[4, 6] / size, work[5, 6] / size
         turn = math.pi
     return residual_of(r, T) if task == POSE else max(position, turn)
 
 
 def solve_damped(damped, damping):
     """``y = (J J^T + damping)^-1 e``, e and y in ``damped``."""
-    J, work, _, _ = damped
+    J, work = damped
     trace = 0.0
     for a in range(6):
         for b in range(a + 1):
@@ -92,12 +92,12 @@ def solve_damped(damped, damping):
 
 def add_transposed(damped, factor, dq):
     """``dq += factor J^T y``; returns the largest entry of the sum."""
-    J, _, _, y = damped
+    J, work = damped
     largest = 0.0
     for i in range(dq.shape[0]):
         total = 0.0
         for a in range(6):
-            total += J[i, a] * y[a]
+            total += J[i, a] * work[a, 7]
         dq[i] += factor * total
         largest = max(largest, abs(dq[i]))
     return largest

@@ -9,7 +9,6 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.chain import jacobian_rows, joint_times_link, load_pose
-from dh2urdf.kernels.numbers import entry
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
@@ -34,8 +33,7 @@ VALLEY = 1e3
 and what is asked for beyond is noise along a direction in which the pose hardly changes."""
 
 
-@entry
-def work_array(n: int):
+def work_array(n):
     """Scratch of a chain of n joints: Jacobian, right side, solution, triangle."""
     return np.empty((n, n + 8))
 
@@ -90,7 +88,7 @@ def normal_equations(links, joints, T, q, work):
 
     J as of :func:`jacobian_rows`. Written to ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
     """
-    r = jacobian_rows(links, joints[:, 0], q, work)
+    r = jacobian_rows(links, joints, q, work)
     px, py, pz = way_between(r, T)
     ex, ey, ez = 0.0, 0.0, 0.0
     if T.ndim == 2:

@@ -47,7 +47,7 @@ def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
         work[k] = total
     residual = error_and_jacobian(links, joints, task, T, work, unit, whole)
     for a in range(6):
-        part[2][a] = whole[2][a]
+        part[1][a, 6] = whole[1][a, 6]
         for v in range(q.shape[0]):
             total = 0.0
             for k in range(offset.shape[0]):
@@ -97,7 +97,7 @@ def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best,
             break
         square = 0.0
         for a in range(6):
-            square += part[2][a] * part[2][a]
+            square += part[1][a, 6] * part[1][a, 6]
         _step(bounds, square * (0.5 + DAMPING), unit, q, dq, part)
     return least
 

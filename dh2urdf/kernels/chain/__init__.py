@@ -15,6 +15,7 @@ from dh2urdf.kernels.chain.forward import (
     load_pose,
     store_pose,
     times_link,
+    turned,
     turned_back,
 )
 from dh2urdf.kernels.chain.held_joint import (

@@ -85,6 +85,16 @@ def applied_inverse(A, v):
     return turned_back(A, (v[0] - A[0, 3], v[1] - A[1, 3], v[2] - A[2, 3]))
 
 
+def turned(A, v):
+    """The direction ``A v``."""
+    x, y, z = v
+    return (
+        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z,
+        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z,
+        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z,
+    )
+
+
 def turned_back(A, v):
     """The direction ``A^-1 v``."""
     x, y, z = v
@@ -141,7 +151,7 @@ def chain_frames_batch(
             r = times_link(r, links[i + 1])
 
 
-def jacobian_rows(links, slides, q, J):
+def jacobian_rows(links, joints, q, J):
     """Geometric Jacobian at the tip in base axes, joint i in row i of J (n, 6 or more); the tip.
 
     Linear before angular: ``(z_i x (p_tip - p_i), z_i)`` revolute, ``(z_i, 0)`` prismatic (Spong,
@@ -151,10 +161,10 @@ def jacobian_rows(links, slides, q, J):
     for i in range(q.shape[0]):
         J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
         J[i, 3], J[i, 4], J[i, 5] = r[2], r[6], r[10]
-        r = joint_times_link(r, slides[i] != 0.0, q[i], links[i + 1])
+        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     for i in range(q.shape[0]):
         zx, zy, zz = J[i, 3], J[i, 4], J[i, 5]
-        if slides[i] != 0.0:
+        if joints[i, 0] != 0.0:
             J[i, 0], J[i, 1], J[i, 2] = zx, zy, zz
             J[i, 3], J[i, 4], J[i, 5] = 0.0, 0.0, 0.0
         else:
@@ -174,5 +184,11 @@ def chain_jacobian_batch(
 
     These are Pinocchio's ``LOCAL_WORLD_ALIGNED``.
     """
+    rows, joints = np.empty((q.shape[1], 6)), np.empty((q.shape[1], 1))
+    for i in range(q.shape[1]):
+        joints[i, 0] = 1.0 if prismatic[i] else 0.0
     for k in range(q.shape[0]):
-        jacobian_rows(links, prismatic, q[k], J[k].T)
+        jacobian_rows(links, joints, q[k], rows)
+        for i in range(q.shape[1]):
+            for e in range(6):
+                J[k, e, i] = rows[i, e]

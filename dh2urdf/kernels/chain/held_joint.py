@@ -22,7 +22,8 @@ UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 def held_links(links, slides, k, value, out):
     """Links (n, 4, 4) of the chain without joint k, from those with it, (n + 1, 4, 4)."""
-    out[:k], out[k + 1 :] = links[:k], links[k + 2 :]
+    for i in range(links.shape[0] - 1):
+        out[i] = links[i if i < k else i + 1]
     store_pose(joint_times_link(load_pose(links[k]), slides, value, links[k + 1]), out[k])
 
 

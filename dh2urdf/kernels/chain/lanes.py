@@ -5,8 +5,6 @@ array, entry e of lane i at ``S[BLOCK * e + i]``, and every loop over the lanes 
 length and no branch, which the compiler turns into vector instructions.
 """
 
-from dh2urdf.kernels.numbers import entry
-
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14
 """Rows of S beyond the pose, and their number."""
@@ -44,14 +42,12 @@ def cosine_sine(x):
     return sign * (-s if odd else c), sign * (c if odd else s)
 
 
-@entry
 def sincos_lanes(x, S):
     """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S."""
     for i in range(BLOCK):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = cosine_sine(x[i])
 
 
-@entry
 def _start(link, S):
     """All lanes at a link's pose."""
     for r in range(3):
@@ -61,7 +57,6 @@ def _start(link, S):
                 S[BLOCK * (4 * r + c) + i] = value
 
 
-@entry
 def _turn_and_step(link, S):
     """``T Rot_z(q) link`` in all lanes."""
     a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
@@ -79,7 +74,6 @@ def _turn_and_step(link, S):
             S[BLOCK * (4 * r + 3) + i] = x * a03 + y * a13 + z * a23 + p
 
 
-@entry
 def _slide(x, S):
     """``T Trans_z(q)`` in all lanes; the cosines and sines become those of no turn."""
     for i in range(BLOCK):
@@ -88,7 +82,6 @@ def _slide(x, S):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = 1.0, 0.0
 
 
-@entry
 def fits(q):
     """Whether every value of q (BLOCK, n) is a number up to ``LARGEST``."""
     outside = 0.0
@@ -98,7 +91,6 @@ def fits(q):
     return outside == 0.0
 
 
-@entry
 def lanes_fk(links, prismatic, q, T, x, S):
     """``T_base_tool`` T (BLOCK, 4, 4) of configurations q (BLOCK, n).
 

@@ -125,7 +125,8 @@ def window_arc(samples, half_tan, series, arcs):
     """
     for k in range(LANES):
         t = half_tan * NODE[k]
-        samples[k] *= (1.0 + t * t) ** DEGREE
+        square = (1.0 + t * t) * (1.0 + t * t)
+        samples[k] *= square * square * (square * square)
     _transform(samples, WINDOW_TABLE, series)
     for i in range(TERMS):
         arcs[i, 0] = series[i]

@@ -56,7 +56,9 @@ def place_target(T, arm):
     r = times_link(times_link(load_pose(ends[0]), T), ends[1])
     for e in range(12):
         target[e] = T[e // 4, e % 4]
-        chain[5, e] = r[e] / size if e % 4 == 3 else r[e]
+    chain[5, 0], chain[5, 1], chain[5, 2], chain[5, 3] = r[0], r[1], r[2], r[3] / size
+    chain[5, 4], chain[5, 5], chain[5, 6], chain[5, 7] = r[4], r[5], r[6], r[7] / size
+    chain[5, 8], chain[5, 9], chain[5, 10], chain[5, 11] = r[8], r[9], r[10], r[11] / size
 
 
 def nudge(chain, attempt):

@@ -61,11 +61,15 @@ def _converges(links, joints, T, q, A, step, damped):
     """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
     for _ in range(STEPS):
         error_and_jacobian(links, joints, POSE, T, q, 1.0, damped)
-        A[:, :6], A[:, 6] = damped[0].T, damped[2]
+        for r in range(6):
+            A[r, 6] = damped[1][r, 6]
+            for j in range(6):
+                A[r, j] = damped[0][j, r]
         longest = _solve(A, step)
         if not longest < math.inf:
             return False
-        q += step * min(1.0, MAX_TURN / max(longest, MAX_TURN))
+        scale = min(1.0, MAX_TURN / max(longest, MAX_TURN))
+        q += step * scale
     for j in range(6):
         q[j] = principal(q[j])
     return pose_residual(links, joints, T, q) <= POLISH
@@ -90,7 +94,8 @@ def search_beside(
             normal_equations(links, joints, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
-            start[:] = work[:, 6]
+            for j in range(6):
+                start[j] = work[j, 6]
             for way in WAYS:
                 for side in (-way, way):
                     trial[:] = q[i, k] + side * start

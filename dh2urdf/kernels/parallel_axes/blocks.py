@@ -49,6 +49,7 @@ from dh2urdf.kernels.spherical_wrist import (
 
 JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
 K, PAIR = np.arange(8), (np.arange(8) & 1) + 2 * (np.arange(8) >> 2)
+IN_ORDER = np.arange(6)
 ROW_OF = np.stack([K & 1, 10 + K, 18 + K, 26 + K, 2 + PAIR, 6 + PAIR], 1)
 
 MIRROR_OF = np.array([(r, OWN) for r in range(34)])
@@ -157,7 +158,7 @@ def solve_common_parallel(
     free: Codes8,
 ):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
-    m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)
+    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
     table, results = (JOINT_OF, ROW_OF, MIRROR_OF), (q, residual, count, branch, free)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
@@ -168,7 +169,7 @@ def solve_common_parallel(
         for k in range(8):
             pair = (k & 1) + 2 * (k >> 2)
             measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
-        emit(form, joints, table, within_limits, place, True, first, n, S, results)
+        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:
                 scratch = make_scratch()

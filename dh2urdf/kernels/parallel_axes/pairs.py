@@ -78,7 +78,10 @@ def _pairs_behind_one(form, D, slack, pair):
     for k in range(count):
         apart = math.inf
         for j in range(in_line):
-            apart = min(apart, np.abs(found[k] - pair[j, :4]).max())
+            gap = 0.0
+            for e in range(4):
+                gap = max(gap, abs(found[k, e] - pair[j, e]))
+            apart = min(apart, gap)
         if apart > PARTED and pairs < pair.shape[0]:
             pair[pairs, :4] = found[k]
             pairs += 1

@@ -1,6 +1,6 @@
 """An arm with three parallel axes, seen from the plane in which they turn."""
 
-from dh2urdf.kernels.chain import turned_back
+from dh2urdf.kernels.chain import turned, turned_back
 from dh2urdf.kernels.numbers import hypot, sincos
 from dh2urdf.kernels.spherical_wrist import NICE
 
@@ -37,7 +37,7 @@ def seen_arm(form, first, D, cs, origin):
     """
     x = form[first + 2, 0] if origin != 0.0 else 1.0
     x, y, z = _to_frame_six(form, first + 2, cs, x, 0.0, origin)
-    u, v, w = turned_back(D.T, (x, y, z))
+    u, v, w = turned(D, (x, y, z))
     return seen_from_plane(form, first, cs[0, 0], cs[0, 1], u, v, w)
 
 

@@ -55,9 +55,11 @@ def solve_held_blocks(
         return
     same, seen_from_tool = all_equal(values), which[REVERSED] != 0
     table = JOINT_OF, ROW_OF, MIRRORS
-    oriented, place = joints.copy(), np.delete(np.arange(7), which[HELD])
-    if seen_from_tool:
-        oriented, place = joints[::-1].copy(), place[::-1].copy()
+    oriented, place = np.empty((6, 3)), np.empty(6, np.int64)
+    for j in range(6):
+        moving = 5 - j if seen_from_tool else j
+        place[j] = moving if moving < which[HELD] else moving + 1
+        oriented[j] = joints[moving]
     S0, S2 = frames[LINK], frames[LINK + 2]
     prepare_block(frames, which, values, S)
     for first in range(0, m, BLOCK):
@@ -69,7 +71,8 @@ def solve_held_blocks(
             finish_arm(form, S0, seen_from_tool, arm, n, S)
         clean = emit(form, oriented, table, within_limits, place, False, first, n, S, out)
         for i in range(first, first + n):
-            q[i, :, which[HELD]] = values[i]
+            for k in range(8):
+                q[i, k, which[HELD]] = values[i]
         if clean < n:
             solve_rough(constants, values, Ts, within_limits, first, first + n, out)
 

@@ -22,6 +22,8 @@ from dh2urdf.kernels.redundant.self_motion import (
     dot,
     enter_limits,
     excess,
+    first_guess,
+    largest,
     part_inside,
     tangent_near,
 )
@@ -50,7 +52,10 @@ RETURNS = 10
 
 def step_length(a, b, jump, penalty):
     """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
-    return math.sqrt(distance2(a, b)) + (penalty if np.abs(b - a).max() > jump else 0.0)
+    longest = 0.0
+    for i in range(a.shape[0]):
+        longest = max(longest, abs(b[i] - a[i]))
+    return math.sqrt(distance2(a, b)) + (penalty if longest > jump else 0.0)
 
 
 @entry
@@ -114,7 +119,10 @@ def _length(start, q, jump, penalty):
 def _add_step(a, b, ta, tb, g, diagonal, beside, i):
     """Add the step from a (row i - 1) to b (row i) to gradient and Hessian."""
     length = math.sqrt(KINK * KINK + distance2(a, b))
-    along_a, along_b, across = dot(b - a, ta) / length, dot(b - a, tb) / length, dot(ta, tb)
+    along_a, along_b, across = 0.0, 0.0, dot(ta, tb)
+    for j in range(a.shape[0]):
+        along_a += (b[j] - a[j]) * ta[j] / length
+        along_b += (b[j] - a[j]) * tb[j] / length
     if i > 0:
         g[i - 1] -= along_a
         diagonal[i - 1] += (1.0 - along_a * along_a) / length
@@ -206,12 +214,17 @@ def shorten(
     m, n = q.shape
     damped, guess, work = make_damped(n), np.empty(n), np.empty(n)
     tangent, trial, none = np.zeros((m, n)), np.empty((m, n)), np.zeros(n)
-    g, diagonal, beside, low, high, x, bound, pivot = np.empty((8, m))
+    scratch = np.empty((8, m))
+    g, diagonal, beside, low = scratch[0], scratch[1], scratch[2], scratch[3]
+    high, x, bound, pivot = scratch[4], scratch[5], scratch[6], scratch[7]
     length, radius = _length(start, q, jump, penalty), LONGEST
     for _ in range(ROUNDS):
-        g[:], diagonal[:], beside[:] = 0.0, LEAST, 0.0
+        g[:] = 0.0
+        diagonal[:] = LEAST
+        beside[:] = 0.0
         for i in range(m):
-            guess[:] = tangent[i] + 1e-3 * (1.0 + 0.1 * np.arange(n))
+            first_guess(guess)
+            guess[:] = tangent[i] + 1e-3 * guess
             if not tangent_near(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
                 tangent[i] = 0.0
             high[i] = part_inside(joints, q[i], tangent[i], LONGEST)
@@ -227,12 +240,12 @@ def shorten(
             shorter = _length(start, trial, jump, penalty)
             if shorter < length:
                 break
-            radius = 0.5 * min(radius, np.abs(x).max())
+            radius = 0.5 * min(radius, largest(x))
         if not shorter < length:
             break
         q[:] = trial
         gain, length = length - shorter, shorter
-        if gain < ENOUGH * length and np.abs(x).max() < radius:
+        if gain < ENOUGH * length and largest(x) < radius:
             break
         radius = min(2.0 * radius, LONGEST)
     return length

@@ -48,10 +48,12 @@ SHORTEST = 1e-10
 def _project(links, joints, task, T, unit, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
     error_and_jacobian(links, joints, task, T, q, unit, damped)
-    J, _, e, _ = damped
+    J, work = damped
     step[:] = seed - q
     for a in range(6):
-        e[a] = dot(J[:, a], step)
+        work[a, 6] = 0.0
+        for i in range(q.shape[0]):
+            work[a, 6] += J[i, a] * step[i]
     solve_damped(damped, 0.0)
     add_transposed(damped, -1.0, step)
     return math.sqrt(dot(step, step))
@@ -71,6 +73,20 @@ def dot(v, w):
     for i in range(v.shape[0]):
         total += v[i] * w[i]
     return total
+
+
+def largest(v):
+    """Largest size of an entry."""
+    size = 0.0
+    for i in range(v.shape[0]):
+        size = max(size, abs(v[i]))
+    return size
+
+
+def first_guess(guess):
+    """A direction that no family is at right angles to by its nature."""
+    for i in range(guess.shape[0]):
+        guess[i] = 1.0 + 0.1 * i
 
 
 def part_inside(joints, q, step, length):
@@ -107,7 +123,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
             across, along = dot(scratch[4], scratch[4]), dot(scratch[4], before)
             length = across / along if along > 0.1 * across else 10.0
         before[:] = step
-        length = min(length, LONGEST / np.abs(step).max())
+        length = min(length, LONGEST / largest(step))
         if within_limits:
             length = part_inside(joints, q, step, length)
         while length * size > SHORTEST:
@@ -119,7 +135,8 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
             length *= 0.5
         else:
             break
-        scratch[4], q[:] = trial - q, trial
+        scratch[4] = trial - q
+        q[:] = trial
         gap2 = distance2(q, seed)
 
 
@@ -183,7 +200,8 @@ def enter_limits(
     damped, scratch = make_damped(n), np.empty((4, n))
     tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(q.shape[0]):
-        entered[k], guess[:], last = False, 1.0 + 0.1 * np.arange(n), math.inf
+        entered[k], last = False, math.inf
+        first_guess(guess)
         for _ in range(MOST_STEPS):
             along, across, total = 0.0, 0.0, 0.0
             if not tangent_near(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
@@ -201,7 +219,8 @@ def enter_limits(
             if total >= last or across < 1e-12 or abs(along) <= 1e-3 * math.sqrt(total * across):
                 break
             last = total
-            trial[:] = q[k] + min(max(along / across, -LONGEST), LONGEST) * tangent
+            step = min(max(along / across, -LONGEST), LONGEST)
+            trial[:] = q[k] + step * tangent
             if not restore(links, joints, POSE, T, unit, trial, work, damped) <= ACCEPT:
                 break
             q[k] = trial
@@ -228,11 +247,14 @@ def walk_family(
     tangent, guess, work = scratch[0], scratch[1], scratch[2]
     counts = np.zeros(2, np.int64)
     for way in range(2):
-        at, guess[:] = q, (1.0 + 0.1 * np.arange(n)) * (1.0 - 2.0 * way)
+        at, side = q, 1.0 - 2.0 * way
+        first_guess(guess)
+        guess *= side
         for k in range(members.shape[1]):
             if not tangent_near(links, joints, task, T, unit, at, guess, tangent, damped):
                 break
-            guess[:], members[way, k] = tangent, at + length * tangent
+            guess[:] = tangent
+            members[way, k] = at + length * tangent
             at = members[way, k]
             if not restore(links, joints, task, T, unit, at, work, damped) <= HELD:
                 break

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate import finish_pose, work_array
-from dh2urdf.kernels.chain import applied, turned_back
+from dh2urdf.kernels.chain import applied, turned
 from dh2urdf.kernels.numbers import (
     Counts,
     Floats,
@@ -98,7 +98,7 @@ def solve_planar(
     of joint 1. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
     n, F = joints.shape[0], plane[0]
-    work, pairs = work_array(n), np.empty((2, 2))
+    work, pairs, point = work_array(n), np.empty((2, 2)), np.empty(3)
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -115,10 +115,11 @@ def solve_planar(
         if pose:
             count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)
         else:
-            count[i] = finish_pose(links, joints, T[:3, 3], within_limits, *out, rows, work)
+            point[0], point[1], point[2] = T[0, 3], T[1, 3], T[2, 3]
+            count[i] = finish_pose(links, joints, point, within_limits, *out, rows, work)
 
 
 def _heading(F, T, N):
     """Angle about the axes from the tool at q = 0 to T: that of ``F R N``."""
-    x, y, _ = turned_back(F.T, turned_back(T.T, (N[0, 0], N[1, 0], N[2, 0])))
+    x, y, _ = turned(F, turned(T, (N[0, 0], N[1, 0], N[2, 0])))
     return atan2(y, x)

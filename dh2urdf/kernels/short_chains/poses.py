@@ -79,7 +79,8 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
     M, basis = scratch[0:8], scratch[8:14]
     size = loop_matrix(columns, used, x[0], x[1], M)
     factor(M, size, order)
-    order[:size] = used[order[:size]]
+    for i in range(size):
+        order[i] = used[order[i]]
     tried = 0
     for nullity in range(1, min(4, size)):
         if abs(M[size - nullity, size - nullity]) > FUZZY * abs(M[0, 0]):
@@ -149,7 +150,8 @@ def solve_short_chains(
     """
     n = joints.shape[0]
     work = work_array(n)
-    loop, scratch, roots = loop.copy(), np.empty((29, 8)), np.empty((3, SAMPLES))
+    closed, scratch, roots = np.empty((n, 8)), np.empty((29, 8)), np.empty((3, SAMPLES))
+    closed[:] = loop
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
     many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.empty(FEW, np.int64)
@@ -157,12 +159,12 @@ def solve_short_chains(
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
-        close_loop(ends, T, unit, pose, loop)
+        close_loop(ends, T, unit, pose, closed)
         found = 0
         for s in range(plan.shape[0]):
             before, shape, slots = found, plan[s, 0], plan[s, 1]
             found, doubt = _candidates(
-                loop, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
+                closed, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )
             for k in range(before, found):
                 many_residual[k], many_free[k] = -1.0, 0

@@ -225,7 +225,9 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
             value = s / c if slides[2] else atan2(s, c)
         rows = _pair(slides, frames[1], p, v, rest, unit, pairs)
         for row in range(rows):
-            q[count, :2], q[count, 2:] = pairs[row], value
+            q[count, 0], q[count, 1] = pairs[row, 0], pairs[row, 1]
+            if n == 3:
+                q[count, 2] = value
             count += 1
     return count
 
@@ -253,15 +255,18 @@ def solve_short_positions(
     """
     n = joints.shape[0]
     work = work_array(n)
-    slides = joints[:, 0] != 0.0
+    slides, p = np.empty(n, np.bool_), np.empty(3)
+    for j in range(n):
+        slides[j] = joints[j, 0] != 0.0
     rest, unit = rest_unit[:n], rest_unit[n]
     point = tip[0], tip[1], tip[2]
     roots, pairs, trial = np.empty((3, SAMPLES)), np.empty((2, 2)), np.empty((2, n))
     many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.zeros(FEW, np.int64)
     for i in range(Ts.shape[0]):
-        p = Ts[i, :3, 3]
+        p[0], p[1], p[2] = Ts[i, 0, 3], Ts[i, 1, 3], Ts[i, 2, 3]
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
-        many[1][:found], many[3][:found] = -1.0, 0
+        for k in range(found):
+            many[1][k], many[3][k] = -1.0, 0
         found = finish_pose(links, joints, p, ANYWHERE, *many, found, work)
         found = finish_families(
             links, joints, p, ALL_MEMBERS, within_limits, many, found, trial, work

@@ -83,7 +83,8 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
     """
     count = _turning_links(links, joints, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
-    found, q[:] = 1, 0.0
+    found = 1
+    q[:] = 0.0
     # B = R_0^T R R_last^T
     invert_pose(scratch[4 * count : 4 * count + 4], B)
     invert_pose(scratch[0:4], M)
@@ -105,7 +106,9 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
         error_and_jacobian(links, joints, POSE, T, q[k], 1.0, damped)
-        damped[0][:] *= joints[:, :1]
+        for i in range(q.shape[1]):
+            for e in range(6):
+                damped[0][i, e] *= joints[i, 0]
         solve_damped(damped, DAMPING)
         add_transposed(damped, 1.0, q[k])
     return max(found, 0)

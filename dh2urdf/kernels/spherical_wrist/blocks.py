@@ -49,6 +49,7 @@ from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist_in_plane
 
 JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 ARM, OTHER = np.arange(8) & 3, 12 * (np.arange(8) >> 2)
+IN_ORDER = np.arange(6)
 ROW_OF = np.stack([ARM & 1, 2 + ARM, 6 + ARM, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
 
 PLANE = WORK
@@ -156,7 +157,7 @@ def solve_common_wrist(
     free: Codes8,
 ):
     """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
-    m, S, place = Ts.shape[0], np.empty(ROWS * BLOCK), np.arange(6)
+    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
     table, results = (JOINT_OF, ROW_OF, MIRRORS), (q, residual, count, branch, free)
     arm = links, joints, form, ends, slack
     for first in range(0, m, BLOCK):
@@ -169,7 +170,7 @@ def solve_common_wrist(
             measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
         for i in range(at(4)):
             S[at(RESIDUAL + 4) + i] = S[at(RESIDUAL) + i]
-        emit(form, joints, table, within_limits, place, True, first, n, S, results)
+        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, results)
         for i in range(first, first + n):
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]

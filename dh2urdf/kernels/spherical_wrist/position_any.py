@@ -107,9 +107,11 @@ def _two_turns(form, Y, V, free, slack, pairs):
     """Joints 1 and 3 turn: a subproblem 6, of joint 3 alone where joint 1 is free."""
     (k, C, S), (m, E, F) = Y, V
     M, N, d = np.empty((2, 2)), np.empty((2, 2)), np.empty(2)
-    for i in range(2):
-        j = i if form[1, 5] != 0.0 else 2
-        M[i, 0], M[i, 1], N[i, 0], N[i, 1], d[i] = C[j], S[j], -E[j], -F[j], m[j] - k[j]
+    if form[1, 5] != 0.0:
+        M[0, 0], M[0, 1], N[0, 0], N[0, 1], d[0] = C[0], S[0], -E[0], -F[0], m[0] - k[0]
+        M[1, 0], M[1, 1], N[1, 0], N[1, 1], d[1] = C[1], S[1], -E[1], -F[1], m[1] - k[1]
+    else:
+        M[0, 0], M[0, 1], N[0, 0], N[0, 1], d[0] = C[2], S[2], -E[2], -F[2], m[2] - k[2]
     if form[1, 5] == 0.0:
         # k.C, k.S, m.E and m.F without what cancels in them, so that what vanishes is 0
         d2 = form[1, 3]
@@ -123,9 +125,10 @@ def _two_turns(form, Y, V, free, slack, pairs):
         return circle_pair(M, N, d, slack, np.empty((3, 5)), pairs)
     # joint 3 first: where the slide is square to axis 1, one equation is its alone
     count = circle_pair(N, M, d, slack, np.empty((3, 5)), pairs)
-    for k in range(count):
-        e, f = pairs[k, 0], pairs[k, 1]
-        pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], pairs[k, 3], e, f
+    for row in range(count):
+        e, f = pairs[row, 0], pairs[row, 1]
+        pairs[row, 0], pairs[row, 1], pairs[row, 2] = pairs[row, 2], pairs[row, 3], e
+        pairs[row, 3] = f
     return count
 
 
