@@ -45,7 +45,7 @@ def texts(names: list[str] | None = None) -> dict[str, str]:
     for name, function in entries().items():
         if names is None or name.rpartition(".")[2] in names:
             inference.add_entry(function, argument_types(function))
-    extension = Extension(CFile(inference), NAME, fingerprint())
+    extension = Extension(CFile(inference, "ik_"), NAME, fingerprint())
     kernels = extension.kernels()
     return {"kernels.h": extension.header(), "kernels.c": kernels, "doors.c": extension.doors()}
 

@@ -9,11 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.translate.c_text import ELEMENT, HELPERS, NEEDS, NUMBER, comment, number, table
+from dh2urdf.translate.c_text import (
+    ELEMENT,
+    HELPERS,
+    NEEDS,
+    NUMBER,
+    RESERVED,
+    comment,
+    number,
+    table,
+)
 from dh2urdf.translate.inference import Inference, Instance
 from dh2urdf.translate.source import Source, stored
 from dh2urdf.translate.statements import Body
-from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type
+from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type, is_sized_late
 
 INCLUDES = ["", *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string"))]
 
@@ -108,13 +117,18 @@ class CFile:
             return f"{self.tuple_name(t)} {name}"
         return f"{NUMBER[t] if isinstance(t, str) else 'void'} {name}"
 
-    def parameters(self, instance: Instance, named: Any) -> list[str]:
+    def local(self, instance: Instance, name: str) -> str:
+        """A name of a kernel in C: what C, a function or a length has taken is marked."""
+        taken = name in RESERVED or name in self.functions or name in instance.lengths()
+        return f"{name}_" if taken else name.replace("::", "_")
+
+    def parameters(self, instance: Instance) -> list[str]:
         """Declarations of all that an instance is handed."""
         out = [f"int {length}" for length in instance.lengths()]
         for p, t in zip(instance.source.parameters, instance.arguments, strict=True):
             if not isinstance(t, Kernel):
                 sized = isinstance(t, Array) and isinstance(t.shape[0], int)
-                out.append(self.declaration(t, named(p), storage=sized))
+                out.append(self.declaration(t, self.local(instance, p), storage=sized))
         return out
 
     def _record(self, t: Record) -> str:
@@ -124,7 +138,10 @@ class CFile:
     def tuple_name(self, t: Tuple) -> str:
         """Name of the struct for a tuple."""
         if t not in self._tuples:
-            fields = [self.declaration(x, f"f{i}") for i, x in enumerate(t.items)]
+            fields = [
+                f"void *f{i}" if is_sized_late(x) else self.declaration(x, f"f{i}")
+                for i, x in enumerate(t.items)
+            ]
             letters = "".join(x[0] if isinstance(x, str) else "p" for x in t.items)
             runs = re.finditer(r"(.)\1*", letters)
             short = "".join(m[1] + (str(len(m[0])) if len(m[0]) > 1 else "") for m in runs)

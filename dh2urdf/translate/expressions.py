@@ -4,10 +4,10 @@ import ast
 import math
 from typing import TYPE_CHECKING
 
-from dh2urdf.translate.c_text import RESERVED, number
+from dh2urdf.translate.c_text import number
 from dh2urdf.translate.inference import C_FUNCTIONS, INTEGERS, Instance
 from dh2urdf.translate.source import MAKERS
-from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type
+from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type, is_sized_late
 
 if TYPE_CHECKING:
     from dh2urdf.translate.c_file import CFile
@@ -49,8 +49,7 @@ class Expressions:
 
     def name(self, name: str) -> str:
         """A name of the kernel in C."""
-        taken = name in RESERVED or name in self.file.functions or name in self.instance.lengths()
-        return f"{name}_" if taken else name.replace("::", "_")
+        return self.file.local(self.instance, name)
 
     def fresh(self, name: str) -> str:
         """A name that is not taken."""
@@ -136,7 +135,7 @@ class Expressions:
                 keep = self.fresh("part")
                 self.pending.append(f"const {self.file.declaration(t, keep)} = {text};")
                 text = keep
-            parts += [f"{text}.f{i}" for i in range(len(t.items))]
+            parts += [self.part(text, i, x) for i, x in enumerate(t.items)]
         t = self.type_of(n)
         assert isinstance(t, Tuple)
         return f"({self.file.tuple_name(t)}){{{', '.join(parts)}}}", POSTFIX
@@ -172,7 +171,7 @@ class Expressions:
             assert k is not None
             if isinstance(n.value, ast.Name) and n.value.id not in self.instance.types:
                 return number(self.instance.source.stands_for(n.value)[k]), PREFIX
-            return f"{self.value(n.value, None, POSTFIX)}.f{k}", POSTFIX
+            return self.part(self.value(n.value, None, POSTFIX), k, t.items[k]), POSTFIX
         base = self.value(n.value, None, POSTFIX)
         if isinstance(t, Record):
             assert isinstance(n.slice, ast.Constant)
@@ -214,12 +213,18 @@ class Expressions:
             if isinstance(a, ast.Starred):
                 base, t = self.value(a.value, None, POSTFIX), self.type_of(a.value)
                 assert isinstance(t, Tuple)
-                handed += [f"{base}.f{i}" for i in range(len(t.items))]
+                handed += [self.part(base, i, x) for i, x in enumerate(t.items)]
             else:
                 t = instance.arguments[len(handed)]
                 handed.append("" if isinstance(t, Kernel) else self.value(a, t))
         lengths = self._lengths(n, instance)
         return f"{instance.name}({', '.join([*lengths, *(h for h in handed if h)])})", POSTFIX
+
+    def part(self, base: str, k: int, t: Type) -> str:
+        """An item of a tuple; an array sized late has lost its type there."""
+        if not is_sized_late(t):
+            return f"{base}.f{k}"
+        return f"(({self.file.declaration(t, '')}){base}.f{k})"
 
     def storage(self, made: ast.Call, name: str) -> list[str]:
         """Declaration of an array that a kernel makes."""

@@ -80,7 +80,7 @@ class Extension:
         """Types that both files share."""
         lines = ["typedef struct {"]
         for e in self.entries:
-            parameters = ", ".join(self.file.parameters(e, lambda p: p)) or "void"
+            parameters = ", ".join(self.file.parameters(e)) or "void"
             lines.append(f"    {self.file.declaration(e.returned, f'(*{e.name})({parameters})')};")
         lines += ["} Entries;", *(f"extern const Entries entries_{level};" for level in LEVELS), ""]
         return "\n".join([*INCLUDES, *self.file.types(), "", *lines])

@@ -377,6 +377,8 @@ class Walk:
         if isinstance(target, ast.Name):
             if target.id == "_":
                 return
+            if isinstance(value, ast.BinOp | ast.UnaryOp) and isinstance(t, Array):
+                inst.refuse(value, "a new array", "an assignment to all elements of one")
             try:
                 inst.types[target.id] = joined(inst.types.get(target.id), t)
             except TypeError as error:
@@ -557,6 +559,8 @@ class Walk:
                 arguments += t.items if isinstance(t, Tuple) else inst.refuse(n, "starred")
             else:
                 arguments.append(self.of(a))
+                if isinstance(a, ast.BinOp | ast.UnaryOp) and isinstance(arguments[-1], Array):
+                    inst.refuse(n, "a new array", "an assignment to one that is there")
         if name in ("abs", "max", "min"):
             t = arguments[0]
             for other in arguments[1:]:

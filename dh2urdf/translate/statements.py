@@ -36,7 +36,7 @@ class Body(Expressions):
             if p not in used and not isinstance(t, Kernel):
                 self.out(f"(void){self.name(p)};")
         self.block(instance.body)
-        for name in reversed(instance.known):  # numbers that only gave shapes
+        for name in map(self.name, reversed(instance.known)):  # numbers that only gave shapes
             if len(re.findall(rf"\b{name}\b", "\n".join(self.lines))) == 1:
                 self.lines = [x for x in self.lines if f"const int {name} = " not in x]
         doc = comment(instance.source.doc) if instance.source.doc else []
@@ -45,7 +45,7 @@ class Body(Expressions):
     def signature(self) -> str:
         """The head; what has no loop is asked to become a part of its callers."""
         instance = self.instance
-        parameters = ", ".join(self.file.parameters(instance, self.name)) or "void"
+        parameters = ", ".join(self.file.parameters(instance)) or "void"
         head = self.file.declaration(instance.returned, f"{instance.name}({parameters})")
         seen = self.file.exported and instance in self.file.inference.entries
         inline = (
@@ -299,7 +299,7 @@ class Body(Expressions):
 
     def _store(self, s: ast.Assign, target: ast.expr, text: str) -> None:
         name = target.id if isinstance(target, ast.Name) else ""
-        if name and name in ("_", text):
+        if name and (name == "_" or self.name(name) == text):
             return
         if name and (id(s), name) in self.scopes.at:
             t: Type = self.instance.types[name]
@@ -322,7 +322,7 @@ class Body(Expressions):
 
     def _unpack_into(self, s: ast.Assign, target: ast.Tuple, text: str, t: Type) -> None:
         for i, x in enumerate(target.elts):
-            part = f"{text}.f{i}" if isinstance(t, Tuple) else f"{text}[{i}]"
+            part = self.part(text, i, t.items[i]) if isinstance(t, Tuple) else f"{text}[{i}]"
             if isinstance(x, ast.Tuple):
                 inner = t.items[i] if isinstance(t, Tuple) else t.at(1)  # type: ignore[union-attr]
                 self._unpack_into(s, x, part, inner)

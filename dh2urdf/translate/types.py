@@ -66,6 +66,11 @@ class Kernel:
 Type = str | Array | Tuple | Record | Kernel | None
 
 
+def is_sized_late(t: Type) -> bool:
+    """Whether the elements of an array have a size that is known when the kernel runs."""
+    return isinstance(t, Array) and any(isinstance(d, str) for d in t.shape[1:])
+
+
 def joined(a: Type, b: Type) -> Type:
     """The type that holds both; TypeError where there is none."""
     if a is None or a == b:

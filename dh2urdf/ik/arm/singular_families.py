@@ -85,7 +85,8 @@ class Family:
         from dh2urdf.kernels.redundant import walk_family
 
         walk = np.empty((2, MOST_STEPS, len(self.free)))
-        counts = walk_family(*self._constants, FAMILY_STEP, start[self.free], walk)
+        counts = np.empty(2, np.int64)
+        walk_family(*self._constants, FAMILY_STEP, start[self.free], walk, counts)
         found = np.concatenate([way[:count] for way, count in zip(walk, counts, strict=True)])
         found = limits.turned_to(self.moving, found, seed[self.free])
         found = found[self._inside(start, found)]

@@ -23,7 +23,7 @@ from dh2urdf.kernels.certificate import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.numbers import Flags, Floats, Joints, Links, Pose, entry
+from dh2urdf.kernels.numbers import Flags, Floats, Integers, Joints, Links, Pose, entry
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -177,7 +177,9 @@ def excess(joints, q, i):
 
 def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
-    size = _project(links, joints, task, T, unit, q, q + guess, tangent, damped)
+    guess += q
+    size = _project(links, joints, task, T, unit, q, guess, tangent, damped)
+    guess -= q
     tangent /= max(size, 1e-300)
     return size > 1e-6
 
@@ -236,17 +238,18 @@ def walk_family(
     length: float,
     q: Annotated[Floats, "n"],
     members: Annotated[Floats, 2, "members", "n"],
+    counts: Annotated[Integers, 2],
 ):
     """Members (2, k, n) of the family through q (n,), by walking away from it both ways.
 
     Steps have a ``length`` [rad or m]; the other arguments are those of :func:`nearest_members`.
-    Returns how many were found each way, int64 (2,).
+    How many were found each way goes to ``counts`` (2,).
     """
     n = q.shape[0]
     damped, scratch = make_damped(n), np.empty((3, n))
     tangent, guess, work = scratch[0], scratch[1], scratch[2]
-    counts = np.zeros(2, np.int64)
     for way in range(2):
+        counts[way] = 0
         at, side = q, 1.0 - 2.0 * way
         first_guess(guess)
         guess *= side
@@ -259,4 +262,3 @@ def walk_family(
             if not restore(links, joints, task, T, unit, at, work, damped) <= HELD:
                 break
             counts[way] = k + 1
-    return counts
