@@ -187,6 +187,8 @@ class Inference:
             shape = isinstance(n, ast.Attribute) and n.attr == "shape"
             if shape and ast.unparse(n.value) == name:
                 return True
+            if isinstance(n, ast.AugAssign) and ast.unparse(n.target) == name:
+                return True
             sliced = isinstance(n, ast.Subscript) and isinstance(n.slice, ast.Slice)
             if sliced and ast.unparse(n.value) == name:
                 return True
