@@ -44,13 +44,17 @@ poses = robot.fk(q)
 found = robot.ik_batch(poses[:64], within_limits=False, threads=1, **how)
 robot.ik(poses[0], within_limits=False, **how)
 first, times = time.process_time() - begin, []
+robot.ik_numeric(poses[0], solutions=4, rng=0, within_limits=False)
 for rounds in range(5):
     a = time.process_time()
     found = robot.ik_batch(poses, within_limits=False, threads=1, **how)
     b = time.process_time()
     for T in poses[:single]:
         robot.ik(T, within_limits=False, **how)
-    times.append(((b - a) / batch, (time.process_time() - b) / single))
+    c = time.process_time()
+    for T in poses[:20]:
+        robot.ik_numeric(T, solutions=4, rng=0, within_limits=False)
+    times.append(((b - a) / batch, (c - b) / single, (time.process_time() - c) / 20))
 print(json.dumps({"first": first, "times": times}))
 """
 
@@ -68,7 +72,7 @@ def main() -> None:
         with tarfile.open(fileobj=BytesIO(archive)) as tar:
             tar.extractall(other, filter="data")
         rows = [_row(name, other, Path(folder), given) for name in ARMS]
-    head = ["arm", "class", "batch", "one call", "first answer", "kernels", "machine code"]
+    head = ["arm", "class", "batch", "one call", "search", "first answer", "kernels", "code"]
     print(table(head, rows))
 
 
@@ -94,8 +98,7 @@ def _row(name: str, other: Path, folder: Path, given: argparse.Namespace) -> lis
     return [
         name,
         ARMS[name],
-        f"{ours[0] * 1e6:.3g} us, {ratio[0]:.3f}",
-        f"{ours[1] * 1e6:.3g} us, {ratio[1]:.3f}",
+        *(f"{1e6 * t:.3g} us, {r:.3f}" for t, r in zip(ours, ratio, strict=True)),
         f"{found['then'][0]['first']:.1f} s -> {found['now'][0]['first']:.1f} s",
         f"{len(code['then'])} -> {len(code['now'])}",
         f"{sum(code['then']) / 1e6:.2f} MB -> {sum(code['now']) / 1e6:.2f} MB",

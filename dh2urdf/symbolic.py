@@ -7,6 +7,8 @@ from dh2urdf.dh import DHConvention, DHRow, JointType
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.exceptions import MissingExtraError
 
+__all__ = ["symbolic_product", "symbolic_text", "symbolic_transforms"]
+
 SHORT = 3
 """Joints up to which the whole product is simplified; beyond, that takes minutes."""
 

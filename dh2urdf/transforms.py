@@ -12,11 +12,31 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import NUMBER
-from dh2urdf.doors import Array as Array
-from dh2urdf.doors import finite_array, number, real_array
+from dh2urdf.doors import Array, finite_array, number, real_array
 from dh2urdf.exceptions import PoseError
-from dh2urdf.poses import check_pose as check_pose
-from dh2urdf.poses import nearest_rotation as nearest_rotation
+from dh2urdf.poses import check_pose, nearest_rotation
+
+__all__ = [
+    "Array",
+    "check_pose",
+    "inverse",
+    "matrix_to_rpy",
+    "matrix_to_zyz",
+    "nearest_rotation",
+    "origin_matrix",
+    "planar_rotation",
+    "planar_translation",
+    "pose_error",
+    "quaternion_to_matrix",
+    "rot_x",
+    "rot_y",
+    "rot_z",
+    "rotation",
+    "rotation_angle",
+    "rpy_to_matrix",
+    "trans",
+    "zyz_to_matrix",
+]
 
 ZYZ_SINGULAR = 1e-9
 """``sin(theta)`` at or below which only ``phi +- psi`` is determined, see :func:`matrix_to_zyz`."""

@@ -12,8 +12,7 @@ from benchmarks.arms import Arm, arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
-from dh2urdf.ik.arm import Outputs
-from dh2urdf.ik.redundant import HeldSolver
+from dh2urdf.ik.arm import HeldSolver, Outputs
 
 __all__ = ["KEYS", "QUICK", "run"]
 

@@ -80,6 +80,14 @@ def test_advice_alone_is_no_failure(run, tmp_path):
     assert (status, "1 advice" in out) == (0, True)
 
 
+def test_a_program_reads_why_a_file_cannot_be_checked_and_so_does_its_user(run):
+    """With --json, too, what cannot be read ends in status 2 and a message on stderr."""
+    status, out, err = run("check", "ur5", "--json")
+    (failed,) = json.loads(out)["failed"]
+    assert (status, err) == (2, f"dh2urdf: {failed['error']}\n")
+    assert failed["error"] == "ur5: there is no such file"
+
+
 def test_json_holds_all_that_is_said(run, tmp_path):
     """One object: findings with severity and effects, consumers with verdict and words."""
     (tmp_path / "arm.urdf").write_text(arm(base=BODY))

@@ -93,6 +93,15 @@ def test_one_bad_table_does_not_stop_the_rest(run, tmp_path):
     assert "2 files written" in out
 
 
+def test_a_program_reads_which_tables_were_bad_and_so_does_its_user(run, tmp_path):
+    """With --json, too, a bad table among several ends in status 2 and a message on stderr."""
+    status, out, err = run("convert", "ur5", "0", "--out-dir", "urdf", "--json")
+    answer = json.loads(out)
+    (failed,) = answer["failed"]
+    assert (status, failed["source"], len(answer["files"])) == (2, "0", 1)
+    assert f"dh2urdf: {failed['error']}" in err
+
+
 def test_two_sources_of_one_name_do_not_overwrite_each_other(run, tmp_path):
     """The second of two tables that would write one file is refused."""
     (tmp_path / "ur5.yaml").write_text(RPR)

@@ -92,8 +92,8 @@ def check_(
     else:
         for result in results:
             _show(result)
-        for bad in failed:
-            note(f"dh2urdf: {bad['error']}")
+    for bad in failed:
+        note(f"dh2urdf: {bad['error']}")
     wrong = (
         any(f.severity is not Severity.ADVICE for f in result.findings)
         or any(t.verdict is Verdict.REFUSES for t in result.said)

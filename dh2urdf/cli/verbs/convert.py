@@ -161,13 +161,12 @@ def _convert_many(
             failed.append({"source": source, "error": str(error)})
     if json:
         emit_json("convert", files=done, failed=failed)
-        return 2 if failed else 0
-    for item in done:
+    for item in () if json else done:
         for warning in item["warnings"]:
             note(f"warning: {item['source']}: {warning}")
     for bad in failed:
         note(f"dh2urdf: {bad['error']}")
-    if done:
+    if done and not json:
         worst = max(done, key=lambda item: float(item["max_error"]))
         emit(f"{len(done)} files written to {out_dir}; {_checked(worst)} ({worst['source']})")
     if failed:

@@ -25,7 +25,13 @@ from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found
 from dh2urdf.exceptions import UrdfError, VerificationError
 
-NUMBERS = ("xyz", "rpy", "lower", "upper", "effort", "velocity", "damping", "friction")
+NUMBERS = {
+    "origin": ("xyz", "rpy"),
+    "axis": ("xyz",),
+    "limit": ("lower", "upper", "effort", "velocity"),
+    "dynamics": ("damping", "friction"),
+}
+"""What Pinocchio is handed of an element; another attribute on it means nothing."""
 
 TEXT = "URDF text"
 """How messages name a text that is no path."""
@@ -162,11 +168,10 @@ def _joint(robot: etree._Element, joint: etree._Element, chain: Collection[str])
     bare = etree.SubElement(robot, "joint", name=name, type=kind)
     for tag in ("parent", "child"):
         etree.SubElement(bare, tag, link=joint.find(tag).get("link"))
-    parts = ("origin", "axis", "limit", "dynamics") if kind != "fixed" else ("origin",)
-    for tag in parts:
+    for tag in NUMBERS if kind != "fixed" else ("origin",):
         part = joint.find(tag)
         if part is not None:
-            keys = NUMBERS[-4:] if kind == "continuous" and tag == "limit" else NUMBERS
+            keys = NUMBERS[tag][2:] if kind == "continuous" and tag == "limit" else NUMBERS[tag]
             numbers = {k: _plain(part.get(k)) for k in keys if k in part.attrib}
             if numbers:
                 etree.SubElement(bare, tag, numbers)

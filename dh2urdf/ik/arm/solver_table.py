@@ -11,7 +11,7 @@ SOLVERS = (
     "dh2urdf.ik.families.reversed_chain:SphericalShoulder",
     "dh2urdf.ik.families.reversed_chain:ThreeParallelReversed",
     "dh2urdf.ik.families.planar:PlanarArm",
-    "dh2urdf.ik.families.three_slides:ThreeSlides",
+    "dh2urdf.ik.families.short:ThreeSlides",
     "dh2urdf.ik.families.short:ShortChain",
     "dh2urdf.ik.families.short_position:ShortPosition",
     "dh2urdf.ik.families.tool_axis:ToolAxis",

@@ -1,7 +1,7 @@
 """Families of arms, a module each: when it covers a chain, its constants, its kernel.
 
 `spherical_wrist`, `three_parallel`, `reversed_chain` (these two, turned round so that the tool is
-the base), `planar`, `three_slides`, `short`, `short_position`, `tool_axis`, `near_family`,
+the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
 `general_6r`; and `numeric`, for any chain and some solutions.
 """
 

@@ -16,6 +16,7 @@ from hostile import hostile, outcome
 from hypothesis import strategies as st
 from lxml import etree
 
+import dh2urdf
 from dh2urdf import Robot, extract_dh
 from dh2urdf.bounds import JOINTS, LINKS
 from dh2urdf.checks import check_urdf
@@ -76,6 +77,15 @@ def test_mutated_files_are_built_or_refused(seed, ends):
         np.testing.assert_allclose(robot.fk(q[None])[0], T, rtol=1e-9, atol=1e-9)
     if not isinstance(found, Dh2UrdfError):
         assert found.max_error <= 1e-9 * max(1.0, found.table.length)
+
+
+def test_attributes_that_an_element_does_not_have_mean_nothing(tmp_path):
+    """A limit with an ``xyz`` that is no number is built like one without."""
+    text = dh2urdf.urdf_text("planar_rr").replace("<limit ", '<limit xyz="prismatic" ')
+    (tmp_path / "arm.urdf").write_text(text)
+    q = [0.3, -0.4]
+    T = Robot.from_urdf(tmp_path / "arm.urdf").fk(q)
+    np.testing.assert_allclose(T, dh2urdf.load_table("planar_rr").fk(q), atol=1e-14)
 
 
 def readable(seed):
