@@ -24,6 +24,16 @@ from dh2urdf.translate.source import Source, stored
 from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type, is_sized_late
 
+LANES = """
+/* A loop whose turns do not depend on one another. */
+#if defined(__clang__)
+#define SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define SIDE_BY_SIDE _Pragma("GCC ivdep")
+#else
+#define SIDE_BY_SIDE
+#endif"""
+
 INCLUDES = ["", *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string"))]
 
 
@@ -68,7 +78,7 @@ class CFile:
 
     def definitions(self) -> list[str]:
         """Helpers and constants."""
-        out = ["", *(text for name, text in HELPERS.items() if name in self.helpers)]
+        out = [LANES, "", *(text for name, text in HELPERS.items() if name in self.helpers)]
         for name, value, doc in self._constants.values():
             out += ["", *comment(doc)] if doc else []
             out.append(_constant(name, value))

@@ -38,6 +38,8 @@ DECIDE: dict[type[ast.cmpop], Callable[[int, int], bool]] = {
     ast.GtE: int.__ge__,
 }
 
+COUNTS = ("range", "side_by_side")
+
 PREDICATES = ("math.isinf", "math.isnan", "math.isfinite")
 
 INTEGERS = ("int", "np.int64", "len")
@@ -360,7 +362,7 @@ class Walk:
 
     def _item(self, iterated: ast.expr) -> Type:
         """Type of what a loop counts, or takes from a few values."""
-        if isinstance(iterated, ast.Call) and ast.unparse(iterated.func) == "range":
+        if isinstance(iterated, ast.Call) and ast.unparse(iterated.func) in COUNTS:
             for a in iterated.args:
                 self.of(a)
             return "int"
@@ -543,9 +545,8 @@ class Walk:
             s.lower is not None
             and isinstance(s.upper, ast.BinOp)
             and isinstance(s.upper.op, ast.Add)
-        ):
-            if ast.dump(s.upper.left) == ast.dump(s.lower):
-                length = inst.size(s.upper.right)
+        ) and ast.dump(s.upper.left) == ast.dump(s.lower):
+            length = inst.size(s.upper.right)
         return Array(rest.element, (length, *rest.shape[1:]), rest.constant)
 
     def _call(self, n: ast.Call) -> Type:

@@ -221,6 +221,8 @@ class Body(Expressions):
         kind = "int " if name == "_" or name in self.scopes.counters else ""
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
         self.flush()
+        if ast.unparse(s.iter.func) == "side_by_side":
+            self.out("SIDE_BY_SIDE")
         self.out(f"for ({kind}{i} = {low}; {i} {'>' if step < 0 else '<'} {end}; {move}) {{")
         self._looped(s)
 

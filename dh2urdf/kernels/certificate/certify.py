@@ -125,7 +125,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
     the smaller residual stays, or the first if it reaches the pose to rounding.
     """
     n = q.shape[1]
-    kept = np.int64(0)
+    kept = 0
     for k in range(count):
         if residual[k] < 0.0 or residual[k] > POLISH:
             residual[k] = polish(links, joints, T, q[k], work)
@@ -149,7 +149,7 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
 
 def turn_inside(links, joints, T, within_limits, q, residual, branch, free, count):
     """Turn solutions by full turns, near or into their limits; how many are left."""
-    solutions = np.int64(0)
+    solutions = 0
     for k in range(count):
         residual[k] = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
         if residual[k] <= ACCEPT:

@@ -80,7 +80,7 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
 
     Arguments as for :func:`.certify.finish_pose`; ``scratch`` (2, n).
     """
-    kept = np.int64(0)
+    kept = 0
     for k in range(count):
         twin = -1
         for j in range(kept):

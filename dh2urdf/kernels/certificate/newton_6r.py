@@ -6,9 +6,7 @@ turned by the tangent of the step, so that no trigonometric function is called.
 
 import math
 
-import numpy as np
-
-from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, reduce_columns, solve_upper
+from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side, solve_upper
 
 FRAME = 12 * LANES
 LARGEST_STEP = 0.5
@@ -22,8 +20,8 @@ def chain_frames(steps, cosines, sines, n, frames):
     """
     for e in range(12):
         value = steps[0, e]
-        f = (e * LANES) & MASK
-        for k in range(n):
+        f = e * LANES
+        for k in side_by_side(n):
             frames[f + k] = value
     for i in range(len(steps) - 1):
         a00, a01, a02, a03 = steps[i + 1, 0], steps[i + 1, 1], steps[i + 1, 2], steps[i + 1, 3]
@@ -31,9 +29,9 @@ def chain_frames(steps, cosines, sines, n, frames):
         a20, a21, a22, a23 = steps[i + 1, 8], steps[i + 1, 9], steps[i + 1, 10], steps[i + 1, 11]
         q = i * LANES
         for row in range(3):
-            f = (i * FRAME + 4 * row * LANES) & MASK
-            g = (f + FRAME) & MASK
-            for k in range(n):
+            f = i * FRAME + 4 * row * LANES
+            g = f + FRAME
+            for k in side_by_side(n):
                 u, v, z = frames[f + k], frames[f + LANES + k], frames[f + 2 * LANES + k]
                 p = frames[f + 3 * LANES + k]
                 c, s = cosines[q + k], sines[q + k]
@@ -54,7 +52,7 @@ def pose_error(target, frames, n, error, position, angle):
     t10, t11, t12, t13 = target[4], target[5], target[6], target[7]
     t20, t21, t22, t23 = target[8], target[9], target[10], target[11]
     f = 6 * FRAME
-    for k in range(n):
+    for k in side_by_side(n):
         r00, r01, r02 = frames[f + k], frames[f + 24 + k], frames[f + 48 + k]
         r10, r11, r12 = frames[f + 96 + k], frames[f + 120 + k], frames[f + 144 + k]
         r20, r21, r22 = frames[f + 192 + k], frames[f + 216 + k], frames[f + 240 + k]
@@ -80,9 +78,9 @@ def _newton_system(frames, error, n, A):
     """
     e = 6 * FRAME
     for i in range(6):
-        f = (i * FRAME) & MASK
-        a = (i * COLUMN) & MASK
-        for k in range(n):
+        f = i * FRAME
+        a = i * COLUMN
+        for k in side_by_side(n):
             zx, zy, zz = frames[f + 48 + k], frames[f + 144 + k], frames[f + 240 + k]
             x = frames[e + 72 + k] - frames[f + 72 + k]
             y = frames[e + 168 + k] - frames[f + 168 + k]
@@ -91,9 +89,9 @@ def _newton_system(frames, error, n, A):
             A[a + 24 + k] = zz * x - zx * z
             A[a + 48 + k] = zx * y - zy * x
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
-        b = (6 * COLUMN + i * LANES) & MASK
-        o = (i * LANES) & MASK
-        for k in range(n):
+        b = 6 * COLUMN + i * LANES
+        o = i * LANES
+        for k in side_by_side(n):
             A[b + k] = error[o + k]
 
 
@@ -105,25 +103,25 @@ def _damped_system(J, weight, n, order, A):
     """
     for j in range(order + 1):
         for r in range(3):
-            q = (j * COLUMN + r * LANES) & MASK
-            for k in range(n):
+            q = j * COLUMN + r * LANES
+            for k in side_by_side(n):
                 J[q + k] *= weight
     for i in range(order):
-        p = (i * COLUMN) & MASK
+        p = i * COLUMN
         for j in range(order + 1):
-            q = (j * COLUMN) & MASK
-            a = (j * COLUMN + i * LANES) & MASK
-            for k in range(n):
+            q = j * COLUMN
+            a = j * COLUMN + i * LANES
+            for k in side_by_side(n):
                 A[a + k] = 0.0
             for r in range(order):
-                o = (r * LANES) & MASK
-                for k in range(n):
+                o = r * LANES
+                for k in side_by_side(n):
                     A[a + k] += J[p + o + k] * J[q + o + k]
     for i in range(order):
-        a = (i * COLUMN + i * LANES) & MASK
+        a = i * COLUMN + i * LANES
         for r in range(order):
-            o = (order * COLUMN + r * LANES) & MASK
-            for k in range(n):
+            o = order * COLUMN + r * LANES
+            for k in side_by_side(n):
                 A[a + k] += J[o + k] * J[o + k]
 
 
@@ -136,23 +134,23 @@ def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines,
     _newton_system(frames, error, n, J if damped == 1 else A)
     if damped == 1:
         _damped_system(J, weight, n, len(error) // LANES, A)
-    for k in range(n):
+    for k in side_by_side(n):
         scale[k] = 1.0
-    reduce_columns(A, np.int64(6), np.int64(7), n, scale, V, beta)
+    reduce_columns(A, 6, 7, n, scale, V, beta)
     for i in range(6):
-        a = (6 * COLUMN + i * LANES) & MASK
-        e = (i * LANES) & MASK
-        for k in range(n):
+        a = 6 * COLUMN + i * LANES
+        e = i * LANES
+        for k in side_by_side(n):
             error[e + k] = A[a + k]
     solve_upper(A, error, n)
-    for k in range(n):
+    for k in side_by_side(n):
         largest = LARGEST_STEP
         for i in range(6):
             largest = max(largest, abs(error[i * LANES + k]))
         beta[k] = LARGEST_STEP / largest
     for i in range(6):
-        e = (i * LANES) & MASK
-        for k in range(n):
+        e = i * LANES
+        for k in side_by_side(n):
             t = error[e + k] * beta[k]
             c, s = cosines[e + k], sines[e + k]
             h = 1.0 / math.sqrt(1.0 + t * t)

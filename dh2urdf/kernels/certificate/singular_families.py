@@ -66,7 +66,7 @@ def free_joints(links, joints, T, q, trial, work):
     n = q.shape[0]
     normal_equations(links, joints, T, q, work)
     if null_direction(work) > SINGULAR:
-        return np.int64(0)
+        return 0
     for i in range(n):
         trial[i] = q[i] + WALK * work[i, 6]
     for _ in range(STEADY_STEPS):
@@ -75,15 +75,15 @@ def free_joints(links, joints, T, q, trial, work):
         for i in range(n):
             trial[i] += work[i, 7]
     if not polish(links, joints, T, trial, work) <= ACCEPT:
-        return np.int64(0)
+        return 0
     away = 0.0
-    mask = np.int64(0)
+    mask = 0
     for i in range(n):
         gap = abs(trial[i] - q[i])
         away += gap * gap
         if gap > MOVES:
-            mask |= np.int64(1) << np.int64(i)
-    return mask if away > 0.25 * WALK * WALK else np.int64(0)
+            mask |= 1 << np.int64(i)
+    return mask if away > 0.25 * WALK * WALK else 0
 
 
 def one_of_each_family(joints, rest, q, residual, branch, free, count):
@@ -92,7 +92,7 @@ def one_of_each_family(joints, rest, q, residual, branch, free, count):
     Solutions with the same free joints are taken for one family. The one whose first free joint
     is at rest stays; without one, the first.
     """
-    kept = np.int64(0)
+    kept = 0
     for k in range(count):
         keep = True
         for j in range(count):

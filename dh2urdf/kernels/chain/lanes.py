@@ -5,6 +5,8 @@ array, entry e of lane i at ``S[BLOCK * e + i]``, and every loop over the lanes 
 length and no branch, which the compiler turns into vector instructions.
 """
 
+from dh2urdf.kernels.numbers import side_by_side
+
 BLOCK = 64
 COS, SIN, ROWS = 12, 13, 14
 """Rows of S beyond the pose, and their number."""
@@ -44,7 +46,7 @@ def cosine_sine(x):
 
 def sincos_lanes(x, S):
     """Cosine and sine of BLOCK angles x (up to ``LARGEST``) to their rows of S."""
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = cosine_sine(x[i])
 
 
@@ -53,7 +55,7 @@ def _start(link, S):
     for r in range(3):
         for c in range(4):
             value = link[r, c]
-            for i in range(BLOCK):
+            for i in side_by_side(BLOCK):
                 S[BLOCK * (4 * r + c) + i] = value
 
 
@@ -62,7 +64,7 @@ def _turn_and_step(link, S):
     a00, a01, a02, a03 = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
     a10, a11, a12, a13 = link[1, 0], link[1, 1], link[1, 2], link[1, 3]
     a20, a21, a22, a23 = link[2, 0], link[2, 1], link[2, 2], link[2, 3]
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         c, s = S[BLOCK * COS + i], S[BLOCK * SIN + i]
         for r in range(3):
             u, v = S[BLOCK * 4 * r + i], S[BLOCK * (4 * r + 1) + i]
@@ -76,7 +78,7 @@ def _turn_and_step(link, S):
 
 def _slide(x, S):
     """``T Trans_z(q)`` in all lanes; the cosines and sines become those of no turn."""
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         for r in range(3):
             S[BLOCK * (4 * r + 3) + i] += S[BLOCK * (4 * r + 2) + i] * x[i]
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = 1.0, 0.0
@@ -85,7 +87,7 @@ def _slide(x, S):
 def fits(q):
     """Whether every value of q (BLOCK, n) is a number up to ``LARGEST``."""
     outside = 0.0
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         for j in range(q.shape[1]):
             outside += 0.0 if abs(q[i, j]) <= LARGEST else 1.0
     return outside == 0.0
@@ -98,14 +100,14 @@ def lanes_fk(links, prismatic, q, T, x, S):
     """
     _start(links[0], S)
     for j in range(q.shape[1]):
-        for i in range(BLOCK):
+        for i in side_by_side(BLOCK):
             x[i] = q[i, j]
         if prismatic[j]:
             _slide(x, S)
         else:
             sincos_lanes(x, S)
         _turn_and_step(links[j + 1], S)
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         for r in range(3):
             for c in range(4):
                 T[i, r, c] = S[BLOCK * (4 * r + c) + i]

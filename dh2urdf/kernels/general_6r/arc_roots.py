@@ -8,8 +8,6 @@ until they are decided, so no root is overlooked.
 
 import math
 
-import numpy as np
-
 from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import LANES, atan2
 
@@ -157,7 +155,7 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
     pair is close to the real axis.
     """
     stack[0, 17], stack[0, 18] = -half_tan, half_tan
-    top = np.int64(0)
+    top = 0
     while top >= 0 and count < LANES - 1:
         row = stack[top]
         changes, crossing, place, smallest, largest = _shape(row)

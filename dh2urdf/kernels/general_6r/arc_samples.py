@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import LANES, atan2, sincos
+from dh2urdf.kernels.numbers import LANES, atan2, side_by_side, sincos
 
 DEGREE = 8
 TERMS = 2 * DEGREE + 1
@@ -90,29 +90,29 @@ def circle_arcs(samples, series, turned, arcs):
     ``turned`` (17, 24) are scratch.
     """
     _transform(samples, CIRCLE_TABLE, series)
-    for k in range(LANES):
+    for k in side_by_side(LANES):
         turned[0, k] = series[0]
     for m in range(1, DEGREE + 1):
         a, b = series[2 * m - 1], series[2 * m]
-        for k in range(LANES):
+        for k in side_by_side(LANES):
             c, s = CIRCLE_COS[(m * k) % LANES], CIRCLE_SIN[(m * k) % LANES]
             turned[2 * m - 1, k] = a * c + b * s
             turned[2 * m, k] = b * c - a * s
     for i in range(TERMS):
-        for k in range(LANES):
+        for k in side_by_side(LANES):
             arcs[i, k] = 0.0
         for m in range(TERMS):
             w = ARC_TABLE[i, m]
-            for k in range(LANES):
+            for k in side_by_side(LANES):
                 arcs[i, k] += w * turned[m, k]
-    for k in range(LANES):
+    for k in side_by_side(LANES):
         arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
     return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)
 
 
 def window_nodes(centre, half_tan, hidden):
     """Cosines and sines, (2, 24), of the places at which a window is sampled."""
-    for k in range(LANES):
+    for k in side_by_side(LANES):
         q = centre + 2.0 * atan2(half_tan * NODE[k], 1.0)
         hidden[0, k], hidden[1, k] = sincos(q)[1], sincos(q)[0]
 
@@ -123,7 +123,7 @@ def window_arc(samples, half_tan, series, arcs):
     Returns the largest contradiction among the samples: the noise. ``samples`` is overwritten,
     ``series`` (24,) scratch.
     """
-    for k in range(LANES):
+    for k in side_by_side(LANES):
         t = half_tan * NODE[k]
         square = (1.0 + t * t) * (1.0 + t * t)
         samples[k] *= square * square * (square * square)

@@ -5,11 +5,9 @@ Everything works on the record `ARM_6R`.
 
 import math
 
-import numpy as np
-
 from dh2urdf.kernels.certificate import TWO_PI, chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
-from dh2urdf.kernels.numbers import LANES, MASK, atan2, null_vectors, sincos
+from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
 
 TOLERANCE = 1e-9
 """Largest accepted residual: position [m] (of an arm of a metre or more), orientation [rad]."""
@@ -53,7 +51,7 @@ def _seeds(e, roots, count, copies, arm):
     shift, reverse = arm["choices"][e, 0], arm["choices"][e, 1]
     lanes = count * copies
     n = (lanes + 7) // 8 * 8
-    for k in range(n):
+    for k in side_by_side(n):
         root = roots[min(k // copies, count - 1)]
         hidden[0, k], hidden[1, k] = sincos(root)[1], sincos(root)[0]
         c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
@@ -67,10 +65,10 @@ def _seeds(e, roots, count, copies, arm):
     for i in range(6):
         joint = (shift + i) % 6 if reverse == 0 else (11 - shift - i) % 6
         sign = 1.0 if reverse == 0 else -1.0
-        p = (i * LANES) & MASK
-        o = (joint * LANES) & MASK
+        p = i * LANES
+        o = joint * LANES
         tc, ts = turns[0, joint], turns[1, joint]
-        for k in range(n):
+        for k in side_by_side(n):
             x, z = c[p + k], sign * s[p + k]
             cosines[o + k] = x * tc - z * ts
             sines[o + k] = z * tc + x * ts
@@ -176,7 +174,7 @@ def follow(e, count, found, out_q, out_residual, arm):
     the seeds that stood: roots with more than two solutions, or none, have no exact ones.
     """
     roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
-    again, worst = np.int64(0), 0.0
+    again, worst = 0, 0.0
     for copies in range(1, 3):
         lanes = _seeds(e, roots if copies == 1 else doubles, count, copies, arm)
         _polish(lanes, copies - 1, arm)

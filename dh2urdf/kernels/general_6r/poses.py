@@ -12,8 +12,6 @@ looked at again, first with new samples where the polynomial is small, then with
 
 from typing import Annotated, Any
 
-import numpy as np
-
 from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
 from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
@@ -38,7 +36,7 @@ def _solve_pose(T, out_q, out_residual, arm):
     """All solutions of one pose; their number."""
     spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
     place_target(T, arm)
-    found = np.int64(0)
+    found = 0
     first[0] = 1.0
     for trial in range(CROWDED_ATTEMPTS * trials):
         if trial == ATTEMPTS * trials and (
@@ -49,7 +47,7 @@ def _solve_pose(T, out_q, out_residual, arm):
         if e == 0 and trial > 0:
             nudge(arm["chain"], trial // trials)
         eliminate(e, arm)
-        before, retried, seeded = found, np.int64(0), 0.0
+        before, retried, seeded = found, 0, 0.0
         count = find_roots(arm)
         if count < 0:
             continue

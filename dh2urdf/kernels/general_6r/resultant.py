@@ -22,7 +22,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import chain_frames
 from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, move_line_back
-from dh2urdf.kernels.numbers import COLUMN, LANES, MASK, reduce_columns
+from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side
 
 HALF = 3 * LANES
 LEFT = 3 * 12 * LANES
@@ -37,15 +37,15 @@ def _fill(equations, term, hidden, n, A, column):
     """One column of the six equations at the hidden joint's values."""
     for r in range(len(equations)):
         e0, e1, e2 = equations[r, term], equations[r, 9 + term], equations[r, 18 + term]
-        a = (column * COLUMN + r * LANES) & MASK
-        for k in range(n):
+        a = column * COLUMN + r * LANES
+        for k in side_by_side(n):
             A[a + k] = e0 + e1 * hidden[0, k] + e2 * hidden[1, k]
 
 
 def _keep_lower_half(A, source, W, target, half):
     """Copy rows 3 to 5 of a column of A to a half of a column of W."""
-    a = (source * COLUMN + HALF) & MASK
-    w = (target * COLUMN + half * HALF) & MASK
+    a = source * COLUMN + HALF
+    w = target * COLUMN + half * HALF
     for k in range(HALF):
         W[w + k] = A[a + k]
 
@@ -63,19 +63,19 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
             block, j = term // 3, term % 3
             column = term if half == 0 else 3 * (2 - block) + j
             _fill(equations, term, hidden, n, A, column)
-        reduce_columns(A, np.int64(3), np.int64(9), n, determinant, V, beta)
+        reduce_columns(A, 3, 9, n, determinant, V, beta)
         for column in range(3, 9):
             target = column - 3 if half == 0 else (column if column < 6 else column - 6)
             _keep_lower_half(A, column, W, target, half)
-    reduce_columns(W, np.int64(5), np.int64(6), n, determinant, V, beta)
+    reduce_columns(W, 5, 6, n, determinant, V, beta)
     last = 5 * COLUMN + 5 * LANES
-    for k in range(n):
+    for k in side_by_side(n):
         determinant[k] *= W[last + k]
 
 
 def two_joints(b, n, cosines, sines):
     """Joints 4 and 5, in six runs of LANES, from the rank-one vectors ``(v, x v)``."""
-    for k in range(n):
+    for k in side_by_side(n):
         p0, p1, p2 = b[k], b[LANES + k], b[2 * LANES + k]
         r0, r1, r2 = b[3 * LANES + k], b[4 * LANES + k], b[5 * LANES + k]
         pp = p0 * p0 + p1 * p1 + p2 * p2
@@ -127,7 +127,7 @@ def split_pairs(b, second, n):
     in y, or in both: taken apart by the one in which they differ more. A complex pair gives its
     real part twice. b is overwritten.
     """
-    for k in range(n):
+    for k in side_by_side(n):
         a00, a01, a10, a11, apart = _pencil(b, second, k, 0, 3)
         d00, d01, d10, d11, apart_y = _pencil(b, second, k, 1, 4)
         if apart_y > apart:
@@ -152,7 +152,7 @@ def _entries(a):
 def _functions(loop, frames, n, out):
     """The fourteen functions of axis 6's line, to out (14, LANES)."""
     second = _entries(loop[1])
-    for k in range(n):
+    for k in side_by_side(n):
         f = LEFT + k
         lx, ly, lz = frames[f + 2 * LANES], frames[f + 6 * LANES], frames[f + 10 * LANES]
         px, py, pz = frames[f + 3 * LANES], frames[f + 7 * LANES], frames[f + 11 * LANES]
@@ -165,12 +165,12 @@ def _project(basis, row, constant, functions, n, out):
     shift = 0.0
     for f in range(len(constant)):
         shift += basis[row, f] * constant[f]
-    o = ((row - 4) * LANES) & MASK
-    for k in range(n):
+    o = (row - 4) * LANES
+    for k in side_by_side(n):
         out[o + k] = w0 * functions[0, k] - shift
     for f in range(1, len(constant)):
         w = basis[row, f]
-        for k in range(n):
+        for k in side_by_side(n):
             out[o + k] += w * functions[f, k]
 
 
@@ -187,7 +187,7 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
     d4, d5, d6, d7 = 1.0 / beta[12], 1.0 / beta[13], 1.0 / beta[14], 1.0 / beta[15]
     r45, r46, r56 = right[5, 4], right[6, 4], right[6, 5]
     r47, r57, r67 = right[7, 4], right[7, 5], right[7, 6]
-    for k in range(n):
+    for k in side_by_side(n):
         s2 = y[3 * LANES + k] * d7
         c2 = (y[2 * LANES + k] - r67 * s2) * d6
         s1 = (y[LANES + k] - r56 * c2 - r57 * s2) * d5
@@ -203,7 +203,7 @@ def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]
     first = _entries(loop[0])
-    for k in range(n):
+    for k in side_by_side(n):
         c1, s1, c2, s2 = cosines[k], sines[k], cosines[LANES + k], sines[LANES + k]
         row = (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0, 0.0, 0.0, 0.0)
         x, y, z, _, _, _ = move_line_back(first, row)

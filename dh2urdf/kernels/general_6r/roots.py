@@ -150,7 +150,7 @@ def find_roots(arm):
     """
     arcs, stack, roots, slopes = arm["arcs"], arm["stack"], arm["roots"], arm["slopes"]
     spans, fresh, casteljau = arm["spans"], arm["fresh"], arm["casteljau"]
-    count, k = np.int64(0), np.int64(0)
+    count, k = 0, 0
     spans[0, 0] = 0.0
     while k <= spans[0, 0]:
         number, middle, half_tan, noise = _sample(k, arm)

@@ -14,6 +14,10 @@ from typing import Any, TypeVar
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
+side_by_side = range
+"""A range whose turns write nothing that another turn reads or writes: they can run as lanes of
+vector instructions, in any order."""
+
 INTERPRETED: dict[str, Callable[..., Any]] = {}
 """The entries as they are written, by module and name."""
 

@@ -5,19 +5,14 @@ by column, each entry a run of ``LANES`` doubles: entry (i, j) of lane k is
 ``A[(6 * j + i) * LANES + k]``. The loop over the lanes is always the innermost one, has no
 branch and no reduction, so the compiler turns it into vector instructions: 24 determinants cost
 little more than three. Householder reflections need no pivots, hence no branches.
-
-Offsets are masked with ``MASK``: it changes nothing, and tells the compiler that they are not
-negative (an index that could be negative is wrapped around, which forbids vector code).
-
-Loops around those over the lanes count to the length of an array: to a constant the compiler would
-unroll them, ten times the code to optimise and nothing gained.
 """
 
 import math
 
+from dh2urdf.kernels.numbers.engine import side_by_side
+
 LANES = 24
 COLUMN = 6 * LANES
-MASK = 0xFFFFF
 TINY = 1e-300
 PIVOT = 1e-60
 SWEEPS = 2
@@ -29,21 +24,21 @@ def _make_reflector(V, A, column, row, n, scale, beta):
     v goes to V, with zeros above ``row``; the pivot takes its new value, with which ``scale`` is
     multiplied; the cleared entries of A are left as they are.
     """
-    start = (column * COLUMN) & MASK
-    for k in range(n):
+    start = column * COLUMN
+    for k in side_by_side(n):
         beta[k] = 0.0
     for i in range(len(V) // LANES):
         r = i * LANES
         if i >= row:
-            for k in range(n):
+            for k in side_by_side(n):
                 a = A[start + r + k]
                 V[r + k] = a
                 beta[k] += a * a
         else:
-            for k in range(n):
+            for k in side_by_side(n):
                 V[r + k] = 0.0
-    pivot = (row * LANES) & MASK
-    for k in range(n):
+    pivot = row * LANES
+    for k in side_by_side(n):
         a = V[pivot + k]
         square = beta[k]
         norm = math.sqrt(square)
@@ -56,8 +51,8 @@ def _make_reflector(V, A, column, row, n, scale, beta):
 
 def _reflect(V, A, column, n, beta):
     """Apply the reflection to one column of A."""
-    a = (column * COLUMN) & MASK
-    for k in range(n):
+    a = column * COLUMN
+    for k in side_by_side(n):
         v0, v1, v2 = V[k], V[24 + k], V[48 + k]
         v3, v4, v5 = V[72 + k], V[96 + k], V[120 + k]
         a0, a1, a2 = A[a + k], A[a + 24 + k], A[a + 48 + k]
@@ -89,28 +84,28 @@ def solve_upper(A, b, n):
     b holds six entries a lane. A zero pivot acts as one of 1e-60.
     """
     for j in range(len(b) // LANES - 1, -1, -1):
-        d = (j * COLUMN + j * LANES) & MASK
-        x = (j * LANES) & MASK
-        for k in range(n):
+        d = j * COLUMN + j * LANES
+        x = j * LANES
+        for k in side_by_side(n):
             b[x + k] /= A[d + k] + PIVOT
         for i in range(j):
-            a = (j * COLUMN + i * LANES) & MASK
-            y = (i * LANES) & MASK
-            for k in range(n):
+            a = j * COLUMN + i * LANES
+            y = i * LANES
+            for k in side_by_side(n):
                 b[y + k] -= A[a + k] * b[x + k]
 
 
 def solve_upper_transposed(A, b, n):
     """Forward substitution ``R^T x = b`` for the upper triangle R of A, lane by lane, in place."""
     for j in range(len(b) // LANES):
-        d = (j * COLUMN + j * LANES) & MASK
-        x = (j * LANES) & MASK
+        d = j * COLUMN + j * LANES
+        x = j * LANES
         for i in range(j):
-            a = (j * COLUMN + i * LANES) & MASK
-            y = (i * LANES) & MASK
-            for k in range(n):
+            a = j * COLUMN + i * LANES
+            y = i * LANES
+            for k in side_by_side(n):
                 b[x + k] -= A[a + k] * b[y + k]
-        for k in range(n):
+        for k in side_by_side(n):
             b[x + k] /= A[d + k] + PIVOT
 
 
@@ -122,7 +117,7 @@ def null_vectors(A, known, b, first, n):
     slope = 0.0 if first else 0.3
     for i in range(6):
         r = i * LANES
-        for k in range(n):
+        for k in side_by_side(n):
             b[r + k] = 1.0 - slope * i
     for sweep in range(SWEEPS + 1):
         if not first:
@@ -136,7 +131,7 @@ def null_vectors(A, known, b, first, n):
 
 def _orthogonalise(b, n, second):
     """Take the part along the unit vector b out of ``second``, lane by lane."""
-    for k in range(n):
+    for k in side_by_side(n):
         d = b[k] * second[k]
         for i in range(1, 6):
             d += b[i * LANES + k] * second[i * LANES + k]
@@ -146,7 +141,7 @@ def _orthogonalise(b, n, second):
 
 def _normalise(b, n):
     """Scale the six entries of every lane to unit length, safe against overflow."""
-    for k in range(n):
+    for k in side_by_side(n):
         b0, b1, b2 = b[k], b[24 + k], b[48 + k]
         b3, b4, b5 = b[72 + k], b[96 + k], b[120 + k]
         m = max(abs(b0), abs(b1), abs(b2), abs(b3), abs(b4), abs(b5)) + TINY

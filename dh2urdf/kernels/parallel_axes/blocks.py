@@ -20,6 +20,7 @@ from dh2urdf.kernels.numbers import (
     Solutions8,
     Values8,
     entry,
+    side_by_side,
 )
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
@@ -68,7 +69,7 @@ def _shoulders(form, slack, n, S):
     for shoulder in range(2):
         side = (1.0 if sa1 < 0.0 else -1.0) * (1.0 - 2.0 * shoulder)
         cosine, sine, valid = at(COS + shoulder), at(SIN + shoulder), at(VALID + shoulder)
-        for i in range(n):
+        for i in side_by_side(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
             square = a * a + b * b
@@ -103,7 +104,7 @@ def _planes(form, n, S):
         shoulder = pair & 1
         rows, first = at(PLANE + 4 * pair), at(COS + shoulder)
         cosine, sine = at(COS + pair), at(SIN + pair)
-        for i in range(n):
+        for i in side_by_side(n):
             c1, s1 = S[first + i], S[first + TURN + i]
             c5, s5 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
             c6, s6 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
@@ -128,7 +129,7 @@ def _elbows(form, slack, n, S):
         rows, valid, result = at(PLANE + 4 * pair), at(VALID + shoulder), at(VALID + k)
         cosine, sine = at(COS + k), at(SIN + k)
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
-        for i in range(n):
+        for i in side_by_side(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
             hx, hy = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i]
             c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, side, x, y, slack)

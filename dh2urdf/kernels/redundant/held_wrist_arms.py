@@ -15,13 +15,13 @@ changes signs that cancel: its forward kinematics are the same numbers, and so i
 import math
 
 from dh2urdf.kernels.certificate import POLISH
+from dh2urdf.kernels.numbers import side_by_side
 from dh2urdf.kernels.redundant.held_wrist_load import LEVER, LOADED, UPPER, pose_axes
 from dh2urdf.kernels.spherical_wrist import (
     BLOCK,
     CLEAR,
     COS,
     DIRTY,
-    MASK,
     MERGED,
     RESIDUAL,
     TURN,
@@ -56,7 +56,7 @@ def place_elbows(S2, reach, slack, n, S):
     wz = S2[2, 2] * reach + S2[2, 3]
     ww = wx * wx + wy * wy + wz * wz
     M = at(UPPER)
-    for i in range(n):
+    for i in side_by_side(n):
         p, t = column(S, BLOCK * 9 + i, BLOCK), column(S, M + BLOCK * 9 + i, BLOCK)
         nx, ny = dot(column(S, M + i, BLOCK * 3), t), dot(column(S, M + BLOCK + i, BLOCK * 3), t)
         nz, tt, pp = dot(column(S, M + BLOCK * 2 + i, BLOCK * 3), t), dot(t, t), dot(p, p)
@@ -81,7 +81,7 @@ def place_elbows(S2, reach, slack, n, S):
 def _carry(wx, wy, wz, moves, elbow, row, n, S):
     """``S1 Z3 w`` to three rows from ``FORE + row`` on, for a direction w, or a point: it moves."""
     turn, target, M = at(T3 + elbow), at(FORE + row), at(UPPER)
-    for i in range(n):
+    for i in side_by_side(n):
         c, s = S[turn + i], S[TURN + turn + i]
         v, t = (c * wx - s * wy, s * wx + c * wy, wz), column(S, M + BLOCK * 9 + i, BLOCK)
         S[target + i] = dot(column(S, M + i, BLOCK), v) + moves * t[0]
@@ -99,8 +99,8 @@ def place_shoulders(S0, slack, n, S):
     xx, xy, xz = S0[0, 0], S0[1, 0], S0[2, 0]
     yx, yy, yz = S0[0, 1], S0[1, 1], S0[2, 1]
     for elbow in range(2):
-        e, point = BLOCK * 2 * elbow & MASK, at(FORE + 12 * elbow + 9)
-        for i in range(n):
+        e, point = BLOCK * 2 * elbow, at(FORE + 12 * elbow + 9)
+        for i in side_by_side(n):
             px, py, pz = column(S, BLOCK * 9 + i, BLOCK)
             ux, uy, uz = column(S, point + i, BLOCK)
             a, b, d = gx * px + gy * py, gx * py - gy * px, uz - gz * pz
@@ -133,12 +133,12 @@ def finish_arm(form, S0, seen_from_tool, arm, n, S):
     _wrist(form[3, 2], form[4, 2], n, S)
     _measure(form[3, 2], form[4, 2], seen_from_tool, n, S)
     for j in range(6):
-        source, place = WRIST + BLOCK * j & MASK, T4 + 4 * (j % 3) + arm
-        target = BLOCK * place + (TURN if j > 2 else 0) & MASK
-        for i in range(n):
+        source, place = WRIST + BLOCK * j, T4 + 4 * (j % 3) + arm
+        target = BLOCK * place + (TURN if j > 2 else 0)
+        for i in side_by_side(n):
             S[target + i] = S[source + i]
     valid, result = at(VALID + arm), at(RESIDUAL + arm)
-    for i in range(n):
+    for i in side_by_side(n):
         error, exists = S[WRIST + BLOCK * 6 + i], S[valid + i] > 0.0
         careful = S[WRIST + BLOCK * 4 + i] < CLEAR or not error <= POLISH
         S[BLOCK * DIRTY + i] += 1.0 if exists and careful else 0.0
@@ -151,8 +151,8 @@ def _reach(S0, arm, n, S):
     u02, u12, u22 = S0[0, 2], S0[1, 2], S0[2, 2]
     t1, t2 = at(T1 + arm), at(T2 + arm)
     for j in range(4):
-        fore, target = at(FORE + 12 * (arm >> 1) + 3 * j), ARM + BLOCK * 3 * j & MASK
-        for i in range(n):
+        fore, target = at(FORE + 12 * (arm >> 1) + 3 * j), ARM + BLOCK * 3 * j
+        for i in side_by_side(n):
             x, y, z = S[fore + i], S[fore + BLOCK + i], S[fore + BLOCK * 2 + i]
             c, s = S[t2 + i], S[t2 + TURN + i]
             x, y = c * x - s * y, s * x + c * y
@@ -168,7 +168,7 @@ def _reach(S0, arm, n, S):
 
 def _wrist(sa4, sa5, n, S):
     """ZYZ angles of ``A^T R`` with a positive sine of joint 5."""
-    for i in range(n):
+    for i in side_by_side(n):
         u, v = column(S, ARM + i, BLOCK), column(S, ARM + BLOCK * 3 + i, BLOCK)
         w, z6 = column(S, ARM + BLOCK * 6 + i, BLOCK), column(S, BLOCK * 2 + i, BLOCK * 3)
         x, y, z = dot(u, z6), dot(v, z6), dot(w, z6)
@@ -192,7 +192,7 @@ def _measure(sa4, sa5, seen_from_tool, n, S):
     h, of ``p + R h``, or of ``R^T (h - p)`` where the arm is seen from the tool. The angle is that
     of ``|R - R_target|_F = 2 sqrt(2) sin(angle / 2)``.
     """
-    for i in range(n):
+    for i in side_by_side(n):
         x, y = column(S, ARM + i, BLOCK), column(S, ARM + BLOCK * 3 + i, BLOCK)
         z = column(S, ARM + BLOCK * 6 + i, BLOCK)
         x, y, z = _turned_upright(S[WRIST + i], S[WRIST + BLOCK * 3 + i], sa4, x, y, z)

@@ -13,7 +13,7 @@ with factors that belong to the arm.
 """
 
 from dh2urdf.kernels.chain import LARGEST, cosine_sine
-from dh2urdf.kernels.numbers import sincos
+from dh2urdf.kernels.numbers import side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
     FACTORS,
@@ -23,7 +23,7 @@ from dh2urdf.kernels.redundant.held_wrist import (
     SLIDES,
     VARIES,
 )
-from dh2urdf.kernels.spherical_wrist import BLOCK, MASK, WORK, at, column, dot, load_poses
+from dh2urdf.kernels.spherical_wrist import BLOCK, WORK, at, column, dot, load_poses
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""
@@ -46,7 +46,7 @@ def all_equal(values):
 def prepare_block(frames, which, values, S):
     """Rows of S that all blocks have in common as long as the held value is that of the first."""
     slides, value = which[SLIDES] != 0, values[0]
-    for i in range(BLOCK):
+    for i in side_by_side(BLOCK):
         S[BLOCK * HELD_COS + i] = 1.0 if slides else sincos(value)[1]
         S[BLOCK * HELD_SIN + i] = 0.0 if slides else sincos(value)[0]
         S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
@@ -71,16 +71,16 @@ def load_block(frames, which, values, Ts, same, first, n, S):
 def _held_joint(slides, values, first, n, S):
     """Cosine, sine and slide of the held joint of every lane."""
     if slides:
-        for i in range(n):
+        for i in side_by_side(n):
             S[BLOCK * HELD_SLIDE + i] = values[first + i]
         return
     far = 0.0
-    for i in range(n):
+    for i in side_by_side(n):
         value = values[first + i]
         S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine_sine(value)
         far += 0.0 if abs(value) <= LARGEST else 1.0
     if far > 0.0:
-        for i in range(n):
+        for i in side_by_side(n):
             S[BLOCK * HELD_COS + i] = sincos(values[first + i])[1]
             S[BLOCK * HELD_SIN + i] = sincos(values[first + i])[0]
 
@@ -90,7 +90,7 @@ def _links_and_levers(frames, n, S):
     for k in range(15):
         factors, row = frames[FACTORS + k // 4, k % 4], at(UPPER + k)
         a, b, d, t = factors[0], factors[1], factors[2], factors[3]
-        for i in range(n):
+        for i in side_by_side(n):
             turned = a * S[BLOCK * HELD_COS + i] + b * S[BLOCK * HELD_SIN + i]
             S[row + i] = turned + (d * S[BLOCK * HELD_SLIDE + i] + t)
 
@@ -103,7 +103,7 @@ def pose_axes(S, i):
 
 def _invert(n, S):
     """The pose of every lane turned into its inverse."""
-    for i in range(n):
+    for i in side_by_side(n):
         x, y, z = pose_axes(S, i)
         p = column(S, BLOCK * 9 + i, BLOCK)
         S[BLOCK + i], S[BLOCK * 2 + i], S[BLOCK * 5 + i] = x[1], x[2], y[2]
@@ -118,9 +118,9 @@ def _turn(G, way, n, S):
     g10, g11, g12, g13 = G[1, 0], G[1, 1], G[1, 2], G[1, 3]
     g20, g21, g22, g23 = G[2, 0], G[2, 1], G[2, 2], G[2, 3]
     for j in range(4):
-        start, step = (BLOCK * 9, BLOCK) if j == 3 else (BLOCK * j & MASK, BLOCK * 3)
+        start, step = (BLOCK * 9, BLOCK) if j == 3 else (BLOCK * j, BLOCK * 3)
         moves = 1.0 if j == 3 else 0.0
-        for i in range(n):
+        for i in side_by_side(n):
             c, s = S[BLOCK * HELD_COS + i], way * S[BLOCK * HELD_SIN + i]
             x, y, z = S[start + i], S[start + step + i], S[start + 2 * step + i]
             x, y, z = c * x + s * y, c * y - s * x, z - moves * way * S[BLOCK * HELD_SLIDE + i]

@@ -11,7 +11,6 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     CLEAR,
     COS,
     DIRTY,
-    MASK,
     MERGED,
     RESIDUAL,
     ROWS,

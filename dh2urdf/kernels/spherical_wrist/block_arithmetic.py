@@ -10,6 +10,7 @@ pose is solved again by the careful scalar kernel: here is no code for edges.
 import math
 
 from dh2urdf.kernels.certificate import POLISH
+from dh2urdf.kernels.numbers import side_by_side
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -18,10 +19,6 @@ CLEAR = 1e-6
 MERGED = CLEAR * CLEAR
 """Relative distance inside a rim from which a lane is clean; outside it, it is the slack that the
 careful kernel allows."""
-
-MASK = 0xFFFFF
-"""Changes no offset, and tells the compiler that it is not negative (a negative one would count
-from the end, which forbids vector code)."""
 
 POSE, DIRTY, COS = 0, 12, 13
 SIN = COS + 40
@@ -39,7 +36,7 @@ and their residual; the rest belongs to the family."""
 
 def at(k):
     """Where row k starts."""
-    return BLOCK * k & MASK
+    return BLOCK * k
 
 
 def column(S, start, step):
@@ -101,7 +98,7 @@ def planar_arm(upper, fore, side, x, y, slack):
 def load_poses(ends, lift, Ts, first, n, S):
     """Frame 6 in frame 0 (moved up by ``lift``), ``base^-1 T tool^-1``, to the rows of the pose."""
     B, E = ends[0], ends[1]
-    for i in range(n):
+    for i in side_by_side(n):
         T = Ts[first + i]
         for r in range(3):
             a, b, c, t = B[r, 0], B[r, 1], B[r, 2], B[r, 3]
@@ -132,7 +129,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     t1, t2, t3 = at(COS + t1), at(COS + t2), at(COS + t3)
     t4, t5, t6 = at(COS + t4), at(COS + t5), at(COS + t6)
     valid, result = at(VALID + solution), at(RESIDUAL + solution)
-    for i in range(n):
+    for i in side_by_side(n):
         c, s = S[t1 + i], S[TURN + t1 + i]
         x, y, z = (c, s, 0.0), (-ca1 * s, ca1 * c, sa1), (sa1 * s, -sa1 * c, ca1)
         p = a1 * c + d2 * z[0], a1 * s + d2 * z[1], d2 * z[2]

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import CLUSTER, TWO_PI
-from dh2urdf.kernels.numbers import arctangent
+from dh2urdf.kernels.numbers import arctangent, side_by_side
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     COS,
@@ -49,23 +49,23 @@ def _values(form, joints, table, within_limits, n, S):
         sine, cosine = at(SIN + source), at(COS + source)
         target, other = at(VALUES + r), at(VALUES + source)
         if kind == HALF_TURN:
-            for i in range(n):
+            for i in side_by_side(n):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
         else:
             if kind == NEGATED:
                 twice = 2.0 * sign * constant
-                for i in range(n):
+                for i in side_by_side(n):
                     S[target + i] = -twice - S[other + i]
             else:
-                for i in range(n):
+                for i in side_by_side(n):
                     S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
-            for i in range(n):
+            for i in side_by_side(n):
                 turns = (S[target + i] - middle) * PER_TURN
                 S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
         if within_limits and _limited(lower, upper):
             flag = at(INSIDE + r)
-            for i in range(n):
+            for i in side_by_side(n):
                 room = min(S[target + i] - lower, upper - S[target + i])
                 S[flag + i] = 1.0 if room >= 0.0 else 0.0
                 touching = abs(room) < CLUSTER
@@ -94,7 +94,7 @@ def _settle(form, joints, table, within_limits, n, S):
             continue
         for k in range(8):
             flag, valid = at(INSIDE + row_of[k, j]), at(VALID + k)
-            for i in range(n):
+            for i in side_by_side(n):
                 S[valid + i] *= S[flag + i]
 
 
@@ -114,7 +114,7 @@ def _write(place, row_of, named, first, n, S, out):
     """The second half of :func:`emit`."""
     q, residual, count, branch, free = out
     clean = 0
-    for i in range(n):
+    for i in side_by_side(n):
         found, row = 0, first + i
         for k in range(8):
             for j in range(6):

@@ -24,6 +24,7 @@ from dh2urdf.kernels.numbers import (
     Solutions8,
     Values8,
     entry,
+    side_by_side,
 )
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
@@ -65,7 +66,7 @@ def _shoulders(form, slack, n, S):
         side = 1.0 - 2.0 * shoulder
         rows, valid = at(PLANE + 11 * shoulder), at(VALID + shoulder)
         cosine, sine = at(COS + shoulder), at(SIN + shoulder)
-        for i in range(n):
+        for i in side_by_side(n):
             px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
             y = (pz - ca1 * lateral) / sa1
             offset = ca1 * y - sa1 * lateral
@@ -81,7 +82,7 @@ def _shoulders(form, slack, n, S):
             dirty = -slack * size < reach2 < MERGED * size or square < MERGED * size
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
         for j in range(3):
-            for i in range(n):
+            for i in side_by_side(n):
                 c, s = S[cosine + i], S[sine + i]
                 r0, r1 = S[BLOCK * j + i], S[BLOCK * (3 + j) + i]
                 r2 = S[BLOCK * (6 + j) + i]
@@ -102,7 +103,7 @@ def _elbows(form, slack, n, S):
         rows, valid, result = at(PLANE + 11 * shoulder), at(VALID + shoulder), at(VALID + 4 + arm)
         cosine, sine = at(COS + arm), at(SIN + arm)
         side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
-        for i in range(n):
+        for i in side_by_side(n):
             x, y = S[rows + i], S[rows + BLOCK + i]
             c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, side, x, y, slack)
             S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i] = c2, s2
@@ -118,7 +119,7 @@ def _wrists(form, n, S):
     for arm in range(4):
         rows, valid = at(PLANE + 11 * (arm & 1)), at(VALID + arm)
         cosine, sine = at(COS + arm), at(SIN + arm)
-        for i in range(n):
+        for i in side_by_side(n):
             c2, s2 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
             c3, s3 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
             c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
