@@ -14,7 +14,6 @@ from tempfile import TemporaryDirectory
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, entries
 from dh2urdf.translate.extension import LEVELS, Extension
-from dh2urdf.translate.inference import Inference
 from dh2urdf.translate.sources import fingerprint
 
 FLAGS = [
@@ -41,11 +40,11 @@ def compiler() -> list[str]:
 
 def texts(names: list[str] | None = None) -> dict[str, str]:
     """The C files of all entries, or of some, by their names."""
-    inference = Inference()
+    file = CFile("ik_")
     for name, function in entries().items():
         if names is None or name.rpartition(".")[2] in names:
-            inference.add_entry(function, argument_types(function))
-    extension = Extension(CFile(inference, "ik_"), NAME, fingerprint())
+            file.add_entry(function, argument_types(function))
+    extension = Extension(file, NAME, fingerprint())
     kernels = extension.kernels()
     return {"kernels.h": extension.header(), "kernels.c": kernels, "doors.c": extension.doors()}
 

@@ -40,8 +40,8 @@ INCLUDES = ["", *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint
 class CFile:
     """Names and definitions that the bodies share."""
 
-    def __init__(self, inference: Inference, prefix: str = "") -> None:
-        self.inference, self.prefix = inference, prefix
+    def __init__(self, prefix: str = "") -> None:
+        self.inference, self.prefix = Inference(), prefix
         self.exported = True
         """Whether the entries are seen from outside the file."""
         self.helpers: set[str] = set()
@@ -51,6 +51,15 @@ class CFile:
         self._homes: dict[tuple[str, str], tuple[str, str]] = {}
         self._tuples: dict[Tuple, tuple[str, list[str]]] = {}
         self._records: dict[str, Record] = {}
+
+    @property
+    def entries(self) -> list[Instance]:
+        """The kernels that others may call, in the order in which they were added."""
+        return self.inference.entries
+
+    def add_entry(self, function: Any, arguments: list[Type]) -> Instance:
+        """A kernel that others may call, and all that it calls."""
+        return self.inference.add_entry(function, arguments)
 
     def text(self, header: str = "") -> str:
         """The whole file, to be compiled by itself."""

@@ -65,7 +65,7 @@ class Extension:
 
     def __init__(self, file: CFile, module: str, sources: str) -> None:
         self.file, self.module, self.sources = file, module, sources
-        self.entries = file.inference.entries
+        self.entries = file.entries
 
         file.exported = False
         self.bodies = file.bodies()

@@ -47,7 +47,7 @@ class Body(Expressions):
         instance = self.instance
         parameters = ", ".join(self.file.parameters(instance)) or "void"
         head = self.file.declaration(instance.returned, f"{instance.name}({parameters})")
-        seen = self.file.exported and instance in self.file.inference.entries
+        seen = self.file.exported and instance in self.file.entries
         inline = (
             ""
             if any(isinstance(n, ast.For | ast.While) for n in every(instance.body))
