@@ -7,7 +7,7 @@ candidate moves far, does not converge, falls together with another, is one of a
 has a nearly singular Jacobian, and where there is none.
 """
 
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from dh2urdf.kernels.certificate import (
     solve_damped,
 )
 from dh2urdf.kernels.numbers import (
-    Codes8,
+    Codes,
     Counts,
     Ends,
     Floats,
@@ -32,15 +32,17 @@ from dh2urdf.kernels.numbers import (
     Poses,
     Rows6,
     Solutions,
-    Solutions8,
     Three,
-    Values8,
+    Values,
     entry,
 )
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
+
+Found: TypeAlias = Annotated[Floats, "poses", "solutions", 6]
+"""Room for solutions, more than a nominal arm has: the general solver adds its own."""
 
 
 def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, start, work, damped):
@@ -76,11 +78,11 @@ def solve_near_wrist(
     slack: float,
     trust: Three,
     Ts: Poses,
-    q: Solutions8,
-    residual: Values8,
+    q: Found,
+    residual: Values,
     count: Counts,
-    branch: Codes8,
-    free: Codes8,
+    branch: Codes,
+    free: Codes,
 ):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
     D, R, arm, work, _ = wrist_scratch()
@@ -117,11 +119,11 @@ def solve_near_parallel(
     slack: float,
     trust: Three,
     Ts: Poses,
-    q: Solutions8,
-    residual: Values8,
+    q: Found,
+    residual: Values,
     count: Counts,
-    branch: Codes8,
-    free: Codes8,
+    branch: Codes,
+    free: Codes,
 ):
     """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
     scratch = parallel_scratch()
