@@ -1,0 +1,155 @@
+"""What robots are asked so that every kernel works: the same questions, bit for bit, everywhere.
+
+Configurations are products of whole numbers and powers of two with a quarter turn, poses are what
+the kernels' own forward kinematics make of them: no library's sine takes part.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from random import Random
+
+import numpy as np
+
+import dh2urdf
+from dh2urdf.dh import DHRow, DHTable, JointType
+from dh2urdf.exceptions import ConfigurationError, NoSolverError
+
+QUARTER = 1.5707963267948966
+
+NOISE = {"ur5": 2.0**-30, "puma560": 2.0**-20, "ur10e": 2.0**-14, "abb_irb120": 2.0**-12}
+"""Arms that are calibrated, and how far they are off their tables [rad or m]."""
+
+OWN = {
+    "three parallel": ("RRRRRR", "0 .4 0; 0 .3 0; .1 0 1; .1 .05 1; .1 0 1; .1 0 0"),
+    "three slides": ("PPPRR", "0 0 1; 0 0 1; 0 0 0; .1 0 1; .2 0 0"),
+}
+"""Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]."""
+
+NUMBERS = "numbers"
+"""In place of an arm: entries that no robot needs."""
+
+Answer = list[np.ndarray]
+
+
+def arms() -> list[str]:
+    """Tables that ship, calibrated ones (``name~``), arms of our own, and numbers."""
+    return [*dh2urdf.list_tables(), *(f"{name}~" for name in NOISE), *OWN, NUMBERS]
+
+
+def robot_of(arm: str) -> dh2urdf.Robot:
+    """The arm's robot."""
+    if arm in OWN:
+        return dh2urdf.Robot.from_dh(own_table(*OWN[arm]))
+    table, name = dh2urdf.load_table(arm.rstrip("~")), arm.rstrip("~")
+    if name != arm:
+        rng = Random(arm)
+        keys, size = ("theta", "d", "a", "alpha"), NOISE[name]
+        rows = [
+            replace(row, **{k: getattr(row, k) + size * (rng.random() - 0.5) for k in keys})
+            for row in table.rows
+        ]
+        table = replace(table, rows=tuple(rows))
+    return dh2urdf.Robot.from_dh(table)
+
+
+def own_table(kinds: str, text: str) -> DHTable:
+    """A table of rows d, a, alpha."""
+    rows = []
+    for kind, line in zip(kinds, text.split(";"), strict=True):
+        d, a, quarters = map(float, line.split())
+        joint = JointType.PRISMATIC if kind == "P" else JointType.REVOLUTE
+        rows.append(DHRow(0.0, d, a, quarters * QUARTER, joint))
+    return DHTable(tuple(rows), "standard")
+
+
+def configurations(robot: dh2urdf.Robot, count: int, seed: str) -> np.ndarray:
+    """Home, eighths and quarters of a turn, beside these, and anywhere: shape (count, n)."""
+    rng, n = Random(seed), robot.n
+    q = np.zeros((count, n))
+    for k in range(1, count):
+        eighths = [rng.randrange(-4, 5) for _ in range(n)]
+        if k % 5 == 1:  # a multiple of 45 deg, or of 90
+            q[k] = [e / 2 if k % 2 else e // 2 for e in eighths]
+        elif k % 5 == 2:  # beside a multiple of 90 deg by 2^-8 ... 2^-52
+            q[k] = [e // 2 + 0.5 ** rng.randrange(8, 53) for e in eighths]
+        else:
+            q[k] = [4.0 * rng.random() - 2.0 for _ in range(n)]
+    q *= np.where(robot.chain.prismatic, 0.25, QUARTER)
+    return q
+
+
+def poses_of(robot: dh2urdf.Robot, q: np.ndarray) -> np.ndarray:
+    """Poses of configurations; one in nine is moved a little, one in nine out of reach."""
+    T = robot.fk(q)
+    T[5::9, :3, 3] += 0.0625
+    T[7::9, :3, 3] *= 64.0
+    return T
+
+
+def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str, Answer]]:
+    """Answers of a robot to all that it may be asked, by the name of the task."""
+    q = configurations(robot, count, seed)
+    T = poses_of(robot, q)
+    yield "kinematics", [robot.fk(q), robot.frames(q), robot.jacobian(q)]
+    for task in ("pose", "position", "position+axis"):
+        few = count if task == "pose" else -(-count // 8)
+        for inside in (True, False):
+            name, asked = f"{task}{' inside' * inside}", {"task": task, "within_limits": inside}
+            try:
+                yield name, _batch(robot.ik_batch(T[:few], threads=1, **asked))
+            except NoSolverError:
+                continue
+            yield f"{name}, one by one", _singles(robot, q, T[: min(few, 4)], asked)
+        found = robot.ik_numeric(T[3], task=task, seed=q[4], solutions=2, starts=6)
+        yield f"{task}, searched", [found.q, found.residual, np.array(found.tried)]
+    if robot.chain.n == 7:
+        yield from _redundant(robot, q, T)
+
+
+def _batch(found) -> Answer:
+    return [found.q, found.residual, found.count, found.branch_code, found.free_mask]
+
+
+def _singles(robot, q, T, asked) -> Answer:
+    """Poses one at a time with seeds and turns, and a path."""
+    out = []
+    for k, pose in enumerate(T):
+        found = robot.ik(pose, seed=q[k + 1], turns="all" if k % 2 else "nearest", **asked)
+        out += [found.q, found.residual, *found.codes]
+    way = np.linspace(0.0, 1.0, len(T))[:, None] * (0.25 * q[3]) + q[-1]
+    return [*out, robot.ik_path(robot.fk(way), start=way[0], **asked).q]
+
+
+def _redundant(robot, q, T) -> Iterator[tuple[str, Answer]]:
+    """What an arm with a joint to spare may be asked besides."""
+    for joint in range(robot.n):
+        asked = {"within_limits": False, "threads": 1}
+        try:
+            found = robot.ik_batch(T[:4], locked={joint: q[:4, joint]}, **asked)
+        except (NoSolverError, ConfigurationError):
+            continue
+        yield f"joint {joint} held", _batch(found)
+    yield "samples", _batch(robot.ik_batch(T[:4], samples=5, threads=1))
+    yield "intervals", [robot.ik_intervals(T[k]) for k in (1, 3)]
+
+
+def numbers() -> Iterator[tuple[str, Answer]]:
+    """Answers of the entries that no robot needs."""
+    from dh2urdf.kernels.numbers import trig
+
+    rng, angles, roots = Random("numbers"), [], []
+    for _ in range(200):
+        x, y = (rng.choice((0.0, -0.0, 1.0, rng.random() - 0.5)) for _ in range(2))
+        angles.append(trig.arctangent(y, x))
+        series = np.array([rng.choice((0.0, rng.random() - 0.5)) for _ in range(5)])
+        c, s = np.zeros(4), np.zeros(4)
+        roots += [np.array(trig.trig_roots(series, 2, c, s)), c, s]
+    yield "arctangents", [np.array(angles)]
+    yield "roots", roots
+    planar = [dh2urdf.planar_rr_ik(1.0, 0.5, k / 8, 0.625) for k in range(12)]
+    yield "planar", planar
+
+
+def answers(arm: str, count: int) -> Iterator[tuple[str, Answer]]:
+    """All of an arm, or of ``numbers``."""
+    return numbers() if arm == NUMBERS else questions(robot_of(arm), count, arm)
