@@ -17,7 +17,7 @@ from dh2urdf.translate.source import MAKERS, Source, makes_array, stored
 from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type, joined, told, type_of_value
 
 LIBRARY = """
-sqrt sin cos tan atan asin acos atan2 hypot floor ceil copysign isinf isnan isfinite
+sqrt sin cos tan atan asin acos atan2 hypot floor ceil copysign fmod isinf isnan isfinite
 """
 C_FUNCTIONS = {f"math.{name}": name for name in LIBRARY.split()}
 C_FUNCTIONS |= {f"np.{name}": name for name in ("rint", "floor", "ceil")} | {"float": "(double)"}

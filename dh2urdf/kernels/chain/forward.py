@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
-from dh2urdf.kernels.numbers import Flags, Floats, Links, Poses, entry, sincos
+from dh2urdf.kernels.numbers import Flags, Floats, Links, Poses, entry, few_turns, sincos
 
 
 def _slid(a, b, c, d, q):
@@ -28,7 +28,7 @@ def times_joint(r, slides, q):
     a0, b0, c0, d0, a1, b1, c1, d1, a2, b2, c2, d2 = r
     if slides:
         return _slid(a0, b0, c0, d0, q) + _slid(a1, b1, c1, d1, q) + _slid(a2, b2, c2, d2, q)
-    c, s = sincos(q)[1], sincos(q)[0]
+    s, c = sincos(few_turns(q))
     first, second = _turned(a0, b0, c0, d0, c, s), _turned(a1, b1, c1, d1, c, s)
     return first + second + _turned(a2, b2, c2, d2, c, s)
 

@@ -12,6 +12,12 @@ minimax fits of relative error: sine 2^-58, cosine 2^-64, arctangent 2^-57, arc 
 
 import math
 
+FAR = 4e5
+"""Angle [rad] up to which `sincos` is right."""
+
+FULL, FULL_REST = 6.283185307179586, 2.4492935982947064e-16
+"""A full turn in two parts."""
+
 ROUND = 6755399441055744.0
 """1.5 2^52: adding and subtracting it rounds to a whole number."""
 
@@ -60,8 +66,16 @@ DOWN, UP = 2.409919865102884e-181, 4.149515568880993e180
 """2^-600 and 2^600."""
 
 
+def few_turns(x):
+    """The same direction within the reach of `sincos`: to 1e-15 [rad] up to 1e15 rad."""
+    if not FAR < abs(x) < math.inf:
+        return x
+    near = math.fmod(x, FULL)
+    return near - (x - near) / FULL * FULL_REST
+
+
 def sincos(x):
-    """Sine and cosine of x [rad], |x| <= 4e5."""
+    """Sine and cosine of x [rad], |x| <= ``FAR``."""
     quarters = (x * PER_TURN + ROUND) - ROUND
     # The reduced angle is r - c; its head on a grid of 2^-18 has an exact square and cube.
     near = x - quarters * QUARTER_1

@@ -13,7 +13,7 @@ with factors that belong to the arm.
 """
 
 from dh2urdf.kernels.chain import LARGEST, cosine_sine
-from dh2urdf.kernels.numbers import side_by_side, sincos
+from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
     FACTORS,
@@ -46,9 +46,10 @@ def all_equal(values):
 def prepare_block(frames, which, values, S):
     """Rows of S that all blocks have in common as long as the held value is that of the first."""
     slides, value = which[SLIDES] != 0, values[0]
+    sine, cosine = sincos(few_turns(value))
     for i in side_by_side(BLOCK):
-        S[BLOCK * HELD_COS + i] = 1.0 if slides else sincos(value)[1]
-        S[BLOCK * HELD_SIN + i] = 0.0 if slides else sincos(value)[0]
+        S[BLOCK * HELD_COS + i] = 1.0 if slides else cosine
+        S[BLOCK * HELD_SIN + i] = 0.0 if slides else sine
         S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
     _links_and_levers(frames, BLOCK, S)
 
@@ -81,8 +82,8 @@ def _held_joint(slides, values, first, n, S):
         far += 0.0 if abs(value) <= LARGEST else 1.0
     if far > 0.0:
         for i in side_by_side(n):
-            S[BLOCK * HELD_COS + i] = sincos(values[first + i])[1]
-            S[BLOCK * HELD_SIN + i] = sincos(values[first + i])[0]
+            sine, cosine = sincos(few_turns(values[first + i]))
+            S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine, sine
 
 
 def _links_and_levers(frames, n, S):

@@ -121,11 +121,11 @@ def solve_three_slides(
     rest: Annotated[Floats, "n"],
     Ts: Poses,
     within_limits: bool,
-    q: Annotated[Floats, "poses", 4, "n"],
-    residual: Annotated[Floats, "poses", 4],
+    q: Annotated[Floats, "poses", 2, "n"],
+    residual: Annotated[Floats, "poses", 2],
     count: Counts,
-    branch: Annotated[Integers, "poses", 4],
-    free: Annotated[Integers, "poses", 4],
+    branch: Annotated[Integers, "poses", 2],
+    free: Annotated[Integers, "poses", 2],
 ):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
