@@ -3,6 +3,7 @@
 ``python -m dh2urdf.translate.build`` does it in place; with the name of a kernel it prints the C.
 """
 
+import os
 import shutil
 import subprocess
 import sys
@@ -12,9 +13,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from dh2urdf.translate.c_file import CFile
-from dh2urdf.translate.entries import argument_types, entries
+from dh2urdf.translate.entries import argument_types, engine, entries
 from dh2urdf.translate.extension import LEVELS, Extension
-from dh2urdf.translate.sources import fingerprint
 
 FLAGS = [
     "-std=c99",
@@ -44,7 +44,7 @@ def texts(names: list[str] | None = None) -> dict[str, str]:
     for name, function in entries().items():
         if names is None or name.rpartition(".")[2] in names:
             file.add_entry(function, argument_types(function))
-    extension = Extension(file, NAME, fingerprint())
+    extension = Extension(file, NAME, engine().fingerprint())
     kernels = extension.kernels()
     return {"kernels.h": extension.header(), "kernels.c": kernels, "doors.c": extension.doors()}
 
@@ -80,6 +80,7 @@ def place() -> Path:
 
 
 if __name__ == "__main__":
+    os.environ["DH2URDF_ENGINE"] = "python"
     if sys.argv[1:]:
         print(texts(sys.argv[1:])["kernels.c"])
     else:

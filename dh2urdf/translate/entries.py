@@ -17,6 +17,11 @@ ROOM = "dh2urdf.kernels"
 ELEMENTS_OF: dict[Any, Type] = {float: "float", int: "int", bool: "bool"}
 
 
+def engine() -> Any:
+    """The kernels' own module of what is compiled."""
+    return import_module(f"{ROOM}.numbers.engine")
+
+
 def modules() -> list[Path]:
     """Files of the kernels, in the order of their names."""
     found = import_module(ROOM)
@@ -25,13 +30,11 @@ def modules() -> list[Path]:
 
 def entries() -> dict[str, Callable[..., Any]]:
     """All kernels that Python calls, by module and name."""
-    from dh2urdf.kernels.numbers.engine import INTERPRETED
-
     top = Path(str(import_module(ROOM).__file__)).parent
     for path in modules():
         parts = path.relative_to(top).with_suffix("").parts
         import_module(".".join([ROOM, *(p for p in parts if p != "__init__")]))
-    return dict(sorted(INTERPRETED.items()))
+    return dict(sorted(engine().INTERPRETED.items()))
 
 
 def argument_types(function: Callable[..., Any]) -> list[Type]:

@@ -2,7 +2,7 @@
 
 The extension takes arrays by the buffer protocol and needs Python's stable interface only. Each
 level of processor is the same C, compiled once more; the table of its entries is chosen when the
-extension is imported.
+extension is imported: the best that the processor has, or the one that ``DH2URDF_LEVEL`` names.
 """
 
 from dh2urdf.translate.c_file import INCLUDES, CFile
@@ -88,7 +88,12 @@ class Extension:
     def doors(self) -> str:
         """The functions that Python calls."""
         out = ["#define PY_SSIZE_T_CLEAN", "#define Py_LIMITED_API 0x030B0000"]
-        out += ["#include <Python.h>", '#include "kernels.h"']
+        out += [
+            "#include <Python.h>",
+            "#include <stdlib.h>",
+            "#include <string.h>",
+            '#include "kernels.h"',
+        ]
         most = max(sum(_arrays(t) for t in e.arguments) for e in self.entries)
         out += [f"#define MOST {most}", COMMON, "static const Entries *entries;"]
         out += [self._door(e) for e in self.entries]
@@ -103,22 +108,39 @@ class Extension:
         lines = []
         for level, (_, features) in LEVELS.items():
             has = [f'__builtin_cpu_supports("{f}")' for f in features.split()]
-            test = " && ".join(has) or "1"
-            lines.append(
-                f"    if (!entries && {test}) {{\n        entries = &entries_{level};\n    }}"
-            )
+            test = " && ".join([f'is_wanted("{level}")', *has])
+            lines += [f"    if (!level && {test}) {{"]
+            lines += [
+                f'        level = "{level}";',
+                f"        entries = &entries_{level};",
+                "    }",
+            ]
         choose = "\n".join(lines)
         return f"""
 static struct PyModuleDef definition = {{
     PyModuleDef_HEAD_INIT, "{self.module}", NULL, -1, methods, NULL, NULL, NULL, NULL,
 }};
 
+static int is_wanted(const char *level)
+{{
+    const char *wanted = getenv("DH2URDF_LEVEL");
+    return !wanted || !*wanted || !strcmp(wanted, level);
+}}
+
 PyMODINIT_FUNC PyInit_{self.module}(void)
 {{
     __builtin_cpu_init();
+    const char *level = NULL;
 {choose}
+    if (!level) {{
+        PyErr_Format(PyExc_ValueError, "DH2URDF_LEVEL: expected one of {", ".join(LEVELS)} that "
+            "this processor has, got %s", getenv("DH2URDF_LEVEL"));
+        return NULL;
+    }}
     PyObject *module = PyModule_Create(&definition);
-    if (module && PyModule_AddStringConstant(module, "SOURCES", "{self.sources}") < 0) {{
+    if (module && (PyModule_AddStringConstant(module, "SOURCES", "{self.sources}") < 0
+            || PyModule_AddStringConstant(module, "COMPILER", __VERSION__) < 0
+            || PyModule_AddStringConstant(module, "LEVEL", level) < 0)) {{
         Py_DECREF(module);
         return NULL;
     }}
@@ -212,8 +234,8 @@ def _arrays(t: Type) -> int:
 
 
 def _public(e: Instance) -> str:
-    """Name of an entry for Python: with its module, which may have a namesake."""
-    return f"{e.source.module.__name__}.{e.source.name}"
+    """Name of an entry for Python: one that pickle takes, with its module for namesakes."""
+    return f"{e.source.module.__name__}.{e.source.name}".replace(".", "__")
 
 
 def _answer(t: Type, name: str) -> str:

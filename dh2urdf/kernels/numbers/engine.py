@@ -3,6 +3,10 @@
 A kernel is plain Python; that is its definition. What Python calls of them is marked as an
 `entry`: its name means the compiled function where the extension has been built from these very
 sources, else the interpreted one, thousands of times slower.
+
+The variable ``DH2URDF_ENGINE`` decides otherwise: ``python`` interprets, ``compiled`` takes nothing
+but the extension. In that, ``DH2URDF_LEVEL`` names the code for a level of processors, ``any``,
+``v3`` or ``v4`` of x86-64, instead of the best one; all give the same bits.
 """
 
 import os
@@ -21,35 +25,56 @@ vector instructions, in any order."""
 INTERPRETED: dict[str, Callable[..., Any]] = {}
 """The entries as they are written, by module and name."""
 
-ADVICE = "pip install --force-reinstall --no-deps dh2urdf, or in a checkout pip install -e ."
+PACKAGE = Path(__file__).parents[2]
+
+ADVICE = "python -m dh2urdf.translate.build compiles them, as does an installation"
 
 
 def _extension() -> Any:
     """The compiled kernels, if they are wanted, there, and of these sources."""
-    wanted = os.environ.get("DH2URDF_ENGINE", "")
+    wanted = os.environ.get("DH2URDF_ENGINE") or "either"
+    if wanted not in ("either", "compiled", "python"):
+        raise ValueError(f"DH2URDF_ENGINE: expected compiled or python, got {wanted!r}")
     if wanted == "python":
         return None
     try:
         found = import_module("dh2urdf._kernels")
-    except ImportError:
-        if wanted == "compiled":
-            raise
-        warnings.warn(f"kernels are not compiled and run interpreted: {ADVICE}", stacklevel=2)
+        fault = "were edited after they were compiled" if _edited(found) else ""
+    except ImportError as error:
+        found, fault = None, f"are not compiled ({error})"
+    if fault and wanted == "compiled":
+        raise ImportError(f"DH2URDF_ENGINE=compiled: the kernels {fault}; {ADVICE}")
+    if fault:
+        warnings.warn(
+            f"the kernels {fault} and run interpreted, thousands of times slower; {ADVICE}",
+            stacklevel=2,
+        )
         return None
-    if _edited(Path(found.__file__ or "")):
-        from dh2urdf.translate.sources import fingerprint
-
-        if fingerprint() != found.SOURCES:
-            warnings.warn(f"kernels were edited and run interpreted: {ADVICE}", stacklevel=2)
-            return None
     return found
 
 
-def _edited(built: Path) -> bool:
-    """Whether any kernel's file is newer than the extension."""
-    then = built.stat().st_mtime
-    room = Path(__file__).parent.parent
-    return any(path.stat().st_mtime > then for path in room.rglob("*.py"))
+def _edited(built: Any) -> bool:
+    """Whether the extension is of other sources; they are read only if one is newer."""
+    then = Path(built.__file__).stat().st_mtime
+    newer = any(path.stat().st_mtime > then for path in sources())
+    return newer and fingerprint() != built.SOURCES
+
+
+def sources() -> list[Path]:
+    """Files that decide what the extension is: the kernels and their translator."""
+    return sorted(
+        path for room in ("kernels", "translate") for path in PACKAGE.glob(f"{room}/**/*.py")
+    )
+
+
+def fingerprint() -> str:
+    """Of the sources, as they are on disk."""
+    import hashlib
+
+    seen = hashlib.sha256()
+    for path in sources():
+        seen.update(path.relative_to(PACKAGE).as_posix().encode() + b"\0" + path.read_bytes())
+    return seen.hexdigest()
 
 
 _COMPILED = _extension()
@@ -59,5 +84,5 @@ def entry(function: Kernel) -> Kernel:
     """Mark a kernel that Python calls."""
     name = f"{function.__module__}.{function.__name__}"
     INTERPRETED[name] = function
-    compiled: Kernel = getattr(_COMPILED, name, function)
+    compiled: Kernel = getattr(_COMPILED, name.replace(".", "__"), function)
     return compiled
