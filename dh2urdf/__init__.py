@@ -7,8 +7,7 @@
 (4, 4)
 
 Importing this package loads nothing else; NumPy comes with the first name that is asked for,
-Pinocchio with the first model, Numba with the first array of configurations or the first inverse
-kinematics.
+Pinocchio with the first model.
 """
 
 from __future__ import annotations

@@ -22,7 +22,6 @@ from dh2urdf.ik.arm import (
     as_configuration,
     in_own_unit,
     many_poses,
-    notice_if_slow,
     one_pose,
     select_solver,
 )
@@ -58,7 +57,6 @@ class InverseKinematics:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
-        self._run_once: set[int] = set()
 
     def __getstate__(self) -> dict[str, Any]:
         return InverseKinematics(self.chain, self.referee).__dict__
@@ -76,7 +74,8 @@ class InverseKinematics:
         problem, inside = self._plain, flag(within_limits, "within_limits")
         usual = locked is None and samples is None and type(task) is str and task == "pose"
         if problem is None or not usual:
-            problem = self._compiled(task, locked, inside, samples)
+            problem = self.problem(task, locked, inside, samples)
+            self._plain = problem if usual else self._plain
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         usual = type(turns) is str and turns == "nearest"
         every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"
@@ -100,7 +99,7 @@ class InverseKinematics:
         workers = None if threads is None else integer(threads, "threads", 1, THREADS)
         if tell is not None:
             instance(tell, "progress", Callable)
-        problem = self._compiled(task, locked, inside, samples)
+        problem = self.problem(task, locked, inside, samples)
         poses, change = many_poses(Ts, nearest, skip == "skip", problem.first_bad_pose)
         flat, shape = poses.reshape(-1, 4, 4), poses.shape[:-2]
         _check_held(problem, len(flat))
@@ -121,7 +120,7 @@ class InverseKinematics:
         """A continuous joint path through a sequence of poses, see :func:`find_path`."""
         task, locked, within_limits, _, nearest = asked
         inside = flag(within_limits, "within_limits")
-        problem = self._compiled(task, locked, inside)
+        problem = self.problem(task, locked, inside)
         poses, change = many_poses(Ts, nearest, False, problem.first_bad_pose)
         if poses.ndim != 3:
             raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
@@ -141,7 +140,7 @@ class InverseKinematics:
     def intervals(self, T: ArrayLike, within_limits: bool, nearest: bool) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
         inside = flag(within_limits, "within_limits")
-        problem = self._compiled(Task.POSE, None, inside)
+        problem = self.problem(Task.POSE, None, inside)
         if not isinstance(problem.solver, SweptJoint):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
         assert isinstance(problem, (SweptProblem, ScaledProblem))
@@ -185,27 +184,6 @@ class InverseKinematics:
         else:
             problem = Problem(self.own, solver, task, self.referee)
         return problem if self.own is self.chain else ScaledProblem(self.chain, problem)
-
-    def _compiled(
-        self,
-        task: Task | str,
-        locked: Locked | None,
-        within_limits: bool,
-        samples: int | None = None,
-    ) -> Problem:
-        """The problem, its kernels run once so that only the first call has to wait for them."""
-        problem = self.problem(task, locked, within_limits, samples)
-        if id(problem.solver) not in self._run_once:
-            with notice_if_slow():
-                trial, held = problem, problem.values
-                if held is not None:
-                    trial = problem.at(np.resize(held, (1, held.shape[1])))
-                regular = self.chain.fk(np.linspace(0.4, 1.3, self.chain.n))
-                trial.solve_many(regular[None], False, 1, None)
-            self._run_once.add(id(problem.solver))
-        if problem.values is None and problem.task is Task.POSE and samples is None:
-            self._plain = problem
-        return problem
 
 
 def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:

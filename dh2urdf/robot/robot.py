@@ -159,7 +159,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         ----------
         q : array_like, shape (n,) or (..., n)
             Configuration [rad] or [m]. One configuration is placed by Pinocchio, a stack by a
-            jitted kernel.
+            kernel.
 
         Returns
         -------

@@ -121,7 +121,6 @@ class ArmView:
         """Stop the server; pages that are open lose their connection."""
         if not self._stopped.is_set():
             self._stopped.set()
-            self._ik.close()
             if self._shadows is not None:
                 self._shadows.cancel()
             quietly(self._server.stop)

@@ -3,7 +3,7 @@
 `tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
 chain moves in it; `solver` what a solver is, `solver_table` picks one; `geometry` looks at axes,
 `singular_families` at joints that move freely; `chains` makes chains of a chain, `limits` full
-turns; `given` checks what callers give, `notice` says that kernels compile.
+turns; `given` checks what callers give.
 """
 
 from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
@@ -19,7 +19,6 @@ from dh2urdf.ik.arm.limits import (
     turn_counts,
     turned_to,
 )
-from dh2urdf.ik.arm.notice import notice_if_slow
 from dh2urdf.ik.arm.singular_families import Family, slide_to_seed
 from dh2urdf.ik.arm.solver import (
     BRANCH_WORDS,

@@ -2,7 +2,7 @@
 
 Each family of arms has one class with the same five members. ``obstacle`` says, without
 computing anything per pose, what keeps the family from covering a chain; ``solve_batch`` fills
-the caller's arrays in one jitted call that holds no interpreter lock.
+the caller's arrays in one call of a kernel.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from dh2urdf.transforms import Array
 IntArray = NDArray[np.int64]
 
 BatchKernel = Callable[..., None]
-"""A jitted function: constants, poses, ``within_limits``, then the five output arrays."""
+"""A kernel: constants, poses, ``within_limits``, then the five output arrays."""
 
 
 BRANCH_WORDS = (
@@ -107,7 +107,7 @@ class Solver(Protocol):
         """Name the class, its axes and subproblems, and why better solvers did not apply."""
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4), C-contiguous, in one call without the interpreter lock.
+        """Solve poses Ts (m, 4, 4), C-contiguous, in one call.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ class SolverBase:
 
     @cached_property
     def kernel(self) -> BatchKernel:
-        """The jitted function that solves poses, imported when it is first needed."""
+        """The kernel that solves poses, imported when it is first needed."""
         kernel: BatchKernel = imported(self.where)
         return kernel
 

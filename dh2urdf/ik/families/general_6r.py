@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task, notice_if_slow
+from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.transforms import Array
 
@@ -61,8 +61,7 @@ class General6R(SolverBase):
     @cached_property
     def plan(self) -> Arm:
         """The eliminations that suit the arm; they are chosen when first asked for."""
-        with notice_if_slow():
-            return plan_general_6r(self.links)
+        return plan_general_6r(self.links)
 
     def like(self, chain: SerialChain) -> General6R:
         """The solver of a chain that differs little, with the same eliminations if they do."""
@@ -104,7 +103,7 @@ class General6R(SolverBase):
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) in two jitted calls."""
+        """Solve poses Ts (m, 4, 4) in two calls."""
         self.solve_unfinished(Ts, out)
         self._finish(self.links, self.joints, Ts, within_limits, *out)
 

@@ -152,7 +152,7 @@ class HeldWrist(HeldSolver):
         return f"{self.name}: {seen}{self.form.lines.describe()}"
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one jitted call."""
+        """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one call."""
         constants = self.frames, self.which, self.rows, self.joints, SLACK
         self.kernel(*constants, values.ravel(), Ts, within_limits, *out)
 

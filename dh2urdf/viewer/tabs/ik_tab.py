@@ -11,7 +11,7 @@ from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix
 from dh2urdf.viewer.arm_scene import Ghosts, set_poses
-from dh2urdf.viewer.door import by_visitor, later
+from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.branches import Answer, answer, branch_table
 from dh2urdf.viewer.tabs.redundancy import Redundancy
@@ -22,9 +22,6 @@ MOST_GHOSTS = 16
 
 GIZMO = 0.22
 """Size of the target's handles, as a share of the arm's size."""
-
-WARM_UP_AFTER = 3.0
-"""When what solves the arm is loaded or compiled [s]: after the first picture."""
 
 
 class IKTab:
@@ -48,7 +45,6 @@ class IKTab:
         self.target: Any = None
         self.answer: Answer | None = None
         self._wanted: Array | None = None
-        self._warming: threading.Timer | None = None
         self._busy = threading.Lock()
         gui = server.gui
         with tab:
@@ -66,7 +62,6 @@ class IKTab:
 
     def build(self, robot: Robot, drawing: Drawing, q: Array) -> None:
         """Prepare for another arm."""
-        self.close()
         self.robot, self.q = robot, np.array(q)
         for old in (self.ghosts, self.target):
             if old:
@@ -84,18 +79,6 @@ class IKTab:
         self.target.visible = self.active.value
         if self.active.value:
             self.solve(robot.fk(q))
-        else:
-            self._warming = later(WARM_UP_AFTER, self._warm_up, robot, q)
-
-    def close(self) -> None:
-        """Start nothing more."""
-        if self._warming is not None:
-            self._warming.cancel()
-
-    def _warm_up(self, robot: Robot, q: Array) -> None:
-        """Load or compile what solves this arm before anybody asks."""
-        locked = self.redundancy.locked
-        answer(robot, robot.fk(q), q, task=self.task.value, within=False, locked=locked)
 
     def show(self, q: Array) -> None:
         """Follow the arm to q (n,), which some other tab moved."""
