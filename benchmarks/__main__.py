@@ -9,7 +9,6 @@ import time
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from benchmarks.apart import do_apart
 from benchmarks.machine import Watch, worked
@@ -63,18 +62,16 @@ def main() -> int:
 
 def run(chosen: tuple[str, ...] | list[str], *, quick: bool) -> Results:
     """Do the chosen work, in the order of :data:`WORK`."""
+    os.environ.setdefault("DH2URDF_ENGINE", "compiled")  # no figure of kernels that are not
     results, watch = Results(quick), Watch()
-    with TemporaryDirectory() as cache:
-        if not quick:  # every kernel from the sources as they are: Numba misses changed callees
-            os.environ["NUMBA_CACHE_DIR"] = cache
-        for name in WORK:
-            for keys in _parts(name, quick) if name in chosen else ():
-                begin, processor = time.perf_counter(), worked()
-                if wrong := do_apart(results, f"benchmarks.work.{name}", keys):
-                    results.failed[f"{name} {' '.join(keys)}"] = wrong
-                seconds, processor = time.perf_counter() - begin, worked() - processor
-                spent = f"{seconds:.0f} s, {processor:.0f} s of the processor"
-                print(f"{name} {' '.join(keys)}: {spent}", file=sys.stderr)
+    for name in WORK:
+        for keys in _parts(name, quick) if name in chosen else ():
+            begin, processor = time.perf_counter(), worked()
+            if wrong := do_apart(results, f"benchmarks.work.{name}", keys):
+                results.failed[f"{name} {' '.join(keys)}"] = wrong
+            seconds, processor = time.perf_counter() - begin, worked() - processor
+            spent = f"{seconds:.0f} s, {processor:.0f} s of the processor"
+            print(f"{name} {' '.join(keys)}: {spent}", file=sys.stderr)
     results.describe(watch)
     return results
 

@@ -23,7 +23,7 @@ __all__ = ["ROOT", "do_apart", "do_here"]
 
 ROOT = Path(__file__).parent.parent
 PATIENCE = 900.0
-"""Seconds after which a process is taken for stuck; compiling on a busy machine takes minutes."""
+"""Seconds after which a process is taken for stuck; a peer on a busy machine takes minutes."""
 
 
 def do_apart(

@@ -21,7 +21,7 @@ def imports(module: str) -> dict[str, object]:
     start, worked = time.perf_counter(), time.process_time()
     importlib.import_module(module)
     seconds, processor = time.perf_counter() - start, time.process_time() - worked
-    heavy = [m for m in ("numba", "pinocchio", "matplotlib", "scipy", "sympy") if m in sys.modules]
+    heavy = [m for m in ("pinocchio", "matplotlib", "scipy", "sympy") if m in sys.modules]
     return {"total": seconds, "processor": processor, "loaded": heavy}
 
 

@@ -8,6 +8,7 @@ import resource
 import subprocess
 import sys
 import time
+from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
@@ -16,7 +17,6 @@ __all__ = ["Watch", "commit", "describe", "load_average", "versions", "worked"]
 PACKAGES = (
     "dh2urdf",
     "numpy",
-    "numba",
     "pin",
     "eaik",
     "ssik",
@@ -62,7 +62,16 @@ def versions() -> dict[str, str]:
             found[name] = version(name)
         except PackageNotFoundError:
             continue
-    return found
+    return found | {"kernels": _kernels()}
+
+
+def _kernels() -> str:
+    """Level of processor and compiler of the kernels that run."""
+    try:
+        built = import_module("dh2urdf._kernels")
+    except ImportError:
+        return "interpreted"
+    return f"{built.LEVEL} ({built.COMPILER})"
 
 
 def commit() -> str:

@@ -1,8 +1,11 @@
 """``python -m benchmarks.paired REVISION``: this tree against another revision of it, in turns.
 
 Both solve the same poses in processes of their own that run alternately; ratios of processor
-times, medians over the rounds, are ours over the revision's: below 1 is faster. The first process
-of each arm compiles with an empty cache: its seconds and its machine code stand beside.
+times, medians over the rounds, are ours over the revision's: below 1 is faster. The processor time
+of an arm's first process up to its first answers stands beside, and the size of the machine code.
+
+Both are compiled for this; kernels of a revision that has Numba (it must be installed) compile in
+the first process, with an empty cache.
 """
 
 import argparse
@@ -71,9 +74,24 @@ def main() -> None:
         archive = subprocess.check_output(["git", "archive", given.revision], cwd=ROOT)
         with tarfile.open(fileobj=BytesIO(archive)) as tar:
             tar.extractall(other, filter="data")
+        for tree in (ROOT, other):
+            _build(tree)
         rows = [_row(name, other, Path(folder), given) for name in ARMS]
-    head = ["arm", "class", "batch", "one call", "search", "first answer", "kernels", "code"]
+    head = ["arm", "class", "batch", "one call", "search", "first answer", "code"]
     print(table(head, rows))
+
+
+def _build(tree: Path) -> None:
+    """Compile the kernels of a tree, where it has a translator for them."""
+    if (tree / "dh2urdf" / "translate").is_dir():
+        words = [sys.executable, "-m", "dh2urdf.translate.build"]
+        subprocess.run(words, env={**os.environ, "DH2URDF_ENGINE": "python"}, cwd=tree, check=True)
+
+
+def _code(tree: Path, cache: Path) -> int:
+    """Bytes of machine code: of the extension, or of what Numba has put into its cache."""
+    extension = tree.glob("dh2urdf/_kernels*.so")
+    return sum(path.stat().st_size for path in (*extension, *cache.rglob("*.nbc")))
 
 
 def _row(name: str, other: Path, folder: Path, given: argparse.Namespace) -> list[str]:
@@ -83,9 +101,9 @@ def _row(name: str, other: Path, folder: Path, given: argparse.Namespace) -> lis
     found: dict[str, list[dict]] = {side: [] for side in sides}
     for number in range(given.rounds + 1):
         for side in sorted(sides, reverse=number % 2 == 1):
-            cache = folder / f"{side} {name}"
             environment = {**os.environ, "PYTHONPATH": str(sides[side])}
-            environment["NUMBA_CACHE_DIR"] = str(cache)
+            environment["DH2URDF_ENGINE"] = "compiled"
+            environment["NUMBA_CACHE_DIR"] = str(folder / f"{side} {name}")
             words = [sys.executable, "-c", CHILD, name, str(poses), str(min(poses, 1000))]
             run = subprocess.run(
                 words, env=environment, cwd=folder, capture_output=True, text=True, check=True
@@ -94,14 +112,13 @@ def _row(name: str, other: Path, folder: Path, given: argparse.Namespace) -> lis
     times = {side: [np.min(f["times"], axis=0) for f in found[side][1:]] for side in sides}
     ratio = np.median(np.array(times["now"]) / np.array(times["then"]), axis=0)
     ours = np.median(times["now"], axis=0)
-    code = {s: [p.stat().st_size for p in (folder / f"{s} {name}").rglob("*.nbc")] for s in sides}
+    code = {side: _code(sides[side], folder / f"{side} {name}") / 1e6 for side in sides}
     return [
         name,
         ARMS[name],
         *(f"{1e6 * t:.3g} us, {r:.3f}" for t, r in zip(ours, ratio, strict=True)),
         f"{found['then'][0]['first']:.1f} s -> {found['now'][0]['first']:.1f} s",
-        f"{len(code['then'])} -> {len(code['now'])}",
-        f"{sum(code['then']) / 1e6:.2f} MB -> {sum(code['now']) / 1e6:.2f} MB",
+        f"{code['then']:.2f} MB -> {code['now']:.2f} MB",
     ]
 
 

@@ -120,9 +120,8 @@ def other_rows(results: Results) -> Cells:
             yield _compared("import, beyond NumPy", row, None)
         else:
             yield "the same", "", f"{seconds(row.seconds)} {row.contestant}", ""
-    for work in ("first call, compiling", "first call, cached"):
-        for row in results.of(work):
-            yield _compared(f"{work}: {row.arm}", row, None)
+    for row in results.of("first call"):
+        yield _compared(f"import, robot and first solutions: {row.arm}", row, None)
     for row in results.of("process"):
         verb = row.contestant in ("convert", "extract", "fk")
         name = f"`dh2urdf {row.contestant}`" if verb else row.contestant

@@ -156,17 +156,11 @@ def _why_batch(results: Results) -> str:
 def _why_one_pose(results: Results) -> str:
     whole, entry, arrays, solver = (
         _part(results, "puma560", name)
-        for name in (
-            "robot.ik",
-            "entry into an empty kernel",
-            "arrays of the answer",
-            "solver, one pose",
-        )
+        for name in ("robot.ik", "solver, no pose", "arrays of the answer", "solver, one pose")
     )
     return (
-        f"of {whole} (puma560) entering a kernel that does nothing takes {entry}, the arrays of "
-        f"the answer {arrays}, the solver with its entry {solver}; the rest checks the pose and "
-        "makes Python objects"
+        f"of {whole} (puma560) the solver takes {solver}, {entry} of it without a pose, and the "
+        f"arrays of the answer {arrays}; the rest checks the pose and makes Python objects"
     )
 
 
@@ -185,22 +179,8 @@ def _why_held(results: Results) -> str:
     )
 
 
-def _why_compiling(results: Results) -> str:
-    found = [r for r in results.of("first call, compiling") if r.extra.get("kernels")]
-    sizes = (
-        f"{r.arm} {r.extra['kernels']} kernels of {r.extra['code'] / 1e6:.1f} MB" for r in found
-    )
-    return (
-        f"it is LLVM's time for {', '.join(sizes)}, the largest with determinants and Newton steps "
-        "spelled out in vectors; later starts read them from a cache"
-    )
-
-
-def _why_cached(results: Results) -> str:
-    return (
-        f"importing Pinocchio takes {_part(results, '', 'Pinocchio', 'import')} and Numba "
-        f"{_part(results, '', 'Numba', 'import')} of it"
-    )
+def _why_first(results: Results) -> str:
+    return f"importing Pinocchio takes {_part(results, '', 'Pinocchio', 'import')} of it"
 
 
 def _why_convert(results: Results) -> str:
@@ -257,13 +237,10 @@ TARGETS = (
         _see("it includes the robot's check against its Pinocchio model and a first solution"),
     ),
     Target(
-        "first call after an installation",
-        "under 20 s",
-        _below(20.0, "first call, compiling"),
-        _why_compiling,
-    ),
-    Target(
-        "first call of a later start", "under 1 s", _below(1.0, "first call, cached"), _why_cached
+        "a new process: import, robot and first solutions",
+        "under 0.4 s",
+        _below(0.4, "first call"),
+        _why_first,
     ),
     Target(
         "`dh2urdf convert`, whole process",
@@ -279,7 +256,7 @@ TARGETS = (
     ),
     Target(
         "`import dh2urdf` beyond NumPy",
-        "under 0.25 s, no Numba, no Pinocchio",
+        "under 0.25 s, no Pinocchio",
         _import,
         _see("see what is loaded"),
     ),

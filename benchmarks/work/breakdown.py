@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from benchmarks.arms import Arm, arm_named
@@ -26,11 +25,6 @@ FRESH = 100_000
 
 MANY = 64
 """Poses of the batch that is set against the single pose."""
-
-
-@njit
-def _empty(a, b, c, d, e, f, g, h, i, j, k):  # type: ignore[no-untyped-def]
-    """A kernel that does nothing with ten arrays and a flag."""
 
 
 def run(results: Results, keys: tuple[str, ...]) -> None:
@@ -63,14 +57,13 @@ def _inverse_parts(arm: Arm) -> Parts:
     robot = Robot.from_dh(arm.table)
     _, T = arm.draw(MANY)
     solver = robot.solver
-    one, many = (Outputs.of(m, solver.kmax, arm.n) for m in (1, MANY))
-    single = T[:1].copy()
-    arrays = [single] * 5 + list(one)
+    none, one, many = (Outputs.of(m, solver.kmax, arm.n) for m in (0, 1, MANY))
+    empty, single = T[:0].copy(), T[:1].copy()
     row = sum(a.nbytes for a in one) // 8
     return {
         "robot.ik": (lambda: robot.ik(T[0], within_limits=False), 1),
         "solver, one pose": (lambda: solver.solve_batch(single, False, one), 1),
-        "entry into an empty kernel": (lambda: _empty(*arrays, False), 1),
+        "solver, no pose": (lambda: solver.solve_batch(empty, False, none), 1),
         "arrays of the answer": (lambda: Outputs.of(1, solver.kmax, arm.n), 1),
         "solver, a pose of many": (lambda: solver.solve_batch(T, False, many), MANY),
         "filling fresh memory of its answer": (lambda: np.full((FRESH, row), 1.0), FRESH),

@@ -1,4 +1,4 @@
-"""Whole processes: imports, first calls with and without compiled kernels, the command line."""
+"""Whole processes: imports, first calls, the command line."""
 
 from __future__ import annotations
 
@@ -27,7 +27,6 @@ IMPORTS = {
     "ssik prebuilt": "ssik.prebuilt.universal_robots.ur5_ik",
     "py-ikgeo": "py_ikgeo_kinematics",
     "Pinocchio": "pinocchio",
-    "Numba": "numba",
     "roboticstoolbox": "roboticstoolbox",
     "ikpy": "ikpy.chain",
 }
@@ -79,16 +78,11 @@ def _timing(answers: list[dict[str, Any]]) -> Timing:
 
 
 def _first_calls(results: Results) -> None:
-    """A fresh installation compiles; the next start reads the kernels from their cache."""
+    """From nothing to a robot and its first solutions, medians of processes."""
     for key in FIRST:
-        with TemporaryDirectory() as cache:
-            cold = child("first", key, NUMBA_CACHE_DIR=cache)
-            warm = [child("first", key, NUMBA_CACHE_DIR=cache) for _ in range(5)]
-            kernels = [path.stat().st_size for path in Path(cache).rglob("*.nbc")]
-        for work, found in (("first call, compiling", [cold]), ("first call, cached", warm)):
-            parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
-            parts |= {"kernels": len(kernels), "code": sum(kernels)}
-            results.add(Row.timed(work, key, "dh2urdf", _timing(found), extra=parts))
+        found = [child("first", key) for _ in range(1 if results.quick else 7)]
+        parts = {k: float(np.median([f[k] for f in found])) for k in ("robot", "ik")}
+        results.add(Row.timed("first call", key, "dh2urdf", _timing(found), extra=parts))
 
 
 def _command_line(results: Results) -> None:
@@ -131,5 +125,4 @@ TASKS: dict[str, Callable[[Results], None]] = {
     "first calls": _first_calls,
     "command line": _command_line,
 }
-KEYS = tuple(TASKS)
-QUICK = ("imports", "command line")
+KEYS = QUICK = tuple(TASKS)
