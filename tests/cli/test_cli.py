@@ -312,10 +312,10 @@ def test_closed_pipe_ends_quietly():
 
 
 def test_import_and_convert_load_nothing_heavy():
-    """import dh2urdf loads nothing; converting loads no Numba, matplotlib, viser or mujoco."""
+    """import dh2urdf loads nothing; converting loads no matplotlib, viser or mujoco."""
     code = (
         "import sys, dh2urdf\n"
-        "heavy = {'numba', 'matplotlib', 'viser', 'mujoco', 'dask', 'yourdfpy', 'sympy', 'scipy'}\n"
+        "heavy = {'matplotlib', 'viser', 'mujoco', 'dask', 'yourdfpy', 'sympy', 'scipy'}\n"
         "assert not ({'pinocchio', 'rich', 'cyclopts', 'lxml'} | heavy) & set(sys.modules)\n"
         "from dh2urdf.cli import main\n"
         "try: main(['convert', 'ur5', '-o', '-'])\n"

@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 from margins import assert_margin
-from numba import njit
 
-from dh2urdf.kernels.certificate import certify, newton
+from dh2urdf.kernels.certificate.certify import finish_pose
+from dh2urdf.kernels.certificate.newton import pose_residual, work_array
 
 HALF_PI = math.pi / 2
 PUMA = ((0, 0, HALF_PI), (0, 0.4318, 0), (0.15005, 0.0203, -HALF_PI), (0.4318, 0, HALF_PI))
@@ -36,18 +36,6 @@ def fk(links, q, slides=None):
     return T
 
 
-@njit
-def finish_pose(*arguments):
-    """The kernel, which only kernels can call."""
-    return certify.finish_pose(*arguments)
-
-
-@njit
-def pose_residual(links, joints, T, q):
-    """The kernel, which only kernels can call."""
-    return newton.pose_residual(links, joints, T, q)
-
-
 def revolute(n, lower=-math.inf, upper=math.inf):
     joints = np.zeros((n, 3))
     joints[:, 1], joints[:, 2] = lower, upper
@@ -59,7 +47,7 @@ def finish(links, joints, T, candidates, *, within_limits=True, residual=None):
     k, n = q.shape
     residual = np.full(k, -1.0) if residual is None else np.array(residual, float)
     branch, free = np.arange(k), np.zeros(k, np.int64)
-    work = newton.work_array(n)
+    work = work_array(n)
     count = finish_pose(
         links, joints, np.ascontiguousarray(T), within_limits, q, residual, branch, free, k, work
     )

@@ -5,19 +5,16 @@ import math
 import numpy as np
 import pytest
 from margins import assert_margin
-from numba import njit
 
 from dh2urdf.kernels.numbers import circles, trig
 
 SLACK = 1e-9
 
 
-@njit
 def linear_trig(a, b, d):
     return trig.linear_trig(a, b, d, SLACK)
 
 
-@njit
 def circle_pair(M, N, d, out):
     return circles.circle_pair(M, N, d, SLACK, np.empty((3, 5)), out)
 

@@ -5,9 +5,7 @@ import math
 import numpy as np
 import pytest
 from margins import assert_margin
-from numba import njit
 
-from dh2urdf.kernels.general_6r import arc_samples
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, roots_on_arc
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
@@ -28,13 +26,12 @@ def product(q, roots):
     return np.real(values)
 
 
-@njit
 def roots_around(samples, q, slopes):
     """Roots of all arcs of the circle: their number, the noise, the largest coefficient."""
     arcs, stack = np.zeros((TERMS, 24)), np.zeros((STACK, TERMS + 2))
     noise, largest = circle_arcs(samples, np.zeros(24), np.zeros((TERMS, 24)), arcs)
     spans, scratch = np.zeros((2, SPANS + 1)), np.zeros(24)
-    count = np.int64(0)
+    count = 0
     for k in range(24):
         stack[0, :TERMS] = arcs[:, k]
         count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, spans, count, q, slopes)
@@ -49,18 +46,14 @@ class Strict(np.ndarray):
         return super().__getitem__(index)
 
 
-def test_arcs_are_read_from_no_negative_index(monkeypatch):
+def test_arcs_are_read_from_no_negative_index():
     """The arc before the first one is the last one, by its own index."""
-    for name in ("_transform", "_largest"):
-        kernel = getattr(arc_samples, name)
-        monkeypatch.setattr(arc_samples, name, getattr(kernel, "py_func", kernel))
     arrays = (np.zeros(24), np.zeros((TERMS, 24)), np.zeros((24, 24)))
     samples = product(CIRCLE, np.linspace(-3, 3, 16))
-    getattr(circle_arcs, "py_func", circle_arcs)(samples, *(a.view(Strict) for a in arrays))
+    circle_arcs(samples, *(a.view(Strict) for a in arrays))
     assert arrays[2][0, 0] == arrays[2][TERMS - 1, 23] != 0.0
 
 
-@njit
 def nodes_of(middle, half_tan):
     """Cosines and sines of a window's nodes."""
     nodes = np.zeros((2, 24))
@@ -68,7 +61,6 @@ def nodes_of(middle, half_tan):
     return nodes
 
 
-@njit
 def arc_of(samples, half_tan):
     """Bernstein coefficients on a window, and their noise."""
     arcs = np.zeros((TERMS, 24))
