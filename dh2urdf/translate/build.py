@@ -12,6 +12,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, engine, entries
 from dh2urdf.translate.extension import LEVELS, Extension
@@ -51,11 +53,11 @@ def texts(names: list[str] | None = None) -> dict[str, str]:
 
 def build(target: Path) -> None:
     """Compile the extension to a file, which appears whole or not at all."""
-    cc, include = compiler(), sysconfig.get_paths()["include"]
+    cc, include = compiler(), [f"-I{sysconfig.get_paths()['include']}", f"-I{np.get_include()}"]
     with TemporaryDirectory() as folder:
         for name, text in texts().items():
             Path(folder, name).write_text(text)
-        jobs = [["-c", "doors.c", "-o", "doors.o", f"-I{include}"]]
+        jobs = [["-c", "doors.c", "-o", "doors.o", *include]]
         for level, (march, _) in LEVELS.items():
             flags = [march] if march else []
             jobs.append([*flags, f"-DTABLE=entries_{level}", "-c", "kernels.c", "-o", f"{level}.o"])

@@ -1,6 +1,6 @@
 """The entries as functions of a Python extension: arrays checked once, at the door.
 
-The extension takes arrays by the buffer protocol and needs Python's stable interface only. Each
+The extension needs the stable interfaces of Python and of NumPy only. Each
 level of processor is the same C, compiled once more; the table of its entries is chosen when the
 extension is imported: the best that the processor has, or the one that ``DH2URDF_LEVEL`` names.
 """
@@ -19,34 +19,37 @@ LEVELS = {
 MANY = 256
 """Poses of a call from which on other threads may run meanwhile."""
 
-FORMATS = {"float": ("d", 8), "int": ("l", 8), "bool": ("?", 1)}
+KINDS = {"float": "NPY_DOUBLE", "int": "NPY_INT64", "bool": "NPY_BOOL"}
+
+LEAVE = r"""
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
+/* Clear the wide registers, as code for old ones asks for; compilers forget it at times. */
+static void leave(void)
+{
+#ifdef __AVX__
+    _mm256_zeroupper();
+#endif
+}
+"""
 
 COMMON = r"""
-typedef struct { Py_buffer view[MOST]; int count; } Taken;
-
-static void give_back(Taken *taken)
+static int refuse(const char *name, int dimensions)
 {
-    for (int i = 0; i < taken->count; i++) {
-        PyBuffer_Release(&taken->view[i]);
-    }
+    PyErr_Format(PyExc_TypeError,
+        "%s: expected an array in C order, of %d dimensions and the kernel's kind of numbers",
+        name, dimensions);
+    return 0;
 }
 
-/* Memory of an array in C order with a number of dimensions and a size of its elements. */
-static Py_buffer *take(Taken *taken, PyObject *given, const char *name, int dimensions,
-    int size, char kind)
+/* Whether an object is an array in C order with a number of dimensions and a kind of elements. */
+static int fits(PyObject *given, const char *name, int dimensions, int kind)
 {
-    Py_buffer *view = &taken->view[taken->count];
-    if (PyObject_GetBuffer(given, view, PyBUF_C_CONTIGUOUS | PyBUF_FORMAT) != 0) {
-        return NULL;
-    }
-    taken->count++;
-    const char found = view->format[0] == 'q' ? 'l' : view->format[0];
-    if (view->ndim != dimensions || view->itemsize != size || (kind && found != kind)) {
-        PyErr_Format(PyExc_TypeError, "%s: expected an array of %d dimensions, %d bytes each",
-            name, dimensions, size);
-        return NULL;
-    }
-    return view;
+    PyArrayObject *a = (PyArrayObject *)given;
+    return (PyArray_Check(given) && PyArray_NDIM(a) == dimensions && PyArray_TYPE(a) == kind &&
+        PyArray_IS_C_CONTIGUOUS(a)) || refuse(name, dimensions);
 }
 
 static int differs(const char *name, Py_ssize_t found, Py_ssize_t expected)
@@ -74,11 +77,11 @@ class Extension:
         """The kernels, and their entries in the table of a level."""
         names = ", ".join(e.name for e in self.entries)
         lines = ['#include "kernels.h"', *self.file.definitions()]
-        return "\n".join(lines) + f"{self.bodies}\nconst Entries TABLE = {{{names}}};\n"
+        return "\n".join(lines) + f"{self.bodies}{LEAVE}\nconst Entries TABLE = {{leave, {names}}};\n"
 
     def header(self) -> str:
         """Types that both files share."""
-        lines = ["typedef struct {"]
+        lines = ["typedef struct {", "    void (*leave)(void);"]
         for e in self.entries:
             parameters = ", ".join(self.file.parameters(e)) or "void"
             lines.append(f"    {self.file.declaration(e.returned, f'(*{e.name})({parameters})')};")
@@ -88,14 +91,10 @@ class Extension:
     def doors(self) -> str:
         """The functions that Python calls."""
         out = ["#define PY_SSIZE_T_CLEAN", "#define Py_LIMITED_API 0x030B0000"]
-        out += [
-            "#include <Python.h>",
-            "#include <stdlib.h>",
-            "#include <string.h>",
-            '#include "kernels.h"',
-        ]
-        most = max(sum(_arrays(t) for t in e.arguments) for e in self.entries)
-        out += [f"#define MOST {most}", COMMON, "static const Entries *entries;"]
+        out += ["#define NPY_NO_DEPRECATED_API NPY_1_20_API_VERSION"]
+        names = ("Python", "stdlib", "string", "numpy/arrayobject")
+        out += [*(f"#include <{name}.h>" for name in names), '#include "kernels.h"']
+        out += [COMMON, "static const Entries *entries;"]
         out += [self._door(e) for e in self.entries]
         out.append("static PyMethodDef methods[] = {")
         for e in self.entries:
@@ -129,6 +128,7 @@ static int is_wanted(const char *level)
 
 PyMODINIT_FUNC PyInit_{self.module}(void)
 {{
+    import_array();
     __builtin_cpu_init();
     const char *level = NULL;
 {choose}
@@ -151,8 +151,7 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
     def _door(self, e: Instance) -> str:
         names = e.source.parameters
         lines = [f"static PyObject *py_{e.name}(PyObject *self, PyObject *const *args,"]
-        lines += ["    Py_ssize_t given)", "{", "    (void)self;", "    Taken taken;"]
-        lines += ["    taken.count = 0;", "    PyObject *answer = NULL;"]
+        lines += ["    Py_ssize_t given)", "{", "    (void)self;"]
         lines += [f"    Py_ssize_t {x} = -1;" for x in e.lengths()]
         lines += [f"    if (given != {len(names)}) {{"]
         lines += [f'        PyErr_SetString(PyExc_TypeError, "{len(names)} arguments");']
@@ -175,12 +174,8 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
             lines += [f"        {call};", "    }"]
         else:
             lines.append(f"    {call};")
-        lines += [
-            f"    answer = {_answer(e.returned, 'found')};",
-            "done:",
-            "    give_back(&taken);",
-        ]
-        return "\n".join([*lines, "    return answer;", "}", ""])
+        lines.append("    entries->leave();")
+        return "\n".join([*lines, f"    return {_answer(e.returned, 'found')};", "}", ""])
 
     def _taken(
         self, name: str, given: str, t: Type, at: str, checks: list[str]
@@ -208,29 +203,23 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
                 values.append(value)
             return lines, f"({self.file.tuple_name(t)}){{{', '.join(values)}}}"
         assert isinstance(t, Array)
-        kind, size = "0", ""
+        kind = "NPY_VOID" if isinstance(t.element, Record) else KINDS[t.element]
+        lines = [f"    PyArrayObject *{at} = (PyArrayObject *){given};"]
+        lines += _failed(f'!fits({given}, "{name}", {len(t.shape)}, {kind})')
         if isinstance(t.element, Record):
-            size = str(t.element.dtype.itemsize)
-        else:
-            letter, width = FORMATS[t.element]
-            kind, size = f"'{letter}'", str(width)
-        call = f'take(&taken, {given}, "{name}", {len(t.shape)}, {size}, {kind})'
-        lines = [f"    Py_buffer *{at} = {call};", *_failed(f"!{at}")]
+            size = t.element.dtype.itemsize
+            checks += _failed(f'differs("{name}: a record", PyArray_ITEMSIZE({at}), {size})')
         for k, d in enumerate(t.shape):
-            found = f"{at}->shape[{k}]"
+            found = f"PyArray_DIM({at}, {k})"
             if isinstance(d, str) and d.isidentifier():
                 lines += [f"    {d} = {d} < 0 ? {found} : {d};"]
             if d is not None:
                 checks += _failed(f'differs("{name}", {found}, {d})')
-        return lines, f"{at}->buf"
+        return lines, f"PyArray_DATA({at})"
 
 
 def _failed(test: str) -> list[str]:
-    return [f"    if ({test}) {{", "        goto done;", "    }"]
-
-
-def _arrays(t: Type) -> int:
-    return sum(map(_arrays, t.items)) if isinstance(t, Tuple) else int(isinstance(t, Array))
+    return [f"    if ({test}) {{", "        return NULL;", "    }"]
 
 
 def _public(e: Instance) -> str:
