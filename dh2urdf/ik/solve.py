@@ -79,7 +79,7 @@ class InverseKinematics:
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         usual = type(turns) is str and turns == "nearest"
         every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"
-        pose, change = one_pose(T, problem.task, nearest, problem.first_bad_pose)
+        pose, change = one_pose(T, problem.task, nearest)
         if problem.values is not None:
             _check_held(problem, 1)
         found = problem.solve_one(pose, inside)
@@ -87,7 +87,8 @@ class InverseKinematics:
             found = problem.arranged(found, goal, inside)
         if every:
             found = problem.with_all_turns(found, goal)
-        found.pose_change = change
+        if change:
+            found.pose_change = change
         return found
 
     def solve_batch(
@@ -100,7 +101,7 @@ class InverseKinematics:
         if tell is not None:
             instance(tell, "progress", Callable)
         problem = self.problem(task, locked, inside, samples)
-        poses, change = many_poses(Ts, nearest, skip == "skip", problem.first_bad_pose)
+        poses, change = many_poses(Ts, nearest, skip == "skip")
         flat, shape = poses.reshape(-1, 4, 4), poses.shape[:-2]
         _check_held(problem, len(flat))
         good = ~np.isnan(flat[:, 3, 3])
@@ -121,7 +122,7 @@ class InverseKinematics:
         task, locked, within_limits, _, nearest = asked
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside)
-        poses, change = many_poses(Ts, nearest, False, problem.first_bad_pose)
+        poses, change = many_poses(Ts, nearest, False)
         if poses.ndim != 3:
             raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
         _check_held(problem, len(poses))
@@ -133,9 +134,9 @@ class InverseKinematics:
         task, locked, within_limits, _, nearest = asked
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside)
-        pose, _ = one_pose(T, problem.task, nearest, problem.first_bad_pose)
+        pose, _ = one_pose(T, problem.task, nearest)
         _check_held(problem, 1)
-        return problem.why_none(pose[0], inside)
+        return problem.why_none(pose, inside)
 
     def intervals(self, T: ArrayLike, within_limits: bool, nearest: bool) -> Array:
         """Intervals of the swept joint in which a pose is reached, see :mod:`~.self_motion`."""
@@ -144,8 +145,8 @@ class InverseKinematics:
         if not isinstance(problem.solver, SweptJoint):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
         assert isinstance(problem, (SweptProblem, ScaledProblem))
-        pose, _ = one_pose(T, problem.task, nearest, problem.first_bad_pose)
-        return problem.intervals(pose[0], inside)
+        pose, _ = one_pose(T, problem.task, nearest)
+        return problem.intervals(pose, inside)
 
     def problem(
         self,

@@ -77,7 +77,9 @@ class Extension:
         """The kernels, and their entries in the table of a level."""
         names = ", ".join(e.name for e in self.entries)
         lines = ['#include "kernels.h"', *self.file.definitions()]
-        return "\n".join(lines) + f"{self.bodies}{LEAVE}\nconst Entries TABLE = {{leave, {names}}};\n"
+        return (
+            "\n".join(lines) + f"{self.bodies}{LEAVE}\nconst Entries TABLE = {{leave, {names}}};\n"
+        )
 
     def header(self) -> str:
         """Types that both files share."""

@@ -28,6 +28,7 @@ from dh2urdf.ik.arm.solver import (
     IntArray,
     Others,
     Outputs,
+    Room,
     Solver,
     SolverBase,
     branch_words_of,

@@ -3,8 +3,6 @@
 A pose may be replaced by the one with the nearest rotation, where that is asked.
 """
 
-from collections.abc import Callable
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -12,40 +10,38 @@ from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.doors import finite_array, flag, real_array
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm.task import Task
+from dh2urdf.kernels.numbers import first_bad_pose, is_pose
 from dh2urdf.poses import POSE, check_pose, rounded_off
 from dh2urdf.transforms import Array
 
-FirstBad = Callable[[Array], int]
-"""Index of the first of some poses (m, 4, 4) that is none, or -1."""
 
+def one_pose(T: ArrayLike, task: Task, nearest: bool) -> tuple[Array, float]:
+    """One checked pose, (4, 4) in C order, and how far the given one was from it [rad].
 
-def one_pose(
-    T: ArrayLike, task: Task, nearest: bool, first_bad: FirstBad | None = None
-) -> tuple[Array, float]:
-    """A checked copy of one pose, (1, 4, 4), and how far the given one was from it [rad].
-
-    A point (3,) will do for a position. ``first_bad`` is a quick check, if there is one.
+    A point (3,) will do for a position.
     """
     given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
-    m = np.array(real_array(given, "pose", POSE, PoseError), order="C", ndmin=3)
-    if m.shape == (1, 1, 3) and task is Task.POSITION:
-        point, m = m[0, 0], np.eye(4)[None]
-        m[0, :3, 3] = point
-    if m.shape != (1, 4, 4):
-        shape = check_pose(given).shape
-        raise PoseError(f"pose: expected shape (4, 4), got {shape}; ik_batch takes many")
+    m = real_array(given, "pose", POSE, PoseError)
+    if m.shape != (4, 4):
+        if m.shape == (3,) and task is Task.POSITION:
+            point, m = m, np.eye(4)
+            m[:3, 3] = point
+        elif m.shape != (1, 4, 4):
+            shape = check_pose(given).shape
+            raise PoseError(f"pose: expected shape (4, 4), got {shape}; ik_batch takes many")
+        m = m.reshape(4, 4)
     change, rounded = 0.0, nearest is not False and flag(nearest, "nearest")
     if rounded:
         m, moved = rounded_off(m)
-        change = float(moved[0])
-    if first_bad is None or first_bad(m) >= 0:
-        check_pose(m[0], rounded=rounded)
+        change = float(moved)
+    if not m.flags.c_contiguous:
+        m = m.copy()
+    if not is_pose(m):
+        check_pose(m, rounded=rounded)
     return m, change
 
 
-def many_poses(
-    Ts: ArrayLike, nearest: bool, skip: bool, first_bad: FirstBad
-) -> tuple[Array, Array]:
+def many_poses(Ts: ArrayLike, nearest: bool, skip: bool) -> tuple[Array, Array]:
     """Checked poses (..., 4, 4), C-contiguous, and how far the given ones were from them [rad].
 
     With ``skip``, those that are none are NaN.
@@ -59,7 +55,7 @@ def many_poses(
     change = np.zeros(m.shape[:-2])
     if flag(nearest, "nearest"):
         m, change = rounded_off(m)
-    last = first_bad(m.reshape(-1, 4, 4))
+    last = first_bad_pose(m.reshape(-1, 4, 4))
     if last >= 0 and not skip:
         check_pose(m, what="poses", rounded=nearest)
     if last >= 0:
@@ -67,7 +63,7 @@ def many_poses(
         flat = m.reshape(-1, 4, 4)
         while last < len(flat):
             flat[last] = np.nan
-            after = first_bad(flat[last + 1 :])
+            after = first_bad_pose(flat[last + 1 :])
             last = len(flat) if after < 0 else last + 1 + after
     return m, change
 

@@ -90,6 +90,30 @@ class Outputs(NamedTuple):
         return Outputs._make(array[index] for array in self)
 
 
+class Room:
+    """Memory of one pose and its solutions in one piece, of which a copy is an answer.
+
+    The pose (16), kmax configurations, residuals, codes of branches, masks of free joints.
+    """
+
+    def __init__(self, kmax: int, n: int) -> None:
+        self.kmax, self.memory = kmax, np.zeros(16 + kmax * (n + 3))
+        self.Ts, rest = self.memory[:16].reshape(1, 4, 4), self.memory[16:]
+        self.T = self.Ts[0]
+        residual, *codes = rest[kmax * n :].reshape(3, 1, kmax)
+        branch, free = (code.view(np.int64) for code in codes)
+        q = rest[: kmax * n].reshape(1, kmax, n)
+        self.count, self.free, self._none = np.zeros(1, np.int64), free, free.tobytes()
+        self.out = Outputs(q, residual, self.count, branch, free)
+
+    def is_singular(self) -> bool:
+        """Whether a solution may be of a singular family; the masks are cleared then."""
+        if self.free.tobytes() == self._none:
+            return False
+        self.free.fill(0)
+        return True
+
+
 class Solver(Protocol):
     """All solutions of many poses of one chain."""
 

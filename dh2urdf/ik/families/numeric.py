@@ -113,7 +113,7 @@ class NumericProblem:
         given, change = one_pose(T, wanted, nearest)
         starts = integer(starts, "starts", 1, STARTS)
         solutions = min(starts, integer(solutions, "solutions", 1, STARTS))
-        target, inside = given[0], flag(within_limits, "within_limits")
+        target, inside = given, flag(within_limits, "within_limits")
         inner, scale = self._in_own_unit()
         pose = lengths_in(target, inner.chain.unit / self.chain.unit)
         first = None if seed is None else as_configuration(seed, self.slides, "seed") / scale

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.arm import IntArray, Outputs
+from dh2urdf.ik.arm import IntArray
 from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 
 if TYPE_CHECKING:
@@ -55,8 +55,10 @@ class IKBatch:
 
     def solutions(self, i: int) -> IKSolutions:
         """The solutions of pose i of a plain row of poses."""
-        arrays = Outputs(self.q, self.residual, self.count, self.branch_code, self.free_mask)
-        found = IKSolutions(self.problem, self.targets, arrays, i, int(self.count[i]))
+        k = int(self.count[i])
+        codes = self.branch_code[i, :k], self.free_mask[i, :k]
+        q, residual = self.q[i, :k], self.residual[i, :k]
+        found = IKSolutions.of(self.problem, self.targets[i], q, residual, *codes)
         found.pose_change = float(self.pose_change[i])
         return found
 

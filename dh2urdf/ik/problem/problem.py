@@ -18,6 +18,7 @@ from dh2urdf.ik.arm import (
     Family,
     HeldSolver,
     Outputs,
+    Room,
     Solver,
     Task,
     all_turns,
@@ -32,6 +33,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
+from dh2urdf.kernels.numbers import copy_pose
 from dh2urdf.transforms import Array
 
 ForwardKinematics = Callable[[Array], Array]
@@ -44,10 +46,6 @@ CHUNK = 4096
 """Most poses of one call into a kernel: a few ms, so that progress and Ctrl-C are prompt."""
 
 ALL = slice(None)
-
-INTEGER = np.dtype(np.int64)
-
-_record = tuple.__new__  # of Outputs; its own constructor costs a twentieth of a single call
 
 SMALL = 256
 """Poses below which a thread costs more than it saves."""
@@ -83,11 +81,8 @@ class Problem:
         self.chain, self.solver, self.task = chain, solver, task
         self.referee = referee
         self.branch_words = branch_words_of(solver)
-        self._shape, self._rows = (1, solver.kmax, chain.n), (1, solver.kmax)
+        self._rooms: list[Room] = []
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
-        from dh2urdf.kernels.numbers import first_bad_pose
-
-        self.first_bad_pose: Callable[[Array], int] = first_bad_pose
 
     def at(self, values: Array) -> Problem:
         """The same problem with its joints held at other values."""
@@ -95,26 +90,28 @@ class Problem:
         other.__dict__.update(self.__dict__, values=values)
         return other
 
-    def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
-        """All solutions of one checked pose Ts (1, 4, 4)."""
-        rows, free = self._rows, np.zeros(self._rows, INTEGER)
-        counts, branch = np.empty(1, INTEGER), np.zeros(rows, INTEGER)
-        out = _record(Outputs, (np.empty(self._shape), np.empty(rows), counts, branch, free))
+    def solve_one(self, T: Array, within_limits: bool) -> IKSolutions:
+        """All solutions of one checked pose T (4, 4)."""
+        try:
+            room = self._rooms.pop()  # that no other thread has
+        except IndexError:
+            room = Room(self.solver.kmax, self.chain.n)
+        copy_pose(T, room.T)
         if self.values is None:
-            self._solve(Ts, within_limits, out)
+            self._solve(room.Ts, within_limits, room.out)
         else:
-            self._solve_held(Ts, within_limits, out)
-        found = IKSolutions(self, Ts, out, 0, counts.item())
-        if any(free.tolist()[0]):
-            return self._families_inside(found, within_limits)
-        return found
+            self._solve_held(room.Ts, within_limits, room.out)
+        found = IKSolutions(self, room.memory.copy(), room.kmax, room.count.item())
+        singular = within_limits and room.is_singular()
+        self._rooms.append(room)
+        return self._families_inside(found) if singular else found
 
     def solve_many(
         self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None
     ) -> IKBatch:
         """All solutions of checked poses Ts (m, 4, 4), in chunks on a pool of threads."""
-        m, (_, kmax, n) = len(Ts), self._shape
-        batch = IKBatch(self, Ts, *Outputs.of(m, kmax, n), np.zeros(m))
+        m = len(Ts)
+        batch = IKBatch(self, Ts, *Outputs.of(m, self.solver.kmax, self.chain.n), np.zeros(m))
         workers = max(1, threads if threads is not None else os.cpu_count() or 1)
         step = max(SMALL, min(CHUNK, -(-m // workers)))
         chunks = [slice(i, i + step) for i in range(0, m, step)]
@@ -148,8 +145,8 @@ class Problem:
         else:
             self._solve_held(part.targets, within_limits, out, rows)
         singular = pad_solutions(*out, np.nan)
-        for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular else ():
-            found = self._families_inside(part.solutions(int(i)), within_limits)
+        for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular and within_limits else ():
+            found = self._families_inside(part.solutions(int(i)))
             k = len(found)
             part.count[i] = k
             part.q[i, :k], part.residual[i, :k] = found.q, found.residual
@@ -157,10 +154,8 @@ class Problem:
             pad_solutions(*out.rows(slice(i, i + 1)), np.nan)
         return len(part)
 
-    def _families_inside(self, found: IKSolutions, within_limits: bool) -> IKSolutions:
+    def _families_inside(self, found: IKSolutions) -> IKSolutions:
         """Bring the representatives of singular families into the limits, or drop them."""
-        if not within_limits:
-            return found
         q, keep = found.q.copy(), np.ones(len(found), np.bool_)
         centre = middle(self.chain)
         for k in np.flatnonzero(~inside(self.chain, q)):
@@ -234,7 +229,7 @@ class Problem:
     def why_none(self, T: Array, within_limits: bool) -> str:
         """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""
         if within_limits:
-            anywhere = self.solve_one(T[None], within_limits=False)
+            anywhere = self.solve_one(T, within_limits=False)
             if anywhere:
                 joint, excess = beyond_limits(self.chain, anywhere.q)
                 if excess <= LIMIT_SLACK:
@@ -245,7 +240,7 @@ class Problem:
                     f"all {len(anywhere)} solutions are outside the joint limits, the nearest by "
                     f"{by} at {self.chain.names[joint]}"
                 )
-        elif self.solve_one(T[None], within_limits=False):
+        elif self.solve_one(T, within_limits=False):
             return ""
         if not isinstance(self.solver, HeldSolver) or self.values is None:
             return shortfall(self.chain, T, self.task)

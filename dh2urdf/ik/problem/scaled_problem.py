@@ -36,9 +36,9 @@ class ScaledProblem(Problem):
         other.values = values
         return other
 
-    def solve_one(self, Ts: Array, within_limits: bool) -> IKSolutions:
-        """All solutions of one checked pose Ts (1, 4, 4)."""
-        return self._outside(self.inner.solve_one(lengths_in(Ts, self.unit), within_limits), Ts[0])
+    def solve_one(self, T: Array, within_limits: bool) -> IKSolutions:
+        """All solutions of one checked pose T (4, 4)."""
+        return self._outside(self.inner.solve_one(lengths_in(T, self.unit), within_limits), T)
 
     def solve_many(
         self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolutionError
-from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, Outputs, as_configuration
+from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, as_configuration
 from dh2urdf.transforms import Array
 
 
@@ -58,23 +58,22 @@ class IKSolutions:
         How far the given pose was from T [rad]; 0 unless ``nearest=True`` was asked for.
     """
 
-    __slots__ = ("_arrays", "_index", "_problem", "_targets", "count", "pose_change")
+    __slots__ = ("_memory", "_problem", "_room", "count", "pose_change")
 
-    def __init__(
-        self, problem: Answering, targets: Array, arrays: Outputs, index: int, count: int
-    ) -> None:
-        self._problem, self._targets, self._arrays = problem, targets, arrays
-        self._index, self.count, self.pose_change = index, count, 0.0
+    def __init__(self, problem: Answering, memory: Array, room: int, count: int) -> None:
+        self._problem, self._memory, self._room, self.count = problem, memory, room, count
+        self.pose_change = 0.0
 
     @property
     def q(self) -> Array:
         """Configurations, shape (k, n), read-only."""
-        return _read_only(self._arrays.q[self._index, : self.count])
+        n, count = self._problem.chain.n, self.count
+        return _read_only(self._memory[16 : 16 + n * count].reshape(count, n))
 
     @property
     def residual(self) -> Array:
         """Residual of each solution [m and rad], shape (k,), read-only."""
-        return _read_only(self._arrays.residual[self._index, : self.count])
+        return _read_only(self._run(0))
 
     @property
     def branch(self) -> tuple[str, ...]:
@@ -90,14 +89,17 @@ class IKSolutions:
     @property
     def T(self) -> Array:
         """The target pose, shape (4, 4)."""
-        target: Array = self._targets[self._index]
-        return target
+        return self._memory[:16].reshape(4, 4)
 
     @property
     def codes(self) -> tuple[IntArray, IntArray]:
         """Branch codes and masks of free joints, two arrays of shape (k,)."""
-        _, _, _, branch, free = self._arrays
-        return branch[self._index, : self.count], free[self._index, : self.count]
+        return self._run(1).view(np.int64), self._run(2).view(np.int64)
+
+    def _run(self, number: int) -> Array:
+        """Numbers of each solution, after the pose and the room for configurations."""
+        first = 16 + self._room * (self._problem.chain.n + number)
+        return self._memory[first : first + self.count]
 
     def nearest(self, q: ArrayLike) -> Array:
         """The solution with the least joint motion from q, shape (n,).
@@ -156,9 +158,8 @@ class IKSolutions:
         cls, problem: Answering, target: Array, q: Array, residual: Array, *codes: IntArray
     ) -> IKSolutions:
         """Solutions of one target (4, 4) from arrays with a row for each; as :attr:`codes`."""
-        branch, free = codes
-        out = Outputs(q[None], residual[None], np.array([len(q)]), branch[None], free[None])
-        return cls(problem, target[None], out, 0, len(q))
+        numbers = target.ravel(), q.ravel(), residual, *(code.view(np.float64) for code in codes)
+        return cls(problem, np.concatenate(numbers), len(q), len(q))
 
     def __repr__(self) -> str:
         if not self:

@@ -1,7 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
 from dh2urdf.kernels.numbers.engine import entry
-from dh2urdf.kernels.numbers.shapes import Codes, Counts, Poses, Solutions, Values
+from dh2urdf.kernels.numbers.shapes import Codes, Counts, Pose, Poses, Solutions, Values
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""
@@ -16,29 +16,46 @@ BLOCK = 64
 """Poses that are looked at together."""
 
 
-def _count_rigid(Ts, first, last):
-    """How many of these poses are finite, right-handed and orthonormal within the tolerances.
+def _rigid(T):
+    """Whether a pose (4, 4) is finite, right-handed and orthonormal within the tolerances.
 
     Straight code without a branch, for vector instructions; NaN fails every comparison.
     """
+    x0, x1, x2 = T[0, 0], T[1, 0], T[2, 0]
+    y0, y1, y2 = T[0, 1], T[1, 1], T[2, 1]
+    z0, z1, z2 = T[0, 2], T[1, 2], T[2, 2]
+    p0, p1, p2 = abs(T[0, 3]), abs(T[1, 3]), abs(T[2, 3])
+    r0, r1, r2, r3 = T[3, 0], T[3, 1], T[3, 2], T[3, 3] - 1.0
+    xx, yy = abs(x0 * x0 + x1 * x1 + x2 * x2 - 1.0), abs(y0 * y0 + y1 * y1 + y2 * y2 - 1.0)
+    zz, xy = abs(z0 * z0 + z1 * z1 + z2 * z2 - 1.0), abs(x0 * y0 + x1 * y1 + x2 * y2)
+    xz, yz = abs(x0 * z0 + x1 * z1 + x2 * z2), abs(y0 * z0 + y1 * z1 + y2 * z2)
+    determinant = (x1 * y2 - x2 * y1) * z0 + (x2 * y0 - x0 * y2) * z1 + (x0 * y1 - x1 * y0) * z2
+    rigid = (xx <= ORTHONORMAL) & (yy <= ORTHONORMAL) & (zz <= ORTHONORMAL)
+    rigid &= (xy <= ORTHONORMAL) & (xz <= ORTHONORMAL) & (yz <= ORTHONORMAL)
+    rigid &= (determinant > 0.0) & (p0 < FINITE) & (p1 < FINITE) & (p2 < FINITE)
+    rigid &= (abs(r0) <= LAST_ROW) & (abs(r1) <= LAST_ROW)
+    return rigid & (abs(r2) <= LAST_ROW) & (abs(r3) <= LAST_ROW)
+
+
+def _count_rigid(Ts, first, last):
+    """How many of these poses are rigid."""
     count = 0
     for i in range(first, last):
-        x0, x1, x2 = Ts[i, 0, 0], Ts[i, 1, 0], Ts[i, 2, 0]
-        y0, y1, y2 = Ts[i, 0, 1], Ts[i, 1, 1], Ts[i, 2, 1]
-        z0, z1, z2 = Ts[i, 0, 2], Ts[i, 1, 2], Ts[i, 2, 2]
-        p0, p1, p2 = abs(Ts[i, 0, 3]), abs(Ts[i, 1, 3]), abs(Ts[i, 2, 3])
-        r0, r1, r2, r3 = Ts[i, 3, 0], Ts[i, 3, 1], Ts[i, 3, 2], Ts[i, 3, 3] - 1.0
-        xx, yy = abs(x0 * x0 + x1 * x1 + x2 * x2 - 1.0), abs(y0 * y0 + y1 * y1 + y2 * y2 - 1.0)
-        zz, xy = abs(z0 * z0 + z1 * z1 + z2 * z2 - 1.0), abs(x0 * y0 + x1 * y1 + x2 * y2)
-        xz, yz = abs(x0 * z0 + x1 * z1 + x2 * z2), abs(y0 * z0 + y1 * z1 + y2 * z2)
-        determinant = (x1 * y2 - x2 * y1) * z0 + (x2 * y0 - x0 * y2) * z1 + (x0 * y1 - x1 * y0) * z2
-        rigid = (xx <= ORTHONORMAL) & (yy <= ORTHONORMAL) & (zz <= ORTHONORMAL)
-        rigid &= (xy <= ORTHONORMAL) & (xz <= ORTHONORMAL) & (yz <= ORTHONORMAL)
-        rigid &= (determinant > 0.0) & (p0 < FINITE) & (p1 < FINITE) & (p2 < FINITE)
-        rigid &= (abs(r0) <= LAST_ROW) & (abs(r1) <= LAST_ROW)
-        rigid &= (abs(r2) <= LAST_ROW) & (abs(r3) <= LAST_ROW)
-        count += 1 if rigid else 0
+        count += 1 if _rigid(Ts[i]) else 0
     return count
+
+
+@entry
+def is_pose(T: Pose):
+    """Whether T (4, 4) is in SE(3)."""
+    return _rigid(T)
+
+
+@entry
+def copy_pose(T: Pose, out: Pose):
+    """Write T (4, 4) to ``out``."""
+    for i in range(4):
+        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = T[i, 0], T[i, 1], T[i, 2], T[i, 3]
 
 
 @entry
@@ -50,7 +67,7 @@ def first_bad_pose(Ts: Poses):
         if _count_rigid(Ts, first, last) == last - first:
             continue
         for i in range(first, last):
-            if _count_rigid(Ts, i, i + 1) == 0:
+            if not _rigid(Ts[i]):
                 return i
     return -1
 

@@ -52,24 +52,30 @@ def _values(form, joints, table, within_limits, n, S):
             for i in side_by_side(n):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
-        else:
-            if kind == NEGATED:
-                twice = 2.0 * sign * constant
-                for i in side_by_side(n):
-                    S[target + i] = -twice - S[other + i]
-            else:
-                for i in side_by_side(n):
-                    S[target + i] = sign * (arctangent(S[sine + i], S[cosine + i]) - constant)
+        elif kind == NEGATED:
+            twice = 2.0 * sign * constant
             for i in side_by_side(n):
-                turns = (S[target + i] - middle) * PER_TURN
-                S[target + i] -= TWO_PI * ((turns + ROUND) - ROUND)
-        if within_limits and _limited(lower, upper):
-            flag = at(INSIDE + r)
+                S[target + i] = _turned_to(middle, -twice - S[other + i])
+        else:
+            for i in side_by_side(n):
+                angle = arctangent(S[sine + i], S[cosine + i])
+                S[target + i] = _turned_to(middle, sign * (angle - constant))
+        flag = at(INSIDE + r)
+        if not _limited(lower, upper):
+            for i in side_by_side(n):
+                S[flag + i] = 1.0
+        elif within_limits:
             for i in side_by_side(n):
                 room = min(S[target + i] - lower, upper - S[target + i])
                 S[flag + i] = 1.0 if room >= 0.0 else 0.0
                 touching = abs(room) < CLUSTER
                 S[BLOCK * DIRTY + i] += 1.0 if touching else 0.0
+
+
+def _turned_to(middle, value):
+    """The value in the turn nearest to ``middle``."""
+    turns = (value - middle) * PER_TURN
+    return value - TWO_PI * ((turns + ROUND) - ROUND)
 
 
 def _middle(lower, upper):
@@ -89,13 +95,12 @@ def _settle(form, joints, table, within_limits, n, S):
     _values(form, joints, table, within_limits, n, S)
     if not within_limits:
         return
-    for j in range(6):
-        if not _limited(joints[j, 1], joints[j, 2]):
-            continue
-        for k in range(8):
-            flag, valid = at(INSIDE + row_of[k, j]), at(VALID + k)
-            for i in side_by_side(n):
-                S[valid + i] *= S[flag + i]
+    for k in range(8):
+        valid, row = at(VALID + k), row_of[k]
+        a, b, c = at(INSIDE + row[0]), at(INSIDE + row[1]), at(INSIDE + row[2])
+        d, e, f = at(INSIDE + row[3]), at(INSIDE + row[4]), at(INSIDE + row[5])
+        for i in side_by_side(n):
+            S[valid + i] *= S[a + i] * S[b + i] * S[c + i] * S[d + i] * S[e + i] * S[f + i]
 
 
 def emit(form, joints, table, within_limits, place, named, first, n, S, out):
