@@ -57,7 +57,8 @@ def planar_rr_ik(l1: float, l2: float, x: float, y: float) -> Array:
     from dh2urdf.kernels.short_chains import planar_rr
 
     out = np.empty((2, 2))
-    count, _ = planar_rr(*_numbers(l1=l1, l2=l2, x=x, y=y), RIM, 0.0, out)
+    first, second, u, v = _numbers(l1=l1, l2=l2, x=x, y=y)
+    count, _ = planar_rr(first, second, u, v, RIM, 0.0, out)
     return _principal(out[:count])
 
 

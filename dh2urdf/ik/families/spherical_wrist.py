@@ -62,7 +62,7 @@ class SphericalWrist(ClosedForm):
         rows = self.form.rows
         common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0 and not self.chain.prismatic.any()
         fast = common and self.form.exact and plain_ranges(self.chain)
-        return solve_common_wrist if fast else solve_wrist_arm  # type: ignore[no-any-return]
+        return solve_common_wrist if fast else solve_wrist_arm
 
 
 def _places_wrist(form: DHForm) -> bool:

@@ -43,4 +43,4 @@ class ThreeParallel(ClosedForm):
         rows = self.form.rows
         common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0
         fast = common and self.form.exact and plain_ranges(self.chain)
-        return solve_common_parallel if fast else solve_three_parallel  # type: ignore[no-any-return]
+        return solve_common_parallel if fast else solve_three_parallel
