@@ -9,6 +9,7 @@ import subprocess
 import sys
 import sysconfig
 from concurrent.futures import ThreadPoolExecutor
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -37,6 +38,8 @@ def compiler() -> list[str]:
     for name in ("cc", "gcc", "clang"):
         if path := shutil.which(name):
             return [path]
+    if not find_spec("ziglang"):
+        raise RuntimeError("no C compiler: there is no cc, gcc or clang, nor the package ziglang")
     return [sys.executable, "-m", "ziglang", "cc"]
 
 
@@ -57,17 +60,23 @@ def build(target: Path) -> None:
     with TemporaryDirectory() as folder:
         for name, text in texts().items():
             Path(folder, name).write_text(text)
-        jobs = [["-c", "doors.c", "-o", "doors.o", *include]]
-        for level, (march, _) in LEVELS.items():
-            flags = [march] if march else []
-            jobs.append([*flags, f"-DTABLE=entries_{level}", "-c", "kernels.c", "-o", f"{level}.o"])
+        jobs = [[_processor("any", cc), "-c", "doors.c", "-o", "doors.o", *include]]
+        for level in LEVELS:
+            flags = [_processor(level, cc), f"-DTABLE=entries_{level}"]
+            jobs.append([*flags, "-c", "kernels.c", "-o", f"{level}.o"])
         with ThreadPoolExecutor() as pool:
             list(pool.map(lambda job: _run([*cc, *FLAGS, *job], folder), jobs))
         objects = ["doors.o", *(f"{level}.o" for level in LEVELS)]
-        _run([*cc, "-shared", *objects, "-o", "built.so", "-lm"], folder)
+        _run([*cc, "-shared", "-s", *objects, "-o", "built.so", "-lm"], folder)
         partial = target.with_suffix(".partial")
         shutil.copy(Path(folder, "built.so"), partial)
         partial.replace(target)
+
+
+def _processor(level: str, cc: list[str]) -> str:
+    """A compiler's option for a level; zig spells them its own way."""
+    name = LEVELS[level][0]
+    return "-march=" + (name.replace("-", "_") if "ziglang" in cc else name)
 
 
 def _run(words: list[str], folder: str) -> None:

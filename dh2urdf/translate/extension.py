@@ -10,11 +10,11 @@ from dh2urdf.translate.inference import Instance
 from dh2urdf.translate.types import Array, Record, Tuple, Type
 
 LEVELS = {
-    "v4": ("-march=x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),
-    "v3": ("-march=x86-64-v3", "avx2 bmi bmi2 fma"),
-    "any": ("", ""),
+    "v4": ("x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),
+    "v3": ("x86-64-v3", "avx2 bmi bmi2 fma"),
+    "any": ("x86-64", ""),
 }
-"""Best first: how each is compiled, and what the processor must have."""
+"""Best first: what compilers call it, and what the processor must have."""
 
 MANY = 256
 """Poses of a call from which on other threads may run meanwhile."""
