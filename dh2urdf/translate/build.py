@@ -45,7 +45,7 @@ def compiler() -> list[str]:
 
 def texts(names: list[str] | None = None) -> dict[str, str]:
     """The C files of all entries, or of some, by their names."""
-    file = CFile("ik_")
+    file = CFile()
     for name, function in entries().items():
         if names is None or name.rpartition(".")[2] in names:
             file.add_entry(function, argument_types(function))

@@ -1,4 +1,4 @@
-"""Pieces of C text: numbers, comments, tables, and small helpers that the subset needs."""
+"""Pieces of C text: numbers, comments, tables, lines, and small helpers that the subset needs."""
 
 import math
 import re
@@ -7,13 +7,22 @@ import textwrap
 import numpy as np
 from numpy.typing import NDArray
 
+from dh2urdf.translate.types import ELEMENTS
+
 WIDTH = 100
 
-_RESERVED = """
+RESERVED = set("""
 auto bool case char const default do double enum extern false far float goto inline int long near
 register restrict short signed sizeof static struct switch true typedef union unsigned void volatile
-"""
-RESERVED = set(re.findall(r"\w+", _RESERVED))
+""".split())
+
+LIBRARY = set("""
+abs acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
+fdim floor fma fmax fmin fmod free frexp gamma hypot index isfinite isinf isnan j0 j1 jn ldexp
+lgamma log log10 log1p log2 logb lrint lround memcpy memset modf nan nearbyint pow remainder rint
+round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc y0 y1 yn
+""".split())
+"""Functions of C whose names no function of a file has."""
 
 NUMBER = {"float": "double", "int": "int", "bool": "bool"}
 ELEMENT = {"float": "double", "int": "int64_t", "bool": "bool"}
@@ -26,12 +35,11 @@ HELPERS = {
     "size_int": "static inline int size_int(int a) { return a < 0 ? -a : a; }",
     "floor_div": "static inline int floor_div(int a, int b)\n"
     "{\n    return a / b - (a % b != 0 && (a < 0) != (b < 0));\n}",
-    "floor_mod": "static inline int floor_mod(int a, int b) { return a - b * floor_div(a, b); }",
+    "floor_mod": "static inline int floor_mod(int a, int b)\n"
+    "{\n    return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0);\n}",
 }
 """As Python defines them: the first of two that compare as equal, division towards minus
 infinity."""
-
-NEEDS = {"floor_mod": "floor_div"}
 
 
 def number(value: object) -> str:
@@ -40,10 +48,10 @@ def number(value: object) -> str:
         return "true" if value else "false"
     if isinstance(value, int | np.integer):
         return str(int(value))
-    x = float(value)  # type: ignore[arg-type]
-    if math.isinf(x):
-        return "INFINITY" if x > 0 else "-INFINITY"
-    return "NAN" if math.isnan(x) else repr(x)
+    assert isinstance(value, float | np.floating)
+    if math.isfinite(value):
+        return repr(float(value))
+    return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
 
 
 def comment(text: str) -> list[str]:
@@ -56,23 +64,29 @@ def comment(text: str) -> list[str]:
 
 
 def folded(text: str, indent: int = 0) -> list[str]:
-    """A statement in lines that are not too long."""
-    pad = " " * indent
-    if len(pad) + len(text) <= WIDTH or text.startswith("/*"):
-        return [pad + text]
-    width, inner = WIDTH - indent, "    "
-    parts = textwrap.wrap(text, width, subsequent_indent=inner, break_long_words=False)
-    return [pad + part for part in parts]
+    """A statement in lines that are not too long, broken where the fewest brackets are open."""
+    pad, out = " " * indent, list[str]()
+    while len(pad) + len(text) > WIDTH and not text.startswith("/*"):
+        depth, places = 0, list[tuple[int, int]]()
+        for i, letter in enumerate(text[: WIDTH - len(pad) + 1]):
+            depth += (letter in "([{") - (letter in ")]}")
+            if letter == " " and i > WIDTH // 3:
+                places.append((depth, -i))
+        if not places:
+            break
+        at = -min(places)[1]
+        out.append(pad + text[:at])
+        pad, text = " " * (indent + 4), text[at + 1 :]
+    return [*out, pad + text]
 
 
 def table(name: str, values: NDArray[np.generic]) -> str:
     """A constant array."""
-    kind = ELEMENT[{"f": "float", "i": "int", "b": "bool"}[values.dtype.kind]]
     sizes = "".join(f"[{d}]" for d in values.shape)
-    return f"static const {kind} {name}{sizes} = {_rows(values, 0)};"
+    return f"static const {ELEMENT[ELEMENTS[values.dtype.kind]]} {name}{sizes} = {_rows(values)};"
 
 
-def _rows(a: NDArray[np.generic], indent: int) -> str:
+def _rows(a: NDArray[np.generic], indent: int = 0) -> str:
     if a.ndim == 1:
         text = "{" + ", ".join(number(x) for x in a) + "}"
         inner = " " * (indent + 4)

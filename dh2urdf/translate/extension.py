@@ -6,7 +6,7 @@ extension is imported: the best that the processor has, or the one that ``DH2URD
 """
 
 from dh2urdf.translate.c_file import INCLUDES, CFile
-from dh2urdf.translate.inference import Instance
+from dh2urdf.translate.values import Instance
 from dh2urdf.translate.types import Array, Record, Tuple, Type
 
 LEVELS = {
@@ -203,7 +203,7 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
                 more, value = self._taken(f"{name}[{i}]", part, item, f"{at}_{i}", checks)
                 lines += more
                 values.append(value)
-            return lines, f"({self.file.tuple_name(t)}){{{', '.join(values)}}}"
+            return lines, ", ".join(values)
         assert isinstance(t, Array)
         kind = "NPY_VOID" if isinstance(t.element, Record) else KINDS[t.element]
         lines = [f"    PyArrayObject *{at} = (PyArrayObject *){given};"]

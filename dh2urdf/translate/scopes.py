@@ -4,8 +4,7 @@ import ast
 from collections import Counter
 from dataclasses import dataclass, field
 
-from dh2urdf.translate.inference import Instance
-from dh2urdf.translate.source import blocks_of, every, loaded, stored
+from dh2urdf.translate.source import Source, blocks_of, every, loaded, stored
 
 
 @dataclass
@@ -14,20 +13,19 @@ class Scopes:
 
     at: set[tuple[int, str]] = field(default_factory=set)
     before: dict[int, list[str]] = field(default_factory=dict)
-    counters: set[str] = field(default_factory=set)
-    """Loop counters that nothing outside their loops uses."""
+    astray: set[str] = field(default_factory=set)
+    """Counters that something outside their loops uses."""
 
 
-def scopes_of(instance: Instance) -> Scopes:
+def scopes_of(source: Source) -> Scopes:
     """Decide for every name of a body that is no parameter."""
-    found = Scopes()
-    for name in sorted(set(stored(instance.body)) - set(instance.source.parameters) - {"_"}):
-        loops = [s for s in every(instance.body) if isinstance(s, ast.For) and _counts(s, name)]
-        inside = sum(_uses(s, name) for s in loops)
-        if loops and inside == sum(_uses(s, name) for s in instance.body):
-            found.counters.add(name)
-        else:
-            _place(name, instance.body, found)
+    found, uses = Scopes(), _Uses()
+    for name in sorted(source.stored - set(source.parameters) - {"_"}):
+        loops = [s for s in every(source.body) if isinstance(s, ast.For) and _counts(s, name)]
+        if not loops:
+            uses.place(name, source.body, found)
+        elif sum(uses.of(s, name) for s in loops) != sum(uses.of(s, name) for s in source.body):
+            found.astray.add(name)
     return found
 
 
@@ -35,54 +33,41 @@ def _counts(loop: ast.For, name: str) -> bool:
     return isinstance(loop.target, ast.Name) and loop.target.id == name
 
 
-_used: dict[ast.AST, Counter[str]] = {}
+class _Uses:
+    """How often statements name something, counted once."""
 
+    def __init__(self) -> None:
+        self._counts: dict[ast.AST, Counter[str]] = {}
 
-def _uses(node: ast.AST, name: str) -> int:
-    """How often a node names something; counted once for each node."""
-    if node not in _used:
-        _used[node] = Counter(n.id for n in ast.walk(node) if isinstance(n, ast.Name))
-    return _used[node][name]
+    def of(self, node: ast.AST, name: str) -> int:
+        """How often a node names something."""
+        if node not in self._counts:
+            names = (n.id for n in ast.walk(node) if isinstance(n, ast.Name))
+            self._counts[node] = Counter(names)
+        return self._counts[node][name]
 
-
-def _heads(s: ast.stmt) -> list[ast.AST]:
-    """The parts of a statement outside its blocks."""
-    if isinstance(s, ast.For):
-        return [s.target, s.iter]
-    return [s.test] if isinstance(s, ast.If | ast.While) else [s]
-
-
-def _defines(s: ast.stmt, name: str) -> bool:
-    """Whether a statement gives a name its value without reading it."""
-    return isinstance(s, ast.Assign) and _uses(s, name) > 0 and _gives(s, name)
-
-
-def _gives(s: ast.Assign, name: str) -> bool:
-    return name in stored([s]) and name not in loaded(s)
-
-
-def _stays_in_blocks(name: str, block: list[ast.stmt]) -> bool:
-    """Whether each block in which a name is used gives it a value of its own first."""
-    for s in block:
-        if not _uses(s, name):
-            continue
-        if any(_uses(h, name) for h in _heads(s)):
-            return False
-        for b in blocks_of(s):
-            first = next((x for x in b if _uses(x, name)), None)
-            if first is not None and not (_defines(first, name) or _stays_in_blocks(name, b)):
-                return False
-    return True
-
-
-def _place(name: str, block: list[ast.stmt], found: Scopes) -> None:
-    users = [s for s in block if _uses(s, name)]
-    if _defines(users[0], name):
-        found.at.add((id(users[0]), name))
-    elif _stays_in_blocks(name, block):
+    def _begins(self, name: str, block: list[ast.stmt]) -> bool:
+        """Whether a block gives a name its value before it reads it, wherever it is used."""
+        users = [s for s in block if self.of(s, name)]
+        first = users[0]
+        if isinstance(first, ast.Assign) and name in stored([first]) and name not in loaded(first):
+            return True
         for s in users:
-            for b in blocks_of(s):
-                if any(_uses(x, name) for x in b):
-                    _place(name, b, found)
-    else:
-        found.before.setdefault(id(users[0]), []).append(name)
+            inside = [b for b in blocks_of(s) if any(self.of(x, name) for x in b)]
+            if sum(self.of(x, name) for b in inside for x in b) != self.of(s, name):
+                return False
+            if not all(self._begins(name, b) for b in inside):
+                return False
+        return True
+
+    def place(self, name: str, block: list[ast.stmt], found: Scopes) -> None:
+        """Decide for a name in a block in which all its uses are."""
+        users = [s for s in block if self.of(s, name)]
+        if isinstance(users[0], ast.Assign) and self._begins(name, block):
+            found.at.add((id(users[0]), name))
+        elif self._begins(name, block):
+            for b in (b for s in users for b in blocks_of(s)):
+                if any(self.of(x, name) for x in b):
+                    self.place(name, b, found)
+        else:
+            found.before.setdefault(id(users[0]), []).append(name)

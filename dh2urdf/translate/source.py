@@ -6,9 +6,12 @@ import io
 import sys
 import textwrap
 import tokenize
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, cached_property
 from types import ModuleType
 from typing import Any, NoReturn
+
+from dh2urdf.kernels.numbers.engine import INTERPRETED
 
 REFUSED: dict[type[ast.AST], str] = {
     ast.ListComp: "a loop",
@@ -18,27 +21,35 @@ REFUSED: dict[type[ast.AST], str] = {
     ast.List: "np.empty, or a tuple",
     ast.Dict: "a record, or arguments",
     ast.Set: "comparisons",
-    ast.Lambda: "a kernel",
+    ast.Lambda: "a kernel of the module",
     ast.FunctionDef: "a kernel of the module",
     ast.ClassDef: "a record of the module",
     ast.Try: "a returned status",
     ast.Raise: "a returned status",
     ast.Assert: "a returned status",
-    ast.With: "nothing",
-    ast.Yield: "an output array",
+    ast.With: "the statements alone",
+    ast.Yield: "into an array that is handed in",
+    ast.YieldFrom: "into an array that is handed in",
     ast.Global: "an argument",
     ast.Nonlocal: "an argument",
     ast.JoinedStr: "numbers only",
-    ast.Import: "an import of the module",
-    ast.ImportFrom: "an import of the module",
+    ast.Import: "the import at the head of the module",
+    ast.ImportFrom: "the import at the head of the module",
     ast.Delete: "nothing",
     ast.NamedExpr: "an assignment of its own",
+    ast.AnnAssign: "an assignment without a type",
+    ast.Match: "if and elif",
     ast.Pow: "products, or math.sqrt",
     ast.MatMult: "loops",
+    ast.In: "comparisons with ==",
+    ast.NotIn: "comparisons with !=",
+    ast.Is: "==",
+    ast.IsNot: "!=",
+    ast.keyword: "a positional argument",
 }
 """Syntax outside the subset, and what to write instead."""
 
-MAKERS = ("np.empty", "np.zeros", "np.full")
+MAKERS = ("np.empty", "np.zeros")
 
 
 class SubsetError(Exception):
@@ -48,77 +59,100 @@ class SubsetError(Exception):
 class Source:
     """One kernel as it is written."""
 
-    def __init__(self, function: Any) -> None:
-        self.function = getattr(function, "py_func", function)
-        self.name, self.module = self.function.__name__, sys.modules[self.function.__module__]
-        lines, self.line = inspect.getsourcelines(self.function)
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self.name, self.module = function.__name__, sys.modules[function.__module__]
+        self.file = inspect.getsourcefile(function)
+        lines, self.line = inspect.getsourcelines(function)
         text = textwrap.dedent("".join(lines))
         tree = ast.parse(text).body[0]
-        assert isinstance(tree, ast.FunctionDef)
-        self.tree, self.doc = _Shapes().visit(tree), ast.get_docstring(tree) or ""
+        if not isinstance(tree, ast.FunctionDef):
+            self.refuse(tree, "no function", "def")
+        self.tree, self.doc = tree, ast.get_docstring(tree) or ""
         self.body = tree.body[1:] if self.doc else tree.body
         self.parameters = [a.arg for a in tree.args.args]
-        self.comments = {
-            token.start[0]: token.string.lstrip("# ")
-            for token in tokenize.generate_tokens(io.StringIO(text).readline)
-            if token.type == tokenize.COMMENT
-        }
+        self.stored = {*stored(self.body)} | {*self.parameters}
+        tokens = tokenize.generate_tokens(io.StringIO(text).readline)
+        comments = (t for t in tokens if t.type == tokenize.COMMENT)
+        self.comments = {t.start[0]: t.string.lstrip("# ") for t in comments}
         self._check()
 
     def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
         """Raise :class:`SubsetError` for a node."""
         line = self.line + getattr(node, "lineno", 1) - 1
+        what = ast.unparse(node).partition("\n")[0]
         advice = f"; write {instead}" if instead else ""
-        what = ast.unparse(node) if isinstance(node, ast.expr | ast.stmt) else ""
-        raise SubsetError(f"{self.module.__file__}:{line}: {self.name}: {found}: {what}{advice}")
+        where = f"{self.file}:{line}: {self.name}"
+        raise SubsetError(f"{where}: {found}{': ' * bool(what)}{what}{advice}")
 
     def _check(self) -> None:
-        if self.tree.args.vararg or self.tree.args.kwonlyargs or self.tree.args.defaults:
-            self.refuse(self.tree.args, "arguments that are not plain", "positional ones")
+        a = self.tree.args
+        if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults:
+            self.refuse(a, "arguments that are not plain", "positional ones")
         keys = {id(n.slice) for n in ast.walk(self.tree) if isinstance(n, ast.Subscript)}
-        for statement in self.body:
-            for node in ast.walk(statement):
-                if type(node) in REFUSED:
-                    self.refuse(node, f"{type(node).__name__} is not allowed", REFUSED[type(node)])
-                text = isinstance(node, ast.Constant) and isinstance(node.value, str | bytes)
-                if text and id(node) not in keys:
-                    self.refuse(node, "text", "numbers only")
-                if isinstance(node, ast.Assign) and len(node.targets) > 1:
-                    self.refuse(node, "two assignments in one", "two")
+        for node in (n for s in self.body for n in self._nodes(s)):
+            kind = type(node)
+            if kind in REFUSED:
+                self.refuse(node, f"{kind.__name__} is not allowed", REFUSED[kind])
+            text = isinstance(node, ast.Constant) and not isinstance(node.value, int | float)
+            if text and id(node) not in keys:
+                self.refuse(node, "a value that is no number", "numbers only")
+            if isinstance(node, ast.Assign) and len(node.targets) > 1:
+                self.refuse(node, "two assignments in one", "two")
+            if isinstance(node, ast.For | ast.While) and node.orelse:
+                self.refuse(node, "else of a loop", "a flag, or a kernel that returns")
 
-    def stands_for(self, node: ast.expr) -> Any:
+    def _nodes(self, top: ast.AST) -> Iterator[ast.AST]:
+        """A node and those inside it; what has no line gets that of the one around it."""
+        yield top
+        for node in ast.iter_child_nodes(top):
+            if not isinstance(node, ast.expr_context):
+                yield from self._nodes(ast.copy_location(node, top) if _bare(node) else node)
+
+    def stands_for(self, name: str) -> Any:
         """The object that a name of the module stands for; None if there is none."""
-        if isinstance(node, ast.Name):
-            module, _, name = node.id.rpartition("::")
-            return getattr(sys.modules[module] if module else self.module, name, None)
-        if isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            base = getattr(self.module, node.value.id, None)
-            return getattr(base, node.attr, None) if isinstance(base, ModuleType) else None
+        base, _, attribute = name.partition(".")
+        found = getattr(self.module, base, None)
+        if attribute:
+            return getattr(found, attribute, None) if isinstance(found, ModuleType) else None
+        return found
+
+    def kernel(self, name: str) -> "Source | None":
+        """The kernel that a name of the module stands for."""
+        value = self.stands_for(name)
+        value = INTERPRETED.get(getattr(value, "__name__", ""), value)
+        own = self.module.__name__.partition(".")[0]
+        inside = getattr(value, "__module__", "").partition(".")[0] == own
+        return source_of(value) if inside and hasattr(value, "__code__") else None
+
+    @cached_property
+    def made(self) -> ast.expr | None:
+        """What a kernel returns that does nothing but make arrays; None for another kernel."""
+        last = self.body[-1]
+        if len(self.body) > 1 or not isinstance(last, ast.Return) or last.value is None:
+            return None
+        for n in ast.walk(last.value):
+            if isinstance(n, ast.Call):
+                name = ast.unparse(n.func)
+                callee = self.kernel(name)
+                if name in MAKERS or (callee is not None and callee.made is not None):
+                    return last.value
         return None
 
 
-class _Shapes(ast.NodeTransformer):
-    """Writes ``m, n = x.shape`` as ``m, n = x.shape[0], x.shape[1]``."""
-
-    def visit_Assign(self, node: ast.Assign) -> ast.AST:
-        value, target = node.value, node.targets[0]
-        shape = isinstance(value, ast.Attribute) and value.attr == "shape"
-        if shape and isinstance(target, ast.Tuple):
-            parts = [ast.Subscript(value, ast.Constant(k)) for k in range(len(target.elts))]
-            node.value = ast.Tuple(list(parts))
-            for n in ast.walk(node.value):
-                ast.copy_location(n, value)
-        return node
+@cache
+def source_of(function: Callable[..., Any]) -> Source:
+    """The source of a kernel, read once."""
+    return Source(function)
 
 
-def stored(nodes: list[ast.stmt]) -> list[str]:
-    """Names that statements give values to, once for each time."""
-    return [
-        n.id
-        for s in nodes
-        for n in ast.walk(s)
-        if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
-    ]
+def _bare(node: ast.AST) -> bool:
+    return not isinstance(node, ast.expr | ast.stmt | ast.keyword | ast.arg)
+
+
+def stored(nodes: Iterable[ast.AST]) -> list[str]:
+    """Names that are given values, once for each time."""
+    inside = (n for top in nodes for n in ast.walk(top) if isinstance(n, ast.Name))
+    return [n.id for n in inside if isinstance(n.ctx, ast.Store)]
 
 
 def loaded(node: ast.AST) -> set[str]:
@@ -126,13 +160,8 @@ def loaded(node: ast.AST) -> set[str]:
     return {n.id for n in ast.walk(node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
 
 
-def makes_array(node: ast.AST) -> bool:
-    """Whether a node is a call that makes an array."""
-    return isinstance(node, ast.Call) and ast.unparse(node.func) in MAKERS
-
-
 def blocks_of(statement: ast.stmt) -> list[list[ast.stmt]]:
-    """The blocks inside a statement; that of a loop's else comes after it."""
+    """The blocks inside a statement."""
     return [b for b in (getattr(statement, "body", []), getattr(statement, "orelse", [])) if b]
 
 

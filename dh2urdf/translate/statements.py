@@ -1,15 +1,15 @@
-"""The body of one instance as C."""
+"""Statements as C, assignments apart."""
 
 import ast
 import re
+from collections import Counter
 from typing import TYPE_CHECKING
 
-from dh2urdf.translate.c_text import NUMBER, comment, folded
-from dh2urdf.translate.expressions import BINARY, Expressions
-from dh2urdf.translate.inference import Instance
-from dh2urdf.translate.scopes import scopes_of
-from dh2urdf.translate.source import every, loaded, makes_array, stored
-from dh2urdf.translate.types import Array, Kernel, Record, Tuple, Type
+from dh2urdf.translate.assignments import Assignments
+from dh2urdf.translate.c_text import comment, folded
+from dh2urdf.translate.source import every, loaded, stored
+from dh2urdf.translate.types import Array, Record, Tuple, Type, told
+from dh2urdf.translate.values import COMPARISON, Instance, Value
 
 if TYPE_CHECKING:
     from dh2urdf.translate.c_file import CFile
@@ -17,331 +17,179 @@ if TYPE_CHECKING:
 EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 
 
-class Body(Expressions):
-    """Writes one function."""
+class Body(Assignments):
+    """Writes the body of one kernel."""
 
     def __init__(self, file: "CFile", instance: Instance) -> None:
         super().__init__(file, instance)
-        self.scopes = scopes_of(instance)
-        self.lines: list[str] = []
-        self.depth, self.said = 1, set[int]()
-        self.labels: list[str] = []
-        """For the loops around: where to go on without their else; nothing if they have none."""
+        self.said = set[int]()
+        for p, t in zip(self.source.parameters, instance.arguments, strict=True):
+            self.values[p] = self._parameter(p, t, self._pattern(p))
 
-    def text(self) -> str:
-        """The function with its docstring."""
-        instance = self.instance
-        used = {n.id for s in instance.body for n in ast.walk(s) if isinstance(n, ast.Name)}
-        for p, t in zip(instance.source.parameters, instance.arguments, strict=True):
-            if p not in used and not isinstance(t, Kernel):
-                self.out(f"(void){self.name(p)};")
-        self.block(instance.body)
-        for name in map(self.name, reversed(instance.known)):  # numbers that only gave shapes
-            if len(re.findall(rf"\b{name}\b", "\n".join(self.lines))) == 1:
-                self.lines = [x for x in self.lines if f"const int {name} = " not in x]
-        doc = comment(instance.source.doc) if instance.source.doc else []
-        return "\n".join([*doc, *folded(self.signature()), "{", *self.lines, "}"])
+    def _pattern(self, p: str) -> ast.expr | None:
+        """How a kernel takes a parameter apart that is a tuple: C has the names from there."""
+        for s in every(self.source.body):
+            match s:
+                case ast.Assign(targets=[ast.Tuple() as target], value=ast.Name(id=name)):
+                    if name == p:
+                        return target
+        return None
 
-    def signature(self) -> str:
-        """The head; what has no loop is asked to become a part of its callers."""
-        instance = self.instance
-        parameters = ", ".join(self.file.parameters(instance)) or "void"
-        head = self.file.declaration(instance.returned, f"{instance.name}({parameters})")
-        seen = self.file.exported and instance in self.file.entries
-        inline = (
-            ""
-            if any(isinstance(n, ast.For | ast.While) for n in every(instance.body))
-            else ("inline ")
-        )
-        return head if seen else f"static {inline}{head}"
+    def _parameter(self, name: str, t: Type, pattern: ast.expr | None) -> Value:
+        if not isinstance(t, Tuple) or t.is_struct:
+            name = pattern.id if isinstance(pattern, ast.Name) and pattern.id in self.once else name
+            self.instance.parameters.append((self.name(name), t))
+            return Value(t, self.name(name))
+        inner: list[ast.expr | None] = [None] * len(t.items)
+        if isinstance(pattern, ast.Tuple) and len(pattern.elts) == len(inner):
+            inner = list(pattern.elts)
+        pairs = enumerate(zip(t.items, inner, strict=True))
+        parts = (self._parameter(f"{name}_{k}", item, x) for k, (item, x) in pairs)
+        return Value(t, parts=tuple(parts))
 
-    def out(self, text: str) -> None:
-        """A line, or a few."""
-        self.lines += folded(text, 4 * self.depth)
+    def body(self) -> str:
+        """The lines between the braces."""
+        ended = self.block(self.source.body)
+        if self.instance.returned is not None and not ended:
+            self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
+        lines = [(depth, self._declared(text)) for depth, text in self.lines]
+        words = set(re.findall(r"\w+", " ".join(text for _, text in lines if text[:2] != "/*")))
+        unused = [name for name, _ in self.instance.parameters if name not in words]
+        lines[:0] = [(1, f"(void){name};") for name in unused]
+        return "\n".join(x for depth, text in lines if text for x in folded(text, 4 * depth))
 
-    def flush(self) -> None:
-        """What has to come before."""
-        for line in self.pending:
-            self.out(line)
-        self.pending = []
+    def _declared(self, line: str) -> str:
+        """The declaration that stands for a name, whose type is known by now."""
+        name = self.hoisted.get(line)
+        if name is None or name not in self.values:
+            return line if name is None else ""
+        t = self.values[name].type
+        pointer = isinstance(t, Array | Record)
+        empty = EMPTY[t] if isinstance(t, str) else "NULL" if pointer else "{0}"
+        return f"{self.file.declaration(t, self.name(name))} = {empty};"
 
-    def block(self, statements: list[ast.stmt]) -> None:
-        """Statements one after the other."""
-        for s in self.instance.reached(statements):
-            self._statement(s)
+    def block(self, statements: list[ast.stmt]) -> bool:
+        """Statements one after the other, and whether nothing comes after them."""
+        return any(self._statement(s) for s in statements)
 
-    def _inner(self, statements: list[ast.stmt]) -> None:
+    def _inner(self, statements: list[ast.stmt]) -> bool:
         self.depth += 1
-        self.block(statements)
+        ended = self.block(statements)
         self.depth -= 1
+        return ended
 
-    def _statement(self, s: ast.stmt) -> None:
-        for line, text in self.instance.source.comments.items():
+    def _statement(self, s: ast.stmt) -> bool:
+        self._before(s)
+        match s:
+            case ast.Assign():
+                self.assign(s)
+            case ast.AugAssign():
+                self.augment(s)
+            case ast.For():
+                self._for(s)
+            case ast.While():
+                self.out(f"while ({self.test(s.test, alone=True).text}) {{")
+                self._inner(s.body)
+                self.out("}")
+            case ast.If():
+                return self._if(s)
+            case ast.Return():
+                self._return(s)
+                return True
+            case ast.Break() | ast.Continue():
+                self.out(f"{type(s).__name__.lower()};")
+                return True
+            case ast.Expr(value=ast.Call()):
+                self.out(f"{self.value(s.value).text};")
+            case _:
+                self.refuse(s, f"{type(s).__name__} is not allowed", "assignments, calls, loops")
+        return False
+
+    def _before(self, s: ast.stmt) -> None:
+        """Comments above a statement, and declarations of names that it gives values to inside."""
+        for line, text in self.source.comments.items():
             if line <= s.lineno and line not in self.said:
                 self.said.add(line)
                 self.out(f"/* {text} */")
         for name in self.scopes.before.get(id(s), []):
-            self._declare(name)
-        match s:
-            case ast.Assign():
-                self._assign(s)
-            case ast.AugAssign():
-                self._augment(s)
-            case ast.For():
-                self._loop(s)
-            case ast.While():
-                self._while(s)
-            case ast.If():
-                self._branch(s, "")
-            case ast.Return():
-                value = ""
-                if s.value is not None:
-                    value = " " + self.value(s.value, self.instance.returned)
-                self.flush()
-                self.out(f"return{value};")
-            case ast.Expr():
-                text = self.value(s.value)
-                self.flush()
-                self.out(f"{text};")
-            case ast.Break():
-                label = self.labels[-1]
-                self.out(f"goto {label};" if label else "break;")
-            case ast.Continue():
-                self.out("continue;")
+            line = f"{name} is declared"
+            self.hoisted[line] = name
+            self.out(line)
 
-    def _elementwise(self, target: ast.expr, value: ast.expr, sign: str = "") -> None:
-        """All elements of an array, one after the other."""
-        t = self.type_of(target)
-        assert isinstance(t, Array)
-        names = [self.fresh(x) for x in "efg"[: len(t.shape)]]
-        lengths = [self._length(target), *t.shape[1:]]
-        for name, length in zip(names, lengths, strict=True):
-            self.out(f"for (int {name} = 0; {name} < {length}; {name}++) {{")
-            self.depth += 1
-        self.element = "".join(f"[{name}]" for name in names)
-        self.out(f"{self.value(target)} {sign}= {self.value(value)};")
-        self.element = ""
-        for _ in names:
-            self.depth -= 1
+    def _if(self, s: ast.If) -> bool:
+        taken = self.decided(s.test)
+        if taken is not None:
+            for left in s.orelse if taken else s.body:
+                self.said.update(range(left.lineno, (left.end_lineno or 0) + 1))
+            return self.block(s.body if taken else s.orelse)
+        self.out(f"if ({self.test(s.test).text}) {{")
+        ended = self._inner(s.body)
+        if not s.orelse:
             self.out("}")
+            return False
+        start = len(self.lines)
+        self.out("} else {")
+        ended = self._inner(s.orelse) and ended
+        first = self.lines[start + 1][1] if start + 1 < len(self.lines) else ""
+        if isinstance(s.orelse[0], ast.If) and len(s.orelse) == 1 and first.startswith("if ("):
+            rest = [(depth - 1, text) for depth, text in self.lines[start + 2 :]]
+            self.lines[start:] = [(self.depth, f"}} else {first}"), *rest]
+        else:
+            self.out("}")
+        return ended
 
-    def _length(self, target: ast.expr) -> str:
-        """First length of an array that is assigned to."""
-        t = self.type_of(target)
-        assert isinstance(t, Array)
-        if t.shape[0] is not None:
-            return str(t.shape[0])
-        assert isinstance(target, ast.Subscript)
-        assert isinstance(target.slice, ast.Slice)
-        assert target.slice.upper is not None
-        high, low = self.value(target.slice.upper), target.slice.lower
-        return high if low is None else f"{high} - {self.value(low, None, 13)}"
-
-    def _test(self, n: ast.expr) -> str:
-        text = self.value(n)
-        self.flush()
-        return text
-
-    def _while(self, s: ast.While) -> None:
-        test = self.value(s.test)
-        if self.pending:
-            self.instance.refuse(s.test, "an array made in the test of a loop", "it before")
-        self.out(f"while ({test}) {{")
-        self._looped(s)
-
-    def _branch(self, s: ast.If, lead: str) -> None:
-        taken = self.instance.decided(s.test)
-        if taken is not None and not lead:
-            self.block(s.body if taken else s.orelse)
-            return
-        self.out(f"{lead}if ({self._test(s.test)}) {{")
-        self._inner(s.body)
-        other = s.orelse[0] if len(s.orelse) == 1 else None
-        if isinstance(other, ast.If) and id(other) not in self.scopes.before:
-            self._branch(other, "} else ")
-            return
-        if s.orelse:
-            self.out("} else {")
-            self._inner(s.orelse)
-        self.out("}")
-
-    def _declare(self, name: str) -> None:
-        t = self.instance.types[name]
-        pointer = isinstance(t, Array | Record)
-        empty = EMPTY[t] if isinstance(t, str) else "0" if pointer else "{0}"
-        self.out(f"{self.file.declaration(t, self.name(name))} = {empty};")
-
-    def _take(self, s: ast.For) -> None:
-        """A loop over a few values."""
-        assert isinstance(s.target, ast.Name)
-        t = self.type_of(s.iter)
-        values = self.value(s.iter) if isinstance(t, Array) else ""
-        item = self.instance.types[s.target.id]
-        k, name = self.fresh("k"), self.name(s.target.id)
-        if isinstance(t, Tuple):
-            assert isinstance(s.iter, ast.Tuple)
-            values, parts = self.fresh("items"), [self.value(x, item) for x in s.iter.elts]
-            self.flush()
-            declared = self.file.declaration(Array(str(item), (len(parts),)), values, True)
-            self.out(f"const {declared} = {{{', '.join(parts)}}};")
-            t = Array(str(item), (len(parts),))
-        assert isinstance(t, Array)
-        self.out(f"for (int {k} = 0; {k} < {t.shape[0]}; {k}++) {{")
-        self.depth += 1
-        kind = f"{NUMBER[str(item)]} " if s.target.id in self.scopes.counters else ""
-        self.out(f"{kind}{name} = {values}[{k}];")
-        self.depth -= 1
-        self._looped(s)
-
-    def _loop(self, s: ast.For) -> None:
-        assert isinstance(s.target, ast.Name)
-        if not isinstance(s.iter, ast.Call):
-            self._take(s)
-            return
-        arguments, name = s.iter.args, s.target.id
-        changed = set(stored(s.body)) | {
-            _root(n)
-            for b in s.body
-            for n in ast.walk(b)
-            if isinstance(n, ast.Subscript) and isinstance(n.ctx, ast.Store)
-        }
-        if name in changed and name != "_":
-            self.instance.refuse(s.iter, "a counter that its loop changes", "while")
-        step = self.instance.whole(arguments[2]) if len(arguments) == 3 else 1
-        if step is None:
-            self.instance.refuse(s.iter, "a step that is not known")
-        low = "0" if len(arguments) == 1 else self.value(arguments[0])
-        high = arguments[0] if len(arguments) == 1 else arguments[1]
-        end = self.value(high, None, 10)
-        if loaded(high) & changed:
-            keep = self.fresh("end")
-            self.out(f"const int {keep} = {end};")
-            end = keep
-        i = self.fresh("unused") if name == "_" else self.name(name)
-        kind = "int " if name == "_" or name in self.scopes.counters else ""
+    def _for(self, s: ast.For) -> None:
+        match s:
+            case ast.For(
+                target=ast.Name(id=counter),
+                iter=ast.Call(func=ast.Name(id="range" | "side_by_side" as kind), args=arguments),
+            ) if 1 <= len(arguments) <= 3:
+                pass
+            case _:
+                self.refuse(s.iter, "a loop over something else", "for ... in range(...)")
+        own = counter not in self.scopes.astray and counter not in stored(s.body)
+        if counter != "_" and not own:
+            self.refuse(s.target, "a counter that is more than that", "another name")
+        low, high = (None, arguments[0]) if len(arguments) == 1 else arguments[:2]
+        step = self.size(arguments[2]) if len(arguments) == 3 else 1
+        if not isinstance(step, int) or step == 0:
+            self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
+        start = "0" if low is None else self._whole(low).text
+        end = self._whole(high)
+        if self._changes(high, s.body):
+            end = self.temporary(end, "end")
+        i = self.fresh("turn") if counter == "_" else self.name(counter)
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
-        self.flush()
-        if ast.unparse(s.iter.func) == "side_by_side":
+        sign = "<" if step > 0 else ">"
+        self.values[counter] = Value("int", i)
+        if kind == "side_by_side":
             self.out("SIDE_BY_SIDE")
-        self.out(f"for ({kind}{i} = {low}; {i} {'>' if step < 0 else '<'} {end}; {move}) {{")
-        self._looped(s)
-
-    def _looped(self, s: ast.For | ast.While) -> None:
-        """The body of a loop, and its else, which a break leaves out."""
-        label = self.fresh("after") if s.orelse else ""
-        self.labels.append(label)
+        self.out(f"for (int {i} = {start}; {i} {sign} {end.at(COMPARISON + 1)}; {move}) {{")
         self._inner(s.body)
-        self.labels.pop()
-        self.out("}")
-        if label:
-            self.block(s.orelse)
-            self.lines.append(f"{label}:;")
-
-    def _augment(self, s: ast.AugAssign) -> None:
-        if type(s.op) in (ast.FloorDiv, ast.Mod):
-            self.instance.refuse(s, "an augmented floor division", "an assignment")
-        if s.target in self.instance.elementwise:
-            self._elementwise(s.target, s.value, BINARY[type(s.op)][0])
-            return
-        text = self.value(s.value)
-        self.flush()
-        self.out(f"{self.value(s.target)} {BINARY[type(s.op)][0]}= {text};")
-
-    def _assign(self, s: ast.Assign) -> None:
-        target, value = s.targets[0], s.value
-        choice = isinstance(value, ast.IfExp) and isinstance(value.body, ast.Tuple)
-        if not (isinstance(target, ast.Tuple) and choice):
-            self._parallel(s, list(_pairs(target, value)))
-            return
-        assert isinstance(value, ast.IfExp)
-        for n in ast.walk(target):
-            if isinstance(n, ast.Name) and (id(s), n.id) in self.scopes.at:
-                self.scopes.at.discard((id(s), n.id))
-                self._declare(n.id)
-        self.out(f"if ({self._test(value.test)}) {{")
-        for side, lead in ((value.body, ""), (value.orelse, "} else {")):
-            if lead:
-                self.out(lead)
-            self.depth += 1
-            self._parallel(s, list(_pairs(target, side)))
-            self.depth -= 1
         self.out("}")
 
-    def _parallel(self, s: ast.Assign, pairs: list[tuple[ast.expr, ast.expr]]) -> None:
-        """Assignments that all read before any of them writes."""
-        late = []
-        for i, (target, value) in enumerate(pairs):
-            name = target.id if isinstance(target, ast.Name) else ""
-            if name == "_" and not isinstance(value, ast.Call):
-                continue
-            if isinstance(target, ast.Tuple):
-                self._unpack(s, target, value)
-                continue
-            if target in self.instance.elementwise:
-                if any(_root(target) in loaded(v) for _, v in pairs[i + 1 :]):
-                    self.instance.refuse(s, "an array that is read after it", "two assignments")
-                self._elementwise(target, value)
-                continue
-            if makes_array(value) and (id(s), name) in self.scopes.at:
-                assert isinstance(value, ast.Call)
-                for line in self.storage(value, self.name(name)):
-                    self.out(line)
-                continue
-            t = self.instance.types[name] if name in self.instance.types else self.type_of(target)
-            text, root = self.value(value, t), _root(target)
-            self.flush()
-            if any(root in loaded(v) for _, v in pairs[i + 1 :]):
-                keep = self.fresh(f"{root}_next")
-                self.out(f"const {self.file.declaration(t, keep)} = {text};")
-                late.append((target, keep))
-            else:
-                self._store(s, target, text)
-        for target, keep in late:
-            self._store(s, target, keep)
+    def _whole(self, n: ast.expr) -> Value:
+        value = self.value(n)
+        if value.type != "int":
+            self.refuse(n, f"{told(value.type)} in a range", "a whole number")
+        return value
 
-    def _store(self, s: ast.Assign, target: ast.expr, text: str) -> None:
-        name = target.id if isinstance(target, ast.Name) else ""
-        if name and (name == "_" or self.name(name) == text):
+    def _changes(self, n: ast.expr, body: list[ast.stmt]) -> bool:
+        """Whether the end of a loop may change in it, which Python would not see."""
+        if self.size(n) is not None or not loaded(n) & self.source.stored:
+            return False
+        inside = any(isinstance(x, ast.Subscript) for x in ast.walk(n))
+        return inside or bool(loaded(n) & set(stored(body)))
+
+    def _return(self, s: ast.Return) -> None:
+        if s.value is None:
+            self.out("return;")
             return
-        if name and (id(s), name) in self.scopes.at:
-            t: Type = self.instance.types[name]
-            fixed = name in self.instance.once and not isinstance(t, Array | Record)
-            const = "const " if fixed else ""
-            self.out(f"{const}{self.file.declaration(t, self.name(name))} = {text};")
-        else:
-            self.out(f"{self.value(target)} = {text};")
-
-    def _unpack(self, s: ast.Assign, target: ast.Tuple, value: ast.expr) -> None:
-        t = self.type_of(value)
-        if isinstance(value, ast.Name):
-            text = self.value(value)
-        else:
-            text, expression = self.fresh("got"), self.value(value)
-            self.flush()
-            const = "" if isinstance(t, Array) else "const "
-            self.out(f"{const}{self.file.declaration(t, text)} = {expression};")
-        self._unpack_into(s, target, text, t)
-
-    def _unpack_into(self, s: ast.Assign, target: ast.Tuple, text: str, t: Type) -> None:
-        for i, x in enumerate(target.elts):
-            part = self.part(text, i, t.items[i]) if isinstance(t, Tuple) else f"{text}[{i}]"
-            if isinstance(x, ast.Tuple):
-                inner = t.items[i] if isinstance(t, Tuple) else t.at(1)  # type: ignore[union-attr]
-                self._unpack_into(s, x, part, inner)
-            else:
-                self._store(s, x, part)
-
-
-def _root(n: ast.AST) -> str:
-    while isinstance(n, ast.Subscript | ast.Attribute):
-        n = n.value
-    return str(getattr(n, "id", ""))
-
-
-def _pairs(target: ast.expr, value: ast.expr):  # type: ignore[no-untyped-def]
-    """The single assignments that one of tuples is made of."""
-    if isinstance(target, ast.Tuple) and isinstance(value, ast.Tuple):
-        for x, y in zip(target.elts, value.elts, strict=True):
-            yield from _pairs(x, y)
-    else:
-        yield target, value
+        value = self.value(s.value)
+        if isinstance(value.type, Array | Record) or value.leaves() != [value]:
+            self.refuse(s, "a returned array", "into an array that is handed in")
+        if self.instance.returned not in (None, value.type):
+            types = f"{told(value.type)} after {told(self.instance.returned)}"
+            self.refuse(s, f"returned values of other types, {types}", "the same types")
+        self.instance.returned = value.type
+        self.out(f"return {self.text(value)};")

@@ -1,11 +1,13 @@
-"""Types of the kernels' values, and what holds two of them.
+"""Types of the kernels' values.
 
 A number is "float", "int" or "bool". Arrays know the lengths of all dimensions but, perhaps, the
 first: it may be a number, the name of a length that is known when the kernel runs, or None.
 """
 
-from dataclasses import dataclass, field
-from typing import Any, Union
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeAlias, Union
 
 import numpy as np
 
@@ -15,31 +17,7 @@ NUMBERS = ("bool", "int", "float")
 ELEMENTS = {"f": "float", "i": "int", "b": "bool"}
 """By NumPy's letter of the kind."""
 
-
-@dataclass(frozen=True)
-class Array:
-    """Numbers, or records, one after the other in memory."""
-
-    element: Union[str, "Record"]
-    shape: tuple[int | str | None, ...]
-    constant: bool = False
-
-    def at(self, indices: int) -> "Type":
-        """What some leading indices leave."""
-        if indices == len(self.shape):
-            return self.element
-        return Array(self.element, self.shape[indices:], self.constant)
-
-    def unsized(self) -> "Array":
-        """The same without its first length."""
-        return Array(self.element, (None, *self.shape[1:]), self.constant)
-
-
-@dataclass(frozen=True)
-class Tuple:
-    """Values that travel together."""
-
-    items: tuple["Type", ...]
+Length: TypeAlias = int | str | None
 
 
 @dataclass(frozen=True)
@@ -49,55 +27,69 @@ class Record:
     name: str
     dtype: np.dtype[Any] = field(compare=False)
 
-    def field_type(self, key: str) -> "Type":
-        """Type of a field."""
-        dtype = self.dtype.fields[key][0]  # type: ignore[index]
-        element = ELEMENTS[dtype.base.kind]
-        return Array(element, dtype.shape) if dtype.shape else element
+    def fields(self) -> dict[str, "Array | str"]:
+        """Types of the fields, by their names."""
+        found: dict[str, Array | str] = {}
+        for key, (dtype, *_) in (self.dtype.fields or {}).items():
+            element = ELEMENTS[dtype.base.kind]
+            found[key] = Array(element, dtype.shape) if dtype.shape else element
+        return found
 
 
 @dataclass(frozen=True)
-class Kernel:
-    """A kernel that is handed to another: each one has an instance of its own."""
+class Array:
+    """Numbers, or records, one after the other in memory."""
 
-    function: Any
+    element: str | Record
+    shape: tuple[Length, ...]
+    constant: bool = False
+
+    def at(self, indices: int) -> "Array | Record | str":
+        """What some leading indices leave."""
+        if indices == len(self.shape):
+            return self.element
+        return replace(self, shape=self.shape[indices:])
+
+    def first(self, length: Length = None) -> "Array":
+        """The same with another first length, or without it."""
+        return replace(self, shape=(length, *self.shape[1:]))
 
 
-Type = str | Array | Tuple | Record | Kernel | None
+@dataclass(frozen=True)
+class Tuple:
+    """Values that travel together: as a struct if all are numbers, else one by one."""
+
+    items: tuple[Union[str, Array, Record, "Tuple"], ...]
+
+    @property
+    def is_struct(self) -> bool:
+        """Whether C has a variable for it."""
+        return all(isinstance(t, str) or (isinstance(t, Tuple) and t.is_struct) for t in self.items)
 
 
-def is_sized_late(t: Type) -> bool:
-    """Whether the elements of an array have a size that is known when the kernel runs."""
-    return isinstance(t, Array) and any(isinstance(d, str) for d in t.shape[1:])
+Type: TypeAlias = str | Array | Record | Tuple
 
 
-def joined(a: Type, b: Type) -> Type:
-    """The type that holds both; TypeError where there is none."""
-    if a is None or a == b:
-        return b
-    if b is None:
-        return a
+def wider(a: Type, b: Type) -> Type | None:
+    """The type of what is one or the other; None where there is none."""
     if isinstance(a, str) and isinstance(b, str):
         return max(a, b, key=NUMBERS.index)
-    same = isinstance(a, Array) and isinstance(b, Array) and a.element == b.element
-    if same and a.shape[1:] == b.shape[1:]:
-        return Array(a.element, (None, *a.shape[1:]), a.constant or b.constant)
-    if isinstance(a, Tuple) and isinstance(b, Tuple) and len(a.items) == len(b.items):
-        return Tuple(tuple(joined(x, y) for x, y in zip(a.items, b.items, strict=True)))
-    raise TypeError(f"{told(a)} and {told(b)}")
+    if isinstance(a, Array) and isinstance(b, Array) and a.first() == b.first():
+        return a if a == b else a.first()
+    return a if a == b else None
 
 
-def told(t: Type) -> str:
+def told(t: Type | None) -> str:
     """A type in words."""
     if isinstance(t, Array):
-        element = t.element if isinstance(t.element, str) else t.element.name
-        return f"array of {element} {tuple('?' if d is None else d for d in t.shape)}"
+        lengths = ", ".join("?" if d is None else str(d) for d in t.shape)
+        return f"{'constant ' * t.constant}array of {told(t.element)} ({lengths})"
     if isinstance(t, Tuple):
-        return "(" + ", ".join(map(told, t.items)) + ")"
-    return "nothing" if t is None else t if isinstance(t, str) else getattr(t, "name", "kernel")
+        return f"({', '.join(map(told, t.items))})"
+    return t.name if isinstance(t, Record) else t or "nothing"
 
 
-def type_of_value(value: object) -> Type:
+def type_of_value(value: object) -> Type | None:
     """Type of a constant of a module; None where a kernel cannot use it."""
     if isinstance(value, bool | np.bool_):
         return "bool"
@@ -105,10 +97,19 @@ def type_of_value(value: object) -> Type:
         return "int"
     if isinstance(value, float | np.floating):
         return "float"
+    if isinstance(value, tuple) and {type(v) for v in value} in ({int}, {float}):
+        value = np.array(value)
     if isinstance(value, np.ndarray) and value.dtype.kind in ELEMENTS:
         return Array(ELEMENTS[value.dtype.kind], value.shape, constant=True)
-    if isinstance(value, tuple) and value:
-        if {type(v) for v in value} in ({int}, {float}):
-            return type_of_value(np.array(value))
-        return Tuple(tuple(type_of_value(v) for v in value))
-    return Kernel(value) if callable(value) and hasattr(value, "__code__") else None
+    return None
+
+
+def lengths_of(types: Iterable[Type]) -> list[str]:
+    """Names of the lengths in some types."""
+    found: set[str] = set()
+    for t in types:
+        if isinstance(t, Tuple):
+            found.update(lengths_of(t.items))
+        elif isinstance(t, Array):
+            found.update(*(re.findall(r"[a-z]\w*", d) for d in t.shape if isinstance(d, str)))
+    return sorted(found)

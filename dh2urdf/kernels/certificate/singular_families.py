@@ -82,7 +82,7 @@ def free_joints(links, joints, T, q, trial, work):
         gap = abs(trial[i] - q[i])
         away += gap * gap
         if gap > MOVES:
-            mask |= 1 << np.int64(i)
+            mask |= 1 << i
     return mask if away > 0.25 * WALK * WALK else 0
 
 

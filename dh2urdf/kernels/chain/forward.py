@@ -27,10 +27,10 @@ def times_joint(r, slides, q):
     """``R Z(q)`` of a pose held in twelve scalars (rows of the 3 x 4 matrix)."""
     a0, b0, c0, d0, a1, b1, c1, d1, a2, b2, c2, d2 = r
     if slides:
-        return _slid(a0, b0, c0, d0, q) + _slid(a1, b1, c1, d1, q) + _slid(a2, b2, c2, d2, q)
+        return *_slid(a0, b0, c0, d0, q), *_slid(a1, b1, c1, d1, q), *_slid(a2, b2, c2, d2, q)
     s, c = sincos(few_turns(q))
     first, second = _turned(a0, b0, c0, d0, c, s), _turned(a1, b1, c1, d1, c, s)
-    return first + second + _turned(a2, b2, c2, d2, c, s)
+    return *first, *second, *_turned(a2, b2, c2, d2, c, s)
 
 
 def _row_times_link(a, b, c, d, link):
@@ -47,7 +47,7 @@ def times_link(r, link):
     """``R link`` of a pose held in twelve scalars."""
     first = _row_times_link(r[0], r[1], r[2], r[3], link)
     second = _row_times_link(r[4], r[5], r[6], r[7], link)
-    return first + second + _row_times_link(r[8], r[9], r[10], r[11], link)
+    return *first, *second, *_row_times_link(r[8], r[9], r[10], r[11], link)
 
 
 def joint_times_link(r, slides, q, link):
@@ -57,9 +57,8 @@ def joint_times_link(r, slides, q, link):
 
 def load_pose(link):
     """The twelve scalars of a pose."""
-    first = link[0, 0], link[0, 1], link[0, 2], link[0, 3]
-    second = link[1, 0], link[1, 1], link[1, 2], link[1, 3]
-    return first + second + (link[2, 0], link[2, 1], link[2, 2], link[2, 3])
+    x, y, z = link[0], link[1], link[2]
+    return x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3], z[0], z[1], z[2], z[3]
 
 
 def store_pose(r, T):

@@ -6,6 +6,8 @@ or the last of the chain, into the pose, and the rest is the same arm for every 
 
 from typing import Annotated
 
+import numpy as np
+
 from dh2urdf.kernels.chain.forward import (
     applied_inverse,
     joint_times_link,
@@ -16,8 +18,7 @@ from dh2urdf.kernels.chain.forward import (
 )
 from dh2urdf.kernels.numbers import Codes, Counts, Floats, Integers, Poses, entry
 
-UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-"""The twelve scalars of the identity."""
+IDENTITY = np.eye(4)
 
 
 def held_links(links, slides, k, value, out):
@@ -35,7 +36,7 @@ def held_pose(links, slides, k, value, T, out):
     """
     if k == 0:
         store_pose(times_link(inverse_pose(links[0]), T), out)
-        store_pose(joint_times_link(UNMOVED, slides, -value, out), out)
+        store_pose(joint_times_link(load_pose(IDENTITY), slides, -value, out), out)
     else:
         store_pose(inverse_pose(links[links.shape[0] - 1]), out)
         store_pose(times_joint(times_link(load_pose(T), out), slides, -value), out)
@@ -44,9 +45,8 @@ def held_pose(links, slides, k, value, T, out):
 def inverse_pose(A):
     """The twelve scalars of ``A^-1`` for a rigid pose (4, 4)."""
     x, y, z = applied_inverse(A, (0.0, 0.0, 0.0))
-    first, second = (A[0, 0], A[1, 0], A[2, 0], x), (A[0, 1], A[1, 1], A[2, 1], y)
-    third = A[0, 2], A[1, 2], A[2, 2], z
-    return first + second + third
+    a, b, c = A[0], A[1], A[2]
+    return a[0], b[0], c[0], x, a[1], b[1], c[1], y, a[2], b[2], c[2], z
 
 
 @entry

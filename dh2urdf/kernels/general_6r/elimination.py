@@ -210,5 +210,6 @@ def six_equations(right, basis, lefts, e, equations):
             constant += w * right[8, f]
             for m in range(27):
                 equations[r, m] += w * left[f, m]
-        for m in (0, 2, 6, 8):
+        for m in range(0, 9, 6):
             equations[r, m] -= constant
+            equations[r, m + 2] -= constant

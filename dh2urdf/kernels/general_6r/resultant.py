@@ -64,9 +64,9 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
             column = term if half == 0 else 3 * (2 - block) + j
             _fill(equations, term, hidden, n, A, column)
         reduce_columns(A, 3, 9, n, determinant, V, beta)
-        for column in range(3, 9):
-            target = column - 3 if half == 0 else (column if column < 6 else column - 6)
-            _keep_lower_half(A, column, W, target, half)
+        for source in range(3, 9):
+            target = source - 3 if half == 0 else (source if source < 6 else source - 6)
+            _keep_lower_half(A, source, W, target, half)
     reduce_columns(W, 5, 6, n, determinant, V, beta)
     last = 5 * COLUMN + 5 * LANES
     for k in side_by_side(n):

@@ -99,7 +99,7 @@ def eliminate(e, arm):
     reduce_right(right, arm["factors"], basis)
     left = e
     if 2 <= (5 - choices[e, 0]) % 6 <= 4:
-        left = np.int64(OWN)
+        left = OWN
         left_coefficients(loop, lefts[left])
     six_equations(right, basis, lefts, left, arm["equations"])
 

@@ -27,7 +27,7 @@ from dh2urdf.kernels.numbers import Counts, Floats, Joints6, Links6, Poses, entr
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
 
-WAYS = (1e-3, 1e-2, 0.1, 0.3)
+WAYS = (-1e-3, 1e-3, -1e-2, 1e-2, -0.1, 0.1, -0.3, 0.3)
 """How far along that direction Newton's method starts [rad], either way."""
 
 STEPS = 15
@@ -96,11 +96,10 @@ def search_beside(
                 continue
             for j in range(6):
                 start[j] = work[j, 6]
-            for way in WAYS:
-                for side in (-way, way):
-                    trial[:] = q[i, k] + side * start
-                    if not _converges(links, joints, Ts[i], trial, A, step, damped):
-                        continue
-                    if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
-                        q[i, count[i]] = trial
-                        count[i] += 1
+            for w in range(len(WAYS)):
+                trial[:] = q[i, k] + WAYS[w] * start
+                if not _converges(links, joints, Ts[i], trial, A, step, damped):
+                    continue
+                if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
+                    q[i, count[i]] = trial
+                    count[i] += 1

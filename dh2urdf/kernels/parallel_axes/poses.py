@@ -170,9 +170,12 @@ def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out
 
 def make_scratch():
     """Frame 6 in frame 0, pairs, cosines and sines, certification, arcs, candidates, elbows."""
-    many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
-    D, cs, arcs = np.empty((4, 4)), np.zeros((6, 2)), np.empty((MOST_ARCS, 4))
-    return D, np.empty((8, 5)), cs, np.empty((6, 14)), arcs, many, np.empty((2, 5))
+    return (
+        *(np.empty((4, 4)), np.empty((8, 5)), np.zeros((6, 2)), np.empty((6, 14))),
+        np.empty((MOST_ARCS, 4)),
+        (np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)),
+        np.empty((2, 5)),
+    )
 
 
 @entry

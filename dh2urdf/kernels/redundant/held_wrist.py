@@ -75,10 +75,11 @@ def make_scratch():
     Two poses; frame 6 in frame 0; S0, S1, S2; orientation left to the wrist; position solutions;
     certification; links of the moving joints; candidates; two equations, a quartic, its pairs.
     """
-    poses, D, S, R = np.empty((2, 4, 4)), np.empty((4, 4)), np.empty((3, 4, 4)), np.empty((3, 3))
-    arm, work, links = np.empty((8, 5)), np.empty((6, 14)), np.empty((7, 4, 4))
-    rest, equations = np.empty((8, 6)), (np.empty((3, 2, 2)), np.empty((3, 5)), np.empty((4, 4)))
-    return poses, D, S, R, arm, work, links, rest, equations
+    return (
+        *(np.empty((2, 4, 4)), np.empty((4, 4)), np.empty((3, 4, 4)), np.empty((3, 3))),
+        *(np.empty((8, 5)), np.empty((6, 14)), np.empty((7, 4, 4)), np.empty((8, 6))),
+        (np.empty((3, 2, 2)), np.empty((3, 5)), np.empty((4, 4))),
+    )
 
 
 def oriented_pose(frames, which, value, T, scratch):

@@ -83,7 +83,7 @@ def onward(
     ``penalty`` more. Out come the states of the pose, q_out (f + s, n), their cost, infinite where
     there is no way, and their parent.
     """
-    f, n = q.shape
+    f, n = q.shape[0], q.shape[1]
     damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))
     reached, inside = np.empty(f, np.bool_), np.empty(f, np.bool_)
     q_out[:f] = q
@@ -176,11 +176,11 @@ def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
 def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
     """Move each pose's q by x along its self-motion, less where a limit is in the way."""
     for i in range(q.shape[0]):
-        way = x[i]
+        way, worst = x[i], math.inf
         for _ in range(RETURNS):
             trial[i] = q[i] + way * tangent[i]
             if restore(links, joints, POSE, Ts[i], unit, trial[i], work, damped) > HELD:
-                way *= 0.5
+                way, worst = 0.5 * way, math.inf
                 continue
             worst, change = 0.0, 0.0
             for j in range(q.shape[1]):
@@ -190,7 +190,7 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
             if worst == 0.0:
                 break
             way = way + change if abs(change) < 0.5 * abs(way) else 0.5 * way
-        else:
+        if worst > 0.0:
             trial[i] = q[i]
 
 
@@ -211,7 +211,7 @@ def shorten(
     :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
     ``penalty``.
     """
-    m, n = q.shape
+    m, n = q.shape[0], q.shape[1]
     damped, guess, work = make_damped(n), np.empty(n), np.empty(n)
     tangent, trial, none = np.zeros((m, n)), np.empty((m, n)), np.zeros(n)
     scratch = np.empty((8, m))

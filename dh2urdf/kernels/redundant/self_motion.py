@@ -126,14 +126,14 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         length = min(length, LONGEST / largest(step))
         if within_limits:
             length = part_inside(joints, q, step, length)
-        while length * size > SHORTEST:
+        good = False
+        while length * size > SHORTEST and not good:
             trial[:] = q + length * step
             good = restore(links, joints, task, T, unit, trial, work, damped) <= HELD
             good = good and distance2(trial, seed) < gap2
-            if good and not (within_limits and _outside(joints, trial)):
-                break
+            good = good and not (within_limits and _outside(joints, trial))
             length *= 0.5
-        else:
+        if not good:
             break
         scratch[4] = trial - q
         q[:] = trial

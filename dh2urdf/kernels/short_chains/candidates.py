@@ -141,11 +141,12 @@ def _hold(basis, nullity, shape, place, slides, value, unit):
     if slides:
         u, v = 1.0, 0.5 * value / unit
     at = 0 if place < 2 else 4
-    second = place in (1, 4)
+    second = place == 1 or place == 4
     partner = shape[place - 1] if second else shape[place + 1]
     full = shape[5 if place < 2 else 6] != 0
     step, along = (1, 2) if second else (2, 1)
-    basis[3 : 3 + nullity] = basis[:nullity]
+    for i in range(nullity):
+        basis[3 + i] = basis[i]
     left = nullity
     for equation in range(2):
         if equation == 1 and (partner < 0 or not full):

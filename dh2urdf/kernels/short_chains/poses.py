@@ -154,8 +154,8 @@ def solve_short_chains(
     closed[:] = loop
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
-    many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.empty(FEW, np.int64)
-    many_q, many_residual, _, many_free = many
+    many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
+    many_q, many_residual, many_branch, many_free = many
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -167,7 +167,7 @@ def solve_short_chains(
                 closed, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
             )
             for k in range(before, found):
-                many_residual[k], many_free[k] = -1.0, 0
+                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
             found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
             if not doubt:
                 break

@@ -261,12 +261,12 @@ def solve_short_positions(
     rest, unit = rest_unit[:n], rest_unit[n]
     point = tip[0], tip[1], tip[2]
     roots, pairs, trial = np.empty((3, SAMPLES)), np.empty((2, 2)), np.empty((2, n))
-    many = np.empty((FEW, n)), np.empty(FEW), np.full(FEW, -1, np.int64), np.zeros(FEW, np.int64)
+    many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
     for i in range(Ts.shape[0]):
         p[0], p[1], p[2] = Ts[i, 0, 3], Ts[i, 1, 3], Ts[i, 2, 3]
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
         for k in range(found):
-            many[1][k], many[3][k] = -1.0, 0
+            many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
         found = finish_pose(links, joints, p, ANYWHERE, *many, found, work)
         found = finish_families(
             links, joints, p, ALL_MEMBERS, within_limits, many, found, trial, work

@@ -46,7 +46,6 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
 )
 from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, emit
 from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
-from dh2urdf.kernels.spherical_wrist.position_arm import place_wrist_in_plane
 
 JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 ARM, OTHER = np.arange(8) & 3, 12 * (np.arange(8) >> 2)
@@ -176,4 +175,4 @@ def solve_common_wrist(
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]
                 scratch = make_scratch()
-                count[i] = solve_pose(place_wrist_in_plane, arm, Ts[i], within_limits, out, scratch)
+                count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)

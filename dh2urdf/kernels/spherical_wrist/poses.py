@@ -200,12 +200,14 @@ def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out
 
 def make_scratch():
     """Frame 6 in frame 0, a rotation, position solutions, certification, candidates."""
-    many = np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)
-    return np.empty((4, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14)), many
+    return (
+        *(np.empty((4, 4)), np.empty((3, 3)), np.empty((8, 5)), np.empty((6, 14))),
+        (np.empty((32, 6)), np.empty(32), np.empty(32, np.int64), np.empty(32, np.int64)),
+    )
 
 
-def solve_pose(place, arm, T, within_limits, out, scratch):
-    """All solutions of one pose in ``out``, positions by the function ``place``; their count.
+def solve_pose(arm, T, within_limits, out, scratch):
+    """All solutions of one pose in ``out``; their count.
 
     Position solutions are parted, merged if they meet, and parted again.
     """
@@ -213,11 +215,11 @@ def solve_pose(place, arm, T, within_limits, out, scratch):
     D, rows = scratch[0], scratch[2]
     tool_to_wrist(ends, T, D)
     x, y, z, merged = D[0, 3], D[1, 3], D[2, 3], 0
-    found = place(form, x, y, z, -slack, rows)
+    found = place_wrist(form, x, y, z, -slack, rows)
     if roots_meet(joints, rows, found):
-        found = place(form, x, y, z, slack, rows)
+        found = place_wrist(form, x, y, z, slack, rows)
         merged = add_merged(links, joints, form, found, slack, T, scratch)
-        found = place(form, x, y, z, -slack, rows)
+        found = place_wrist(form, x, y, z, -slack, rows)
     return finish_wrists(links, joints, form, found, merged, slack, T, within_limits, out, scratch)
 
 
@@ -245,4 +247,4 @@ def solve_wrist_arm(
     arm, scratch = (links, joints, form, ends, slack), make_scratch()
     for i in range(Ts.shape[0]):
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_pose(place_wrist, arm, Ts[i], within_limits, out, scratch)
+        count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)

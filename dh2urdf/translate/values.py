@@ -1,0 +1,202 @@
+"""What an expression is in C: its text with its type, and the names and lengths that it rests on."""
+
+import ast
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, NoReturn
+
+import numpy as np
+
+from dh2urdf.translate.c_text import RESERVED, number
+from dh2urdf.translate.source import Source
+from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, lengths_of, type_of_value
+
+if TYPE_CHECKING:
+    from dh2urdf.translate.c_file import CFile
+
+ATOM, POSTFIX, PREFIX, PRODUCT, SUM, COMPARISON, AND, OR, CHOICE = 16, 15, 14, 13, 12, 9, 5, 4, 3
+"""How tightly the operators of C bind."""
+
+SUMS: dict[type[ast.operator], tuple[str, Callable[[int, int], int]]] = {
+    ast.Add: ("+", int.__add__),
+    ast.Sub: ("-", int.__sub__),
+    ast.Mult: ("*", int.__mul__),
+    ast.FloorDiv: ("//", int.__floordiv__),
+}
+
+DECIDE: dict[type[ast.cmpop], Callable[[int, int], bool]] = {
+    ast.Eq: int.__eq__,
+    ast.NotEq: int.__ne__,
+    ast.Lt: int.__lt__,
+    ast.Gt: int.__gt__,
+}
+
+
+@dataclass(frozen=True)
+class Value:
+    """An expression in C."""
+
+    type: Type
+    text: str = ""
+    binds: int = ATOM
+    parts: tuple["Value", ...] = ()
+    """Of a tuple that is written out."""
+    maker: str = ""
+    """What makes an array that has no name yet."""
+
+    def at(self, level: int) -> str:
+        """The text, in brackets where it binds less."""
+        return f"({self.text})" if self.binds < level else self.text
+
+    def words(self) -> set[str]:
+        """Names in the text."""
+        inside = set[str]().union(*(part.words() for part in self.parts))
+        return inside | set(re.findall(r"\w+", self.text))
+
+    def leaves(self) -> list["Value"]:
+        """What goes from kernel to kernel: itself, or its parts one by one."""
+        if isinstance(self.type, Tuple) and not self.type.is_struct:
+            return [leaf for part in self.parts for leaf in part.leaves()]
+        return [self]
+
+
+def sized(length: int | str) -> Value:
+    """A length as a value."""
+    text = str(length)
+    return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM)
+
+
+@dataclass(eq=False)
+class Instance:
+    """A kernel for one list of argument types."""
+
+    source: Source
+    arguments: tuple[Type, ...]
+    name: str = ""
+    returned: Type | None = None
+    parameters: list[tuple[str, Type]] = field(default_factory=list)
+    """Those of C, where tuples with arrays are taken apart."""
+    asked: set[str] = field(default_factory=set)
+    """Parameters whose first length the kernel asks for."""
+    body: str = ""
+
+    def lengths(self) -> list[str]:
+        """Names of the lengths that it is handed."""
+        return lengths_of(self.arguments)
+
+
+class Names:
+    """The names of one kernel, and the whole numbers that are known before it runs."""
+
+    def __init__(self, file: "CFile", instance: Instance) -> None:
+        self.file, self.instance, self.source = file, instance, instance.source
+        self.values: dict[str, Value] = {}
+        """What names stand for that have been given a value so far."""
+        self.known: dict[str, int | str] = {}
+        self.lines: list[tuple[int, str]] = []
+        self.depth = 1
+        used = {n.id for n in ast.walk(self.source.tree) if isinstance(n, ast.Name)}
+        outside = {x.lstrip("_") for x in used - self.source.stored}
+        self.reserved = RESERVED | outside | set(instance.lengths())
+        self.taken = used | self.reserved
+
+    def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
+        """Refuse a node of the body."""
+        self.source.refuse(node, found, instead)
+
+    def out(self, text: str) -> None:
+        """A line of C."""
+        self.lines.append((self.depth, text))
+
+    def name(self, name: str) -> str:
+        """A name of the kernel in C: what C or something else has taken is marked."""
+        return f"{name}_" if name in self.reserved else name
+
+    def fresh(self, name: str) -> str:
+        """A name that is not taken."""
+        numbered = (f"{name}{k}" for k in range(2, 999))
+        found = next(x for x in (name, *numbered) if x not in self.taken)
+        self.taken.add(found)
+        return found
+
+    def temporary(self, value: Value, name: str) -> Value:
+        """A constant of its own for a value."""
+        name, t = self.fresh(name), value.type
+        const = "" if isinstance(t, Array | Record) else "const "
+        self.out(f"{const}{self.file.declaration(t, name)} = {value.text};")
+        return Value(t, name)
+
+    def size(self, n: ast.expr) -> Length:
+        """A whole number that is known before the kernel runs, or in terms of its lengths."""
+        match n:
+            case ast.Constant(value=int(value)):
+                return None if isinstance(value, bool) else value
+            case ast.Name() if n.id in self.source.stored:
+                return self.known.get(n.id)
+            case ast.Name():
+                constant = self.source.stands_for(n.id)
+                whole = isinstance(constant, int | np.integer) and not isinstance(constant, bool)
+                return int(constant) if whole else None
+            case ast.UnaryOp(op=ast.USub()):
+                inner = self.size(n.operand)
+                return -inner if isinstance(inner, int) else None
+            case ast.BinOp():
+                return self._sum(n)
+            case ast.Attribute(attr="ndim"):
+                t = self._type(n.value)
+                return len(t.shape) if isinstance(t, Array) else None
+            case ast.Subscript(value=ast.Attribute(attr="shape", value=array)):
+                index = self.size(n.slice)
+                return self.length(array, index) if isinstance(index, int) else None
+            case ast.Call(func=ast.Name(id="len"), args=[array]):
+                return self.length(array, 0)
+        return None
+
+    def _sum(self, n: ast.BinOp) -> Length:
+        a, b = self.size(n.left), self.size(n.right)
+        if a is None or b is None or type(n.op) not in SUMS:
+            return None
+        sign, exact = SUMS[type(n.op)]
+        if isinstance(a, int) and isinstance(b, int):
+            return exact(a, b)
+        return None if sign == "//" else f"({a} {sign} {b})"
+
+    def _type(self, n: ast.expr) -> Type | None:
+        if isinstance(n, ast.Name):
+            found = self.values.get(n.id)
+            return found.type if found else type_of_value(self.source.stands_for(n.id))
+        return self.base(n).type if isinstance(n, ast.Subscript) else None
+
+    def base(self, n: ast.expr) -> Value:
+        """An expression whose first length does not matter."""
+        raise NotImplementedError
+
+    def length(self, n: ast.expr, index: int) -> Length:
+        """A length of a named array or tuple; that of a parameter is asked for."""
+        if index == 0 and isinstance(n, ast.Name):
+            self.instance.asked.add(n.id)
+        t = self._type(n)
+        if isinstance(t, Tuple):
+            return len(t.items)
+        return t.shape[index] if isinstance(t, Array) and 0 <= index < len(t.shape) else None
+
+    def decided(self, test: ast.expr) -> bool | None:
+        """What a comparison of whole numbers says that are known before the kernel runs."""
+        if isinstance(test, ast.Compare) and len(test.ops) == 1:
+            a, b = self.size(test.left), self.size(test.comparators[0])
+            if isinstance(a, int) and isinstance(b, int) and type(test.ops[0]) in DECIDE:
+                return DECIDE[type(test.ops[0])](a, b)
+        return None
+
+    def literal(self, n: ast.expr, value: object) -> Value:
+        """A number that is written out."""
+        if isinstance(value, bool):
+            return Value("bool", number(value))
+        if isinstance(value, int):
+            if not -(2**31) < value < 2**31:
+                self.refuse(n, "a whole number beyond 32 bits", "a float")
+            return Value("int", number(value))
+        if isinstance(value, float):
+            return Value("float", number(value), PREFIX if number(value)[0] == "-" else ATOM)
+        self.refuse(n, "a value that is no number", "numbers only")
