@@ -25,7 +25,11 @@ class Assignments(Calls):
         self.hoisted: dict[str, str] = {}
         """Names that are declared before the block that gives them a value, by their line."""
         times = Counter(stored(self.source.body))
-        counters = {n.target.id for n in every(self.source.body) if isinstance(n, ast.For) and isinstance(n.target, ast.Name)}
+        counters = {
+            n.target.id
+            for n in every(self.source.body)
+            if isinstance(n, ast.For) and isinstance(n.target, ast.Name)
+        }
         kept = {x for x in times if times[x] == 1} - set(self.source.parameters)
         self.once = kept - counters
         self.changing = {self.name(x) for x in set(times) - kept - counters}
@@ -46,9 +50,7 @@ class Assignments(Calls):
         for target, n, value in late:
             self._store(s, target, n, value)
 
-    def _pairs(
-        self, target: ast.expr, n: ast.expr
-    ) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
+    def _pairs(self, target: ast.expr, n: ast.expr) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
         """The single assignments that one of tuples is made of."""
         starred = isinstance(n, ast.Tuple) and any(isinstance(x, ast.Starred) for x in n.elts)
         if isinstance(target, ast.Tuple) and isinstance(n, ast.Tuple) and not starred:
@@ -189,7 +191,9 @@ class Assignments(Calls):
                 left, right = (self._element(target, x, t, e) for x in (n.left, n.right))
                 return ast.copy_location(ast.BinOp(left, n.op, right), n)
             case ast.UnaryOp():
-                return ast.copy_location(ast.UnaryOp(n.op, self._element(target, n.operand, t, e)), n)
+                return ast.copy_location(
+                    ast.UnaryOp(n.op, self._element(target, n.operand, t, e)), n
+                )
         given = self.base(n).type
         if isinstance(given, Array):
             if len(given.shape) != len(t.shape):

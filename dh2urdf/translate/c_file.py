@@ -4,6 +4,7 @@ import ast
 import inspect
 import re
 import sys
+from collections import Counter
 from collections.abc import Callable
 from functools import cache
 from types import ModuleType
@@ -74,10 +75,9 @@ class CFile:
             body = Body(self, made)
             made.body = body.body()
             self._open.remove(source)
-            pairs = zip(source.parameters, given, strict=True)
-            loose = {p: t.first() for p, t in pairs if _is_loose(t) and p not in made.asked}
-            pairs = zip(source.parameters, given, strict=True)
-            made.arguments = tuple(loose.get(p, t) for p, t in pairs)
+            loose = {p: _loose(t) for p, t in zip(source.parameters, given, strict=True)}
+            loose.update((p, body.values[p].type) for p in made.asked & set(loose))
+            made.arguments = tuple(loose.values())
             kinds = {body.values[p].text: t for p, t in loose.items()}
             made.parameters = [(c, kinds.get(c, t)) for c, t in made.parameters]
             self._instances[source, given] = self._kept(made)
@@ -86,7 +86,9 @@ class CFile:
     def _kept(self, made: Instance) -> Instance:
         key = made.source, made.arguments
         if key not in self._instances:
-            made.name = self._unique(made.source.name.lstrip("_"), made.source.module.__name__, made)
+            made.name = self._unique(
+                made.source.name.lstrip("_"), made.source.module.__name__, made
+            )
             self.order.append(made)
             self._instances[key] = made
         return self._instances[key]
@@ -104,11 +106,14 @@ class CFile:
         """A function with its docstring; what has no loop may become a part of its callers."""
         head = f"{instance.name}({', '.join(self.parameters(instance)) or 'void'})"
         head = self.declaration(instance.returned, head)
+        named = Counter(re.findall(r"\w+", head + instance.body))
+        given = [*instance.lengths(), *(c for c, _ in instance.parameters)]
+        unused = [f"    (void){c};" for c in given if named[c] == 1]
         if not (self.exported and instance in self.entries):
             loops = any(isinstance(s, ast.For | ast.While) for s in every(instance.source.body))
             head = f"static {'' if loops else 'inline '}{head}"
         doc = comment(instance.source.doc) if instance.source.doc else []
-        return "\n".join([*doc, *folded(head), "{", instance.body, "}"])
+        return "\n".join([*doc, *folded(head), "{", *unused, instance.body, "}"])
 
     def types(self) -> list[str]:
         """Structs of records and tuples."""
@@ -199,8 +204,9 @@ class CFile:
         return self._structs[t][0]
 
 
-def _is_loose(t: Type) -> bool:
-    return isinstance(t, Array) and not isinstance(t.element, Record)
+def _loose(t: Type) -> Type:
+    """A type without the first length, of which a kernel may not ask."""
+    return t.first() if isinstance(t, Array) and isinstance(t.element, str) else t
 
 
 def _constant(name: str, value: object) -> str:

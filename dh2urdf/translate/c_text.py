@@ -11,17 +11,19 @@ from dh2urdf.translate.types import ELEMENTS
 
 WIDTH = 100
 
-RESERVED = set("""
+_RESERVED = """
 auto bool case char const default do double enum extern false far float goto inline int long near
 register restrict short signed sizeof static struct switch true typedef union unsigned void volatile
-""".split())
+"""
+RESERVED = {*re.findall(r"\w+", _RESERVED)}
 
-LIBRARY = set("""
+_LIBRARY = """
 abs acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
 fdim floor fma fmax fmin fmod free frexp gamma hypot index isfinite isinf isnan j0 j1 jn ldexp
 lgamma log log10 log1p log2 logb lrint lround memcpy memset modf nan nearbyint pow remainder rint
-round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc y0 y1 yn
-""".split())
+round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc write y0 y1 yn
+"""
+LIBRARY = {*re.findall(r"\w+", _LIBRARY)}
 """Functions of C whose names no function of a file has."""
 
 NUMBER = {"float": "double", "int": "int", "bool": "bool"}
@@ -66,7 +68,9 @@ def comment(text: str) -> list[str]:
 def folded(text: str, indent: int = 0) -> list[str]:
     """A statement in lines that are not too long, broken where the fewest brackets are open."""
     pad, out = " " * indent, list[str]()
-    while len(pad) + len(text) > WIDTH and not text.startswith("/*"):
+    if text.startswith("/*"):
+        return textwrap.wrap(text, WIDTH, initial_indent=pad, subsequent_indent=pad + " * ")
+    while len(pad) + len(text) > WIDTH:
         depth, places = 0, list[tuple[int, int]]()
         for i, letter in enumerate(text[: WIDTH - len(pad) + 1]):
             depth += (letter in "([{") - (letter in ")]}")
@@ -83,14 +87,9 @@ def folded(text: str, indent: int = 0) -> list[str]:
 def table(name: str, values: NDArray[np.generic]) -> str:
     """A constant array."""
     sizes = "".join(f"[{d}]" for d in values.shape)
-    return f"static const {ELEMENT[ELEMENTS[values.dtype.kind]]} {name}{sizes} = {_rows(values)};"
+    head = f"static const {ELEMENT[ELEMENTS[values.dtype.kind]]} {name}{sizes}"
+    return "\n".join(folded(f"{head} = {_rows(values)};"))
 
 
-def _rows(a: NDArray[np.generic], indent: int = 0) -> str:
-    if a.ndim == 1:
-        text = "{" + ", ".join(number(x) for x in a) + "}"
-        inner = " " * (indent + 4)
-        return "\n".join(textwrap.wrap(text, WIDTH - 8, subsequent_indent=inner))
-    pad = " " * (indent + 4)
-    inside = ",\n".join(pad + _rows(x, indent + 4) for x in a)
-    return "{\n" + inside + "\n" + " " * indent + "}"
+def _rows(a: NDArray[np.generic]) -> str:
+    return "{" + ", ".join(_rows(x) if a.ndim > 1 else number(x) for x in a) + "}"

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
-from dh2urdf.translate.types import Array, Tuple, Type, told, wider
+from dh2urdf.translate.types import Array, Tuple, wider
 from dh2urdf.translate.values import POSTFIX, PREFIX, Instance, Value, sized
 
 LIBRARY = {
@@ -13,6 +13,7 @@ LIBRARY = {
     "math.copysign": ("copysign", 2),
     "math.floor": ("floor", 1),
     "math.ceil": ("ceil", 1),
+    "math.fmod": ("fmod", 2),
     "np.floor": ("floor", 1),
     "np.ceil": ("ceil", 1),
     "np.rint": ("rint", 1),
@@ -76,7 +77,10 @@ class Calls(Expressions):
         given = self.spread(n.args)
         if len(given) != len(callee.parameters):
             self.refuse(n, f"{len(given)} arguments", f"{len(callee.parameters)}")
-        handed = [self.stored(value, f"array_{name}") for name, (_, value) in zip(callee.parameters, given)]
+        handed = [
+            self.stored(value, f"array_{name}")
+            for name, (_, value) in zip(callee.parameters, given, strict=True)
+        ]
         instance = self.file.instance(callee, tuple(value.type for value in handed))
         for p, (name, _) in zip(callee.parameters, given, strict=True):
             if p in instance.asked:

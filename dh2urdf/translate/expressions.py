@@ -159,7 +159,7 @@ class Expressions(Names):
         value = self.number(n.operand)
         if value.type == "bool":
             self.refuse(n, "a sign before true or false", "not")
-        sign = {ast.USub: "-", ast.Invert: "~", ast.UAdd: "+"}[type(n.op)]  # type: ignore[index]
+        sign = "-" if isinstance(n.op, ast.USub) else "~" if isinstance(n.op, ast.Invert) else "+"
         return replace(value, text=sign + value.at(POSTFIX), binds=PREFIX)
 
     def _binary(self, n: ast.AST, op: ast.operator, left: Value, right: Value) -> Value:
@@ -184,8 +184,11 @@ class Expressions(Names):
 
     def _compare(self, n: ast.Compare) -> Value:
         terms = [self.number(n.left), *(self.number(x) for x in n.comparators)]
-        for x, term in zip(n.comparators[:-1], terms[1:-1], strict=True):
-            if any(isinstance(y, ast.Call) for y in ast.walk(x)) and "(" in term.text:
+        for x in n.comparators[:-1]:
+            if any(
+                isinstance(y, ast.Call) and self.source.kernel(ast.unparse(y.func))
+                for y in ast.walk(x)
+            ):
                 self.refuse(x, "a call that would be made twice", "an assignment before")
         signs = [COMPARE[type(op)] for op in n.ops]
         tests = [
@@ -255,7 +258,7 @@ class Expressions(Names):
             self.refuse(n, "a slice before the last index", "a loop")
         value, k = self.value(n), self.size(n)
         if value.type not in ("int", "bool"):
-            self.refuse(n, "an index that is no whole number", "int(math.floor(x))")
+            self.refuse(n, "an index that is no whole number", "int(x)")
         if isinstance(k, int) and not 0 <= k < (length if isinstance(length, int) else k + 1):
             self.refuse(n, "an index outside the array", "one from 0 to its length less 1")
         return value.text
@@ -267,7 +270,7 @@ class Expressions(Names):
             self.refuse(n, "a slice with a step", "a loop")
         ends = [x for x in (s.lower, s.upper) if x is not None]
         if any(self.number(x).type != "int" for x in ends):
-            self.refuse(n, "a slice by what is no whole number", "int(math.floor(x))")
+            self.refuse(n, "a slice by what is no whole number", "int(x)")
         low = 0 if s.lower is None else self.size(s.lower)
         high = t.shape[0] if s.upper is None else self.size(s.upper)
         if any(isinstance(x, int) and x < 0 for x in (low, high)):
@@ -294,5 +297,3 @@ def _fields(value: Value) -> tuple[Value, ...]:
     assert isinstance(value.type, Tuple)
     items = enumerate(value.type.items)
     return tuple(Value(t, f"{value.at(POSTFIX)}.f{k}", POSTFIX) for k, t in items)
-
-

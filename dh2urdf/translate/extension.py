@@ -6,8 +6,9 @@ extension is imported: the best that the processor has, or the one that ``DH2URD
 """
 
 from dh2urdf.translate.c_file import INCLUDES, CFile
-from dh2urdf.translate.values import Instance
+from dh2urdf.translate.c_text import folded
 from dh2urdf.translate.types import Array, Record, Tuple, Type
+from dh2urdf.translate.values import Instance
 
 LEVELS = {
     "v4": ("x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),
@@ -77,9 +78,8 @@ class Extension:
         """The kernels, and their entries in the table of a level."""
         names = ", ".join(e.name for e in self.entries)
         lines = ['#include "kernels.h"', *self.file.definitions()]
-        return (
-            "\n".join(lines) + f"{self.bodies}{LEAVE}\nconst Entries TABLE = {{leave, {names}}};\n"
-        )
+        table = "\n".join(folded(f"const Entries TABLE = {{leave, {names}}};"))
+        return "\n".join(lines) + f"{self.bodies}{LEAVE}\n{table}\n"
 
     def header(self) -> str:
         """Types that both files share."""
@@ -229,7 +229,7 @@ def _public(e: Instance) -> str:
     return f"{e.source.module.__name__}.{e.source.name}".replace(".", "__")
 
 
-def _answer(t: Type, name: str) -> str:
+def _answer(t: Type | None, name: str) -> str:
     """A value for Python."""
     if t is None:
         return "Py_NewRef(Py_None)"

@@ -1,12 +1,10 @@
 """Statements as C, assignments apart."""
 
 import ast
-import re
-from collections import Counter
 from typing import TYPE_CHECKING
 
 from dh2urdf.translate.assignments import Assignments
-from dh2urdf.translate.c_text import comment, folded
+from dh2urdf.translate.c_text import folded
 from dh2urdf.translate.source import every, loaded, stored
 from dh2urdf.translate.types import Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import COMPARISON, Instance, Value
@@ -53,9 +51,6 @@ class Body(Assignments):
         if self.instance.returned is not None and not ended:
             self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
         lines = [(depth, self._declared(text)) for depth, text in self.lines]
-        words = set(re.findall(r"\w+", " ".join(text for _, text in lines if text[:2] != "/*")))
-        unused = [name for name, _ in self.instance.parameters if name not in words]
-        lines[:0] = [(1, f"(void){name};") for name in unused]
         return "\n".join(x for depth, text in lines if text for x in folded(text, 4 * depth))
 
     def _declared(self, line: str) -> str:
@@ -112,9 +107,9 @@ class Body(Assignments):
                 self.said.add(line)
                 self.out(f"/* {text} */")
         for name in self.scopes.before.get(id(s), []):
-            line = f"{name} is declared"
-            self.hoisted[line] = name
-            self.out(line)
+            declared = f"{name} is declared"
+            self.hoisted[declared] = name
+            self.out(declared)
 
     def _if(self, s: ast.If) -> bool:
         taken = self.decided(s.test)

@@ -1,8 +1,8 @@
-"""What an expression is in C: its text with its type, and the names and lengths that it rests on."""
+"""What an expression is in C, and the names and lengths that it rests on."""
 
 import ast
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NoReturn
 

@@ -20,6 +20,7 @@ from dh2urdf.kernels.certificate.certify import (
     move,
     principal,
     same,
+    turn_inside,
 )
 from dh2urdf.kernels.certificate.damped import (
     POSE,
@@ -30,11 +31,11 @@ from dh2urdf.kernels.certificate.damped import (
     solve_damped,
 )
 from dh2urdf.kernels.certificate.finish import (
-    ALL_MEMBERS,
     finish_batch,
     finish_families,
     invert_pose,
     invert_poses,
+    merge_families,
     reverse_joints,
     turn_back,
 )

@@ -27,9 +27,6 @@ from dh2urdf.kernels.certificate.singular_families import free_joints, one_of_ea
 from dh2urdf.kernels.chain import inverse_pose, store_pose
 from dh2urdf.kernels.numbers import Codes, Counts, Joints, Links, Poses, Solutions, Values, entry
 
-ALL_MEMBERS = np.empty(0)
-"""In the place of rest values: all members of a family stay."""
-
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
 
@@ -96,18 +93,23 @@ def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch,
     return kept
 
 
-def finish_families(links, joints, T, rest, within_limits, rows, count, trial, work):
+def merge_families(links, joints, T, rows, count, trial, work):
     """Solutions of :func:`.certify.finish_pose` without limits, merged, with their free joints.
 
-    ``rows`` are q, residual, branch, free. Of each family the member at the rest values (n,) stays.
-    ``trial`` (2, n) is scratch.
+    ``rows`` are q, residual, branch, free. ``trial`` (2, n) is scratch.
     """
     q, residual, branch, free = rows
     count = merge_solutions(links, joints, T, q, residual, branch, free, count, trial, work)
     for k in range(count):
         free[k] = free_joints(links, joints, T, q[k], trial[0], work)
-    if rest.shape[0] > 0:
-        count = one_of_each_family(joints, rest, q, residual, branch, free, count)
+    return count
+
+
+def finish_families(links, joints, T, rest, within_limits, rows, count, trial, work):
+    """The same of each family's member at the rest values (n,), brought into the limits."""
+    q, residual, branch, free = rows
+    count = merge_families(links, joints, T, rows, count, trial, work)
+    count = one_of_each_family(joints, rest, q, residual, branch, free, count)
     if within_limits:
         count = turn_inside(links, joints, T, within_limits, q, residual, branch, free, count)
     return count
@@ -136,9 +138,9 @@ def finish_batch(
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         rows = q[i], residual[i], branch[i], free[i]
         found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, count[i], work)
-        count[i] = finish_families(
-            links, joints, Ts[i], ALL_MEMBERS, within_limits, rows, found, trial, work
-        )
+        count[i] = merge_families(links, joints, Ts[i], rows, found, trial, work)
+        if within_limits:
+            count[i] = turn_inside(links, joints, Ts[i], within_limits, *rows, count[i])
 
 
 def invert_pose(T, out):

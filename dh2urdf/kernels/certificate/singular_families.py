@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
 from dh2urdf.kernels.certificate.newton import (
     damped_step,

@@ -17,11 +17,11 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate import (
-    ALL_MEMBERS,
     ANYWHERE,
     copy_rows,
-    finish_families,
     finish_pose,
+    merge_families,
+    turn_inside,
     work_array,
 )
 from dh2urdf.kernels.chain import applied, applied_inverse
@@ -268,7 +268,7 @@ def solve_short_positions(
         for k in range(found):
             many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
         found = finish_pose(links, joints, p, ANYWHERE, *many, found, work)
-        found = finish_families(
-            links, joints, p, ALL_MEMBERS, within_limits, many, found, trial, work
-        )
+        found = merge_families(links, joints, p, many, found, trial, work)
+        if within_limits:
+            found = turn_inside(links, joints, p, within_limits, *many, found)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))
