@@ -19,15 +19,7 @@ from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, engine, entries
 from dh2urdf.translate.extension import LEVELS, Extension
 
-FLAGS = [
-    "-std=c99",
-    "-O3",
-    "-ffp-contract=off",
-    "-fno-math-errno",
-    "-fno-trapping-math",
-    "-fPIC",
-    "-w",
-]
+FLAGS = ["-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC"]
 """Contraction and whatever else reorders arithmetic stays off: all machines get the same bits."""
 
 NAME = "_kernels"
