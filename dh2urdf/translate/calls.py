@@ -78,7 +78,7 @@ class Calls(Expressions):
         if len(given) != len(callee.parameters):
             self.refuse(n, f"{len(given)} arguments", f"{len(callee.parameters)}")
         handed = [
-            self.stored(value, f"array_{name}")
+            self.stored(value, self.fresh(f"array_{name}") if value.maker else name)
             for name, (_, value) in zip(callee.parameters, given, strict=True)
         ]
         instance = self.file.instance(callee, tuple(value.type for value in handed))
@@ -95,7 +95,7 @@ class Calls(Expressions):
     def stored(self, value: Value, name: str) -> Value:
         """A value whose arrays have names."""
         if value.maker:
-            return self.storage(value, self.fresh(name))
+            return self.storage(value, name)
         if value.parts:
             parts = (self.stored(part, f"{name}_{k}") for k, part in enumerate(value.parts))
             return replace(value, parts=tuple(parts))

@@ -8,10 +8,9 @@ import textwrap
 import tokenize
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, cached_property
+from importlib import import_module
 from types import ModuleType
 from typing import Any, NoReturn
-
-from dh2urdf.kernels.numbers.engine import INTERPRETED
 
 REFUSED: dict[type[ast.AST], str] = {
     ast.ListComp: "a loop",
@@ -48,6 +47,8 @@ REFUSED: dict[type[ast.AST], str] = {
     ast.keyword: "a positional argument",
 }
 """Syntax outside the subset, and what to write instead."""
+
+ENGINE = "dh2urdf.kernels.numbers.engine"
 
 MAKERS = ("np.empty", "np.zeros")
 
@@ -119,7 +120,8 @@ class Source:
     def kernel(self, name: str) -> "Source | None":
         """The kernel that a name of the module stands for."""
         value = self.stands_for(name)
-        value = INTERPRETED.get(getattr(value, "__name__", ""), value)
+        name = getattr(value, "__name__", "").replace("__", ".")  # of a compiled entry
+        value = import_module(ENGINE).INTERPRETED.get(name, value)
         own = self.module.__name__.partition(".")[0]
         inside = getattr(value, "__module__", "").partition(".")[0] == own
         return source_of(value) if inside and hasattr(value, "__code__") else None
