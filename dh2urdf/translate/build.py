@@ -20,7 +20,11 @@ from dh2urdf.translate.entries import argument_types, engine, entries
 from dh2urdf.translate.extension import LEVELS, Extension
 
 FLAGS = ["-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC"]
-"""Contraction and whatever else reorders arithmetic stays off: all machines get the same bits."""
+FLAGS += ["-fno-tree-slp-vectorize"]
+"""Contraction and whatever else reorders arithmetic stays off: all machines get the same bits.
+
+GCC 12 fuses products with sums all the same (``vfmaddsub``) where it vectorizes straight lines.
+"""
 
 NAME = "_kernels"
 
