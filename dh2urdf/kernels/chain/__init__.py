@@ -26,4 +26,3 @@ from dh2urdf.kernels.chain.held_joint import (
     insert_held_batch,
     inverse_pose,
 )
-from dh2urdf.kernels.chain.lanes import LARGEST, cosine_sine

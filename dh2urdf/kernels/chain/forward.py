@@ -4,12 +4,11 @@ The chain is ``T = links[0] Z_1(q_1) links[1] ... Z_n(q_n) links[n]`` with ``Z_i
 or ``Trans_z(q_i)`` where ``prismatic[i]``.
 """
 
-import math
 from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, fits, lanes_fk
+from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, lanes_fk
 from dh2urdf.kernels.numbers import Flags, Floats, Links, Poses, entry, few_turns, sincos
 
 
@@ -110,22 +109,11 @@ def chain_fk_batch(
 ):
     """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4).
 
-    Whole blocks go side by side; the rest, and angles of a thousand turns, one by one. Returns
-    whether all x of the tip are finite: every joint value is in them, if only times zero.
+    Returns whether all x of the tip are finite: every joint value is in them, if only times zero.
     """
-    m, finite = q.shape[0], True
-    x, S = np.empty(BLOCK), np.empty(ROWS * BLOCK)
+    m, finite, S = q.shape[0], True, np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
-        last = min(first + BLOCK, m)
-        if last - first == BLOCK and fits(q[first:last]):
-            lanes_fk(links, prismatic, q[first:last], T[first:last], x, S)
-        else:
-            for k in range(first, last):
-                r = load_pose(links[0])
-                for i in range(q.shape[1]):
-                    r = joint_times_link(r, prismatic[i], q[k, i], links[i + 1])
-                store_pose(r, T[k])
-                finite &= math.isfinite(T[k, 0, 3])
+        finite &= lanes_fk(links, prismatic, q, first, min(BLOCK, m - first), T, S)
     return finite
 
 

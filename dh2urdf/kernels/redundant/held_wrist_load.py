@@ -12,7 +12,6 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
-from dh2urdf.kernels.chain import LARGEST, cosine_sine
 from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
@@ -75,15 +74,10 @@ def _held_joint(slides, values, first, n, S):
         for i in side_by_side(n):
             S[BLOCK * HELD_SLIDE + i] = values[first + i]
         return
-    far = 0.0
+    for i in range(n):
+        S[BLOCK * HELD_COS + i] = few_turns(values[first + i])
     for i in side_by_side(n):
-        value = values[first + i]
-        S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine_sine(value)
-        far += 0.0 if abs(value) <= LARGEST else 1.0
-    if far > 0.0:
-        for i in side_by_side(n):
-            sine, cosine = sincos(few_turns(values[first + i]))
-            S[BLOCK * HELD_COS + i], S[BLOCK * HELD_SIN + i] = cosine, sine
+        S[BLOCK * HELD_SIN + i], S[BLOCK * HELD_COS + i] = sincos(S[BLOCK * HELD_COS + i])
 
 
 def _links_and_levers(frames, n, S):
