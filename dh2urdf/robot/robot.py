@@ -27,6 +27,7 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
 from dh2urdf.exceptions import ConfigurationError, UrdfError, VerificationError
+from dh2urdf.kernels.chain import chain_fk_batch, chain_frames_batch, chain_jacobian_batch
 from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.inverse import RobotIK
 from dh2urdf.robot.pictures import RobotPictures
@@ -180,8 +181,6 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             T_base_tip: Array = oMt.homogeneous
             if isfinite(T_base_tip.item(3)):  # NaN if any joint value is
                 return T_base_tip
-        from dh2urdf.kernels.chain import chain_fk_batch
-
         flat, shape = self._flat(config, finite=False)
         T = np.empty((len(flat), 4, 4))
         if not chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T):
@@ -201,8 +200,6 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             For a robot made from a URDF: entry 0 is the base itself, entry i the frame of
             joint i as Pinocchio places it, after its motion.
         """
-        from dh2urdf.kernels.chain import chain_frames_batch
-
         flat, shape = self._flat(q)
         T = np.empty((len(flat), self.chain.n + 1, 4, 4))
         chain_frames_batch(self.chain.links, self.chain.prismatic, self._carried, flat, T)
@@ -227,8 +224,6 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             J: Array = _frame_jacobian(self.model, data, config, self._tip, _ALIGNED)
             if isfinite(J.item(self._turning)):  # as above: the tip's place is in it
                 return J if J.ndim == 2 else J.reshape(6, 1)
-        from dh2urdf.kernels.chain import chain_jacobian_batch
-
         flat, shape = self._flat(config)
         out = np.empty((len(flat), 6, self.chain.n))
         chain_jacobian_batch(self.chain.links, self.chain.prismatic, flat, out)

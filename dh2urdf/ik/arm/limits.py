@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.tolerances import LIMIT_SLACK
+from dh2urdf.kernels.certificate import turn_to
 from dh2urdf.transforms import Array
 
 TWO_PI = 2.0 * math.pi
@@ -48,8 +49,6 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
     nearest one is kept. The reference (..., n) is broadcast to the same shape.
     """
-    from dh2urdf.kernels.certificate import turn_to
-
     shape = np.broadcast_shapes(q.shape, reference.shape)
     out = np.array(np.broadcast_to(q, shape), order="C")
     goal = np.ascontiguousarray(np.broadcast_to(reference, shape))

@@ -15,6 +15,7 @@ from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.task import Task, task_error
 from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
+from dh2urdf.kernels.redundant import nearest_members, walk_family
 from dh2urdf.transforms import Array
 
 SAME = 1e-6
@@ -74,16 +75,12 @@ class Family:
 
     def _slide(self, members: Array, seed: Array, within_limits: bool) -> Array:
         """Move members (k, f) along the family to where they are nearest to the seed (n,)."""
-        from dh2urdf.kernels.redundant import nearest_members
-
         out = np.ascontiguousarray(members)
         nearest_members(*self._constants, within_limits, out, seed[self.free], np.empty(len(out)))
         return out
 
     def _inside_members(self, start: Array, seed: Array) -> Array:
         """Members (k, f) inside the limits that are nearest to the seed, found by a walk."""
-        from dh2urdf.kernels.redundant import walk_family
-
         walk = np.empty((2, MOST_STEPS, len(self.free)))
         counts = np.empty(2, np.int64)
         walk_family(*self._constants, FAMILY_STEP, start[self.free], walk, counts)

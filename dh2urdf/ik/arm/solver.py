@@ -162,8 +162,8 @@ class SolverBase:
     if_spare: ClassVar[str] = "some joints can move while the tool stays"
     """Why joints to spare are in the way; empty where they are not."""
     kmax: int = 0
-    where: ClassVar[str]
-    """Module and name of the kernel, where there is one."""
+    kernel: BatchKernel
+    """The kernel that solves poses, where there is one."""
     __getstate__ = settled_state
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
@@ -191,12 +191,6 @@ class SolverBase:
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
         self.kernel(*self.constants, Ts, within_limits, *out)
-
-    @cached_property
-    def kernel(self) -> BatchKernel:
-        """The kernel that solves poses, imported when it is first needed."""
-        kernel: BatchKernel = imported(self.where)
-        return kernel
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:

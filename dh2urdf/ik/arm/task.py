@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.tolerances import NO_RANK, SPARE_RANK, WEAK_RANK
+from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 from dh2urdf.transforms import Array
 
 TRIALS = 4
@@ -54,8 +55,6 @@ def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
 
     For ``position+axis`` the turn about the tool's own z is taken out.
     """
-    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
-
     q = np.ascontiguousarray(q)
     J = np.empty((len(q), 6, chain.n))
     chain_jacobian_batch(chain.links, chain.prismatic, q, J)

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
+from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.kernels.general_6r import ARM_6R, MOST, solve_general_6r
 from dh2urdf.transforms import Array
 
 Arm: TypeAlias = NDArray[np.void]
@@ -52,9 +54,6 @@ class General6R(SolverBase):
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
-        from dh2urdf.kernels.certificate import finish_batch
-        from dh2urdf.kernels.general_6r import solve_general_6r
-
         self._kernel, self._finish = solve_general_6r, finish_batch
         self._idle: list[Arm] = []
 
@@ -152,8 +151,6 @@ def _random_poses(links: Array) -> Array:
 
 def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
     """The eliminations to keep, best first: by solutions found, then by precision."""
-    from dh2urdf.kernels.general_6r import MOST, solve_general_6r
-
     eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
     outputs = np.empty((1, 16, 6)), np.empty((1, 16)), np.zeros(1, np.int64)
     found, digits = np.zeros(12), np.zeros(12)
@@ -170,8 +167,6 @@ def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
 
 def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
     """Prepare some eliminations."""
-    from dh2urdf.kernels.general_6r import solve_general_6r
-
     arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
     arm["ready"] = 0
     solve_general_6r(
@@ -194,8 +189,6 @@ def plan_general_6r(links: Array) -> Arm:
 
     ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
     """
-    from dh2urdf.kernels.general_6r import ARM_6R
-
     arm = np.zeros(1, ARM_6R)
     _place(arm, links)
     _choose(arm, _rank(arm, _random_poses(links)))

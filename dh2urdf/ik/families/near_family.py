@@ -23,6 +23,13 @@ from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
+from dh2urdf.kernels.certificate import finish_batch, invert_poses
+from dh2urdf.kernels.nearly import (
+    add_candidates,
+    search_beside,
+    solve_near_parallel,
+    solve_near_wrist,
+)
 from dh2urdf.transforms import Array
 
 WIDTH = 48
@@ -75,9 +82,6 @@ class NearFamily(SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
-        from dh2urdf.kernels.certificate import finish_batch, invert_poses
-        from dh2urdf.kernels.nearly import solve_near_parallel, solve_near_wrist
-
         wrist = isinstance(self.nominal, SphericalWrist)
         links, joints = self.nominal.links, self.nominal.joints
         poses = Ts
@@ -98,9 +102,6 @@ class NearFamily(SolverBase):
 
     def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
         """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
-        from dh2urdf.kernels.certificate import finish_batch
-        from dh2urdf.kernels.nearly import add_candidates, search_beside
-
         wide = Outputs.of(len(rows), WIDTH, 6)
         if len(rows):
             found = Outputs.of(len(rows), self.kmax, 6)

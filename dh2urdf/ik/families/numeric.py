@@ -17,6 +17,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, generator, integer
 from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.arm import Task, as_configuration, in_own_unit, lengths_in, one_pose
+from dh2urdf.kernels.certificate import find_solutions, measure_all
 from dh2urdf.transforms import Array
 
 USUAL_STARTS = 50
@@ -107,8 +108,6 @@ class NumericProblem:
         nearest: bool = False,
     ) -> NumericSolutions:
         """Search for solutions of one pose; :meth:`dh2urdf.Robot.ik_numeric` says what is what."""
-        from dh2urdf.kernels.certificate import measure_all
-
         wanted = Task(choice(task, "task", tuple(Task)))
         given, change = one_pose(T, wanted, nearest)
         starts = integer(starts, "starts", 1, STARTS)
@@ -143,8 +142,6 @@ class NumericProblem:
         self, T: Array, task: Task, bounds: Array, starts: Array, most: int
     ) -> tuple[Array, int]:
         """Configurations (k, n) that reach a pose, and the number of starts (s, n) that it took."""
-        from dh2urdf.kernels.certificate import find_solutions
-
         coupling, offset = (
             np.ascontiguousarray(a, dtype=float) for a in (self.coupling, self.offset)
         )

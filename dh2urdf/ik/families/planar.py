@@ -16,6 +16,7 @@ from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
 from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
+from dh2urdf.kernels.short_chains import planar_rr, solve_planar
 from dh2urdf.transforms import Array, check_pose, inverse
 
 RIM = 1e-12
@@ -54,8 +55,6 @@ def planar_rr_ik(l1: float, l2: float, x: float, y: float) -> Array:
     array([[ 1.5708, -1.5708],
            [ 0.    ,  1.5708]])
     """
-    from dh2urdf.kernels.short_chains import planar_rr
-
     out = np.empty((2, 2))
     first, second, u, v = _numbers(l1=l1, l2=l2, x=x, y=y)
     count, _ = planar_rr(first, second, u, v, RIM, 0.0, out)
@@ -108,7 +107,7 @@ class PlanarArm(SolverBase):
     name = "planar arm"
     needs = "two or three revolute joints with parallel axes"
     kmax = 2
-    where = "dh2urdf.kernels.short_chains:solve_planar"
+    kernel = staticmethod(solve_planar)
     branch_words = (None, ("elbow up", "elbow down"))
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:

@@ -12,6 +12,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import NOMINAL, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
+from dh2urdf.kernels.certificate import invert_poses, turn_back
 from dh2urdf.transforms import Array
 
 
@@ -39,8 +40,6 @@ class ReversedSolver(SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the inverse poses, and turn the solutions back."""
-        from dh2urdf.kernels.certificate import invert_poses, turn_back
-
         inverse_poses = np.empty_like(Ts)
         invert_poses(Ts, inverse_poses)
         self.inner.solve_batch(inverse_poses, False, out)

@@ -11,6 +11,14 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task
+from dh2urdf.kernels.numbers import dual_of_pose
+from dh2urdf.kernels.short_chains import (
+    close_loop,
+    loop_columns,
+    loop_matrix,
+    solve_short_chains,
+    solve_three_slides,
+)
 from dh2urdf.transforms import Array, inverse
 
 MOST_JOINTS = 5
@@ -42,7 +50,7 @@ class ShortChain(SolverBase):
     name = "short chain"
     needs = "one to five joints of any kind, each of which moves the tool"
     kmax = 8
-    where = "dh2urdf.kernels.short_chains:solve_short_chains"
+    kernel = staticmethod(solve_short_chains)
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
@@ -58,8 +66,6 @@ class ShortChain(SolverBase):
     @cached_property
     def loop(self) -> Array:
         """Dual quaternions of the links between joints, and a row for the closing one, (n, 8)."""
-        from dh2urdf.kernels.numbers import dual_of_pose
-
         loop = np.zeros((self.chain.n, 8))
         for row, link in zip(loop[:-1], self.links[1:-1], strict=True):
             dual_of_pose(link, self.unit, row)
@@ -102,8 +108,6 @@ class ShortChain(SolverBase):
         Whether the determinant vanishes for every x, the dimension of the null space at a
         solution, and minus the smallest singular value that does not vanish.
         """
-        from dh2urdf.kernels.short_chains import close_loop, loop_columns, loop_matrix
-
         rng = np.random.default_rng(1)
         loop, columns = self.loop.copy(), np.empty((12, 8))
         M, pose = np.empty((8, 8)), np.empty((4, 4))
@@ -151,7 +155,7 @@ class ThreeSlides(SolverBase):
     name = "three slides"
     needs = "three sliding joints and two or three turning ones"
     kmax = 2
-    where = "dh2urdf.kernels.short_chains:solve_three_slides"
+    kernel = staticmethod(solve_three_slides)
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)

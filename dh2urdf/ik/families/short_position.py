@@ -6,6 +6,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along
+from dh2urdf.kernels.short_chains import solve_short_positions
 from dh2urdf.transforms import Array, inverse
 
 MOST_JOINTS = 3
@@ -19,7 +20,7 @@ class ShortPosition(SolverBase):
     solves = Task.POSITION
     if_spare = "some joints can move while the tool's origin stays"
     kmax = 4
-    where = "dh2urdf.kernels.short_chains:solve_short_positions"
+    kernel = staticmethod(solve_short_positions)
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSITION, others: Others = ()) -> None:
         super().__init__(chain, task, others)

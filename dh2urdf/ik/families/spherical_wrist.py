@@ -7,6 +7,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import REGULAR, AxisLines, BatchKernel, DHForm, plain_ranges, row_motion
 from dh2urdf.ik.families.closed_form import ClosedForm
+from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
 
 
 class SphericalWrist(ClosedForm):
@@ -55,10 +56,8 @@ class SphericalWrist(ClosedForm):
         return "skew: subproblem 5, Pieper's quartic"
 
     @cached_property
-    def kernel(self) -> BatchKernel:
+    def kernel(self) -> BatchKernel:  # type: ignore[override]
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
-
         rows = self.form.rows
         common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0 and not self.chain.prismatic.any()
         fast = common and self.form.exact and plain_ranges(self.chain)

@@ -5,6 +5,7 @@ from functools import cached_property
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import AxisLines, BatchKernel, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm, not_six_revolute
+from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 
 
 class ThreeParallel(ClosedForm):
@@ -36,10 +37,8 @@ class ThreeParallel(ClosedForm):
         )
 
     @cached_property
-    def kernel(self) -> BatchKernel:
+    def kernel(self) -> BatchKernel:  # type: ignore[override]
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
-
         rows = self.form.rows
         common = rows[0, 2] != 0.0 and rows[3, 1] == rows[4, 1] == rows[4, 0] == 0.0
         fast = common and self.form.exact and plain_ranges(self.chain)

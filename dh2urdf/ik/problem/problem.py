@@ -33,7 +33,8 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.problem.batch import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
-from dh2urdf.kernels.numbers import copy_pose
+from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
+from dh2urdf.kernels.numbers import copy_pose, pad_solutions
 from dh2urdf.transforms import Array
 
 ForwardKinematics = Callable[[Array], Array]
@@ -137,8 +138,6 @@ class Problem:
 
     def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
         """Fill the arrays of a part of a batch; the number of its poses."""
-        from dh2urdf.kernels.numbers import pad_solutions
-
         out = Outputs(part.q, part.residual, part.count, part.branch_code, part.free_mask)
         if self.values is None:
             self._solve(part.targets, within_limits, out)
@@ -167,8 +166,6 @@ class Problem:
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
-        from dh2urdf.kernels.certificate import measure_and_sort, turn_to
-
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
         links, joints = self.chain.tables
@@ -222,8 +219,6 @@ class Problem:
 
     def measured(self, Ts: Array, q: Array, count: Any, residual: Array) -> None:
         """Measure q (m, k, n), the first ``count[i]`` of pose Ts[i], into residual (m, k)."""
-        from dh2urdf.kernels.certificate import measure_all
-
         measure_all(*self.chain.tables, self.task.number, Ts, q, count, residual)
 
     def why_none(self, T: Array, within_limits: bool) -> str:

@@ -12,6 +12,7 @@ from dh2urdf.ik.problem.path import BREAK, MOST_STATES, PathFinder, Stage, trace
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.redundant import SweptJoint, nearest_members, reach_intervals
+from dh2urdf.kernels.redundant import onward, shorten
 from dh2urdf.transforms import Array
 
 SAMPLES = 64
@@ -65,8 +66,6 @@ class SweptPath(PathFinder):
 
     def next(self, last: Stage, pose: int) -> Stage:
         """The last stage's states where they follow the arm, and the samples, one for a cell."""
-        from dh2urdf.kernels.redundant import onward
-
         samples = self.batch.solutions(pose).q
         q = np.concatenate([last.q, samples])
         cost, parent = np.empty(len(q)), np.empty(len(q), int)
@@ -117,8 +116,6 @@ class SweptPath(PathFinder):
 
     def _shorten(self, poses: Array, q: Array, jump: float) -> float:
         """Shorten a path (m, n) through some poses in place; its length."""
-        from dh2urdf.kernels.redundant import shorten
-
         if not np.isfinite(q).all():
             return np.inf
         Ts = np.ascontiguousarray(self.Ts[poses])
@@ -127,8 +124,6 @@ class SweptPath(PathFinder):
 
     def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
         """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
-        from dh2urdf.kernels.redundant import onward
-
         every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])
         none, cost, parent = np.empty((0, self.chain.n)), np.empty(1), np.empty(1, int)

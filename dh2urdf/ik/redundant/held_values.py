@@ -18,6 +18,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.families import General6R
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
+from dh2urdf.kernels.chain import held_poses, insert_held_batch
 from dh2urdf.transforms import Array
 
 KEPT_VALUES = 64
@@ -84,8 +85,6 @@ class HeldEnd(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Move the poses, solve for the rest, put the held joint in its place."""
-        from dh2urdf.kernels.chain import held_poses, insert_held_batch
-
         joint = self.held[0]
         poses = np.empty_like(Ts)
         held_poses(self.chain.links, self.slides, joint, values[:, 0], Ts, poses)

@@ -22,6 +22,7 @@ from dh2urdf.ik.arm import (
     without_end,
 )
 from dh2urdf.ik.families import SphericalWrist
+from dh2urdf.kernels.redundant import points_on_curves, solve_held_blocks, solve_held_wrist
 from dh2urdf.transforms import Array, inverse
 
 TRIAL_VALUE = 0.731
@@ -137,8 +138,6 @@ class HeldWrist(HeldSolver):
     @cached_property
     def kernel(self) -> Callable[..., None]:
         """The fastest kernel that covers the geometry."""
-        from dh2urdf.kernels.redundant import solve_held_blocks, solve_held_wrist
-
         rows, varies = self.form.rows, self.which[4]
         orthogonal = rows[3, 1] == rows[4, 1] == 0.0
         blocks = self.one_by_one and orthogonal and varies in (-1, 1) and rows[0, 3] == 0.0
@@ -158,8 +157,6 @@ class HeldWrist(HeldSolver):
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
-        from dh2urdf.kernels.redundant import points_on_curves
-
         chain, m = self.chain, len(values)
         q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)
         arm = self.frames, self.which, self.rows, chain.tables[1]

@@ -8,6 +8,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import SLACK, Outputs, Solver, Task, branch_words_of, task_error, task_jacobian
+from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.transforms import Array
 
 STARTS = 64
@@ -33,8 +35,6 @@ class SearchedSolver:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
-        from dh2urdf.kernels.certificate import finish_batch
-
         links, joints = self.chain.tables
         self.inner.solve_batch(Ts, within_limits, out)
         for i in np.flatnonzero(out.counts == 0):
@@ -82,8 +82,6 @@ def nearly_reaching(
 
 def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
     """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
-    from dh2urdf.kernels.chain import chain_fk_batch
-
     poses = np.empty((len(q), 4, 4))
     chain_fk_batch(chain.links, chain.prismatic, q, poses)
     return task_error(poses, T, task) * weight

@@ -24,6 +24,9 @@ from dh2urdf.ik.arm import (
     near_ranges,
     turned_to,
 )
+from dh2urdf.kernels.certificate import POSE, measure_all
+from dh2urdf.kernels.redundant import enter_limits
+from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
 from dh2urdf.transforms import Array
 
 VALUES = 128
@@ -102,8 +105,6 @@ def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tupl
 
 def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
-    from dh2urdf.kernels.certificate import POSE, measure_all
-
     q, residual, count = np.ascontiguousarray(q), np.empty(len(q)), np.array([len(q)])
     measure_all(solver.links, solver.joints, POSE, T[None], q[None], count, residual[None])
     return q, residual
@@ -116,8 +117,6 @@ def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int 
     one joint is seldom short in the other. Those found outside the limits are followed inwards,
     at ``most`` so many, the nearest to the goal and the limits.
     """
-    from dh2urdf.kernels.redundant import enter_limits
-
     chain = solver.chain
     q = turned_to(chain, _on_curves(solver, T, values), goal)
     outside = (q < chain.lower - LIMIT_SLACK) | (q > chain.upper + LIMIT_SLACK)
@@ -152,9 +151,6 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
 
     The first is the nearest of all, on every curve that was found.
     """
-    from dh2urdf.kernels.certificate import POSE
-    from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
-
     chain = solver.chain
     if within_limits:
         q = inside_members(solver, T, seed, STARTS)

@@ -21,6 +21,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
 from dh2urdf.ik.redundant.self_motion import few_members, sample_values
+from dh2urdf.kernels.redundant import gather_samples
 from dh2urdf.transforms import Array
 
 SAMPLES = 16
@@ -103,8 +104,6 @@ class SweptJoint(SolverBase):
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""
-        from dh2urdf.kernels.redundant import gather_samples
-
         samples = len(values)
         step = max(1, min(len(Ts), BLOCK // samples))
         found = Outputs.of(step * samples, self.held.kmax, self.chain.n)

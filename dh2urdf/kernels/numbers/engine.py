@@ -14,9 +14,9 @@ import warnings
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
-Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+Kernel = Callable[..., Any]
 
 side_by_side = range
 """A range whose turns write nothing that another turn reads or writes: they can run as lanes of
