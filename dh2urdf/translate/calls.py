@@ -3,10 +3,11 @@
 import ast
 from dataclasses import replace
 
+from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
 from dh2urdf.translate.types import Array, Tuple, wider
-from dh2urdf.translate.values import POSTFIX, PREFIX, Instance, Value, sized
+from dh2urdf.translate.values import POSTFIX, PREFIX, Value, sized
 
 LIBRARY = {
     "math.sqrt": ("sqrt", 1),
