@@ -98,6 +98,8 @@ class Source:
             text = isinstance(node, ast.Constant) and not isinstance(node.value, int | float)
             if text and id(node) not in keys:
                 self.refuse(node, "a value that is no number", "numbers only")
+            if isinstance(node, ast.Constant) and type(node.value) is int and node.value >= 2**31:
+                self.refuse(node, "a whole number beyond 32 bits", "a float")
             if isinstance(node, ast.Assign) and len(node.targets) > 1:
                 self.refuse(node, "two assignments in one", "two")
             if isinstance(node, ast.For | ast.While) and node.orelse:
@@ -123,6 +125,7 @@ class Source:
     @cached_property
     def made(self) -> ast.expr | None:
         """What a kernel returns that does nothing but make arrays; None for another kernel."""
+        self.__dict__["made"] = None  # for kernels that call themselves
         last = self.body[-1]
         if len(self.body) > 1 or not isinstance(last, ast.Return) or last.value is None:
             return None

@@ -172,8 +172,6 @@ class Names:
         if isinstance(value, bool):
             return Value("bool", number(value))
         if isinstance(value, int):
-            if not -(2**31) < value < 2**31:
-                self.refuse(n, "a whole number beyond 32 bits", "a float")
             return Value("int", number(value))
         if isinstance(value, float):
             return Value("float", number(value), PREFIX if number(value)[0] == "-" else ATOM)
