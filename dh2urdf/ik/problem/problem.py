@@ -177,7 +177,8 @@ class Problem:
         }
         keep = slide_to_seed(families, q, seed, within_limits) if families else ALL
         arrays = q[keep], residual[keep], branch[keep], free[keep]
-        measure_and_sort(links, joints, self.task.number, found.T, seed, *arrays)
+        room = np.empty(len(arrays[0]))
+        measure_and_sort(links, joints, self.task.number, found.T, seed, *arrays, room)
         return self._accepted(IKSolutions.of(self, found.T, *arrays))
 
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:

@@ -69,9 +69,10 @@ class SweptPath(PathFinder):
         samples = self.batch.solutions(pose).q
         q = np.concatenate([last.q, samples])
         cost, parent = np.empty(len(q)), np.empty(len(q), int)
+        room = np.empty((2, len(last.q)), np.bool_)
         onward(
             *(*self.arm, self.Ts[pose], self.chain.size, self.jump, BREAK),
-            *(last.q, last.cost, samples, q, cost, parent),
+            *(last.q, last.cost, samples, q, cost, parent, *room),
         )
         order = np.argsort(cost, kind="stable")[: np.isfinite(cost).sum()]
         cells = np.round(q[order] / CELL) @ 97.0 ** np.arange(self.chain.n)
@@ -120,17 +121,19 @@ class SweptPath(PathFinder):
             return np.inf
         Ts = np.ascontiguousarray(self.Ts[poses])
         start = np.empty((0, self.chain.n)) if self.origin is None else self.origin[None]
-        return float(shorten(*self.arm, Ts, self.chain.size, start, jump, BREAK, q))
+        room = np.empty_like(q), np.empty_like(q), np.empty((8, len(q)))
+        return float(shorten(*self.arm, Ts, self.chain.size, start, jump, BREAK, q, *room))
 
     def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
         """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
         every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])
         none, cost, parent = np.empty((0, self.chain.n)), np.empty(1), np.empty(1, int)
+        room = np.empty((2, 1), np.bool_)
         for i in np.setdiff1d(every, rows):
             onward(
                 *(*self.arm, self.Ts[poses[i]], self.chain.size, self.jump, BREAK),
-                *(path[i : i + 1].copy(), np.zeros(1), none, path[i : i + 1], cost, parent),
+                *(path[i : i + 1].copy(), np.zeros(1), none, path[i : i + 1], cost, parent, *room),
             )
             path[i] += 0.0 if np.isfinite(cost[0]) else np.nan
         return path

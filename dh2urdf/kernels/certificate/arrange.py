@@ -97,13 +97,15 @@ def measure_and_sort(
     residual: Annotated[Floats, "solutions"],
     branch: Annotated[Integers, "solutions"],
     free: Annotated[Integers, "solutions"],
+    distance: Annotated[Floats, "solutions"],
 ):
     """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
 
     They are sorted in place, with their branch codes and masks of free joints; residuals go to
-    ``residual``. The task is one of :mod:`dh2urdf.kernels.certificate.damped`.
+    ``residual``, distances to ``distance``. The task is one of
+    :mod:`dh2urdf.kernels.certificate.damped`.
     """
-    damped, distance = make_damped(q.shape[1]), np.empty(q.shape[0])
+    damped = make_damped(q.shape[1])
     for k in range(q.shape[0]):
         residual[k] = _measure(links, joints, task, T, q[k], damped)
         total = 0.0

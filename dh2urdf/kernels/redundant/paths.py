@@ -14,7 +14,7 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
-from dh2urdf.kernels.numbers import Floats, Integers, Joints, Links, Pose, Poses, entry
+from dh2urdf.kernels.numbers import Flags, Floats, Integers, Joints, Links, Pose, Poses, entry
 from dh2urdf.kernels.redundant.self_motion import (
     HELD,
     LONGEST,
@@ -72,6 +72,8 @@ def onward(
     q_out: Annotated[Floats, "ends", "n"],
     cost_out: Annotated[Floats, "ends"],
     parent: Annotated[Integers, "ends"],
+    reached: Annotated[Flags, "states"],
+    inside: Annotated[Flags, "states"],
 ):
     """Ways on from the states q (f, n) of one pose to the next pose T (4, 4).
 
@@ -81,11 +83,10 @@ def onward(
     ``links``, ``joints``, ``unit`` are as for
     :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
     ``penalty`` more. Out come the states of the pose, q_out (f + s, n), their cost, infinite where
-    there is no way, and their parent.
+    there is no way, and their parent; ``reached`` and ``inside`` are room.
     """
     f, n = q.shape[0], q.shape[1]
     damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))
-    reached, inside = np.empty(f, np.bool_), np.empty(f, np.bool_)
     q_out[:f] = q
     for k in range(f):
         reached[k] = restore(links, joints, POSE, T, unit, q_out[k], work, damped) <= HELD
@@ -204,17 +205,19 @@ def shorten(
     jump: float,
     penalty: float,
     q: Annotated[Floats, "poses", "n"],
+    tangent: Annotated[Floats, "poses", "n"],
+    trial: Annotated[Floats, "poses", "n"],
+    scratch: Annotated[Floats, 8, "poses"],
 ):
     """Shorten a path q (m, n) through poses Ts (m, 4, 4), in place; returns its length.
 
     The step from ``start`` (0 or 1, n) counts too. ``links``, ``joints``, ``unit`` are as for
     :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
-    ``penalty``.
+    ``penalty``. ``tangent``, ``trial`` and ``scratch`` are room.
     """
     m, n = q.shape[0], q.shape[1]
-    damped, guess, work = make_damped(n), np.empty(n), np.empty(n)
-    tangent, trial, none = np.zeros((m, n)), np.empty((m, n)), np.zeros(n)
-    scratch = np.empty((8, m))
+    damped, guess, work, none = make_damped(n), np.empty(n), np.empty(n), np.zeros(n)
+    tangent[:m] = 0.0
     g, diagonal, beside, low = scratch[0], scratch[1], scratch[2], scratch[3]
     high, x, bound, pivot = scratch[4], scratch[5], scratch[6], scratch[7]
     length, radius = _length(start, q, jump, penalty), LONGEST
