@@ -116,7 +116,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
     length = 1.0
     for move in range(MOST_STEPS):
         size = _project(links, joints, task, T, unit, q, seed, step, damped)
-        if size <= ARRIVED:
+        if not size > ARRIVED:  # NaN where nothing can move
             break
         if move > 0:
             before -= step
