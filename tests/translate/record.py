@@ -49,31 +49,36 @@ def call(function: Callable[..., Any], entry: str, given: tuple[Any, ...]) -> Ca
 def entries_as(form: Callable[[str, Any], Any]) -> Iterator[None]:
     """Other forms of the entries, from their names and what they are, wherever they are named."""
     entries()
-    now = {
-        name: getattr(sys.modules[name.rpartition(".")[0]], name.rpartition(".")[2])
-        for name in INTERPRETED
-    }
+    where = {name: name.rpartition(".") for name in INTERPRETED}
+    now = {name: getattr(sys.modules[room], key) for name, (room, _, key) in where.items()}
     other = {id(f): form(name, f) for name, f in now.items()}
     places = [
-        (module, key, value)
-        for name, module in list(sys.modules.items())
-        if name.partition(".")[0] == "dh2urdf"
-        for key, value in vars(module).items()
-        if id(value) in other and callable(value)
+        (holder, key, value)
+        for holder in _holders()
+        for key, value in vars(holder).items()
+        if id(getattr(value, "__func__", value)) in other
     ]
-    for module, key, value in places:
-        setattr(module, key, other[id(value)])
+    for holder, key, value in places:
+        new = other[id(getattr(value, "__func__", value))]
+        setattr(holder, key, staticmethod(new) if isinstance(holder, type) else new)
     try:
         yield
     finally:
-        for module, key, value in places:
-            setattr(module, key, value)
+        for holder, key, value in places:
+            setattr(holder, key, value)
+
+
+def _holders() -> list[Any]:
+    """The package's modules and their classes."""
+    modules = [m for name, m in list(sys.modules.items()) if name.partition(".")[0] == "dh2urdf"]
+    things = [x for m in modules for x in vars(m).values() if isinstance(x, type)]
+    return [*modules, *{x for x in things if x.__module__.partition(".")[0] == "dh2urdf"}]
 
 
 @contextmanager
 def interpreted() -> Iterator[None]:
     """All entries as they are written, calls of one by another too."""
-    with entries_as(lambda name, _: INTERPRETED[name]):
+    with np.errstate(all="ignore"), entries_as(lambda name, _: INTERPRETED[name]):
         yield
 
 

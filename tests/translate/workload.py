@@ -21,7 +21,7 @@ NOISE = {"ur5": 2.0**-30, "puma560": 2.0**-20, "ur10e": 2.0**-14, "abb_irb120": 
 
 OWN = {
     "three parallel": ("RRRRRR", "0 .4 0; 0 .3 0; .1 0 1; .1 .05 1; .1 0 1; .1 0 0"),
-    "three slides": ("PPPRR", "0 0 1; 0 0 1; 0 0 0; .1 0 1; .2 0 0"),
+    "three slides": ("RPRPRP", ".1 0 1; 0 .1 .5; 0 .2 1; 0 .1 1; 0 .3 .75; 0 0 0"),
 }
 """Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]."""
 
@@ -58,7 +58,7 @@ def own_table(kinds: str, text: str) -> DHTable:
     for kind, line in zip(kinds, text.split(";"), strict=True):
         d, a, quarters = map(float, line.split())
         joint = JointType.PRISMATIC if kind == "P" else JointType.REVOLUTE
-        rows.append(DHRow(0.0, d, a, quarters * QUARTER, joint))
+        rows.append(DHRow(0.5 if kind == "P" else 0.0, d, a, quarters * QUARTER, joint))
     return DHTable(tuple(rows), "standard")
 
 

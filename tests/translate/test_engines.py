@@ -1,0 +1,132 @@
+"""All forms of the kernels give the same bits for the same calls."""
+
+import ctypes
+from collections import Counter
+from functools import cache
+
+import pytest
+
+from dh2urdf.kernels.numbers.engine import INTERPRETED
+from dh2urdf.translate.build import place
+from dh2urdf.translate.extension import LEVELS
+from tests.translate import engines, replay, workload
+from tests.translate.record import call, differing, interpreted, recorded
+
+USUAL = ("gcc sanitized", "clang -O2", "zig -O3", "aarch64 -O3", "wasm32 -O2")
+"""What the daily suite compiles, where the tools are there."""
+
+ARMS = """
+abb_irb120 abb_irb120~ cylindrical fanuc_crx10ia franka_fer gantry kinova_gen3 planar_rr stanford
+ur5 ur5~ ur10e~ xarm5 xarm7
+"""
+"""Arms that need all of the entries, with our own."""
+
+COUNT = 16
+"""Configurations of each arm."""
+
+MOST = 6
+"""Calls of an entry that are kept for each arm."""
+
+SLOW = {"onward": 1, "enter_limits": 3, "walk_family": 2, "nearest_members": 9}
+"""Entries that take seconds interpreted, and how many calls of them the daily suite has."""
+
+
+@cache
+def calls(whole=False):
+    """Calls of all entries while arms answer: some of some, or all."""
+    kept, chosen = (
+        Counter(),
+        workload.arms() if whole else [*ARMS.split(), *workload.OWN, "numbers"],
+    )
+    arm = ""
+
+    def keep(name, _):
+        kept[arm, name] += 1
+        return whole or kept[arm, name] <= MOST
+
+    with recorded(keep) as found:
+        for arm in chosen:
+            for _ in workload.answers(arm, COUNT):
+                pass
+    return found
+
+
+def check(found, after, least=1):
+    """No number differs from what was recorded; tell the entries in which some do."""
+    total = sum(x.size for row in after for x in row if hasattr(x, "size"))
+    apart = Counter()
+    for one, other in zip(found, after, strict=True):
+        if n := differing(one.after, other):
+            apart[one.entry] += n
+    print(f"{len(found)} calls, {len({c.entry for c in found})} entries, {total} numbers", end=" ")
+    assert not apart
+    assert total >= least
+
+
+def test_every_entry_is_called():
+    """No entry is left out of the calls that are compared."""
+    assert {one.entry for one in calls()} == set(INTERPRETED)
+
+
+def by_python(some):
+    """What the kernels as they are written leave behind calls."""
+    with interpreted():
+        return [call(INTERPRETED[one.entry], one.entry, one.given).after for one in some]
+
+
+def test_interpreted_kernels_agree():
+    """The kernels as they are written, line by line in Python, on a part of the calls."""
+    rows = {name: [one for one in calls() if one.entry == name] for name in INTERPRETED}
+    most = {name: SLOW.get(name.rpartition(".")[2], 18) for name in rows}
+    some = [one for name, row in rows.items() for one in row[:: -(-len(row) // most[name])]]
+    check(some, by_python(some))
+
+
+def by_level(level, some, folder):
+    """What a level of the extension leaves behind calls."""
+    program = ctypes.CDLL(str(replay.built(folder, engines.own(), "replay.so", "-shared", "-fPIC")))
+    if not getattr(program, f"has_{level}")():
+        pytest.skip("the processor has not got it")
+    table = ctypes.c_char.in_dll(ctypes.CDLL(str(place())), f"entries_{level}")
+    replay.written(some, folder / "calls")
+    paths = (str(folder / name).encode() for name in ("calls", "after"))
+    assert program.replay(ctypes.byref(table), *paths) == 0
+    return replay.answers(some, folder / "after")
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_levels_of_the_extension_agree(level, tmp_path):
+    """The extension that is installed, as it is for each kind of processor."""
+    check(calls(), by_level(level, calls(), tmp_path))
+
+
+@pytest.mark.parametrize("name", USUAL)
+def test_compilers_agree(name, tmp_path):
+    """Programs of other compilers, of other processors, and with sanitizers."""
+    engine = engines.Engine(name)
+    if engine.missing:
+        pytest.skip(engine.missing)
+    check(calls(), engine.replayed(calls(), tmp_path))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", engines.TABLE)
+def test_compilers_agree_on_all_arms(name, tmp_path):
+    """The same for every compiler, all calls of all arms."""
+    engine = engines.Engine(name)
+    if engine.missing:
+        pytest.skip(engine.missing)
+    check(calls(True), engine.replayed(calls(True), tmp_path))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("level", LEVELS)
+def test_levels_agree_on_all_arms(level, tmp_path):
+    """The same for the levels of the extension."""
+    check(calls(True), by_level(level, calls(True), tmp_path))
+
+
+@pytest.mark.exhaustive
+def test_interpreted_kernels_agree_on_all_calls():
+    """All calls of the daily suite."""
+    check(calls(), by_python(calls()))
