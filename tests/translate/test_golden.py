@@ -3,8 +3,10 @@ import pytest
 from tests.translate import golden, workload
 from tests.translate.record import interpreted
 
-SLICE = {"numbers": None, "planar_rr": 3, "ur5": 1, "stanford": 1}
-"""Arms, and how many of their tasks are answered by the kernels as they are written."""
+FAMILIES = "puma560", "ur5", "stanford", "omron_cobra600", "fanuc_crx10ia", "franka_fer"
+
+SLICE = {"numbers": None, "planar_rr": 3, "three slides": 2, **dict.fromkeys(FAMILIES, 2)}
+"""An arm a family, and how many of its tasks are answered by the kernels as they are written."""
 
 
 @pytest.mark.parametrize("arm", workload.arms())

@@ -125,8 +125,9 @@ class NumericProblem:
             q = q[np.argsort(np.linalg.norm(q - first, axis=1), kind="stable")]
         q, residual, one = q * scale, np.empty(len(q)), np.array([len(q)])
         joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
-        poses = target[None], joints[None], one, residual[None]
-        measure_all(*self.chain.tables, wanted.number, *poses)
+        links, limits = self.chain.tables
+        poses, many = target[None], joints[None]
+        measure_all(links, limits, wanted.number, poses, many, one, residual[None])
         return NumericSolutions(q, residual, target, tried, self.slides, change)
 
     def _in_own_unit(self) -> tuple[NumericProblem, Array]:
