@@ -3,23 +3,20 @@
 import ast
 from collections import Counter
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from dh2urdf.translate.calls import Calls
+from dh2urdf.translate.definitions import Definitions, Instance
 from dh2urdf.translate.expressions import BINARY
 from dh2urdf.translate.scopes import scopes_of
 from dh2urdf.translate.source import every, loaded, stored
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import Instance, Value
-
-if TYPE_CHECKING:
-    from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.values import Value
 
 
 class Assignments(Calls):
     """Writes the assignments of one kernel."""
 
-    def __init__(self, file: "CFile", instance: Instance) -> None:
+    def __init__(self, file: Definitions, instance: Instance) -> None:
         super().__init__(file, instance)
         self.scopes = scopes_of(self.source)
         self.hoisted: dict[str, str] = {}

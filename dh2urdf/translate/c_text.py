@@ -44,6 +44,17 @@ HELPERS = {
 infinity."""
 
 
+LANES = """
+/* A loop whose turns do not depend on one another. */
+#if defined(__clang__)
+#define SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define SIDE_BY_SIDE _Pragma("GCC ivdep")
+#else
+#define SIDE_BY_SIDE
+#endif"""
+
+
 def number(value: object) -> str:
     """A literal that reads back as the same number."""
     if isinstance(value, bool | np.bool_):

@@ -3,16 +3,15 @@
 import ast
 from dataclasses import replace
 
+from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
-from dh2urdf.translate.types import Array, Tuple, wider
-from dh2urdf.translate.values import POSTFIX, PREFIX, Instance, Value, sized
+from dh2urdf.translate.types import Array, Tuple
+from dh2urdf.translate.values import POSTFIX, PREFIX, Value, sized
 
 LIBRARY = {
     "math.sqrt": ("sqrt", 1),
     "math.copysign": ("copysign", 2),
-    "math.floor": ("floor", 1),
-    "math.ceil": ("ceil", 1),
     "math.fmod": ("fmod", 2),
     "np.floor": ("floor", 1),
     "np.ceil": ("ceil", 1),
@@ -46,8 +45,12 @@ class Calls(Expressions):
             if length is None:
                 self.refuse(n, "a length that is not known", "an argument for it")
             return sized(length)
+        if name not in ALLOWED:
+            self.refuse(n, "a call of something else", f"a kernel, or {', '.join(ALLOWED)}")
         values = [self.number(a) for a in n.args]
         if name in ("min", "max") and len(values) > 1:
+            if len({value.type for value in values}) > 1:
+                self.refuse(n, f"{name} of values of two types", "float(x) of the whole numbers")
             return self._extreme(name, values)
         if name == "abs" and len(values) == 1:
             if values[0].type != "float":
@@ -58,19 +61,17 @@ class Calls(Expressions):
                 return values[0]
             return Value(name, f"({CASTS[name]}){values[0].at(PREFIX)}", PREFIX)
         c, arguments = LIBRARY.get(name) or (PREDICATES.get(name, ""), 1)
-        if not c or len(values) != arguments:
-            self.refuse(n, "a call of something else than a kernel", "a kernel, or " + ALLOWED)
+        if len(values) != arguments:
+            self.refuse(n, f"{len(values)} arguments", str(arguments))
         kind = "bool" if name in PREDICATES else "float"
         return Value(kind, f"{c}({', '.join(value.text for value in values)})", POSTFIX)
 
     def _extreme(self, name: str, values: list[Value]) -> Value:
         """The first of the largest or smallest, as Python has it."""
         found = values[0]
+        helper = {"max": "larger", "min": "smaller"}[name] + "_int" * (found.type != "float")
         for other in values[1:]:
-            t = wider(wider(found.type, other.type) or "int", "int")
-            ending = "" if t == "float" else "_int"
-            helper = {"max": "larger", "min": "smaller"}[name] + ending
-            found = self.helper(helper, str(t), found, other)
+            found = self.helper(helper, str(found.type), found, other)
         return found
 
     def _kernel(self, n: ast.Call, callee: Source) -> Value:
@@ -135,4 +136,4 @@ class Calls(Expressions):
         return maker.value(callee.made)
 
 
-ALLOWED = ", ".join([*LIBRARY, *PREDICATES, *CASTS, "abs", "min", "max", "len", *MAKERS])
+ALLOWED = (*LIBRARY, *PREDICATES, *CASTS, "abs", "min", "max", "len", *MAKERS)

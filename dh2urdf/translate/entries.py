@@ -1,7 +1,6 @@
 """The entries of the package: which they are, and the types that their annotations give."""
 
 import inspect
-import re
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
@@ -58,29 +57,3 @@ def _type_of(hint: Any) -> Type:
         return Array(Record(str(shape[1]), shape[0]), tuple(shape[2:]))
     dtype = np.dtype(get_args(get_args(array)[1])[0])
     return Array(ELEMENTS[dtype.kind], tuple(shape))
-
-
-def fixed(types: list[Type], sizes: dict[str, int]) -> list[Type]:
-    """The types with numbers in the place of some lengths."""
-    return [_fixed(t, sizes) for t in types]
-
-
-def _fixed(t: Type, sizes: dict[str, int]) -> Type:
-    if isinstance(t, Tuple):
-        return Tuple(tuple(_fixed(x, sizes) for x in t.items))
-    if isinstance(t, Array):
-        return Array(t.element, tuple(_size(d, sizes) for d in t.shape), t.constant)
-    return t
-
-
-def _size(d: int | str | None, sizes: dict[str, int]) -> int | str | None:
-    if not isinstance(d, str):
-        return d
-    text = d
-    for name, value in sizes.items():
-        text = re.sub(rf"\b{name}\b", str(value), text)
-    total = re.fullmatch(r"(\d+)(?: ([+*]) (\d+))?", text)
-    if not total:
-        return text
-    a, sign, b = total.groups()
-    return int(a) if sign is None else int(a) + int(b) if sign == "+" else int(a) * int(b)

@@ -167,7 +167,7 @@ class Expressions(Names):
         whole = "float" not in (left.type, right.type)
         if kind in FLOORED:
             if not whole:
-                self.refuse(n, "floor division of floats", "math.floor")
+                self.refuse(n, "floor division of floats", "np.floor(x / y)")
             return self.helper(FLOORED[kind], "int", left, right)
         if kind not in BINARY:
             self.refuse(n, f"{kind.__name__} is not allowed", "+, -, *, /, //, % or bits")

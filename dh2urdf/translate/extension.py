@@ -7,8 +7,8 @@ extension is imported: the best that the processor has, or the one that ``DH2URD
 
 from dh2urdf.translate.c_file import INCLUDES, CFile
 from dh2urdf.translate.c_text import folded
+from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.types import Array, Record, Tuple, Type
-from dh2urdf.translate.values import Instance
 
 LEVELS = {
     "v4": ("x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),

@@ -90,24 +90,20 @@ class Source:
         if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults:
             self.refuse(a, "arguments that are not plain", "positional ones")
         keys = {id(n.slice) for n in ast.walk(self.tree) if isinstance(n, ast.Subscript)}
-        for node in (n for s in self.body for n in self._nodes(s)):
-            kind = type(node)
-            if kind in REFUSED:
-                self.refuse(node, f"{kind.__name__} is not allowed", REFUSED[kind])
+        for node in (n for s in self.body for n in ast.walk(s)):
+            operators = [getattr(node, "op", None), *getattr(node, "ops", [])]
+            for kind in map(type, [node, *operators]):
+                if kind in REFUSED:
+                    self.refuse(node, f"{kind.__name__} is not allowed", REFUSED[kind])
             text = isinstance(node, ast.Constant) and not isinstance(node.value, int | float)
             if text and id(node) not in keys:
                 self.refuse(node, "a value that is no number", "numbers only")
+            if isinstance(node, ast.Constant) and type(node.value) is int and node.value >= 2**31:
+                self.refuse(node, "a whole number beyond 32 bits", "a float")
             if isinstance(node, ast.Assign) and len(node.targets) > 1:
                 self.refuse(node, "two assignments in one", "two")
             if isinstance(node, ast.For | ast.While) and node.orelse:
                 self.refuse(node, "else of a loop", "a flag, or a kernel that returns")
-
-    def _nodes(self, top: ast.AST) -> Iterator[ast.AST]:
-        """A node and those inside it; what has no line gets that of the one around it."""
-        yield top
-        for node in ast.iter_child_nodes(top):
-            if not isinstance(node, ast.expr_context):
-                yield from self._nodes(ast.copy_location(node, top) if _bare(node) else node)
 
     def stands_for(self, name: str) -> Any:
         """The object that a name of the module stands for; None if there is none."""
@@ -129,6 +125,7 @@ class Source:
     @cached_property
     def made(self) -> ast.expr | None:
         """What a kernel returns that does nothing but make arrays; None for another kernel."""
+        self.__dict__["made"] = None  # for kernels that call themselves
         last = self.body[-1]
         if len(self.body) > 1 or not isinstance(last, ast.Return) or last.value is None:
             return None
@@ -145,10 +142,6 @@ class Source:
 def source_of(function: Callable[..., Any]) -> Source:
     """The source of a kernel, read once."""
     return Source(function)
-
-
-def _bare(node: ast.AST) -> bool:
-    return not isinstance(node, ast.expr | ast.stmt | ast.keyword | ast.arg)
 
 
 def stored(nodes: Iterable[ast.AST]) -> list[str]:

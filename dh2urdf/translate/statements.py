@@ -1,16 +1,13 @@
 """Statements as C, assignments apart."""
 
 import ast
-from typing import TYPE_CHECKING
 
 from dh2urdf.translate.assignments import Assignments
 from dh2urdf.translate.c_text import folded
+from dh2urdf.translate.definitions import Definitions, Instance
 from dh2urdf.translate.source import every, loaded, stored
 from dh2urdf.translate.types import Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import COMPARISON, Instance, Value
-
-if TYPE_CHECKING:
-    from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.values import COMPARISON, Value
 
 EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 
@@ -18,7 +15,7 @@ EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 class Body(Assignments):
     """Writes the body of one kernel."""
 
-    def __init__(self, file: "CFile", instance: Instance) -> None:
+    def __init__(self, file: Definitions, instance: Instance) -> None:
         super().__init__(file, instance)
         self.said = set[int]()
         for p, t in zip(self.source.parameters, instance.arguments, strict=True):

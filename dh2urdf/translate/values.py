@@ -3,17 +3,14 @@
 import ast
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NoReturn
+from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 
 from dh2urdf.translate.c_text import RESERVED, number
-from dh2urdf.translate.source import Source
-from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, lengths_of, type_of_value
-
-if TYPE_CHECKING:
-    from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.definitions import Definitions, Instance
+from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, type_of_value
 
 ATOM, POSTFIX, PREFIX, PRODUCT, SUM, COMPARISON, AND, OR, CHOICE = 16, 15, 14, 13, 12, 9, 5, 4, 3
 """How tightly the operators of C bind."""
@@ -67,29 +64,10 @@ def sized(length: int | str) -> Value:
     return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM)
 
 
-@dataclass(eq=False)
-class Instance:
-    """A kernel for one list of argument types."""
-
-    source: Source
-    arguments: tuple[Type, ...]
-    name: str = ""
-    returned: Type | None = None
-    parameters: list[tuple[str, Type]] = field(default_factory=list)
-    """Those of C, where tuples with arrays are taken apart."""
-    asked: set[str] = field(default_factory=set)
-    """Parameters whose first length the kernel asks for."""
-    body: str = ""
-
-    def lengths(self) -> list[str]:
-        """Names of the lengths that it is handed."""
-        return lengths_of(self.arguments)
-
-
 class Names:
     """The names of one kernel, and the whole numbers that are known before it runs."""
 
-    def __init__(self, file: "CFile", instance: Instance) -> None:
+    def __init__(self, file: Definitions, instance: Instance) -> None:
         self.file, self.instance, self.source = file, instance, instance.source
         self.values: dict[str, Value] = {}
         """What names stand for that have been given a value so far."""
@@ -194,8 +172,6 @@ class Names:
         if isinstance(value, bool):
             return Value("bool", number(value))
         if isinstance(value, int):
-            if not -(2**31) < value < 2**31:
-                self.refuse(n, "a whole number beyond 32 bits", "a float")
             return Value("int", number(value))
         if isinstance(value, float):
             return Value("float", number(value), PREFIX if number(value)[0] == "-" else ATOM)

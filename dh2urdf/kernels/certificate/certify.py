@@ -38,7 +38,7 @@ def principal(angle):
     """Bring an angle into [-pi, pi]."""
     if -math.pi <= angle <= math.pi:
         return angle + 0.0
-    return angle - TWO_PI * math.floor(angle / TWO_PI + 0.5)
+    return angle - TWO_PI * np.floor(angle / TWO_PI + 0.5)
 
 
 def same(joints, q, p, reach, free):
@@ -75,11 +75,11 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
         bounded = lower > -math.inf and upper < math.inf
         if joints[i, 0] == 0.0:
             if bounded:
-                q[i] -= TWO_PI * math.floor((q[i] - 0.5 * (lower + upper)) / TWO_PI + 0.5)
+                q[i] -= TWO_PI * np.floor((q[i] - 0.5 * (lower + upper)) / TWO_PI + 0.5)
             elif lower > -math.inf:
-                q[i] += TWO_PI * math.ceil((lower - CLUSTER - q[i]) / TWO_PI)
+                q[i] += TWO_PI * np.ceil((lower - CLUSTER - q[i]) / TWO_PI)
             elif upper < math.inf:
-                q[i] -= TWO_PI * math.ceil((q[i] - upper - CLUSTER) / TWO_PI)
+                q[i] -= TWO_PI * np.ceil((q[i] - upper - CLUSTER) / TWO_PI)
             far = far or abs(q[i]) > FAR
         if within_limits and (q[i] < lower or q[i] > upper) and not (free >> i) & 1:
             if q[i] < lower - CLUSTER or q[i] > upper + CLUSTER:

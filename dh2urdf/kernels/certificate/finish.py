@@ -3,8 +3,6 @@
 Solutions that cannot be told apart at the accuracy of a residual become one.
 """
 
-import math
-
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import (
@@ -49,7 +47,7 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
     for i in range(q.shape[0]):
         gap = p[i] - q[i]
         if joints[i, 0] == 0.0:
-            gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+            gap -= TWO_PI * np.floor(gap / TWO_PI + 0.5)
         if abs(gap) > NEAR:
             return False
         middle[i] = q[i] + 0.5 * gap

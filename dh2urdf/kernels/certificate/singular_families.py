@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, TWO_PI, move
 from dh2urdf.kernels.certificate.newton import (
     damped_step,
@@ -113,5 +115,5 @@ def _at_rest(joints, rest, q, mask):
         first += 1
     gap = q[first] - rest[first]
     if joints[first, 0] == 0.0:
-        gap -= TWO_PI * math.floor(gap / TWO_PI + 0.5)
+        gap -= TWO_PI * np.floor(gap / TWO_PI + 0.5)
     return abs(gap) <= CLUSTER

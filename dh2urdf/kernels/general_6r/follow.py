@@ -5,6 +5,8 @@ Everything works on the record `ARM_6R`.
 
 import math
 
+import numpy as np
+
 from dh2urdf.kernels.certificate import TWO_PI, chain_frames, newton_step, pose_error
 from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
 from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
@@ -162,7 +164,7 @@ def _at_root(e, root, q, arm):
     joint = (9 - shift) % 6 if reverse else (2 + shift) % 6
     value = q[joint] - turns[2, joint]
     gap = (value + root if reverse else value - root) / TWO_PI
-    return abs(gap - math.floor(gap + 0.5)) < AT_ROOT / TWO_PI
+    return abs(gap - np.floor(gap + 0.5)) < AT_ROOT / TWO_PI
 
 
 def follow(e, count, found, out_q, out_residual, arm):

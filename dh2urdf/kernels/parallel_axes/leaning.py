@@ -177,7 +177,7 @@ def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
                 continue
             if _beyond(form, D, cs, c4, e, c5, s5) <= 0.0:
                 turn = atan2(s5, c5) / TWO_PI - 0.5 / TRIALS
-                below = int((turn - math.floor(turn)) * TRIALS) % TRIALS
+                below = int((turn - np.floor(turn)) * TRIALS) % TRIALS
                 if not beyond[below] <= 0.0 and not beyond[(below + 1) % TRIALS] <= 0.0:
                     count = _keep(cs, pairs, count)
                 break
