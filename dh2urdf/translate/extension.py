@@ -53,6 +53,16 @@ static int fits(PyObject *given, const char *name, int dimensions, int kind)
         PyArray_IS_C_CONTIGUOUS(a)) || refuse(name, dimensions);
 }
 
+/* Whether an object is a tuple of a number of values. */
+static int travels(PyObject *given, const char *name, Py_ssize_t items)
+{
+    if (PyTuple_Check(given) && PyTuple_Size(given) == items) {
+        return 1;
+    }
+    PyErr_Format(PyExc_TypeError, "%s: expected a tuple of %zd", name, items);
+    return 0;
+}
+
 static int differs(const char *name, Py_ssize_t found, Py_ssize_t expected)
 {
     if (found == expected) {
@@ -196,7 +206,7 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
             lines = [f"    const int {at} = PyObject_IsTrue({given});"]
             return [*lines, *_failed(f"{at} < 0")], f"{at} != 0"
         if isinstance(t, Tuple):
-            lines = _failed(f"!PyTuple_Check({given}) || PyTuple_Size({given}) != {len(t.items)}")
+            lines = _failed(f'!travels({given}, "{name}", {len(t.items)})')
             values = []
             for i, item in enumerate(t.items):
                 part = f"PyTuple_GetItem({given}, {i})"

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib import import_module
-from typing import Any, ClassVar, NamedTuple, Protocol
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.arm.task import Task, spare_joints
 from dh2urdf.ik.arm.tolerances import NOMINAL
+from dh2urdf.kernels.numbers import Outputs
 from dh2urdf.transforms import Array
 
 IntArray = NDArray[np.int64]
 
 BatchKernel = Callable[..., None]
-"""A kernel: constants, poses, ``within_limits``, then the five output arrays."""
+"""A kernel: what it knows of the arm, poses, ``within_limits``, where the solutions go."""
 
 
 BRANCH_WORDS = (
@@ -54,40 +55,6 @@ def imported(where: str) -> Any:
     """What a ``module:name`` stands for."""
     module, _, name = where.partition(":")
     return getattr(import_module(module), name)
-
-
-class Outputs(NamedTuple):
-    """Solutions of m poses, a row for each, in the order in which kernels take them.
-
-    Attributes
-    ----------
-    q : array, shape (m, kmax, n)
-        Solutions in the first ``counts[i]`` rows; the others may hold anything.
-    residual : array, shape (m, kmax)
-    counts : int64 array, shape (m,)
-    branch : int64 array, shape (m, kmax)
-        Bits of the branch; -1 where the family has none.
-    free : int64 array, shape (m, kmax)
-        Bits of the joints that are free along a singular family.
-    """
-
-    q: Array
-    residual: Array
-    counts: IntArray
-    branch: IntArray
-    free: IntArray
-
-    @classmethod
-    def of(cls, m: int, kmax: int, n: int) -> Outputs:
-        """Arrays for m poses, nothing in them."""
-        codes = np.zeros((2, m, kmax), np.int64)
-        return cls(
-            np.empty((m, kmax, n)), np.empty((m, kmax)), np.zeros(m, np.int64), codes[0], codes[1]
-        )
-
-    def rows(self, index: slice | IntArray) -> Outputs:
-        """Those of some poses: views by a slice, copies by indices."""
-        return Outputs._make(array[index] for array in self)
 
 
 class Room:
@@ -190,7 +157,7 @@ class SolverBase:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
-        self.kernel(*self.constants, Ts, within_limits, *out)
+        self.kernel(self.constants, Ts, within_limits, out)
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:

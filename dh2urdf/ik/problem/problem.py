@@ -143,14 +143,14 @@ class Problem:
             self._solve(part.targets, within_limits, out)
         else:
             self._solve_held(part.targets, within_limits, out, rows)
-        singular = pad_solutions(*out, np.nan)
+        singular = pad_solutions(out, np.nan)
         for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular and within_limits else ():
             found = self._families_inside(part.solutions(int(i)))
             k = len(found)
             part.count[i] = k
             part.q[i, :k], part.residual[i, :k] = found.q, found.residual
             part.branch_code[i, :k], part.free_mask[i, :k] = found.codes
-            pad_solutions(*out.rows(slice(i, i + 1)), np.nan)
+            pad_solutions(out.rows(slice(i, i + 1)), np.nan)
         return len(part)
 
     def _families_inside(self, found: IKSolutions) -> IKSolutions:

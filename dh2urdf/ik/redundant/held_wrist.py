@@ -153,7 +153,7 @@ class HeldWrist(HeldSolver):
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one call."""
         constants = self.frames, self.which, self.rows, self.joints, SLACK
-        self.kernel(*constants, values.ravel(), Ts, within_limits, *out)
+        self.kernel(constants, values.ravel(), Ts, within_limits, out)
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""

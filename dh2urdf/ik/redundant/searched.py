@@ -42,7 +42,7 @@ class SearchedSolver:
             q = q[np.abs(error).max(axis=1) <= SLACK]
             found = Outputs.of(1, max(len(q), self.kmax), self.chain.n)
             found.q[0, : len(q)], found.counts[0] = q, len(q)
-            finish_batch(links, joints, Ts[i : i + 1], within_limits, *found)
+            finish_batch(links, joints, Ts[i : i + 1], within_limits, found)
             np.minimum(found.counts, self.kmax, out=found.counts)
             for whole, part in zip(out, found, strict=True):
                 whole[i] = part[0, : self.kmax] if part.ndim > 1 else part[0]

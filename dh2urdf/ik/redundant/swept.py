@@ -112,7 +112,7 @@ class SweptJoint(SolverBase):
             some = found.rows(slice((last - first) * samples))
             poses = np.repeat(Ts[first:last], samples, axis=0)
             self.held.solve_held(poses, np.tile(values, last - first)[:, None], within_limits, some)
-            gather_samples(some, first, last, samples, *out)
+            gather_samples(some, first, last, samples, out)
 
 
 @lru_cache(maxsize=4)

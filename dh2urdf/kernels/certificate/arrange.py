@@ -22,7 +22,7 @@ from dh2urdf.kernels.numbers import (
 )
 
 
-@entry
+@entry()
 def turn_to(
     joints: Joints,
     slack: float,
@@ -69,7 +69,7 @@ def _measure(links, joints, task, T, q, damped):
     return error_and_jacobian(links, joints, task, T, q, 1.0, damped)
 
 
-@entry
+@entry()
 def measure_all(
     links: Links,
     joints: Joints,
@@ -86,7 +86,7 @@ def measure_all(
             residual[i, k] = _measure(links, joints, task, Ts[i], q[i, k], damped)
 
 
-@entry
+@entry()
 def measure_and_sort(
     links: Links,
     joints: Joints,

@@ -23,7 +23,7 @@ from dh2urdf.kernels.certificate.newton import (
 )
 from dh2urdf.kernels.certificate.singular_families import free_joints, one_of_each_family
 from dh2urdf.kernels.chain import inverse_pose, store_pose
-from dh2urdf.kernels.numbers import Codes, Counts, Joints, Links, Poses, Solutions, Values, entry
+from dh2urdf.kernels.numbers import Joints, Links, Outputs, Poses, entry
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
@@ -113,22 +113,13 @@ def finish_families(links, joints, T, rest, within_limits, rows, count, trial, w
     return count
 
 
-@entry
-def finish_batch(
-    links: Links,
-    joints: Joints,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions,
-    residual: Values,
-    count: Counts,
-    branch: Codes,
-    free: Codes,
-):
+@entry()
+def finish_batch(links: Links, joints: Joints, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose Ts[i], in place.
 
     The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
     """
+    q, residual, count, branch, free = outputs
     n = q.shape[2]
     work, trial = work_array(n), np.empty((2, n))
     for i in range(Ts.shape[0]):
@@ -146,7 +137,7 @@ def invert_pose(T, out):
     store_pose(inverse_pose(T), out)
 
 
-@entry
+@entry()
 def invert_poses(Ts: Poses, out: Poses):
     """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
     for i in range(Ts.shape[0]):
@@ -163,22 +154,13 @@ def reverse_joints(q, free):
     return mask
 
 
-@entry
-def turn_back(
-    links: Links,
-    joints: Joints,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions,
-    residual: Values,
-    count: Counts,
-    branch: Codes,
-    free: Codes,
-):
+@entry()
+def turn_back(links: Links, joints: Joints, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
 
     The reversed chain measures its position error at the other end.
     """
+    q, residual, count, branch, free = outputs
     n = q.shape[2]
     work = work_array(n)
     for i in range(Ts.shape[0]):

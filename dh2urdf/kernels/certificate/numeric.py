@@ -102,7 +102,7 @@ def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best,
     return least
 
 
-@entry
+@entry()
 def find_solutions(
     links: Annotated[Floats, "moving + 1", 4, 4],
     joints: Annotated[Floats, "moving", 3],

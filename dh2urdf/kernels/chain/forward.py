@@ -103,7 +103,7 @@ def turned_back(A, v):
     )
 
 
-@entry
+@entry()
 def chain_fk_batch(
     links: Links, prismatic: Annotated[Flags, "n"], q: Annotated[Floats, "poses", "n"], T: Poses
 ):
@@ -117,7 +117,7 @@ def chain_fk_batch(
     return finite
 
 
-@entry
+@entry()
 def chain_frames_batch(
     links: Links,
     prismatic: Annotated[Flags, "n"],
@@ -160,7 +160,7 @@ def jacobian_rows(links, joints, q, J):
     return r
 
 
-@entry
+@entry()
 def chain_jacobian_batch(
     links: Links,
     prismatic: Annotated[Flags, "n"],

@@ -49,7 +49,7 @@ def inverse_pose(A):
     return a[0], b[0], c[0], x, a[1], b[1], c[1], y, a[2], b[2], c[2], z
 
 
-@entry
+@entry()
 def held_poses(
     links: Annotated[Floats, "links", 4, 4],
     slides: bool,
@@ -72,7 +72,7 @@ def insert_held(k, value, found, q, free, count):
         free[r] = (free[r] & low) | ((free[r] & ~low) << 1)
 
 
-@entry
+@entry()
 def insert_held_batch(
     k: int,
     values: Annotated[Floats, "poses"],

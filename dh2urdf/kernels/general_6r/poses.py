@@ -67,7 +67,7 @@ def _solve_pose(T, out_q, out_residual, arm):
     return found
 
 
-@entry
+@entry()
 def solve_general_6r(
     arms: Annotated[Any, ARM_6R, "arm_6r", 1],
     Ts: Poses,

@@ -22,7 +22,7 @@ from dh2urdf.kernels.certificate import (
     principal,
     work_array,
 )
-from dh2urdf.kernels.numbers import Counts, Floats, Joints6, Links6, Poses, entry
+from dh2urdf.kernels.numbers import Counts, Floats, Joints, Links, Poses, entry
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
@@ -75,10 +75,10 @@ def _converges(links, joints, T, q, A, step, damped):
     return pose_residual(links, joints, T, q) <= POLISH
 
 
-@entry
+@entry(n=6)
 def search_beside(
-    links: Links6,
-    joints: Joints6,
+    links: Links,
+    joints: Joints,
     Ts: Poses,
     q: Annotated[Floats, "poses", "solutions", 6],
     count: Counts,

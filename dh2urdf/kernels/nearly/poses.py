@@ -22,18 +22,14 @@ from dh2urdf.kernels.certificate import (
     solve_damped,
 )
 from dh2urdf.kernels.numbers import (
-    Codes,
+    ClosedForm,
     Counts,
-    Ends,
     Floats,
     Integers,
-    Joints6,
-    Links6,
+    Outputs,
     Poses,
-    Rows6,
     Solutions,
     Three,
-    Values,
     entry,
 )
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
@@ -69,30 +65,19 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
     return -1 - left if doubt or left < found else left
 
 
-@entry
-def solve_near_wrist(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    trust: Three,
-    Ts: Poses,
-    q: Found,
-    residual: Values,
-    count: Counts,
-    branch: Codes,
-    free: Codes,
-):
+@entry(n=6)
+def solve_near_wrist(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outputs):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
-    D, R, arm, work, _ = wrist_scratch()
+    links, joints, form, ends, slack = arm
+    q, residual, count, branch, free = outputs
+    D, R, places, work, _ = wrist_scratch()
     start, damped = np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
-        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, arm)
+        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, places)
         found = 0
         for k in range(rows):
-            found = add_wrist(form, D, arm[k], R, slack, q[i], branch[i], free[i], found)
+            found = add_wrist(form, D, places[k], R, slack, q[i], branch[i], free[i], found)
         out = q[i], residual[i], branch[i], free[i]
         count[i] = _settle(links, joints, Ts[i], trust, False, *out, found, start, work, damped)
 
@@ -110,22 +95,11 @@ def _in_line(form, first, pairs, slack, D, pair, cs, regular):
     return False
 
 
-@entry
-def solve_near_parallel(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    trust: Three,
-    Ts: Poses,
-    q: Found,
-    residual: Values,
-    count: Counts,
-    branch: Codes,
-    free: Codes,
-):
+@entry(n=6)
+def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outputs):
     """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
+    links, joints, form, ends, slack = arm
+    q, residual, count, branch, free = outputs
     scratch = parallel_scratch()
     D, pair, work = scratch[0], scratch[1], scratch[3]
     start, damped = np.empty(6), make_damped(6)
@@ -139,7 +113,7 @@ def solve_near_parallel(
         count[i] = _settle(links, joints, Ts[i], trust, doubt, *out, found, start, work, damped)
 
 
-@entry
+@entry()
 def add_candidates(
     rows: Annotated[Integers, "rows"],
     q: Solutions,

@@ -18,25 +18,22 @@ from dh2urdf.kernels.numbers.engine import entry, side_by_side
 from dh2urdf.kernels.numbers.lanes import COLUMN, LANES, null_vectors, reduce_columns, solve_upper
 from dh2urdf.kernels.numbers.poses import copy_pose, first_bad_pose, is_pose, pad_solutions
 from dh2urdf.kernels.numbers.shapes import (
+    ClosedForm,
     Codes,
-    Codes8,
     Counts,
     Ends,
     Flags,
     Floats,
     Integers,
     Joints,
-    Joints6,
     Links,
-    Links6,
+    Outputs,
     Pose,
     Poses,
-    Rows6,
+    Rows,
     Solutions,
-    Solutions8,
     Three,
     Values,
-    Values8,
 )
 from dh2urdf.kernels.numbers.trig import (
     add_square,

@@ -12,7 +12,7 @@ from dh2urdf.kernels.numbers.engine import entry
 from dh2urdf.kernels.numbers.shapes import Floats, Pose
 
 
-@entry
+@entry()
 def dual_of_pose(T: Pose, unit: float, out: Annotated[Floats, 8]):
     """Write the dual quaternion of T (4, 4), lengths divided by ``unit``, to out (8,).
 

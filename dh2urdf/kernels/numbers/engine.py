@@ -25,6 +25,9 @@ vector instructions, in any order."""
 INTERPRETED: dict[str, Callable[..., Any]] = {}
 """The entries as they are written, by module and name."""
 
+LENGTHS: dict[str, dict[str, int]] = {}
+"""Lengths of their arrays that are known before they run."""
+
 PACKAGE = Path(__file__).parents[2]
 
 ADVICE = "python -m dh2urdf.translate.build compiles them, as does an installation"
@@ -80,9 +83,13 @@ def fingerprint() -> str:
 _COMPILED = _extension()
 
 
-def entry(function: Kernel) -> Kernel:
-    """Mark a kernel that Python calls."""
-    name = f"{function.__module__}.{function.__name__}"
-    INTERPRETED[name] = function
-    compiled: Kernel = getattr(_COMPILED, name.replace(".", "__"), function)
-    return compiled
+def entry(**lengths: int) -> Callable[[Kernel], Kernel]:
+    """Mark a kernel that Python calls; ``lengths`` are those that are the same for all arms."""
+
+    def mark(function: Kernel) -> Kernel:
+        name = f"{function.__module__}.{function.__name__}"
+        INTERPRETED[name], LENGTHS[name] = function, lengths
+        compiled: Kernel = getattr(_COMPILED, name.replace(".", "__"), function)
+        return compiled
+
+    return mark

@@ -1,7 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
 from dh2urdf.kernels.numbers.engine import entry
-from dh2urdf.kernels.numbers.shapes import Codes, Counts, Pose, Poses, Solutions, Values
+from dh2urdf.kernels.numbers.shapes import Outputs, Pose, Poses
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""
@@ -45,20 +45,20 @@ def _count_rigid(Ts, first, last):
     return count
 
 
-@entry
+@entry()
 def is_pose(T: Pose):
     """Whether T (4, 4) is in SE(3)."""
     return _rigid(T)
 
 
-@entry
+@entry()
 def copy_pose(T: Pose, out: Pose):
     """Write T (4, 4) to ``out``."""
     for i in range(4):
         out[i, 0], out[i, 1], out[i, 2], out[i, 3] = T[i, 0], T[i, 1], T[i, 2], T[i, 3]
 
 
-@entry
+@entry()
 def first_bad_pose(Ts: Poses):
     """Index of the first of the poses Ts (m, 4, 4) that is not in SE(3), or -1."""
     m = Ts.shape[0]
@@ -72,14 +72,13 @@ def first_bad_pose(Ts: Poses):
     return -1
 
 
-@entry
-def pad_solutions(
-    q: Solutions, residual: Values, count: Counts, branch: Codes, free: Codes, nothing: float
-):
+@entry()
+def pad_solutions(outputs: Outputs, nothing: float):
     """Write ``nothing`` (NaN), branch -1 and no free joints after the last solution of a pose.
 
     Returns whether any solution has free joints.
     """
+    q, residual, count, branch, free = outputs
     singular = False
     for i in range(q.shape[0]):
         for k in range(count[i]):

@@ -3,7 +3,7 @@
 The ``n`` joints of a chain, ``poses`` of a batch, ``solutions`` for which there is room.
 """
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,23 +17,62 @@ Poses: TypeAlias = Annotated[Floats, "poses", 4, 4]
 Three: TypeAlias = Annotated[Floats, 3]
 
 Links: TypeAlias = Annotated[Floats, "n + 1", 4, 4]
-Links6: TypeAlias = Annotated[Floats, 7, 4, 4]
 """``T_base_tool = links[0] Z_1(q_1) links[1] ... Z_n(q_n) links[n]``."""
 
 Joints: TypeAlias = Annotated[Floats, "n", 3]
-Joints6: TypeAlias = Annotated[Floats, 6, 3]
 """A row a joint: 1.0 where it slides, lower bound, upper bound."""
 
-Rows6: TypeAlias = Annotated[Floats, 6, 7]
+Rows: TypeAlias = Annotated[Floats, "n", 7]
 """A row a joint: a, cos alpha, sin alpha, d, offset, its sine, sign of the joint."""
 
 Ends: TypeAlias = Annotated[Floats, 3, 4, 4]
 """From base to the first row's frame and from the last to the tool, both inverse; the tool."""
 
 Solutions: TypeAlias = Annotated[Floats, "poses", "solutions", "n"]
-Solutions8: TypeAlias = Annotated[Floats, "poses", 8, 6]
 Values: TypeAlias = Annotated[Floats, "poses", "solutions"]
-Values8: TypeAlias = Annotated[Floats, "poses", 8]
 Codes: TypeAlias = Annotated[Integers, "poses", "solutions"]
-Codes8: TypeAlias = Annotated[Integers, "poses", 8]
 Counts: TypeAlias = Annotated[Integers, "poses"]
+
+
+class ClosedForm(NamedTuple):
+    """An arm with a closed form: its chain, its Denavit-Hartenberg rows, how far rims reach."""
+
+    links: Links
+    joints: Joints
+    form: Rows
+    ends: Ends
+    slack: float
+
+
+class Outputs(NamedTuple):
+    """Solutions of m poses, a row for each.
+
+    Attributes
+    ----------
+    q : array, shape (m, kmax, n)
+        Solutions in the first ``counts[i]`` rows; the others may hold anything.
+    residual : array, shape (m, kmax)
+    counts : int64 array, shape (m,)
+    branch : int64 array, shape (m, kmax)
+        Bits of the branch; -1 where the family has none.
+    free : int64 array, shape (m, kmax)
+        Bits of the joints that are free along a singular family.
+    """
+
+    q: Solutions
+    residual: Values
+    counts: Counts
+    branch: Codes
+    free: Codes
+
+    @classmethod
+    def of(cls, m: int, kmax: int, n: int) -> "Outputs":
+        """Arrays for m poses, nothing in them."""
+        codes = np.zeros((2, m, kmax), np.int64)
+        return cls(
+            np.empty((m, kmax, n)), np.empty((m, kmax)), np.zeros(m, np.int64), codes[0], codes[1]
+        )
+
+    def rows(self, index: slice | Integers) -> "Outputs":
+        """Those of some poses: views by a slice, copies by indices."""
+        return Outputs._make(array[index] for array in self)

@@ -103,7 +103,7 @@ def add_square(series, weight, constant, cosine, sine):
     series[4] += weight * cosine * sine
 
 
-@entry
+@entry()
 def trig_roots(
     series: Annotated[Floats, "terms"],
     degree: int,
@@ -197,7 +197,7 @@ def _aberth_sweep(series, degree, real, imaginary):
     return longest
 
 
-@entry
+@entry()
 def arctangent(y: float, x: float):
     """``atan2(y, x)`` without branches, for loops that become vector code; within 5e-16.
 

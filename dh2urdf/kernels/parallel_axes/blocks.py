@@ -9,19 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    Codes8,
-    Counts,
-    Ends,
-    Joints6,
-    Links6,
-    Poses,
-    Rows6,
-    Solutions8,
-    Values8,
-    entry,
-    side_by_side,
-)
+from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, entry, side_by_side
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
 from dh2urdf.kernels.spherical_wrist import (
@@ -143,24 +131,12 @@ def _elbows(form, slack, n, S):
             S[result + i] = exists if reached else 0.0
 
 
-@entry
-def solve_common_parallel(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions8,
-    residual: Values8,
-    count: Counts,
-    branch: Codes8,
-    free: Codes8,
-):
+@entry(n=6, solutions=8)
+def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
-    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
-    table, results = (JOINT_OF, ROW_OF, MIRROR_OF), (q, residual, count, branch, free)
+    links, joints, form, ends, slack = arm
+    q, residual, count, branch, free = outputs
+    m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRROR_OF)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
@@ -170,7 +146,7 @@ def solve_common_parallel(
         for k in range(8):
             pair = (k & 1) + 2 * (k >> 2)
             measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
-        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, results)
+        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, outputs)
         for i in range(first, first + n):
             if count[i] < 0:
                 scratch = make_scratch()

@@ -15,20 +15,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
-from dh2urdf.kernels.numbers import (
-    Codes8,
-    Counts,
-    Ends,
-    Joints6,
-    Links6,
-    Poses,
-    Rows6,
-    Solutions8,
-    Values8,
-    atan2,
-    entry,
-    hypot,
-)
+from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import common_axis, last_joint, seen_arm, seen_from_plane
@@ -178,25 +165,14 @@ def make_scratch():
     )
 
 
-@entry
-def solve_three_parallel(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions8,
-    residual: Values8,
-    count: Counts,
-    branch: Codes8,
-    free: Codes8,
-):
+@entry(n=6, solutions=8)
+def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """All solutions of poses Ts (m, 4, 4); q (m, 8, 6), the rest as its first axes.
 
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
     """
+    links, joints, form, ends, slack = arm
+    q, residual, count, branch, free = outputs
     scratch = make_scratch()
     D, pair, trial = scratch[0], scratch[1], np.empty(6)
     first = 1 if form[0, 2] != 0.0 else 0

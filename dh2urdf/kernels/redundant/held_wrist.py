@@ -19,7 +19,7 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
-from typing import Annotated
+from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -47,10 +47,9 @@ from dh2urdf.kernels.numbers import (
     Counts,
     Floats,
     Integers,
-    Joints6,
+    Outputs,
     Pose,
     Poses,
-    Rows6,
     atan2,
     circle_pair,
     entry,
@@ -179,43 +178,43 @@ def solve_held_pose(
     return found
 
 
-def solve_rough(constants, values, Ts, within_limits, first, last, out):
+def solve_rough(arm, values, Ts, within_limits, first, last, outputs):
     """Solve those of the poses ``first`` to ``last - 1`` whose count is negative."""
-    q, residual, count, branch, free = out
+    q, residual, count, branch, free = outputs
     scratch = make_scratch()
     for i in range(first, last):
         if count[i] < 0:
             rows = q[i], residual[i], branch[i], free[i]
-            count[i] = solve_held_pose(*constants, values[i], Ts[i], within_limits, *rows, scratch)
+            count[i] = solve_held_pose(*arm, values[i], Ts[i], within_limits, *rows, scratch)
 
 
-@entry
-def solve_held_wrist(
-    frames: Annotated[Floats, 30, 4, 4],
-    which: Annotated[Integers, 5],
-    form: Rows6,
-    joints: Joints6,
-    slack: float,
-    values: Annotated[Floats, "poses"],
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 8, 7],
-    residual: Annotated[Floats, "poses", 8],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 8],
-    free: Annotated[Integers, "poses", 8],
-):
+Held: TypeAlias = Annotated[Floats, "poses"]
+"""Values of the held joint."""
+
+
+class HeldForm(NamedTuple):
+    """Seven joints of which one is held: frames, what is where in them, rows of the six others."""
+
+    frames: Annotated[Floats, 30, 4, 4]
+    which: Annotated[Integers, 5]
+    form: Annotated[Floats, 6, 7]
+    joints: Annotated[Floats, 6, 3]
+    slack: float
+
+
+@entry(n=7, solutions=8)
+def solve_held_wrist(arm: HeldForm, values: Held, Ts: Poses, within_limits: bool, outputs: Outputs):
     """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7)."""
+    count = outputs[2]
     count[:] = -1
-    constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
-    solve_rough(constants, values, Ts, within_limits, 0, Ts.shape[0], out)
+    solve_rough(arm, values, Ts, within_limits, 0, Ts.shape[0], outputs)
 
 
-@entry
+@entry()
 def points_on_curves(
     frames: Annotated[Floats, 30, 4, 4],
     which: Annotated[Integers, 5],
-    form: Rows6,
+    form: Annotated[Floats, 6, 7],
     joints: Annotated[Floats, 7, 3],
     slack: float,
     values: Annotated[Floats, "poses"],

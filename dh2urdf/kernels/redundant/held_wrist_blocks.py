@@ -6,23 +6,12 @@ singularities and rims go to the scalar kernel. Solution ``k`` has joint 1 ``k &
 ``k >> 1 & 1``, wrist ``k >> 2``.
 """
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    Codes,
-    Counts,
-    Floats,
-    Integers,
-    Joints6,
-    Poses,
-    Rows6,
-    Solutions,
-    Values,
-    entry,
-)
-from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, solve_rough
+from dh2urdf.kernels.numbers import Floats, Integers, Outputs, Poses, entry
+from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, Held, HeldForm, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
 from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, emit
@@ -32,25 +21,13 @@ K, ARM, OTHER = np.arange(8), np.arange(8) & 3, 12 * (np.arange(8) >> 2)
 ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
 
 
-@entry
+@entry(n=7, solutions=8)
 def solve_held_blocks(
-    frames: Annotated[Floats, 30, 4, 4],
-    which: Annotated[Integers, 5],
-    form: Rows6,
-    joints: Joints6,
-    slack: float,
-    values: Annotated[Floats, "poses"],
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 8, 7],
-    residual: Annotated[Floats, "poses", 8],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 8],
-    free: Annotated[Integers, "poses", 8],
+    arm: HeldForm, values: Held, Ts: Poses, within_limits: bool, outputs: Outputs
 ):
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
-    S, m = np.empty(ROWS * BLOCK), Ts.shape[0]
-    constants, out = (frames, which, form, joints, slack), (q, residual, count, branch, free)
+    frames, which, form, joints, slack = arm
+    q, S, m = outputs[0], np.empty(ROWS * BLOCK), Ts.shape[0]
     if m == 0:
         return
     same, seen_from_tool = all_equal(values), which[REVERSED] != 0
@@ -67,39 +44,34 @@ def solve_held_blocks(
         load_block(frames, which, values, Ts, same, first, n, S)
         place_elbows(S2, form[3, 3], slack, n, S)
         place_shoulders(S0, slack, n, S)
-        for arm in range(4):
-            finish_arm(form, S0, seen_from_tool, arm, n, S)
-        clean = emit(form, oriented, table, within_limits, place, False, first, n, S, out)
+        for k in range(4):
+            finish_arm(form, S0, seen_from_tool, k, n, S)
+        clean = emit(form, oriented, table, within_limits, place, False, first, n, S, outputs)
         for i in range(first, first + n):
             for k in range(8):
                 q[i, k, which[HELD]] = values[i]
         if clean < n:
-            solve_rough(constants, values, Ts, within_limits, first, first + n, out)
+            solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)
 
 
-@entry
-def gather_samples(
-    found: tuple[
-        Annotated[Floats, "samples_in", "some", "n"],
-        Annotated[Floats, "samples_in", "some"],
-        Annotated[Integers, "samples_in"],
-        Annotated[Integers, "samples_in", "some"],
-        Annotated[Integers, "samples_in", "some"],
-    ],
-    first: int,
-    last: int,
-    samples: int,
-    q: Solutions,
-    residual: Values,
-    count: Counts,
-    branch: Codes,
-    free: Codes,
-):
+class Samples(NamedTuple):
+    """Outputs of a solver for every sample of some poses."""
+
+    q: Annotated[Floats, "samples_in", "some", "n"]
+    residual: Annotated[Floats, "samples_in", "some"]
+    counts: Annotated[Integers, "samples_in"]
+    branch: Annotated[Integers, "samples_in", "some"]
+    free: Annotated[Integers, "samples_in", "some"]
+
+
+@entry()
+def gather_samples(found: Samples, first: int, last: int, samples: int, outputs: Outputs):
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
     ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
     the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`.
     """
+    q, residual, count, branch, free = outputs
     some_q, some_residual, some_count, some_branch, some_free = found
     for i in range(first, last):
         total = 0

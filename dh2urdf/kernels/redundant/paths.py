@@ -58,7 +58,7 @@ def step_length(a, b, jump, penalty):
     return math.sqrt(distance2(a, b)) + (penalty if longest > jump else 0.0)
 
 
-@entry
+@entry()
 def onward(
     links: Links,
     joints: Joints,
@@ -195,7 +195,7 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
             trial[i] = q[i]
 
 
-@entry
+@entry()
 def shorten(
     links: Links,
     joints: Joints,

@@ -140,7 +140,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         gap2 = distance2(q, seed)
 
 
-@entry
+@entry()
 def nearest_members(
     links: Links,
     joints: Joints,
@@ -184,7 +184,7 @@ def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
     return size > 1e-6
 
 
-@entry
+@entry()
 def enter_limits(
     links: Links,
     joints: Joints,
@@ -228,7 +228,7 @@ def enter_limits(
             q[k] = trial
 
 
-@entry
+@entry()
 def walk_family(
     links: Links,
     joints: Joints,

@@ -48,7 +48,7 @@ def _pair_columns(loop, joints, first, second, out):
             dual_product(out[k + 1], loop[second], out[k + 1])
 
 
-@entry
+@entry()
 def loop_columns(
     loop: Annotated[Floats, "n", 8],
     joints: Joints,
@@ -73,7 +73,7 @@ def loop_columns(
         out[8 + k, 0], out[8 + k, 4] = -out[8 + k, 0], -out[8 + k, 4]
 
 
-@entry
+@entry()
 def loop_matrix(
     columns: Annotated[Floats, 12, 8],
     used: Annotated[Integers, 8],

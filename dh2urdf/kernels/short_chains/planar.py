@@ -4,18 +4,17 @@
 """
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from dh2urdf.kernels.certificate import finish_pose, work_array
 from dh2urdf.kernels.chain import applied, turned
 from dh2urdf.kernels.numbers import (
-    Counts,
     Floats,
-    Integers,
     Joints,
     Links,
+    Outputs,
     Poses,
     atan2,
     elbow_angle,
@@ -30,7 +29,7 @@ SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
 
 
-@entry
+@entry()
 def planar_rr(
     l1: float,
     l2: float,
@@ -75,21 +74,18 @@ def _one_link(l1, l2, x, y, slack, rest, out):
     return 1, True
 
 
-@entry
-def solve_planar(
-    links: Links,
-    joints: Joints,
-    plane: Annotated[Floats, 2, 4, 4],
-    form: Annotated[Floats, 9],
-    pose: bool,
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 2, "n"],
-    residual: Annotated[Floats, "poses", 2],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 2],
-    free: Annotated[Integers, "poses", 2],
-):
+class PlanarArm(NamedTuple):
+    """Two or three joints with parallel axes, whose pose or position is asked for."""
+
+    links: Links
+    joints: Joints
+    plane: Annotated[Floats, 2, 4, 4]
+    form: Annotated[Floats, 9]
+    pose: bool
+
+
+@entry(solutions=2)
+def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4), or their positions, of two or three joints with parallel axes.
 
     ``plane`` (2, 4, 4): base to the frame on axis 1, x to axis 2; what takes the tool's pose at
@@ -97,6 +93,8 @@ def solve_planar(
     the point on the last axis (the tool's origin for two joints) in the tool frame [m], rest value
     of joint 1. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
+    links, joints, plane, form, pose = arm
+    q, residual, count, branch, free = outputs
     n, F = joints.shape[0], plane[0]
     work, pairs, point = work_array(n), np.empty((2, 2)), np.empty(3)
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]

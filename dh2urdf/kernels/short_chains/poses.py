@@ -6,7 +6,7 @@ family, the joints that move along it are found by walking a little, and one rep
 the one whose first free joint is at rest.
 """
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -19,11 +19,11 @@ from dh2urdf.kernels.certificate import (
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.numbers import (
-    Counts,
     Floats,
     Integers,
     Joints,
     Links,
+    Outputs,
     Pose,
     Poses,
     atan2,
@@ -55,7 +55,7 @@ ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
 
 
-@entry
+@entry()
 def close_loop(
     ends: Annotated[Floats, 2, 4, 4],
     T: Pose,
@@ -124,22 +124,19 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     return count, doubt
 
 
-@entry
-def solve_short_chains(
-    links: Links,
-    joints: Joints,
-    ends: Annotated[Floats, 2, 4, 4],
-    loop: Annotated[Floats, "n", 8],
-    plan: Annotated[Integers, "cuts", 2, 8],
-    rest_unit: Annotated[Floats, "n + 1"],
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 8, "n"],
-    residual: Annotated[Floats, "poses", 8],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 8],
-    free: Annotated[Integers, "poses", 8],
-):
+class ShortChain(NamedTuple):
+    """Up to five joints, and how the loop that they close with the pose is cut."""
+
+    links: Links
+    joints: Joints
+    ends: Annotated[Floats, 2, 4, 4]
+    loop: Annotated[Floats, "n", 8]
+    plan: Annotated[Integers, "cuts", 2, 8]
+    rest_unit: Annotated[Floats, "n + 1"]
+
+
+@entry(solutions=8)
+def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4) of a chain of n <= 5 joints.
 
     ``ends`` (2, 4, 4) are the inverses of the first and the last link, ``loop`` (n, 8) the dual
@@ -148,6 +145,8 @@ def solve_short_chains(
     slots that it has, -1 after the last. ``rest_unit`` (n + 1,): rest values, then the length of
     one dual unit [m]. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
+    links, joints, ends, loop, plan, rest_unit = arm
+    q, residual, count, branch, free = outputs
     n = joints.shape[0]
     work = work_array(n)
     closed, scratch, roots = np.empty((n, 8)), np.empty((29, 8)), np.empty((3, SAMPLES))

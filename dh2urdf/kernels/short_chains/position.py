@@ -12,7 +12,7 @@ Two turning joints stand on their common normal: ``A = Trans_x(a) Rot_x(alpha)``
 """
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -26,12 +26,12 @@ from dh2urdf.kernels.certificate import (
 )
 from dh2urdf.kernels.chain import applied, applied_inverse
 from dh2urdf.kernels.numbers import (
-    Counts,
     Floats,
-    Integers,
     Joints,
     Links,
+    Outputs,
     Poses,
+    Three,
     atan2,
     entry,
     sincos,
@@ -232,27 +232,26 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
     return count
 
 
-@entry
-def solve_short_positions(
-    links: Links,
-    joints: Joints,
-    frames: Annotated[Floats, "n", 4, 4],
-    tip: Annotated[Floats, 3],
-    rest_unit: Annotated[Floats, "n + 1"],
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 4, "n"],
-    residual: Annotated[Floats, "poses", 4],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 4],
-    free: Annotated[Integers, "poses", 4],
-):
+class PositionArm(NamedTuple):
+    """Up to three joints, whose position is asked for."""
+
+    links: Links
+    joints: Joints
+    frames: Annotated[Floats, "n", 4, 4]
+    tip: Three
+    rest_unit: Annotated[Floats, "n + 1"]
+
+
+@entry(solutions=4)
+def solve_short_positions(arm: PositionArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve the origins of poses Ts (m, 4, 4) of a chain of n <= 3 joints.
 
     ``frames`` (n, 4, 4) are ``F_1^-1``, A, B, ``tip`` (3,) is the tool's origin as the last joint
     sees it, ``rest_unit`` (n + 1,) has the rest values, then the size of the arm [m]. The others as
     for :class:`dh2urdf.ik.arm.solver.Solver`.
     """
+    links, joints, frames, tip, rest_unit = arm
+    q, residual, count, branch, free = outputs
     n = joints.shape[0]
     work = work_array(n)
     slides, p = np.empty(n, np.bool_), np.empty(3)

@@ -4,7 +4,7 @@
 equations, gives the slides.
 """
 
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
@@ -21,17 +21,7 @@ from dh2urdf.kernels.certificate import (
     work_array,
 )
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
-from dh2urdf.kernels.numbers import (
-    Counts,
-    Floats,
-    Integers,
-    Joints,
-    Links,
-    Poses,
-    atan2,
-    entry,
-    linear_trig,
-)
+from dh2urdf.kernels.numbers import Floats, Joints, Links, Outputs, Poses, atan2, entry, linear_trig
 
 DAMPING = 1e-10
 """Added to the normal equations of the slides, which may lie in a plane: then they move as little
@@ -114,25 +104,24 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
     return max(found, 0)
 
 
-@entry
-def solve_three_slides(
-    links: Links,
-    joints: Joints,
-    rest: Annotated[Floats, "n"],
-    Ts: Poses,
-    within_limits: bool,
-    q: Annotated[Floats, "poses", 2, "n"],
-    residual: Annotated[Floats, "poses", 2],
-    count: Counts,
-    branch: Annotated[Integers, "poses", 2],
-    free: Annotated[Integers, "poses", 2],
-):
+class SlidingArm(NamedTuple):
+    """Three joints that slide and two or three that turn; where a free joint rests."""
+
+    links: Links
+    joints: Joints
+    rest: Annotated[Floats, "n"]
+
+
+@entry(solutions=2)
+def solve_three_slides(arm: SlidingArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
     Of a family the member stays whose first free joint is at its value in ``rest`` (n,). ``links``
     and ``joints`` are those of :func:`~dh2urdf.kernels.certificate.certify.finish_pose`, the others
     those of :class:`dh2urdf.ik.arm.solver.Solver`.
     """
+    links, joints, rest = arm
+    q, residual, count, branch, free = outputs
     n = joints.shape[0]
     work, damped, trial = work_array(n), make_damped(n), np.empty((2, n))
     turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))

@@ -13,19 +13,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import (
-    Codes8,
-    Counts,
-    Ends,
-    Joints6,
-    Links6,
-    Poses,
-    Rows6,
-    Solutions8,
-    Values8,
-    entry,
-    side_by_side,
-)
+from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, entry, side_by_side
 from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     BLOCK,
     CLEAR,
@@ -141,25 +129,12 @@ def _wrists(form, n, S):
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-@entry
-def solve_common_wrist(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions8,
-    residual: Values8,
-    count: Counts,
-    branch: Codes8,
-    free: Codes8,
-):
+@entry(n=6, solutions=8)
+def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
-    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
-    table, results = (JOINT_OF, ROW_OF, MIRRORS), (q, residual, count, branch, free)
-    arm = links, joints, form, ends, slack
+    _, joints, form, ends, slack = arm
+    q, residual, count, branch, free = outputs
+    m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRRORS)
     for first in range(0, m, BLOCK):
         n = min(BLOCK, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
@@ -170,7 +145,7 @@ def solve_common_wrist(
             measure(form, ends[2], n, S, k, k & 1, 2 + k, 6 + k, 10 + k, 14 + k, 18 + k)
         for i in range(at(4)):
             S[at(RESIDUAL + 4) + i] = S[at(RESIDUAL) + i]
-        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, results)
+        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, outputs)
         for i in range(first, first + n):
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]

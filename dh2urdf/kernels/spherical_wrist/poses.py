@@ -21,15 +21,9 @@ from dh2urdf.kernels.certificate import (
     same,
 )
 from dh2urdf.kernels.numbers import (
-    Codes8,
-    Counts,
-    Ends,
-    Joints6,
-    Links6,
+    ClosedForm,
+    Outputs,
     Poses,
-    Rows6,
-    Solutions8,
-    Values8,
     atan2,
     entry,
     hypot,
@@ -223,28 +217,14 @@ def solve_pose(arm, T, within_limits, out, scratch):
     return finish_wrists(links, joints, form, found, merged, slack, T, within_limits, out, scratch)
 
 
-@entry
-def solve_wrist_arm(
-    links: Links6,
-    joints: Joints6,
-    form: Rows6,
-    ends: Ends,
-    slack: float,
-    Ts: Poses,
-    within_limits: bool,
-    q: Solutions8,
-    residual: Values8,
-    count: Counts,
-    branch: Codes8,
-    free: Codes8,
-):
+@entry(n=6, solutions=8)
+def solve_wrist_arm(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """All solutions of poses Ts (m, 4, 4) of an arm of six joints with a spherical wrist.
 
-    Constants: ``links`` and ``joints`` of the exact chain
-    (:mod:`dh2urdf.kernels.certificate.certify`), ``form`` and ``ends`` of its Denavit-Hartenberg
-    form. Outputs: q (m, 8, 6), residual, branch and free (m, 8), count (m,).
+    Of the exact chain, ``form`` and ``ends`` are in its Denavit-Hartenberg form.
     """
-    arm, scratch = (links, joints, form, ends, slack), make_scratch()
+    q, residual, count, branch, free = outputs
+    scratch = make_scratch()
     for i in range(Ts.shape[0]):
         out = q[i], residual[i], branch[i], free[i]
         count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
