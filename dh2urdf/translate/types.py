@@ -94,7 +94,7 @@ def type_of_value(value: object) -> Type | None:
     if isinstance(value, bool | np.bool_):
         return "bool"
     if isinstance(value, int | np.integer):
-        return "int" if abs(value) < 2**31 else None
+        return "int" if abs(int(value)) < 2**31 else None
     if isinstance(value, float | np.floating):
         return "float"
     if isinstance(value, tuple) and {type(v) for v in value} in ({int}, {float}):
