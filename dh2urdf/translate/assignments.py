@@ -1,14 +1,13 @@
 """Assignments as C: of tuples at once, of all elements of an array, with an operator."""
 
 import ast
-from collections import Counter
 from collections.abc import Iterator
 
 from dh2urdf.translate.calls import Calls
 from dh2urdf.translate.definitions import Definitions, Instance
 from dh2urdf.translate.expressions import BINARY
 from dh2urdf.translate.scopes import scopes_of
-from dh2urdf.translate.source import every, loaded, stored
+from dh2urdf.translate.source import loaded
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import Value
 
@@ -21,15 +20,6 @@ class Assignments(Calls):
         self.scopes = scopes_of(self.source)
         self.hoisted: dict[str, str] = {}
         """Names that are declared before the block that gives them a value, by their line."""
-        times = Counter(stored(self.source.body))
-        counters = {
-            n.target.id
-            for n in every(self.source.body)
-            if isinstance(n, ast.For) and isinstance(n.target, ast.Name)
-        }
-        kept = {x for x in times if times[x] == 1} - set(self.source.parameters)
-        self.once = kept - counters
-        self.changing = {self.name(x) for x in set(times) - kept - counters}
 
     def assign(self, s: ast.Assign) -> None:
         """An assignment: all is read before anything is written."""
@@ -58,7 +48,7 @@ class Assignments(Calls):
         elif isinstance(target, ast.Tuple):
             yield from self._unpacked(target, n, self.value(n))
         elif isinstance(target, ast.Name):
-            size = self.size(n) if target.id in self.once else None
+            size = self.size(n) if target.id in self.source.once else None
             if size is None:
                 yield target, n, self.value(n)
             else:
@@ -113,7 +103,7 @@ class Assignments(Calls):
             types = f"{told(before.type)} and {told(t)}"
             self.refuse(target, f"one name for two types, {types}", "two names, or 0.0 for 0")
         if value.maker or value.leaves() != [value]:
-            if not here or name not in self.once:
+            if not here or name not in self.source.once:
                 self.refuse(s, "arrays that are made, or put together, in a block", "it before")
             self.values[name] = self._kept(self.stored(value, c), c)
             return
@@ -122,7 +112,7 @@ class Assignments(Calls):
         if not here:
             self.out(f"{c} = {text};")
             return
-        const = "const " if name in self.once and not isinstance(t, Array | Record) else ""
+        const = "const " if name in self.source.once and not isinstance(t, Array | Record) else ""
         if isinstance(t, Tuple):
             text = text.removeprefix(f"({self.file.tuple_name(t)})")
         self.out(f"{const}{self.file.declaration(t, c)} = {text};")
@@ -132,7 +122,7 @@ class Assignments(Calls):
         if value.parts:
             parts = (self._kept(part, f"{name}_{k}") for k, part in enumerate(value.parts))
             return Value(value.type, parts=tuple(parts))
-        if value.words() & self.changing:
+        if value.words() & set(map(self.name, self.source.changing)):
             return self.temporary(value, name)
         return value
 

@@ -147,6 +147,7 @@ def _constant(name: str, value: object) -> str:
     return f"static const {NUMBER[str(type_of_value(value))]} {name} = {number(value)};"
 
 
+@cache
 def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     """The module that defines a constant, and what it says of it there."""
     body = _tree(module).body

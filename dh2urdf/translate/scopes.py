@@ -3,6 +3,7 @@
 import ast
 from collections import Counter
 from dataclasses import dataclass, field
+from functools import cache
 
 from dh2urdf.translate.source import Source, blocks_of, every, loaded, stored
 
@@ -17,6 +18,7 @@ class Scopes:
     """Counters that something outside their loops uses."""
 
 
+@cache
 def scopes_of(source: Source) -> Scopes:
     """Decide for every name of a body that is no parameter."""
     found, uses = Scopes(), _Uses()
@@ -27,6 +29,11 @@ def scopes_of(source: Source) -> Scopes:
         elif sum(uses.of(s, name) for s in loops) != sum(uses.of(s, name) for s in source.body):
             found.astray.add(name)
     return found
+
+
+@cache
+def _given(s: ast.Assign) -> set[str]:
+    return {*stored([s])}
 
 
 def _counts(loop: ast.For, name: str) -> bool:
@@ -50,7 +57,7 @@ class _Uses:
         """Whether a block gives a name its value before it reads it, wherever it is used."""
         users = [s for s in block if self.of(s, name)]
         first = users[0]
-        if isinstance(first, ast.Assign) and name in stored([first]) and name not in loaded(first):
+        if isinstance(first, ast.Assign) and name in _given(first) and name not in loaded(first):
             return True
         for s in users:
             inside = [b for b in blocks_of(s) if any(self.of(x, name) for x in b)]

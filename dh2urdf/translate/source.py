@@ -6,6 +6,7 @@ import io
 import sys
 import textwrap
 import tokenize
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, cached_property
 from importlib import import_module
@@ -71,7 +72,13 @@ class Source:
         self.tree, self.doc = tree, ast.get_docstring(tree) or ""
         self.body = tree.body[1:] if self.doc else tree.body
         self.parameters = [a.arg for a in tree.args.args]
-        self.stored = {*stored(self.body)} | {*self.parameters}
+        self.names = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)}
+        times = Counter(stored(self.body))
+        self.stored = {*times, *self.parameters}
+        loops = (s for s in every(self.body) if isinstance(s, ast.For))
+        counters = {x for s in loops for x in stored([s.target])}
+        self.once = {x for x in times if times[x] == 1} - counters - {*self.parameters}
+        self.changing = set(times) - self.once - counters
         tokens = tokenize.generate_tokens(io.StringIO(text).readline)
         comments = (t for t in tokens if t.type == tokenize.COMMENT)
         self.comments = {t.start[0]: t.string.lstrip("# ") for t in comments}
@@ -150,6 +157,7 @@ def stored(nodes: Iterable[ast.AST]) -> list[str]:
     return [n.id for n in inside if isinstance(n.ctx, ast.Store)]
 
 
+@cache
 def loaded(node: ast.AST) -> set[str]:
     """Names that a node reads."""
     return {n.id for n in ast.walk(node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}

@@ -32,7 +32,11 @@ class Body(Assignments):
 
     def _parameter(self, name: str, t: Type, pattern: ast.expr | None) -> Value:
         if not isinstance(t, Tuple) or t.is_struct:
-            name = pattern.id if isinstance(pattern, ast.Name) and pattern.id in self.once else name
+            name = (
+                pattern.id
+                if isinstance(pattern, ast.Name) and pattern.id in self.source.once
+                else name
+            )
             self.instance.parameters.append((self.name(name), t))
             return Value(t, self.name(name))
         inner: list[ast.expr | None] = [None] * len(t.items)

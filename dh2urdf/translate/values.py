@@ -74,10 +74,9 @@ class Names:
         self.known: dict[str, int | str] = {}
         self.lines: list[tuple[int, str]] = []
         self.depth = 1
-        used = {n.id for n in ast.walk(self.source.tree) if isinstance(n, ast.Name)}
-        outside = {x.lstrip("_") for x in used - self.source.stored}
+        outside = {x.lstrip("_") for x in self.source.names - self.source.stored}
         self.reserved = RESERVED | outside | set(instance.lengths())
-        self.taken = used | self.reserved
+        self.taken = self.source.names | self.reserved
 
     def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
         """Refuse a node of the body."""
