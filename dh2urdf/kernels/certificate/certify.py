@@ -25,8 +25,8 @@ NO_JOINT = 0
 CLUSTER = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 
-ANYWHERE = np.bool_(False)
-"""No limits: as the literal False, `finish_pose` would be compiled once more for its type."""
+ANYWHERE = False
+"""Limits do not count."""
 
 TWO_PI = 2.0 * math.pi
 
