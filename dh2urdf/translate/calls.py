@@ -61,8 +61,8 @@ class Calls(Expressions):
                 return values[0]
             return Value(name, f"({CASTS[name]}){values[0].at(PREFIX)}", PREFIX)
         c, arguments = LIBRARY.get(name) or (PREDICATES.get(name, ""), 1)
-        if len(values) != arguments:
-            self.refuse(n, f"{len(values)} arguments", str(arguments))
+        if not c or len(values) != arguments:
+            self.refuse(n, f"{len(values)} arguments of {name}", f"{arguments if c else 'others'}")
         kind = "bool" if name in PREDICATES else "float"
         return Value(kind, f"{c}({', '.join(value.text for value in values)})", POSTFIX)
 
