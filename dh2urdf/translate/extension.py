@@ -96,7 +96,8 @@ class Extension:
         lines = ["typedef struct {", "    void (*leave)(void);"]
         for e in self.entries:
             parameters = ", ".join(self.file.parameters(e)) or "void"
-            lines.append(f"    {self.file.declaration(e.returned, f'(*{e.name})({parameters})')};")
+            declared = self.file.declaration(e.returned, f"(*{e.name})({parameters})")
+            lines += folded(f"{declared};", 4)
         lines += ["} Entries;", *(f"extern const Entries entries_{level};" for level in LEVELS), ""]
         return "\n".join([*INCLUDES, *self.file.types(), "", *lines])
 
@@ -187,7 +188,9 @@ PyMODINIT_FUNC PyInit_{self.module}(void)
         else:
             lines.append(f"    {call};")
         lines.append("    entries->leave();")
-        return "\n".join([*lines, f"    return {_answer(e.returned, 'found')};", "}", ""])
+        lines += [f"    return {_answer(e.returned, 'found')};", "}", ""]
+        bare = ((line.lstrip(), line) for line in lines)
+        return "\n".join(x for text, line in bare for x in folded(text, len(line) - len(text)))
 
     def _taken(
         self, name: str, given: str, t: Type, at: str, checks: list[str]
