@@ -110,7 +110,9 @@ def differing(a: list[Any], b: list[Any]) -> int:
 
 def _differing(x: np.ndarray, y: np.ndarray) -> int:
     assert x.shape == y.shape
-    if x.dtype.names or x.dtype.kind != "f":
+    if x.dtype.names:
+        return sum(_differing(x[key], y[key]) for key in x.dtype.names)
+    if x.dtype.kind != "f":
         return int((x != y).sum())
     apart = x.astype(float).view(np.uint64) != y.astype(float).view(np.uint64)
     return int((apart & ~(np.isnan(x) & np.isnan(y))).sum())

@@ -192,7 +192,12 @@ def built(folder: Path, words: list[str], out: str, *more: str) -> Path:
     """What a compiler makes of the program, and with ``kernels.c`` among ``more`` of all."""
     for name, text in files().items():
         folder.joinpath(name).write_text(text)
-    some = [*words, "replay.c", *more, "-w", "-o", out, "-lm"]
+    return compiled(folder, [*words, "replay.c", *more], out)
+
+
+def compiled(folder: Path, words: list[str], out: str) -> Path:
+    """What a compiler makes of C in a folder."""
+    some = [*words, "-w", "-o", out, "-lm"]
     done = subprocess.run(some, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return folder / out

@@ -27,6 +27,15 @@ COUNT = 16
 MOST = 6
 """Calls of an entry that are kept for each arm."""
 
+FAMILIES = """
+abb_irb120 cylindrical fanuc_crx10ia gantry kuka_iiwa7 planar_rr stanford unitree_z1 ur5 ur5~ xarm5
+"""
+"""An arm of each family, and what watches over many of its poses."""
+
+WATCHERS = ("gcc sanitized", "clang sanitized", "clang filled with NaN")
+
+POSES = 10_000
+
 SLOW = {"onward": 1, "enter_limits": 3, "walk_family": 2, "nearest_members": 9}
 """Entries that take seconds interpreted, and how many calls of them the daily suite has."""
 
@@ -130,3 +139,24 @@ def test_levels_agree_on_all_arms(level, tmp_path):
 def test_interpreted_kernels_agree_on_all_calls():
     """All calls of the daily suite."""
     check(calls(), by_python(calls()))
+
+
+@cache
+def batch(arm):
+    """Calls while an arm answers for many poses at once."""
+    robot = workload.robot_of(arm)
+    poses = workload.poses_of(robot, workload.configurations(robot, POSES, "many"))
+    with recorded(lambda *_: True) as found:
+        workload.robot_of(arm).ik_batch(poses, threads=1)
+    return found
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", WATCHERS)
+@pytest.mark.parametrize("arm", FAMILIES.split())
+def test_nothing_undefined_in_many_poses(arm, name, tmp_path):
+    """Sanitizers find nothing, and memory that nobody wrote decides nothing."""
+    engine = engines.Engine(name)
+    if engine.missing:
+        pytest.skip(engine.missing)
+    check(batch(arm), engine.replayed(batch(arm), tmp_path))
