@@ -56,9 +56,9 @@ def build(target: Path) -> None:
     with TemporaryDirectory() as folder:
         for name, text in texts().items():
             Path(folder, name).write_text(text)
-        jobs = [[_processor("any", cc), "-c", "doors.c", "-o", "doors.o", *include]]
+        jobs = [[*_processor("any", cc), "-c", "doors.c", "-o", "doors.o", *include]]
         for level in LEVELS:
-            flags = [_processor(level, cc), f"-DTABLE=entries_{level}"]
+            flags = [*_processor(level, cc), f"-DTABLE=entries_{level}"]
             jobs.append([*flags, "-c", "kernels.c", "-o", f"{level}.o"])
         with ThreadPoolExecutor() as pool:
             list(pool.map(lambda job: _run([*cc, *FLAGS, *job], folder), jobs))
@@ -69,10 +69,10 @@ def build(target: Path) -> None:
         partial.replace(target)
 
 
-def _processor(level: str, cc: list[str]) -> str:
-    """A compiler's option for a level; zig spells them its own way."""
+def _processor(level: str, cc: list[str]) -> list[str]:
+    """A compiler's option for a level, if it has one; zig spells them its own way."""
     name = LEVELS[level][0]
-    return "-march=" + (name.replace("-", "_") if "ziglang" in cc else name)
+    return ["-march=" + (name.replace("-", "_") if "ziglang" in cc else name)] if name else []
 
 
 def _run(words: list[str], folder: str) -> None:

@@ -5,10 +5,14 @@ level of processor is the same C, compiled once more; the table of its entries i
 extension is imported: the best that the processor has, or the one that ``DH2URDF_LEVEL`` names.
 """
 
+import platform
+
 from dh2urdf.translate.c_file import INCLUDES, CFile
 from dh2urdf.translate.c_text import folded
 from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.types import Array, Record, Tuple, Type
+
+X86 = platform.machine() in ("x86_64", "AMD64")
 
 LEVELS = {
     "v4": ("x86-64-v4", "avx512f avx512cd avx512bw avx512dq avx512vl"),
@@ -16,6 +20,9 @@ LEVELS = {
     "any": ("x86-64", ""),
 }
 """Best first: what compilers call it, and what the processor must have."""
+
+if not X86:
+    LEVELS = {"any": ("", "")}
 
 MANY = 256
 """Poses of a call from which on other threads may run meanwhile."""
@@ -142,7 +149,7 @@ static int is_wanted(const char *level)
 PyMODINIT_FUNC PyInit_{self.module}(void)
 {{
     import_array();
-    __builtin_cpu_init();
+{"    __builtin_cpu_init();" if X86 else ""}
     const char *level = NULL;
 {choose}
     if (!level) {{

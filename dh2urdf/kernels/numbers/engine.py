@@ -2,7 +2,7 @@
 
 A kernel is plain Python; that is its definition. What Python calls of them is marked as an
 `entry`: its name means the compiled function where the extension has been built from these very
-sources, else the interpreted one, thousands of times slower.
+sources, else the interpreted one, hundreds of times slower.
 
 The variable ``DH2URDF_ENGINE`` decides otherwise: ``python`` interprets, ``compiled`` takes nothing
 but the extension. In that, ``DH2URDF_LEVEL`` names the code for a level of processors, ``any``,
@@ -48,10 +48,8 @@ def _extension() -> Any:
     if fault and wanted == "compiled":
         raise ImportError(f"DH2URDF_ENGINE=compiled: the kernels {fault}; {ADVICE}")
     if fault:
-        warnings.warn(
-            f"the kernels {fault} and run interpreted, thousands of times slower; {ADVICE}",
-            stacklevel=2,
-        )
+        text = f"the kernels {fault} and run interpreted, hundreds of times slower; {ADVICE}"
+        warnings.warn_explicit(text, UserWarning, "dh2urdf", 1)  # in one line, without code
         return None
     return found
 
