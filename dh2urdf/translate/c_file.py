@@ -31,8 +31,10 @@ class CFile(Definitions):
 
     def add_entry(self, function: Callable[..., Any], arguments: list[Type]) -> Instance:
         """A kernel that others may call, and all that it calls."""
-        self.entries.append(self.instance(source_of(function), tuple(arguments)))
-        return self.entries[-1]
+        entry = self.instance(source_of(function), tuple(arguments))
+        entry.entered = tuple(arguments)
+        self.entries.append(entry)
+        return entry
 
     def instance(self, source: Source, given: tuple[Type, ...]) -> Instance:
         """A kernel for some types of arguments; where it asks for no length, for any."""

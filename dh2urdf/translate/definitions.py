@@ -38,6 +38,8 @@ class Instance:
     asked: set[str] = field(default_factory=set)
     """Parameters whose first length the kernel asks for."""
     body: str = ""
+    entered: tuple[Type, ...] = ()
+    """Types of an entry's arguments as they are declared, with all lengths."""
 
     def lengths(self) -> list[str]:
         """Names of the lengths that it is handed."""

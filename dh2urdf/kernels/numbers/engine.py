@@ -63,9 +63,8 @@ def _edited(built: Any) -> bool:
 
 def sources() -> list[Path]:
     """Files that decide what the extension is: the kernels and their translator."""
-    return sorted(
-        path for room in ("kernels", "translate") for path in PACKAGE.glob(f"{room}/**/*.py")
-    )
+    patterns = ("kernels/**/*.py", "translate/*.py", "translate/*.h")
+    return sorted(path for pattern in patterns for path in PACKAGE.glob(pattern))
 
 
 def fingerprint() -> str:
