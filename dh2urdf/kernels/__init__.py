@@ -2,6 +2,6 @@
 
 `numbers.engine` decides whether they run compiled; CONTRIBUTING.md says which part it is.
 
-`numbers`, `chain` and `certificate` serve all; then a room a family: `spherical_wrist`,
-`parallel_axes`, `general_6r`, `nearly`, `short_chains`, `redundant`.
+`shapes` says what entries take; `numbers`, `chain` and `certificate` serve all; then a room a
+family: `spherical_wrist`, `parallel_axes`, `general_6r`, `nearly`, `short_chains`, `redundant`.
 """

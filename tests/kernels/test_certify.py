@@ -7,7 +7,7 @@ import pytest
 from margins import assert_margin
 
 from dh2urdf.kernels.certificate.certify import finish_pose
-from dh2urdf.kernels.certificate.newton import pose_residual, work_array
+from dh2urdf.kernels.newton.steps import pose_residual, work_array
 
 HALF_PI = math.pi / 2
 PUMA = ((0, 0, HALF_PI), (0, 0.4318, 0), (0.15005, 0.0203, -HALF_PI), (0.4318, 0, HALF_PI))
@@ -48,9 +48,8 @@ def finish(links, joints, T, candidates, *, within_limits=True, residual=None):
     residual = np.full(k, -1.0) if residual is None else np.array(residual, float)
     branch, free = np.arange(k), np.zeros(k, np.int64)
     work = work_array(n)
-    count = finish_pose(
-        links, joints, np.ascontiguousarray(T), within_limits, q, residual, branch, free, k, work
-    )
+    arm, rows = (links, joints), (q, residual, branch, free)
+    count = finish_pose(arm, np.ascontiguousarray(T), within_limits, rows, k, work)
     return q[:count], residual[:count], branch[:count]
 
 
@@ -68,7 +67,7 @@ def test_residual_is_the_larger_of_distance_and_sine_of_the_angle(angle):
     T = fk(links, q)
     T[:3, :3] = rotation_about([1, 2, 3], angle) @ T[:3, :3]
     T[:3, 3] += angle / 2 * np.array([0.6, 0.0, 0.8])
-    found = pose_residual(links, revolute(6), T, q)
+    found = pose_residual((links, revolute(6)), T, q)
     assert found == pytest.approx(math.sin(angle), abs=3e-16, rel=1e-9)
 
 
@@ -78,7 +77,7 @@ def test_residual_of_an_orientation_that_is_turned_round_is_pi():
     q = np.zeros(6)
     T = fk(links, q)
     T[:3, :3] = rotation_about([1, 2, 3], math.pi) @ T[:3, :3]
-    assert pose_residual(links, revolute(6), T, q) == math.pi
+    assert pose_residual((links, revolute(6)), T, q) == math.pi
 
 
 @pytest.mark.parametrize("noise", [1e-12, 1e-8, 1e-4, 1e-2])

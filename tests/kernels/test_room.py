@@ -18,16 +18,16 @@ def sort(chain, T):
     """Sort many solutions by their distance from a seed."""
     codes = np.zeros((2, MANY), int)
     q, room = np.zeros((MANY, chain.n)), np.empty((2, MANY))
-    measure_and_sort(*chain.tables, 0, T, np.ones(chain.n), q, room[0], *codes, room[1])
+    measure_and_sort(chain.tables, 0, T, np.ones(chain.n), (q, room[0], *codes), room[1])
     return q
 
 
 def straighten(chain, T):
     """Shorten a path of many poses, all the same."""
     q = np.full((MANY, chain.n), 0.5)
-    room = np.empty_like(q), np.empty_like(q), np.empty((8, MANY))
+    room = np.empty((2, *q.shape)), np.empty((8, MANY))
     Ts, start = np.repeat(T[None], MANY, axis=0), np.empty((0, chain.n))
-    shorten(*chain.tables, Ts, chain.size, start, 1.0, 1e9, q, *room)
+    shorten(chain.tables, Ts, chain.size, start, 1.0, 1e9, q, *room)
     return q
 
 
@@ -50,4 +50,4 @@ def test_only_the_joints_size_arrays():
     """No array that a kernel makes grows with anything but the number of joints, at most 60."""
     made = re.findall(r"^ +(?:double|int64_t|bool) \w+((?:\[.+\])+);", replay.text(), re.M)
     assert len(made) > 50
-    assert {name for sizes in made for name in re.findall(r"\b[a-z]\w*", sizes)} == {"moving", "n"}
+    assert {name for sizes in made for name in re.findall(r"\b[a-z]\w*", sizes)} == {"n", "values"}

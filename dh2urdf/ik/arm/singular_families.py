@@ -76,14 +76,15 @@ class Family:
     def _slide(self, members: Array, seed: Array, within_limits: bool) -> Array:
         """Move members (k, f) along the family to where they are nearest to the seed (n,)."""
         out = np.ascontiguousarray(members)
-        nearest_members(*self._constants, within_limits, out, seed[self.free], np.empty(len(out)))
+        tables, residual = self.moving.tables, np.empty(len(out))
+        nearest_members(tables, self._goal, within_limits, out, seed[self.free], residual)
         return out
 
     def _inside_members(self, start: Array, seed: Array) -> Array:
         """Members (k, f) inside the limits that are nearest to the seed, found by a walk."""
         walk = np.empty((2, MOST_STEPS, len(self.free)))
         counts = np.empty(2, np.int64)
-        walk_family(*self._constants, FAMILY_STEP, start[self.free], walk, counts)
+        walk_family(self.moving.tables, self._goal, FAMILY_STEP, start[self.free], walk, counts)
         found = np.concatenate([way[:count] for way, count in zip(walk, counts, strict=True)])
         found = limits.turned_to(self.moving, found, seed[self.free])
         found = found[self._inside(start, found)]
@@ -91,9 +92,9 @@ class Family:
         return self._slide(found[order[:STARTS]], seed, within_limits=True)
 
     @cached_property
-    def _constants(self) -> tuple[Array, Array, int, Array, float]:
-        """First arguments of the kernels: links, joints, task, target, unit."""
-        return *self.moving.tables, self.task.number, np.array(self.T), self.chain.size
+    def _goal(self) -> tuple[int, Array, float]:
+        """Task, target and size of the arm, as kernels take them."""
+        return self.task.number, np.array(self.T), self.chain.size
 
 
 def slide_to_seed(

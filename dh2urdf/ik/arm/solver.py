@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain, settled_state
 from dh2urdf.ik.arm.task import Task, spare_joints
 from dh2urdf.ik.arm.tolerances import NOMINAL
-from dh2urdf.kernels.numbers import Outputs
+from dh2urdf.kernels.shapes import Outputs
 from dh2urdf.transforms import Array
 
 IntArray = NDArray[np.int64]

@@ -36,7 +36,7 @@ class ClosedForm(SolverBase):
         self.lines = AxisLines(chain, tolerance)
         self.form = DHForm(self.lines)
         slack = max(SLACK, SLACK_OF_NOISE * tolerance)
-        self.constants = self.links, self.joints, self.form.rows, self.form.ends, slack
+        self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
 
 def not_six_revolute(chain: SerialChain) -> str | None:

@@ -104,7 +104,7 @@ class General6R(SolverBase):
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) in two calls."""
         self.solve_unfinished(Ts, out)
-        self._finish(self.links, self.joints, Ts, within_limits, out)
+        self._finish(self.chain.tables, Ts, within_limits, out)
 
 
 def _z(angle: float, offset: float) -> Array:

@@ -84,7 +84,7 @@ class NearFamily(SolverBase):
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
         wrist = isinstance(self.nominal, SphericalWrist)
         poses, form = Ts, self.nominal.form
-        arm = self.nominal.links, self.nominal.joints, form.rows, form.ends, self.slack
+        arm = self.nominal.chain.tables, form.rows, form.ends, self.slack
         if self.reversed:
             poses = np.empty_like(Ts)
             invert_poses(Ts, poses)
@@ -95,7 +95,7 @@ class NearFamily(SolverBase):
         rows = np.flatnonzero(out.counts < 0)
         wide = self._in_doubt(rows, Ts[rows], out, within_limits)
         out.counts[rows] = 0
-        finish_batch(self.links, self.joints, Ts, within_limits, out)
+        finish_batch(self.chain.tables, Ts, within_limits, out)
         for whole, part in zip(out, wide, strict=True):
             whole[rows] = part[:, : self.kmax] if part.ndim > 1 else np.minimum(part, self.kmax)
 
@@ -107,9 +107,9 @@ class NearFamily(SolverBase):
             self.general.solve_unfinished(Ts, found)
             wide.q[:, : self.kmax], wide.counts[:] = found.q, found.counts
             add_candidates(rows, out.q, out.counts, wide.q, wide.counts)
-            finish_batch(self.links, self.joints, Ts, False, wide)
-            search_beside(self.links, self.joints, Ts, wide.q, wide.counts)
-            finish_batch(self.links, self.joints, Ts, within_limits, wide)
+            finish_batch(self.chain.tables, Ts, False, wide)
+            search_beside(self.chain.tables, Ts, wide.q, wide.counts)
+            finish_batch(self.chain.tables, Ts, within_limits, wide)
         return wide
 
 

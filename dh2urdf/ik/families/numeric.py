@@ -125,9 +125,8 @@ class NumericProblem:
             q = q[np.argsort(np.linalg.norm(q - first, axis=1), kind="stable")]
         q, residual, one = q * scale, np.empty(len(q)), np.array([len(q)])
         joints = np.ascontiguousarray(q @ self.coupling.T + self.offset)
-        links, limits = self.chain.tables
         poses, many = target[None], joints[None]
-        measure_all(links, limits, wanted.number, poses, many, one, residual[None])
+        measure_all(self.chain.tables, wanted.number, poses, many, one, residual[None])
         return NumericSolutions(q, residual, target, tried, self.slides, change)
 
     def _in_own_unit(self) -> tuple[NumericProblem, Array]:
@@ -147,8 +146,8 @@ class NumericProblem:
             np.ascontiguousarray(a, dtype=float) for a in (self.coupling, self.offset)
         )
         q = np.empty((most, len(self.lower)))
-        asked = *self.chain.tables, coupling, offset, bounds, task.number, T, self.chain.size
-        count, tried = find_solutions(*asked, starts, q, np.empty(most))
+        arm, goal = (self.chain.tables, coupling, offset, bounds), (task.number, T, self.chain.size)
+        count, tried = find_solutions(arm, goal, starts, q, np.empty(most))
         return q[:count], tried
 
     def _starts(

@@ -123,7 +123,7 @@ class PlanarArm(SolverBase):
         polar = math.hypot(*link2), math.atan2(link2[1], link2[0])
         rest = float(np.clip(0.0, chain.lower[0], chain.upper[0]))
         self.form = np.array([link1, *polar, signs[1], signs[-1], *point, rest])
-        self.constants = self.links, self.joints, plane, self.form, task is Task.POSE
+        self.constants = chain.tables, plane, self.form, task is Task.POSE
 
     @classmethod
     def obstacle(

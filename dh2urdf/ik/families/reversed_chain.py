@@ -44,7 +44,7 @@ class ReversedSolver(SolverBase):
         invert_poses(Ts, inverse_poses)
         self.inner.solve_batch(inverse_poses, False, out)
         out.branch[:] = -1
-        turn_back(self.links, self.joints, Ts, within_limits, out)
+        turn_back(self.chain.tables, Ts, within_limits, out)
 
 
 class SphericalShoulder(ReversedSolver):

@@ -61,7 +61,7 @@ class ShortChain(SolverBase):
     @cached_property
     def constants(self) -> tuple[Any, ...]:
         """Links, joints and the cuts of the loop, as the kernel takes them."""
-        return self.links, self.joints, self.ends, self.loop, self.plan, self.rest_unit
+        return self.chain.tables, self.ends, self.loop, self.plan, self.rest_unit
 
     @cached_property
     def loop(self) -> Array:
@@ -159,7 +159,7 @@ class ThreeSlides(SolverBase):
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
-        self.constants = self.links, self.joints, np.clip(0.0, chain.lower, chain.upper)
+        self.constants = self.chain.tables, np.clip(0.0, chain.lower, chain.upper)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

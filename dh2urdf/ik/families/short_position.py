@@ -28,7 +28,7 @@ class ShortPosition(SolverBase):
         tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
         steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
         rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
-        self.constants = self.links, self.joints, np.stack(steps), tip, rest_unit
+        self.constants = chain.tables, np.stack(steps), tip, rest_unit
 
     def details(self) -> str:
         """Name the kinds of joints and what is solved."""

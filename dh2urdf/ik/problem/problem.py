@@ -168,8 +168,7 @@ class Problem:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
-        links, joints = self.chain.tables
-        turn_to(joints, LIMIT_SLACK, seed[None], q)
+        turn_to(self.chain.tables[1], LIMIT_SLACK, seed[None], q)
         families = {
             k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k].copy())
             for k, mask in enumerate(free.tolist())
@@ -178,7 +177,7 @@ class Problem:
         keep = slide_to_seed(families, q, seed, within_limits) if families else ALL
         arrays = q[keep], residual[keep], branch[keep], free[keep]
         room = np.empty(len(arrays[0]))
-        measure_and_sort(links, joints, self.task.number, found.T, seed, *arrays, room)
+        measure_and_sort(self.chain.tables, self.task.number, found.T, seed, arrays, room)
         return self._accepted(IKSolutions.of(self, found.T, *arrays))
 
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
@@ -220,7 +219,7 @@ class Problem:
 
     def measured(self, Ts: Array, q: Array, count: Any, residual: Array) -> None:
         """Measure q (m, k, n), the first ``count[i]`` of pose Ts[i], into residual (m, k)."""
-        measure_all(*self.chain.tables, self.task.number, Ts, q, count, residual)
+        measure_all(self.chain.tables, self.task.number, Ts, q, count, residual)
 
     def why_none(self, T: Array, within_limits: bool) -> str:
         """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""

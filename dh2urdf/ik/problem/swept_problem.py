@@ -12,6 +12,7 @@ from dh2urdf.ik.problem.path import BREAK, MOST_STATES, PathFinder, Stage, trace
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.solutions import IKSolutions
 from dh2urdf.ik.redundant import SweptJoint, nearest_members, reach_intervals
+from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import onward, shorten
 from dh2urdf.transforms import Array
 
@@ -69,16 +70,17 @@ class SweptPath(PathFinder):
         samples = self.batch.solutions(pose).q
         q = np.concatenate([last.q, samples])
         cost, parent = np.empty(len(q)), np.empty(len(q), int)
-        room = np.empty((2, len(last.q)), np.bool_)
-        onward(
-            *(*self.arm, self.Ts[pose], self.chain.size, self.jump, BREAK),
-            *(last.q, last.cost, samples, q, cost, parent, *room),
-        )
+        self._onward(pose, last.q, last.cost, samples, q, cost, parent)
         order = np.argsort(cost, kind="stable")[: np.isfinite(cost).sum()]
         cells = np.round(q[order] / CELL) @ 97.0 ** np.arange(self.chain.n)
         _, first = np.unique(cells, return_index=True)
         keep = order[np.sort(first)[:MOST_STATES]]
         return Stage(pose, q[keep], cost[keep], parent[keep])
+
+    def _onward(self, pose: int, q: Array, *ways: Array) -> None:
+        """Ways on to a pose from the states q (f, n) of the last one, see the kernel."""
+        goal, room = (POSE, self.Ts[pose], self.chain.size), np.empty((2, len(q)), np.bool_)
+        onward(self.arm, goal, self.jump, BREAK, q, *ways, room)
 
     def best(self, stages: list[Stage]) -> Array:
         """The shortest of the paths to several ends, each made as short as it gets.
@@ -121,19 +123,16 @@ class SweptPath(PathFinder):
             return np.inf
         Ts = np.ascontiguousarray(self.Ts[poses])
         start = np.empty((0, self.chain.n)) if self.origin is None else self.origin[None]
-        room = np.empty_like(q), np.empty_like(q), np.empty((8, len(q)))
-        return float(shorten(*self.arm, Ts, self.chain.size, start, jump, BREAK, q, *room))
+        room = np.empty((2, *q.shape)), np.empty((8, len(q)))
+        return float(shorten(self.arm, Ts, self.chain.size, start, jump, BREAK, q, *room))
 
     def _filled(self, poses: Array, rows: Array, keys: Array) -> Array:
         """A path (m, n) through all poses near some rows of it; NaN where it leaves the arm."""
         every = np.arange(len(poses))
         path = np.column_stack([np.interp(every, rows, column) for column in keys.T])
         none, cost, parent = np.empty((0, self.chain.n)), np.empty(1), np.empty(1, int)
-        room = np.empty((2, 1), np.bool_)
         for i in np.setdiff1d(every, rows):
-            onward(
-                *(*self.arm, self.Ts[poses[i]], self.chain.size, self.jump, BREAK),
-                *(path[i : i + 1].copy(), np.zeros(1), none, path[i : i + 1], cost, parent, *room),
-            )
+            here = path[i : i + 1]
+            self._onward(poses[i], here.copy(), np.zeros(1), none, here, cost, parent)
             path[i] += 0.0 if np.isfinite(cost[0]) else np.nan
         return path

@@ -22,6 +22,7 @@ from dh2urdf.ik.arm import (
     without_end,
 )
 from dh2urdf.ik.families import SphericalWrist
+from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import points_on_curves, solve_held_blocks, solve_held_wrist
 from dh2urdf.transforms import Array, inverse
 
@@ -159,8 +160,8 @@ class HeldWrist(HeldSolver):
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
         chain, m = self.chain, len(values)
         q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)
-        arm = self.frames, self.which, self.rows, chain.tables[1]
-        points_on_curves(*arm, MISS, values, T, chain.size, q, count)
+        arm = self.frames, self.which, self.rows, self.joints, MISS
+        points_on_curves(arm, chain.tables, (POSE, T, chain.size), values, q, count)
         points: Array = q[np.arange(self.kmax) < count[:, None]]
         return points
 

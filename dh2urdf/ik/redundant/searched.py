@@ -35,14 +35,13 @@ class SearchedSolver:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
-        links, joints = self.chain.tables
         self.inner.solve_batch(Ts, within_limits, out)
         for i in np.flatnonzero(out.counts == 0):
             q, error = nearly_reaching(self.chain, Ts[i], Task.POSE)
             q = q[np.abs(error).max(axis=1) <= SLACK]
             found = Outputs.of(1, max(len(q), self.kmax), self.chain.n)
             found.q[0, : len(q)], found.counts[0] = q, len(q)
-            finish_batch(links, joints, Ts[i : i + 1], within_limits, found)
+            finish_batch(self.chain.tables, Ts[i : i + 1], within_limits, found)
             np.minimum(found.counts, self.kmax, out=found.counts)
             for whole, part in zip(out, found, strict=True):
                 whole[i] = part[0, : self.kmax] if part.ndim > 1 else part[0]

@@ -24,7 +24,8 @@ from dh2urdf.ik.arm import (
     near_ranges,
     turned_to,
 )
-from dh2urdf.kernels.certificate import POSE, measure_all
+from dh2urdf.kernels.certificate import measure_all
+from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import enter_limits
 from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
 from dh2urdf.transforms import Array
@@ -106,7 +107,7 @@ def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tupl
 def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
     """Solutions (k, n) and their residuals (k,) on the exact chain."""
     q, residual, count = np.ascontiguousarray(q), np.empty(len(q)), np.array([len(q)])
-    measure_all(solver.links, solver.joints, POSE, T[None], q[None], count, residual[None])
+    measure_all(solver.chain.tables, POSE, T[None], q[None], count, residual[None])
     return q, residual
 
 
@@ -129,7 +130,7 @@ def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int 
     inside = excess <= LIMIT_SLACK
     outer = np.ascontiguousarray(q[(excess > LIMIT_SLACK) & (excess < FAR)][:most])
     entered = np.zeros(len(outer), np.bool_)
-    enter_limits(solver.links, solver.joints, T, chain.size, outer, entered)
+    enter_limits(chain.tables, (POSE, T, chain.size), outer, entered)
     members = np.concatenate([q[inside], outer[entered]])
     order = np.argsort(np.linalg.norm(members - goal, axis=1), kind="stable")
     ordered: Array = members[order]
@@ -158,9 +159,8 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
         q = turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
     q = np.ascontiguousarray(q[:STARTS])
-    nearest_on_curves(
-        solver.links, solver.joints, POSE, T, chain.size, within_limits, q, seed, np.empty(len(q))
-    )
+    goal = POSE, T, chain.size
+    nearest_on_curves(chain.tables, goal, within_limits, q, seed, np.empty(len(q)))
     order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
     kept: list[int] = []
     for k in order:

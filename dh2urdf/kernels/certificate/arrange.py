@@ -6,29 +6,26 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import TWO_PI
-from dh2urdf.kernels.certificate.damped import POSE, error_and_jacobian, make_damped
-from dh2urdf.kernels.certificate.newton import pose_residual
-from dh2urdf.kernels.numbers import (
+from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, pose_residual
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import (
+    Chain,
+    Configuration,
     Counts,
     Floats,
-    Integers,
+    Found,
     Joints,
-    Links,
     Pose,
     Poses,
+    Sizes,
     Solutions,
+    Some,
     Values,
-    entry,
 )
 
 
 @entry()
-def turn_to(
-    joints: Joints,
-    slack: float,
-    reference: Annotated[Floats, "references", "n"],
-    q: Annotated[Floats, "solutions", "n"],
-):
+def turn_to(joints: Joints, slack: float, reference: Annotated[Floats, "references", "n"], q: Some):
     """Bring each angle of q (k, n) into the turn nearest to the reference (k or 1, n), in place.
 
     A turn inside the limits goes before a nearer one outside; where no turn is inside, the
@@ -52,8 +49,9 @@ def turn_to(
                 q[k, i] = lower
 
 
-def _swap(q, residual, branch, free, distance, a, b):
+def _swap(rows, distance, a, b):
     """Exchange two rows."""
+    q, residual, branch, free = rows
     for i in range(q.shape[1]):
         q[a, i], q[b, i] = q[b, i], q[a, i]
     residual[a], residual[b] = residual[b], residual[a]
@@ -62,57 +60,39 @@ def _swap(q, residual, branch, free, distance, a, b):
     distance[a], distance[b] = distance[b], distance[a]
 
 
-def _measure(links, joints, task, T, q, damped):
+def _measure(chain, task, T, q, damped):
     """Residual of a configuration q (n,) on the exact chain, of what a task asks for."""
     if task == POSE:
-        return pose_residual(links, joints, T, q)
-    return error_and_jacobian(links, joints, task, T, q, 1.0, damped)
+        return pose_residual(chain, T, q)
+    return error_and_jacobian(chain, (task, T, 1.0), q, damped)
 
 
 @entry()
-def measure_all(
-    links: Links,
-    joints: Joints,
-    task: int,
-    Ts: Poses,
-    q: Solutions,
-    count: Counts,
-    residual: Values,
-):
+def measure_all(chain: Chain, task: int, Ts: Poses, q: Solutions, count: Counts, residual: Values):
     """Residuals (m, k) of configurations q (m, k, n), the first ``count[i]`` of each pose Ts[i]."""
     damped = make_damped(q.shape[2])
     for i in range(q.shape[0]):
         for k in range(count[i]):
-            residual[i, k] = _measure(links, joints, task, Ts[i], q[i, k], damped)
+            residual[i, k] = _measure(chain, task, Ts[i], q[i, k], damped)
 
 
 @entry()
 def measure_and_sort(
-    links: Links,
-    joints: Joints,
-    task: int,
-    T: Pose,
-    seed: Annotated[Floats, "n"],
-    q: Annotated[Floats, "solutions", "n"],
-    residual: Annotated[Floats, "solutions"],
-    branch: Annotated[Integers, "solutions"],
-    free: Annotated[Integers, "solutions"],
-    distance: Annotated[Floats, "solutions"],
+    chain: Chain, task: int, T: Pose, seed: Configuration, found: Found, distance: Sizes
 ):
-    """Measure solutions q (k, n) of a pose T (4, 4) and sort them by distance from a seed (n,).
+    """Measure solutions of a pose T (4, 4), and sort them by ``distance`` from a seed (n,).
 
-    They are sorted in place, with their branch codes and masks of free joints; residuals go to
-    ``residual``, distances to ``distance``. The task is one of
-    :mod:`dh2urdf.kernels.certificate.damped`.
+    In place; the task is one of :mod:`dh2urdf.kernels.newton.damped`.
     """
+    q, residual, _, _ = found
     damped = make_damped(q.shape[1])
     for k in range(q.shape[0]):
-        residual[k] = _measure(links, joints, task, T, q[k], damped)
+        residual[k] = _measure(chain, task, T, q[k], damped)
         total = 0.0
         for i in range(q.shape[1]):
             total += (q[k, i] - seed[i]) * (q[k, i] - seed[i])
         distance[k] = math.sqrt(total)
         row = k
         while row > 0 and distance[row] < distance[row - 1]:
-            _swap(q, residual, branch, free, distance, row, row - 1)
+            _swap(found, distance, row, row - 1)
             row -= 1

@@ -3,15 +3,15 @@
 Every solver ends here. A candidate is kept when the exact chain reaches the pose within
 ``ACCEPT``; Newton's method repairs what rounding, noise or an approximate root left over.
 
-A chain is given as ``links`` (n + 1, 4, 4) and ``joints`` (n, 3), one row a joint: 1.0 where it
-slides and 0.0 where it turns, lower bound, upper bound (infinite where there is none).
+``rows`` are the candidates or solutions of one pose: configurations q (kmax, n), residuals, branch
+codes and masks of free joints, (kmax,) each.
 """
 
 import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.newton import POLISH, polish, pose_residual
+from dh2urdf.kernels.newton import POLISH, polish, pose_residual
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -24,9 +24,6 @@ NO_JOINT = 0
 
 CLUSTER = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
-
-ANYWHERE = False
-"""Limits do not count."""
 
 TWO_PI = 2.0 * math.pi
 
@@ -61,7 +58,7 @@ def is_known(joints, q, count, p):
     return False
 
 
-def _into_limits(links, joints, T, within_limits, q, residual, free):
+def _into_limits(chain, T, within_limits, q, residual, free):
     """Turn q (n,) by 2 pi nearest to the middle of its limits; the residual there, or infinity.
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
@@ -69,6 +66,7 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
     Nothing is put on a bound where the limits do not count. A free joint may be outside: another
     member of its family may not.
     """
+    _, joints = chain
     inside, moved, far = True, False, False
     for i in range(q.shape[0]):
         lower, upper = joints[i, 1], joints[i, 2]
@@ -92,46 +90,45 @@ def _into_limits(links, joints, T, within_limits, q, residual, free):
     for i in range(q.shape[0]):
         if moved and not (free >> i) & 1:
             q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
-    return pose_residual(links, joints, T, q)
+    return pose_residual(chain, T, q)
 
 
-def move(q, residual, branch, free, source, target):
-    """Copy one row of the candidates over another."""
-    for i in range(q.shape[1]):
-        q[target, i] = q[source, i]
+def move(rows, source, target):
+    """Copy one of the rows over another."""
+    q, residual, branch, free = rows
+    q[target] = q[source]
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
 
 
 def copy_rows(source, count, target):
-    """Copy the first rows (q, residual, branch, free) that fit; returns how many."""
-    count = min(count, target[0].shape[0])
-    for k in range(count):
-        for i in range(source[0].shape[1]):
-            target[0][k, i] = source[0][k, i]
-        target[1][k], target[2][k], target[3][k] = source[1][k], source[2][k], source[3][k]
-    return count
+    """Copy the first rows that fit; returns how many."""
+    (q, residual, branch, free), room = source, target[0].shape[0]
+    for k in range(min(count, room)):
+        target[0][k] = q[k]
+        target[1][k], target[2][k], target[3][k] = residual[k], branch[k], free[k]
+    return min(count, room)
 
 
-def finish_pose(links, joints, T, within_limits, q, residual, branch, free, count, work):
+def finish_pose(chain, T, within_limits, rows, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
-    They are the first ``count`` rows of q (kmax, n), in any turn; ``residual`` has what the caller
-    measured on the exact chain, or a negative number: not yet. Branch codes and masks of free
-    joints move along. ``within_limits`` drops what no full turn brings into the limits; a free
-    joint may be outside, for another member of its family may not. ``work``: a `work_array`.
+    They are the first ``count`` rows, in any turn; their residual is what the caller measured on
+    the exact chain, or a negative number: not yet. ``within_limits`` drops what no full turn brings
+    into the limits; a free joint may be outside, for another member of its family may not.
+    ``work``: a `work_array`.
 
     Two solutions are one if no joint differs by more than ``CLUSTER`` or the square root of
     their residual: on the rim of the workspace two branches meet as a square root. The one with
     the smaller residual stays, or the first if it reaches the pose to rounding.
     """
-    n = q.shape[1]
+    (q, residual, branch, free), (_, joints) = rows, chain
     kept = 0
     for k in range(count):
         if residual[k] < 0.0 or residual[k] > POLISH:
-            residual[k] = polish(links, joints, T, q[k], work)
+            residual[k] = polish(chain, T, q[k], work)
         if not residual[k] <= ACCEPT:
             continue
-        for i in range(n):
+        for i in range(q.shape[1]):
             q[kept, i] = q[k, i] if joints[i, 0] != 0.0 else principal(q[k, i])
         residual[kept], branch[kept], free[kept] = residual[k], branch[k], free[k]
         twin = -1
@@ -143,16 +140,17 @@ def finish_pose(links, joints, T, within_limits, q, residual, branch, free, coun
         if twin < 0:
             kept += 1
         elif residual[kept] < residual[twin] and residual[twin] > ROUNDING:
-            move(q, residual, branch, free, kept, twin)
-    return turn_inside(links, joints, T, within_limits, q, residual, branch, free, kept)
+            move(rows, kept, twin)
+    return turn_inside(chain, T, within_limits, rows, kept)
 
 
-def turn_inside(links, joints, T, within_limits, q, residual, branch, free, count):
+def turn_inside(chain, T, within_limits, rows, count):
     """Turn solutions by full turns, near or into their limits; how many are left."""
+    q, residual, _, free = rows
     solutions = 0
     for k in range(count):
-        residual[k] = _into_limits(links, joints, T, within_limits, q[k], residual[k], free[k])
+        residual[k] = _into_limits(chain, T, within_limits, q[k], residual[k], free[k])
         if residual[k] <= ACCEPT:
-            move(q, residual, branch, free, k, solutions)
+            move(rows, k, solutions)
             solutions += 1
     return solutions

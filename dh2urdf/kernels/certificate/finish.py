@@ -1,29 +1,35 @@
 """From candidates to solutions: double roots, families, limits, and back from the reversed chain.
 
-Solutions that cannot be told apart at the accuracy of a residual become one.
+Solutions that cannot be told apart at the accuracy of a residual become one. Singular families
+are found by which joints can move while the tool stays.
 """
+
+import math
 
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import (
-    ANYWHERE,
+    ACCEPT,
+    CLUSTER,
     ROUNDING,
     TWO_PI,
     finish_pose,
     move,
     turn_inside,
 )
-from dh2urdf.kernels.certificate.newton import (
+from dh2urdf.kernels.chain import inverse_pose, store_pose
+from dh2urdf.kernels.newton import (
     POLISH,
     damped_step,
+    factor,
     normal_equations,
     polish,
     pose_residual,
+    substitute,
     work_array,
 )
-from dh2urdf.kernels.certificate.singular_families import free_joints, one_of_each_family
-from dh2urdf.kernels.chain import inverse_pose, store_pose
-from dh2urdf.kernels.numbers import Joints, Links, Outputs, Poses, entry
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Outputs, Poses
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
@@ -35,15 +41,121 @@ are 2e-6 rad apart, and two, it is 1e-13; where six branches meet, and are one, 
 ACROSS = 1e-10
 """Damping of the step by which such a middle is brought back across the way, not along it."""
 
+SINGULAR = 1e-10
+"""Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
 
-def _one(links, joints, T, q, p, accuracy, middle, start, work):
+WALK = 0.05
+"""Length of the trial walk [rad or m]."""
+
+STEADY, STEADY_STEPS = 1e-6, 6
+"""Damping and number of the first steps back to the family: across it and not along, for beside a
+family the Jacobian has its rank, and a plain step may go anywhere."""
+
+MOVES = 1e-5
+"""Motion [rad or m] of a joint over the walk that makes it free."""
+
+
+def null_direction(work):
+    """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
+
+    Inverse iteration on a Cholesky factor with a shift of 1e-14; the vector is written to
+    ``work[:, 6]``. Returns the eigenvalue relative to the trace.
+    """
+    n = work.shape[0]
+    trace = 0.0
+    for i in range(n):
+        trace += work[i, 8 + i]
+    if trace <= 0.0:
+        for i in range(n):
+            work[i, 6] = 1.0 / math.sqrt(n)
+        return 0.0
+    factor(work, 1e-14 * trace)
+    for i in range(n):
+        work[i, 6] = 1.0 + 0.3 * i
+    size = 1.0
+    for _ in range(3):
+        substitute(work)
+        size = 0.0
+        for i in range(n):
+            size += work[i, 7] * work[i, 7]
+        size = math.sqrt(size)
+        for i in range(n):
+            work[i, 6] = work[i, 7] / size
+    return 1.0 / (size * trace)
+
+
+def free_joints(chain, T, q, trial, work):
+    """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
+
+    Where the Jacobian loses rank, a step is taken along its null direction and polished on the
+    exact chain. At a double root Newton comes back to q; on a family it stays away. ``trial`` (n,)
+    is scratch.
+    """
+    n = q.shape[0]
+    normal_equations(chain, T, q, work)
+    if null_direction(work) > SINGULAR:
+        return 0
+    for i in range(n):
+        trial[i] = q[i] + WALK * work[i, 6]
+    for _ in range(STEADY_STEPS):
+        normal_equations(chain, T, trial, work)
+        damped_step(work, STEADY)
+        for i in range(n):
+            trial[i] += work[i, 7]
+    if not polish(chain, T, trial, work) <= ACCEPT:
+        return 0
+    away = 0.0
+    mask = 0
+    for i in range(n):
+        gap = abs(trial[i] - q[i])
+        away += gap * gap
+        if gap > MOVES:
+            mask |= 1 << i
+    return mask if away > 0.25 * WALK * WALK else 0
+
+
+def one_of_each_family(joints, rest, rows, count):
+    """Keep one representative of each singular family; the new count.
+
+    Solutions with the same free joints are taken for one family. The one whose first free joint
+    is at rest stays; without one, the first.
+    """
+    q, _, _, free = rows
+    kept = 0
+    for k in range(count):
+        keep = True
+        for j in range(count):
+            if j == k or free[k] == 0 or free[j] != free[k]:
+                continue
+            mine = _at_rest(joints, rest, q[k], free[k])
+            other = _at_rest(joints, rest, q[j], free[k])
+            if (other and not mine) or (not other and not mine and j < k):
+                keep = False
+        if keep:
+            move(rows, k, kept)
+            kept += 1
+    return kept
+
+
+def _at_rest(joints, rest, q, mask):
+    """Whether the first joint of a mask is at its rest value, up to full turns."""
+    first = 0
+    while not mask >> first & 1:
+        first += 1
+    gap = q[first] - rest[first]
+    if joints[first, 0] == 0.0:
+        gap -= TWO_PI * np.floor(gap / TWO_PI + 0.5)
+    return abs(gap) <= CLUSTER
+
+
+def _one(chain, T, q, p, accuracy, middle, start, work):
     """Whether q and p are near, and the pose is reached as well half way between them.
 
     Where branches meet, on the rim of the workspace, a residual leaves the joints undetermined by
     its square root or worse, and the way from one to the other is flat. Where that way is curved
     the middle has to be polished; between two separate solutions it then runs off to one of them.
     """
-    longest = 0.0
+    (_, joints), longest = chain, 0.0
     for i in range(q.shape[0]):
         gap = p[i] - q[i]
         if joints[i, 0] == 0.0:
@@ -53,16 +165,16 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
         middle[i] = q[i] + 0.5 * gap
         start[i] = middle[i]
         longest = max(longest, abs(gap))
-    rough = pose_residual(links, joints, T, middle)
-    normal_equations(links, joints, T, middle, work)
+    rough = pose_residual(chain, T, middle)
+    normal_equations(chain, T, middle, work)
     damped_step(work, ACROSS)
     for i in range(q.shape[0]):
         middle[i] += work[i, 7]
-    if pose_residual(links, joints, T, middle) <= accuracy:
+    if pose_residual(chain, T, middle) <= accuracy:
         return True
     if rough <= POLISH:
         return False
-    if not polish(links, joints, T, middle, work) <= accuracy:
+    if not polish(chain, T, middle, work) <= accuracy:
         return False
     for i in range(q.shape[0]):
         if abs(middle[i] - start[i]) > 0.25 * longest:
@@ -70,51 +182,46 @@ def _one(links, joints, T, q, p, accuracy, middle, start, work):
     return True
 
 
-def merge_solutions(links, joints, T, q, residual, branch, free, count, scratch, work):
-    """Keep one of each group of solutions that are one, the best; the new count.
-
-    Arguments as for :func:`.certify.finish_pose`; ``scratch`` (2, n).
-    """
+def merge_solutions(chain, T, rows, count, trial, work):
+    """Keep one of each group of solutions that are one, the best; the new count."""
+    q, residual, _, _ = rows
     kept = 0
     for k in range(count):
         twin = -1
         for j in range(kept):
             accuracy = max(FLAT, residual[j], residual[k])
-            if _one(links, joints, T, q[j], q[k], accuracy, scratch[0], scratch[1], work):
+            if _one(chain, T, q[j], q[k], accuracy, trial[0], trial[1], work):
                 twin = j
                 break
         if twin < 0:
-            move(q, residual, branch, free, k, kept)
+            move(rows, k, kept)
             kept += 1
         elif residual[k] < residual[twin]:
-            move(q, residual, branch, free, k, twin)
+            move(rows, k, twin)
     return kept
 
 
-def merge_families(links, joints, T, rows, count, trial, work):
+def merge_families(chain, T, rows, count, trial, work):
     """Solutions of :func:`.certify.finish_pose` without limits, merged, with their free joints.
 
-    ``rows`` are q, residual, branch, free. ``trial`` (2, n) is scratch.
+    ``trial`` (2, n) is scratch.
     """
-    q, residual, branch, free = rows
-    count = merge_solutions(links, joints, T, q, residual, branch, free, count, trial, work)
+    q, _, _, free = rows
+    count = merge_solutions(chain, T, rows, count, trial, work)
     for k in range(count):
-        free[k] = free_joints(links, joints, T, q[k], trial[0], work)
+        free[k] = free_joints(chain, T, q[k], trial[0], work)
     return count
 
 
-def finish_families(links, joints, T, rest, within_limits, rows, count, trial, work):
+def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
     """The same of each family's member at the rest values (n,), brought into the limits."""
-    q, residual, branch, free = rows
-    count = merge_families(links, joints, T, rows, count, trial, work)
-    count = one_of_each_family(joints, rest, q, residual, branch, free, count)
-    if within_limits:
-        count = turn_inside(links, joints, T, within_limits, q, residual, branch, free, count)
-    return count
+    count = merge_families(chain, T, rows, count, trial, work)
+    count = one_of_each_family(chain[1], rest, rows, count)
+    return turn_inside(chain, T, True, rows, count) if within_limits else count
 
 
 @entry()
-def finish_batch(links: Links, joints: Joints, Ts: Poses, within_limits: bool, outputs: Outputs):
+def finish_batch(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose Ts[i], in place.
 
     The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
@@ -126,10 +233,10 @@ def finish_batch(links: Links, joints: Joints, Ts: Poses, within_limits: bool, o
         for k in range(count[i]):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         rows = q[i], residual[i], branch[i], free[i]
-        found = finish_pose(links, joints, Ts[i], ANYWHERE, *rows, count[i], work)
-        count[i] = merge_families(links, joints, Ts[i], rows, found, trial, work)
+        found = finish_pose(chain, Ts[i], False, rows, count[i], work)
+        count[i] = merge_families(chain, Ts[i], rows, found, trial, work)
         if within_limits:
-            count[i] = turn_inside(links, joints, Ts[i], within_limits, *rows, count[i])
+            count[i] = turn_inside(chain, Ts[i], True, rows, count[i])
 
 
 def invert_pose(T, out):
@@ -155,19 +262,16 @@ def reverse_joints(q, free):
 
 
 @entry()
-def turn_back(links: Links, joints: Joints, Ts: Poses, within_limits: bool, outputs: Outputs):
+def turn_back(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
 
     The reversed chain measures its position error at the other end.
     """
     q, residual, count, branch, free = outputs
-    n = q.shape[2]
-    work = work_array(n)
+    work = work_array(q.shape[2])
     for i in range(Ts.shape[0]):
-        found = count[i]
-        for k in range(found):
+        for k in range(count[i]):
             free[i, k] = reverse_joints(q[i, k], free[i, k])
             residual[i, k] = -1.0
-        count[i] = finish_pose(
-            links, joints, Ts[i], within_limits, q[i], residual[i], branch[i], free[i], found, work
-        )
+        rows = q[i], residual[i], branch[i], free[i]
+        count[i] = finish_pose(chain, Ts[i], within_limits, rows, count[i], work)

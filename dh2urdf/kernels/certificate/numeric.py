@@ -9,18 +9,14 @@ matrix but for joints that mimic others.
 """
 
 import math
-from typing import Annotated
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import ACCEPT, is_known
-from dh2urdf.kernels.certificate.damped import (
-    add_transposed,
-    error_and_jacobian,
-    make_damped,
-    solve_damped,
-)
-from dh2urdf.kernels.numbers import Floats, Pose, entry
+from dh2urdf.kernels.newton import add_transposed, error_and_jacobian, make_damped, solve_damped
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Configuration, Floats, Goal, Sizes
 
 MOST_STEPS = 60
 """Steps from one start; a good one takes ten to twenty."""
@@ -38,14 +34,15 @@ DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
 
 
-def _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part):
+def _look(arm, goal, q, scratch):
     """Residual of values q (n,); its error and the Jacobian of the values go to ``part``."""
+    (chain, coupling, offset, _), (work, _, whole, part) = arm, scratch
     for k in range(offset.shape[0]):
         total = offset[k]
         for v in range(q.shape[0]):
             total += coupling[k, v] * q[v]
         work[k] = total
-    residual = error_and_jacobian(links, joints, task, T, work, unit, whole)
+    residual = error_and_jacobian(chain, goal, work, whole)
     for a in range(6):
         part[1][a, 6] = whole[1][a, 6]
         for v in range(q.shape[0]):
@@ -61,16 +58,14 @@ def _step(bounds, damping, unit, q, dq, part):
     n = q.shape[0]
     for _ in range(n + 1):
         solve_damped(part, damping)
-        for i in range(n):
-            dq[i] = 0.0
+        dq[:] = 0.0
         add_transposed(part, 1.0, dq)
         again = False
         for i in range(n):
             out = (q[i] >= bounds[i, 2] and dq[i] > 0.0) or (q[i] <= bounds[i, 1] and dq[i] < 0.0)
             if out:
                 again = True
-                for a in range(6):
-                    part[0][i, a] = 0.0
+                part[0][i] = 0.0
         if not again:
             break
     longest = 0.0
@@ -81,59 +76,56 @@ def _step(bounds, damping, unit, q, dq, part):
         q[i] = min(max(q[i] + scale * dq[i], bounds[i, 1]), bounds[i, 2])
 
 
-def _from_start(links, joints, coupling, offset, bounds, task, T, unit, q, best, scratch):
+def _from_start(arm, goal, q, best, scratch):
     """Follow the steps from q (n,); the residual of the best values, which go to best (n,)."""
-    work, dq, whole, part = scratch
+    (_, _, _, bounds), (_, dq, _, part) = arm, scratch
     least, since = math.inf, 0
     for _ in range(MOST_STEPS):
-        residual = _look(links, joints, coupling, offset, task, T, unit, q, work, whole, part)
+        residual = _look(arm, goal, q, scratch)
         if residual < least:
             since = since if residual > 0.9 * least else 0
             least = residual
-            for i in range(q.shape[0]):
-                best[i] = q[i]
+            best[:] = q
         since += 1
         if residual <= DONE or since > STUCK or (least <= ACCEPT and since > 2):
             break
         square = 0.0
         for a in range(6):
             square += part[1][a, 6] * part[1][a, 6]
-        _step(bounds, square * (0.5 + DAMPING), unit, q, dq, part)
+        _step(bounds, square * (0.5 + DAMPING), goal[2], q, dq, part)
     return least
+
+
+class Coupled(NamedTuple):
+    """A chain, how its joints follow the values, and these: sliding, lower, upper bound."""
+
+    chain: Chain
+    coupling: Annotated[Floats, "n", "values"]
+    offset: Configuration
+    bounds: Annotated[Floats, "values", 3]
 
 
 @entry()
 def find_solutions(
-    links: Annotated[Floats, "moving + 1", 4, 4],
-    joints: Annotated[Floats, "moving", 3],
-    coupling: Annotated[Floats, "moving", "n"],
-    offset: Annotated[Floats, "moving"],
-    bounds: Annotated[Floats, "n", 3],
-    task: int,
-    T: Pose,
-    unit: float,
-    starts: Annotated[Floats, "starts", "n"],
-    q: Annotated[Floats, "solutions", "n"],
-    residual: Annotated[Floats, "solutions"],
+    arm: Coupled,
+    goal: Goal,
+    starts: Annotated[Floats, "starts", "values"],
+    q: Annotated[Floats, "solutions", "values"],
+    residual: Sizes,
 ):
-    """Different solutions of one pose T (4, 4), from one start (s, n) after the other.
+    """Different solutions of one pose, values from one start (s, n) after the other.
 
-    The chain is of the size ``unit`` [m]; ``coupling`` (chain.n, n) and ``offset`` (chain.n,) lead
-    to its joints, ``bounds`` (n, 3) are of the values: sliding, lower, upper. Solutions go to q
-    (k, n) and ``residual`` (k,); the search ends when these are full. The starts are overwritten.
-    Returns the number of solutions and of starts that were used.
+    Solutions go to q (k, n) and ``residual`` (k,); the search ends when these are full. The starts
+    are overwritten. Returns the number of solutions and of starts that were used.
     """
-    n, m = starts.shape[1], offset.shape[0]
+    bounds, n, m = arm[3], starts.shape[1], arm[2].shape[0]
     scratch = np.empty(m), np.empty(n), make_damped(m), make_damped(n)
     best = np.empty(n)
     count = 0
     for s in range(starts.shape[0]):
-        least = _from_start(
-            links, joints, coupling, offset, bounds, task, T, unit, starts[s], best, scratch
-        )
+        least = _from_start(arm, goal, starts[s], best, scratch)
         if least <= ACCEPT and not is_known(bounds, q, count, best):
-            for i in range(n):
-                q[count, i] = best[i]
+            q[count] = best
             residual[count] = least
             count += 1
             if count == q.shape[0]:

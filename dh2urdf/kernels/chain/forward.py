@@ -9,7 +9,8 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, lanes_fk
-from dh2urdf.kernels.numbers import Flags, Floats, Links, Poses, entry, few_turns, sincos
+from dh2urdf.kernels.numbers import entry, few_turns, sincos
+from dh2urdf.kernels.shapes import Flags, Floats, Links, Poses
 
 
 def _slid(a, b, c, d, q):
@@ -138,12 +139,13 @@ def chain_frames_batch(
             r = times_link(r, links[i + 1])
 
 
-def jacobian_rows(links, joints, q, J):
+def jacobian_rows(chain, q, J):
     """Geometric Jacobian at the tip in base axes, joint i in row i of J (n, 6 or more); the tip.
 
     Linear before angular: ``(z_i x (p_tip - p_i), z_i)`` revolute, ``(z_i, 0)`` prismatic (Spong,
     eqs. 4.57 to 4.60). The joints' points are kept in J until the tip is known.
     """
+    links, joints = chain
     r = load_pose(links[0])
     for i in range(q.shape[0]):
         J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
@@ -175,7 +177,7 @@ def chain_jacobian_batch(
     for i in range(q.shape[1]):
         joints[i, 0] = 1.0 if prismatic[i] else 0.0
     for k in range(q.shape[0]):
-        jacobian_rows(links, joints, q[k], rows)
+        jacobian_rows((links, joints), q[k], rows)
         for i in range(q.shape[1]):
             for e in range(6):
                 J[k, e, i] = rows[i, e]

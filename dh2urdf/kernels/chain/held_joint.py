@@ -16,7 +16,8 @@ from dh2urdf.kernels.chain.forward import (
     times_joint,
     times_link,
 )
-from dh2urdf.kernels.numbers import Codes, Counts, Floats, Integers, Poses, entry
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Codes, Counts, Floats, Integers, Poses
 
 IDENTITY = np.eye(4)
 

@@ -7,8 +7,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import TWO_PI, chain_frames, newton_step, pose_error
+from dh2urdf.kernels.certificate import TWO_PI
 from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
+from dh2urdf.kernels.newton import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
 
 TOLERANCE = 1e-9

@@ -15,7 +15,8 @@ from typing import Annotated, Any
 from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
 from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
-from dh2urdf.kernels.numbers import Counts, Floats, Poses, entry
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Counts, Floats, Poses
 
 COARSE = 1e-2
 """Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:

@@ -20,8 +20,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import chain_frames
 from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, move_line_back
+from dh2urdf.kernels.newton import chain_frames
 from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side
 
 HALF = 3 * LANES

@@ -5,24 +5,22 @@ the others lie along the direction in which the pose hardly changes.
 """
 
 import math
-from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
+from dh2urdf.kernels.certificate import is_known, null_direction, principal
+from dh2urdf.kernels.newton import (
     MAX_TURN,
     POLISH,
     POSE,
     error_and_jacobian,
-    is_known,
     make_damped,
     normal_equations,
-    null_direction,
     pose_residual,
-    principal,
     work_array,
 )
-from dh2urdf.kernels.numbers import Counts, Floats, Joints, Links, Poses, entry
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Counts, Poses, Solutions
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
@@ -57,10 +55,10 @@ def _solve(A, step):
     return longest
 
 
-def _converges(links, joints, T, q, A, step, damped):
+def _converges(chain, T, q, A, step, damped):
     """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
     for _ in range(STEPS):
-        error_and_jacobian(links, joints, POSE, T, q, 1.0, damped)
+        error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
         for r in range(6):
             A[r, 6] = damped[1][r, 6]
             for j in range(6):
@@ -72,33 +70,25 @@ def _converges(links, joints, T, q, A, step, damped):
         q += step * scale
     for j in range(6):
         q[j] = principal(q[j])
-    return pose_residual(links, joints, T, q) <= POLISH
+    return pose_residual(chain, T, q) <= POLISH
 
 
 @entry(n=6)
-def search_beside(
-    links: Links,
-    joints: Joints,
-    Ts: Poses,
-    q: Annotated[Floats, "poses", "solutions", 6],
-    count: Counts,
-):
-    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4).
-
-    ``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certificate.certify`; six turning joints.
-    """
+def search_beside(chain: Chain, Ts: Poses, q: Solutions, count: Counts):
+    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
+    _, joints = chain
     start, trial, work = np.empty(6), np.empty(6), work_array(6)
     A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         for k in range(count[i]):
-            normal_equations(links, joints, Ts[i], q[i, k], work)
+            normal_equations(chain, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
             for j in range(6):
                 start[j] = work[j, 6]
             for w in range(len(WAYS)):
                 trial[:] = q[i, k] + WAYS[w] * start
-                if not _converges(links, joints, Ts[i], trial, A, step, damped):
+                if not _converges(chain, Ts[i], trial, A, step, damped):
                     continue
                 if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
                     q[i, count[i]] = trial

@@ -7,21 +7,16 @@ candidate moves far, does not converge, falls together with another, is one of a
 has a nearly singular Jacobian, and where there is none.
 """
 
-from typing import Annotated, TypeAlias
+from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ACCEPT,
-    ANYWHERE,
-    POSE,
-    error_and_jacobian,
-    finish_pose,
-    make_damped,
-    polish,
-    solve_damped,
-)
-from dh2urdf.kernels.numbers import (
+from dh2urdf.kernels.certificate import ACCEPT, finish_pose
+from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish, solve_damped
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
+from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
+from dh2urdf.kernels.shapes import (
     ClosedForm,
     Counts,
     Floats,
@@ -30,36 +25,31 @@ from dh2urdf.kernels.numbers import (
     Poses,
     Solutions,
     Three,
-    entry,
 )
-from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
-from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
-Found: TypeAlias = Annotated[Floats, "poses", "solutions", 6]
-"""Room for solutions, more than a nominal arm has: the general solver adds its own."""
 
-
-def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, start, work, damped):
+def _settle(chain, T, trust, doubt, rows, found, start, work, damped):
     """Certify the candidates q of one pose; how many are left, or -1 minus that where in doubt.
 
     ``trust``: size of the arm [m], largest motion of a joint [rad], smallest singular value.
     """
+    q, residual, branch, free = rows
     unit, most, regular = trust[0], trust[1], trust[2]
     doubt = doubt or found % 2 == 1 or found == 0
     for k in range(found):
         start[:] = q[k]
-        residual[k] = polish(links, joints, T, q[k], work)
+        residual[k] = polish(chain, T, q[k], work)
         doubt = doubt or not residual[k] <= ACCEPT or free[k] != 0
         for j in range(6):
             doubt = doubt or abs(q[k, j] - start[j]) > most
         if not doubt:
-            error_and_jacobian(links, joints, POSE, T, q[k], unit, damped)
+            error_and_jacobian(chain, (POSE, T, unit), q[k], damped)
             solve_damped(damped, 0.0)
             for a in range(6):
                 doubt = doubt or damped[1][a, 8 + a] < regular
-    left = finish_pose(links, joints, T, ANYWHERE, q, residual, branch, free, found, work)
+    left = finish_pose(chain, T, False, rows, found, work)
     for k in range(left):
         branch[k], free[k] = -1, 0
     return -1 - left if doubt or left < found else left
@@ -68,18 +58,16 @@ def _settle(links, joints, T, trust, doubt, q, residual, branch, free, found, st
 @entry(n=6)
 def solve_near_wrist(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outputs):
     """Poses Ts (m, 4, 4) of an arm whose last three axes nearly meet; count < 0: in doubt."""
-    links, joints, form, ends, slack = arm
+    chain, form, ends, slack = arm
     q, residual, count, branch, free = outputs
     D, R, places, work, _ = wrist_scratch()
     start, damped = np.empty(6), make_damped(6)
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
-        rows = place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, places)
-        found = 0
-        for k in range(rows):
-            found = add_wrist(form, D, places[k], R, slack, q[i], branch[i], free[i], found)
-        out = q[i], residual[i], branch[i], free[i]
-        count[i] = _settle(links, joints, Ts[i], trust, False, *out, found, start, work, damped)
+        rows, found = (q[i], residual[i], branch[i], free[i]), 0
+        for k in range(place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, places)):
+            found = add_wrist(form, D, places[k], R, slack, rows, found)
+        count[i] = _settle(chain, Ts[i], trust, False, rows, found, start, work, damped)
 
 
 def _in_line(form, first, pairs, slack, D, pair, cs, regular):
@@ -98,7 +86,7 @@ def _in_line(form, first, pairs, slack, D, pair, cs, regular):
 @entry(n=6)
 def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outputs):
     """Poses Ts (m, 4, 4) of an arm with three nearly parallel axes; count < 0: in doubt."""
-    links, joints, form, ends, slack = arm
+    chain, form, ends, slack = arm
     q, residual, count, branch, free = outputs
     scratch = parallel_scratch()
     D, pair, work = scratch[0], scratch[1], scratch[3]
@@ -108,9 +96,9 @@ def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outpu
         tool_to_wrist(ends, Ts[i], D)
         pairs = outer_pairs(form, first, D, slack, pair)
         doubt = _in_line(form, first, pairs, slack, D, pair, scratch[2], trust[2])
-        found = add_pairs(form, first, pairs, slack, q[i], branch[i], free[i], scratch)
-        out = q[i], residual[i], branch[i], free[i]
-        count[i] = _settle(links, joints, Ts[i], trust, doubt, *out, found, start, work, damped)
+        rows = q[i], residual[i], branch[i], free[i]
+        found = add_pairs(form, first, pairs, slack, rows, scratch)
+        count[i] = _settle(chain, Ts[i], trust, doubt, rows, found, start, work, damped)
 
 
 @entry()

@@ -1,9 +1,9 @@
 """Numbers: which form of the kernels runs, elementary functions, trigonometric equations, lanes.
 
-Read `engine` first (compiled or interpreted), then `shapes` (what entries take), `elementary`
-(sine and cosine, arctangent, ..., the same bits on every machine), `trig` (equations that closed
-forms end in), `circles` (two equations in two angles), `dual_quaternions`, `lanes` (QR of many
-6 x 6 systems side by side), `poses` (checks of many poses).
+Read `engine` first (compiled or interpreted), then `elementary` (sine and cosine, arctangent, ...,
+the same bits on every machine), `trig` (equations that closed forms end in), `circles` (two
+equations in two angles), `dual_quaternions`, `lanes` (QR of many 6 x 6 systems side by side),
+`poses` (checks of many poses).
 """
 
 from dh2urdf.kernels.numbers.circles import circle_pair
@@ -17,24 +17,6 @@ from dh2urdf.kernels.numbers.elementary import acos, asin, atan2, few_turns, hyp
 from dh2urdf.kernels.numbers.engine import entry, side_by_side
 from dh2urdf.kernels.numbers.lanes import COLUMN, LANES, null_vectors, reduce_columns, solve_upper
 from dh2urdf.kernels.numbers.poses import copy_pose, first_bad_pose, is_pose, pad_solutions
-from dh2urdf.kernels.numbers.shapes import (
-    ClosedForm,
-    Codes,
-    Counts,
-    Ends,
-    Flags,
-    Floats,
-    Integers,
-    Joints,
-    Links,
-    Outputs,
-    Pose,
-    Poses,
-    Rows,
-    Solutions,
-    Three,
-    Values,
-)
 from dh2urdf.kernels.numbers.trig import (
     add_square,
     arctangent,

@@ -9,7 +9,7 @@ import math
 from typing import Annotated
 
 from dh2urdf.kernels.numbers.engine import entry
-from dh2urdf.kernels.numbers.shapes import Floats, Pose
+from dh2urdf.kernels.shapes import Floats, Pose
 
 
 @entry()

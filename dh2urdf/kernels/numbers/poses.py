@@ -1,7 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
 from dh2urdf.kernels.numbers.engine import entry
-from dh2urdf.kernels.numbers.shapes import Outputs, Pose, Poses
+from dh2urdf.kernels.shapes import Outputs, Pose, Poses
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""

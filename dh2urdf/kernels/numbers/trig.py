@@ -10,7 +10,7 @@ from typing import Annotated
 
 from dh2urdf.kernels.numbers.elementary import hypot, sincos
 from dh2urdf.kernels.numbers.engine import entry
-from dh2urdf.kernels.numbers.shapes import Floats
+from dh2urdf.kernels.shapes import Floats
 
 TINY = 1e-13
 """Size, relative to the largest coefficient, at which a coefficient is rounding."""

@@ -9,10 +9,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, entry, side_by_side
-from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
-from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
-from dh2urdf.kernels.spherical_wrist import (
+from dh2urdf.kernels.blocks import (
     BLOCK,
     CLEAR,
     COS,
@@ -33,8 +30,12 @@ from dh2urdf.kernels.spherical_wrist import (
     load_poses,
     measure,
     planar_arm,
-    tool_to_wrist,
 )
+from dh2urdf.kernels.numbers import entry, side_by_side
+from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
+from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
+from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
+from dh2urdf.kernels.spherical_wrist import tool_to_wrist
 
 JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
 K, PAIR = np.arange(8), (np.arange(8) & 1) + 2 * (np.arange(8) >> 2)
@@ -134,7 +135,7 @@ def _elbows(form, slack, n, S):
 @entry(n=6, solutions=8)
 def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
-    links, joints, form, ends, slack = arm
+    (_, joints), form, ends, slack = arm
     q, residual, count, branch, free = outputs
     m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRROR_OF)
     for first in range(0, m, BLOCK):
@@ -153,6 +154,4 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
                 tool_to_wrist(ends, Ts[i], scratch[0])
                 pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
-                count[i] = finish_pairs(
-                    links, joints, form, 1, pairs, slack, Ts[i], within_limits, out, scratch
-                )
+                count[i] = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)

@@ -15,10 +15,11 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
-from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, atan2, entry, hypot
+from dh2urdf.kernels.numbers import atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import common_axis, last_joint, seen_arm, seen_from_plane
+from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, planar, tool_to_wrist
 
 ALL_FREE = 0b111111
@@ -68,8 +69,9 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     return cx - vx, cy - vy
 
 
-def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, branch, free, count):
+def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, rows, count):
     """Append the elbows of one set of outer joints; returns the new count."""
+    q, _, branch, free = rows
     in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     if first == 1:
@@ -109,8 +111,8 @@ def slope_of_last(form, D, cs, slack):
     return min(wrists, 1) if hypot(x, y) <= FREE else wrists
 
 
-def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
-    """From ``pairs`` of outer joints of one pose to candidates in q (8, 6); their count.
+def add_pairs(form, first, pairs, slack, rows, scratch):
+    """From ``pairs`` of outer joints of one pose to candidates; their count.
 
     ``first`` is the index of the first parallel axis.
     """
@@ -126,33 +128,26 @@ def add_pairs(form, first, pairs, slack, q, branch, free, scratch):
             cs[outer, 0], cs[outer, 1] = row[0], row[1]
             cs[4, 0], cs[4, 1] = row[2], row[3]
             shoulder, wrists = 0, 1
-            if found + 2 > q.shape[0]:
+            if found + 2 > rows[0].shape[0]:
                 break
             if first == 1:
                 shoulder = 1 if row[0] * D[0, 3] + row[1] * D[1, 3] < 0.0 else 0
                 if form[4, 0] == 0.0:
                     wrists = slope_of_last(form, D, cs, slack)
-            free_with = FIFTH_FREE if leaning else mask
+            moving = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
-                found = _add_planar(
-                    form, first, D, cs, shoulder, free_with, slack, arm, q, branch, free, found
-                )
+                found = _add_planar(form, first, D, cs, shoulder, moving, slack, arm, rows, found)
                 cs[4, 1] = -cs[4, 1]
     return found
 
 
-def finish_pairs(links, joints, form, first, pairs, slack, T, within_limits, out, scratch):
-    """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
-
-    From ``pairs`` of outer joints, see :func:`add_pairs`.
-    """
-    work, many = scratch[3], scratch[5]
-    q, residual, branch, free = many
-    found = add_pairs(form, first, pairs, slack, q, branch, free, scratch)
-    for k in range(found):
-        residual[k] = -1.0
-    found = finish_pose(links, joints, T, within_limits, *many, found, work)
-    return copy_rows(many, found, out)
+def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
+    """Certified solutions of one pose in the rows ``out``, from :func:`add_pairs`; their count."""
+    (chain, form, _, slack), work, rows = arm, scratch[3], scratch[5]
+    found = add_pairs(form, first, pairs, slack, rows, scratch)
+    rows[1][:found] = -1.0
+    found = finish_pose(chain, T, within_limits, rows, found, work)
+    return copy_rows(rows, found, out)
 
 
 def make_scratch():
@@ -171,7 +166,7 @@ def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, output
 
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
     """
-    links, joints, form, ends, slack = arm
+    chain, form, ends, slack = arm
     q, residual, count, branch, free = outputs
     scratch = make_scratch()
     D, pair, trial = scratch[0], scratch[1], np.empty(6)
@@ -180,11 +175,9 @@ def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, output
         tool_to_wrist(ends, Ts[i], D)
         pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = finish_pairs(
-            links, joints, form, first, pairs, slack, Ts[i], within_limits, out, scratch
-        )
+        count[i] = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
         vague = 0.0
         for k in range(abs(pairs) if first == 0 else 0):
             vague = max(vague, pair[k, 4])
         for k in range(count[i] if vague != 0.0 else 0):
-            free[i, k] = free_joints(links, joints, Ts[i], q[i, k], trial, scratch[3])
+            free[i, k] = free_joints(chain, Ts[i], q[i, k], trial, scratch[3])

@@ -23,15 +23,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ACCEPT,
-    POSE,
-    finish_pose,
-    invert_pose,
-    make_damped,
-    restore,
-    reverse_joints,
-)
+from dh2urdf.kernels.certificate import ACCEPT, finish_pose, invert_pose, reverse_joints
 from dh2urdf.kernels.chain import (
     applied,
     applied_inverse,
@@ -43,18 +35,9 @@ from dh2urdf.kernels.chain import (
     store_pose,
     turned_back,
 )
-from dh2urdf.kernels.numbers import (
-    Counts,
-    Floats,
-    Integers,
-    Outputs,
-    Pose,
-    Poses,
-    atan2,
-    circle_pair,
-    entry,
-    sincos,
-)
+from dh2urdf.kernels.newton import make_damped, restore
+from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
+from dh2urdf.kernels.shapes import Chain, Counts, Floats, Goal, Integers, Outputs, Poses, Solutions
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
@@ -150,31 +133,30 @@ def _orientation_left(D, S, values, R):
         R[0, j], R[1, j], R[2, j] = x, y, z
 
 
-def held_candidates(form, frames, which, slack, value, T, q, branch, free, scratch):
-    """Candidates of one pose, q (8, 6) in the chain's order without the held joint; how many."""
+def held_candidates(arm, value, T, rows, scratch):
+    """Candidates of one pose, in the chain's order without the held joint; how many."""
+    (frames, which, form, _, slack), (q, _, _, free) = arm, rows
     oriented_pose(frames, which, value, T, scratch)
-    D, S, R, arm = scratch[1], scratch[2], scratch[3], scratch[4]
-    rows = _place_wrist(form, D, S, slack, scratch)
+    D, S, R, place = scratch[1], scratch[2], scratch[3], scratch[4]
     found = 0
-    for k in range(rows):
-        _orientation_left(D, S, arm[k], R)
-        found = append_wrist(form, arm[k], R, slack, q, branch, free, found)
+    for k in range(_place_wrist(form, D, S, slack, scratch)):
+        _orientation_left(D, S, place[k], R)
+        found = append_wrist(form, place[k], R, slack, rows, found)
     if which[REVERSED] != 0:
         for k in range(found):
             free[k] = reverse_joints(q[k], free[k])
     return found
 
 
-def solve_held_pose(
-    frames, which, form, joints, slack, value, T, within_limits, q, residual, branch, free, scratch
-):
-    """All solutions of one pose at one held value, q (8, 7); returns the count."""
-    work, links, rest = scratch[5], scratch[6], scratch[7]
-    found = held_candidates(form, frames, which, slack, value, T, rest, branch, free, scratch)
+def solve_held_pose(arm, value, T, within_limits, out, scratch):
+    """All solutions of one pose at one held value, to the rows ``out``; returns the count."""
+    (frames, which, _, joints, _), (q, residual, branch, free) = arm, out
+    work, links, rest = scratch[5], scratch[6], (scratch[7], residual, branch, free)
+    found = held_candidates(arm, value, T, rest, scratch)
     residual[:found] = -1.0
     held_links(frames[:8], which[SLIDES] != 0, which[HELD], value, links)
-    found = finish_pose(links, joints, T, within_limits, rest, residual, branch, free, found, work)
-    insert_held(which[HELD], value, rest, q, free, found)
+    found = finish_pose((links, joints), T, within_limits, rest, found, work)
+    insert_held(which[HELD], value, scratch[7], q, free, found)
     return found
 
 
@@ -184,8 +166,8 @@ def solve_rough(arm, values, Ts, within_limits, first, last, outputs):
     scratch = make_scratch()
     for i in range(first, last):
         if count[i] < 0:
-            rows = q[i], residual[i], branch[i], free[i]
-            count[i] = solve_held_pose(*arm, values[i], Ts[i], within_limits, *rows, scratch)
+            out = q[i], residual[i], branch[i], free[i]
+            count[i] = solve_held_pose(arm, values[i], Ts[i], within_limits, out, scratch)
 
 
 Held: TypeAlias = Annotated[Floats, "poses"]
@@ -210,36 +192,24 @@ def solve_held_wrist(arm: HeldForm, values: Held, Ts: Poses, within_limits: bool
     solve_rough(arm, values, Ts, within_limits, 0, Ts.shape[0], outputs)
 
 
-@entry()
+@entry(n=7, solutions=8)
 def points_on_curves(
-    frames: Annotated[Floats, 30, 4, 4],
-    which: Annotated[Integers, 5],
-    form: Annotated[Floats, 6, 7],
-    joints: Annotated[Floats, 7, 3],
-    slack: float,
-    values: Annotated[Floats, "poses"],
-    T: Pose,
-    unit: float,
-    q: Annotated[Floats, "poses", 8, 7],
-    count: Counts,
+    arm: HeldForm, chain: Chain, goal: Goal, values: Held, q: Solutions, count: Counts
 ):
-    """Solutions of one pose T (4, 4) on its curves near the held values (m,); q (m, 8, 7).
+    """Solutions of one pose on its curves near the held values (m,); q (m, 8, 7).
 
-    With a large slack also a value that just misses a curve gives a candidate. All seven joints
-    take part in putting it on the curve, so that a loop between two values is found; ``joints``
-    (7, 3) are all of them, ``unit`` is the size of the arm [m].
+    With a large slack also a value that just misses a curve gives a candidate. All seven joints of
+    the chain take part in putting it on the curve, so that a loop between two values is found.
     """
     scratch, damped, work = make_scratch(), make_damped(7), np.empty(7)
-    branch, free = np.empty(8, np.int64), np.empty(8, np.int64)
-    rest = scratch[7]
+    rest = scratch[7], np.empty(8), np.empty(8, np.int64), np.empty(8, np.int64)
+    held, T = arm[1][HELD], goal[1]
     for i in range(values.shape[0]):
-        found = held_candidates(
-            form, frames, which, slack, values[i], T, rest, branch, free, scratch
-        )
-        insert_held(which[HELD], values[i], rest, q[i], free, found)
+        found = held_candidates(arm, values[i], T, rest, scratch)
+        insert_held(held, values[i], rest[0], q[i], rest[3], found)
         kept = 0
         for k in range(found):
             q[i, kept] = q[i, k]
-            if restore(frames[:8], joints, POSE, T, unit, q[i, kept], work, damped) <= ACCEPT:
+            if restore(chain, goal, q[i, kept], work, damped) <= ACCEPT:
                 kept += 1
         count[i] = kept

@@ -14,10 +14,7 @@ changes signs that cancel: its forward kinematics are the same numbers, and so i
 
 import math
 
-from dh2urdf.kernels.certificate import POLISH
-from dh2urdf.kernels.numbers import side_by_side
-from dh2urdf.kernels.redundant.held_wrist_load import LEVER, LOADED, UPPER, pose_axes
-from dh2urdf.kernels.spherical_wrist import (
+from dh2urdf.kernels.blocks import (
     BLOCK,
     CLEAR,
     COS,
@@ -32,6 +29,9 @@ from dh2urdf.kernels.spherical_wrist import (
     minus,
     turned,
 )
+from dh2urdf.kernels.newton import POLISH
+from dh2urdf.kernels.numbers import side_by_side
+from dh2urdf.kernels.redundant.held_wrist_load import LEVER, LOADED, UPPER, pose_axes
 
 T3, T1, T2, T4 = COS, COS + 2, COS + 6, COS + 10
 """Cosines of joint 3 (two elbows), of joints 1, 2, 4, 5 and 6 (one an arm)."""

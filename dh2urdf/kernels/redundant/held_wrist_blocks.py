@@ -10,11 +10,12 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import Floats, Integers, Outputs, Poses, entry
+from dh2urdf.kernels.blocks import BLOCK, MIRRORS, ROWS, emit
+from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.held_wrist import HELD, LINK, REVERSED, Held, HeldForm, solve_rough
 from dh2urdf.kernels.redundant.held_wrist_arms import finish_arm, place_elbows, place_shoulders
 from dh2urdf.kernels.redundant.held_wrist_load import all_equal, load_block, prepare_block
-from dh2urdf.kernels.spherical_wrist import BLOCK, MIRRORS, ROWS, emit
+from dh2urdf.kernels.shapes import Floats, Integers, Outputs, Poses
 
 JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
 K, ARM, OTHER = np.arange(8), np.arange(8) & 3, 12 * (np.arange(8) >> 2)

@@ -12,6 +12,7 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
+from dh2urdf.kernels.blocks import BLOCK, WORK, at, column, dot, load_poses
 from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
@@ -22,7 +23,6 @@ from dh2urdf.kernels.redundant.held_wrist import (
     SLIDES,
     VARIES,
 )
-from dh2urdf.kernels.spherical_wrist import BLOCK, WORK, at, column, dot, load_poses
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""

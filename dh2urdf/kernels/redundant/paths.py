@@ -13,8 +13,9 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import POSE, make_damped, restore, turn_to
-from dh2urdf.kernels.numbers import Flags, Floats, Integers, Joints, Links, Pose, Poses, entry
+from dh2urdf.kernels.certificate import turn_to
+from dh2urdf.kernels.newton import POSE, make_damped, restore
+from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import (
     HELD,
     LONGEST,
@@ -27,6 +28,7 @@ from dh2urdf.kernels.redundant.self_motion import (
     part_inside,
     tangent_near,
 )
+from dh2urdf.kernels.shapes import Chain, Configurations, Flags, Floats, Goal, Integers, Poses
 
 ROUNDS = 100
 """Newton steps; five to thirty are usual."""
@@ -51,7 +53,7 @@ RETURNS = 10
 
 
 def step_length(a, b, jump, penalty):
-    """Length of the step from a to b (n,), with the penalty where a joint moves over ``jump``."""
+    """Length of the step from a to b (n,); over a jump [rad or m] of a joint a penalty is added."""
     longest = 0.0
     for i in range(a.shape[0]):
         longest = max(longest, abs(b[i] - a[i]))
@@ -60,10 +62,8 @@ def step_length(a, b, jump, penalty):
 
 @entry()
 def onward(
-    links: Links,
-    joints: Joints,
-    T: Pose,
-    unit: float,
+    chain: Chain,
+    goal: Goal,
     jump: float,
     penalty: float,
     q: Annotated[Floats, "states", "n"],
@@ -72,25 +72,21 @@ def onward(
     q_out: Annotated[Floats, "ends", "n"],
     cost_out: Annotated[Floats, "ends"],
     parent: Annotated[Integers, "ends"],
-    reached: Annotated[Flags, "states"],
-    inside: Annotated[Flags, "states"],
+    room: Annotated[Flags, 2, "states"],
 ):
-    """Ways on from the states q (f, n) of one pose to the next pose T (4, 4).
+    """Ways on from the states q (f, n) of one pose to the next pose.
 
     First each state follows the arm by the shortest step, and into the limits if it has left
-    them; then come the solutions (s, n) of the pose, each by its cheapest way.
-
-    ``links``, ``joints``, ``unit`` are as for
-    :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
-    ``penalty`` more. Out come the states of the pose, q_out (f + s, n), their cost, infinite where
-    there is no way, and their parent; ``reached`` and ``inside`` are room.
+    them; then come the solutions (s, n) of the pose, each by its cheapest way. Out come the states
+    of the pose, q_out (f + s, n), their cost, infinite where there is no way, and their parent.
     """
-    f, n = q.shape[0], q.shape[1]
+    _, joints = chain
+    reached, inside, f, n = room[0], room[1], q.shape[0], q.shape[1]
     damped, work, trial = make_damped(n), np.empty(n), np.empty((1, n))
     q_out[:f] = q
     for k in range(f):
-        reached[k] = restore(links, joints, POSE, T, unit, q_out[k], work, damped) <= HELD
-    enter_limits(links, joints, T, unit, q_out[:f], inside)
+        reached[k] = restore(chain, goal, q_out[k], work, damped) <= HELD
+    enter_limits(chain, goal, q_out[:f], inside)
     for k in range(f):
         cost_out[k], parent[k] = math.inf, k
         if reached[k] and inside[k]:
@@ -174,13 +170,14 @@ def _newton(g, diagonal, beside, low, high, radius, x, bound, pivot):
         x[i] = min(max(x[i], low[i], -radius), high[i], radius)
 
 
-def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
+def _move(chain, Ts, unit, q, tangent, x, trial, work, damped):
     """Move each pose's q by x along its self-motion, less where a limit is in the way."""
+    _, joints = chain
     for i in range(q.shape[0]):
         way, worst = x[i], math.inf
         for _ in range(RETURNS):
             trial[i] = q[i] + way * tangent[i]
-            if restore(links, joints, POSE, Ts[i], unit, trial[i], work, damped) > HELD:
+            if restore(chain, (POSE, Ts[i], unit), trial[i], work, damped) > HELD:
                 way, worst = 0.5 * way, math.inf
                 continue
             worst, change = 0.0, 0.0
@@ -197,25 +194,23 @@ def _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped):
 
 @entry()
 def shorten(
-    links: Links,
-    joints: Joints,
+    chain: Chain,
     Ts: Poses,
     unit: float,
     start: Annotated[Floats, "starts", "n"],
     jump: float,
     penalty: float,
-    q: Annotated[Floats, "poses", "n"],
-    tangent: Annotated[Floats, "poses", "n"],
-    trial: Annotated[Floats, "poses", "n"],
+    q: Configurations,
+    room: Annotated[Floats, 2, "poses", "n"],
     scratch: Annotated[Floats, 8, "poses"],
 ):
     """Shorten a path q (m, n) through poses Ts (m, 4, 4), in place; returns its length.
 
-    The step from ``start`` (0 or 1, n) counts too. ``links``, ``joints``, ``unit`` are as for
-    :func:`dh2urdf.kernels.redundant.self_motion.nearest_members`; a step over ``jump`` costs
-    ``penalty``. ``tangent``, ``trial`` and ``scratch`` are room.
+    The step from ``start`` (0 or 1, n) counts too. ``unit`` is the size of the arm [m];
+    ``room`` and ``scratch`` are room.
     """
-    m, n = q.shape[0], q.shape[1]
+    (_, joints), m, n = chain, q.shape[0], q.shape[1]
+    tangent, trial = room[0], room[1]
     damped, guess, work, none = make_damped(n), np.empty(n), np.empty(n), np.zeros(n)
     tangent[:m] = 0.0
     g, diagonal, beside, low = scratch[0], scratch[1], scratch[2], scratch[3]
@@ -228,7 +223,8 @@ def shorten(
         for i in range(m):
             first_guess(guess)
             guess[:] = tangent[i] + 1e-3 * guess
-            if not tangent_near(links, joints, POSE, Ts[i], unit, q[i], guess, tangent[i], damped):
+            goal = POSE, Ts[i], unit
+            if not tangent_near(chain, goal, q[i], guess, tangent[i], damped):
                 tangent[i] = 0.0
             high[i] = part_inside(joints, q[i], tangent[i], LONGEST)
             low[i] = part_inside(joints, q[i], tangent[i], -LONGEST)
@@ -239,7 +235,7 @@ def shorten(
         shorter = length
         while radius > NEAREST:
             _newton(g, diagonal, beside, low, high, radius, x, bound, pivot)
-            _move(links, joints, Ts, unit, q, tangent, x, trial, work, damped)
+            _move(chain, Ts, unit, q, tangent, x, trial, work, damped)
             shorter = _length(start, trial, jump, penalty)
             if shorter < length:
                 break

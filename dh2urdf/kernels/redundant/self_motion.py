@@ -14,16 +14,16 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ACCEPT,
-    POSE,
+from dh2urdf.kernels.certificate import ACCEPT
+from dh2urdf.kernels.newton import (
     add_transposed,
     error_and_jacobian,
     make_damped,
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.numbers import Flags, Floats, Integers, Joints, Links, Pose, entry
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Configuration, Flags, Floats, Goal, Integers, Sizes, Some
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -45,9 +45,9 @@ SHORTEST = 1e-10
 """Part of a step below which there is no way on: a limit is in the way."""
 
 
-def _project(links, joints, task, T, unit, q, seed, step, damped):
+def _project(chain, goal, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
-    error_and_jacobian(links, joints, task, T, q, unit, damped)
+    error_and_jacobian(chain, goal, q, damped)
     J, work = damped
     step[:] = seed - q
     for a in range(6):
@@ -109,13 +109,14 @@ def _outside(joints, q):
     return False
 
 
-def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, damped):
+def _go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
+    _, joints = chain
     gap2 = distance2(q, seed)
     length = 1.0
     for move in range(MOST_STEPS):
-        size = _project(links, joints, task, T, unit, q, seed, step, damped)
+        size = _project(chain, goal, q, seed, step, damped)
         if not size > ARRIVED:  # NaN where nothing can move
             break
         if move > 0:
@@ -129,7 +130,7 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
         good = False
         while length * size > SHORTEST and not good:
             trial[:] = q + length * step
-            good = restore(links, joints, task, T, unit, trial, work, damped) <= HELD
+            good = restore(chain, goal, trial, work, damped) <= HELD
             good = good and distance2(trial, seed) < gap2
             good = good and not (within_limits and _outside(joints, trial))
             length *= 0.5
@@ -142,28 +143,18 @@ def _go_nearer(links, joints, task, T, unit, within_limits, q, seed, scratch, da
 
 @entry()
 def nearest_members(
-    links: Links,
-    joints: Joints,
-    task: int,
-    T: Pose,
-    unit: float,
-    within_limits: bool,
-    q: Annotated[Floats, "solutions", "n"],
-    seed: Annotated[Floats, "n"],
-    residual: Annotated[Floats, "solutions"],
+    chain: Chain, goal: Goal, within_limits: bool, q: Some, seed: Configuration, residual: Sizes
 ):
-    """Move solutions q (k, n) of one pose T (4, 4) along their self-motions towards a seed (n,).
+    """Move solutions q (k, n) of one pose along their self-motions towards a seed (n,).
 
-    In place, in the turns that they are in; their residuals (k,) go to ``residual``. ``links`` and
-    ``joints`` are those of :mod:`dh2urdf.kernels.certificate.certify`, ``task`` one of
-    :mod:`~dh2urdf.kernels.certificate.damped`, ``unit`` is the size of the arm [m]. With
+    In place, in the turns that they are in; their residuals (k,) go to ``residual``. With
     ``within_limits`` they stop at joint limits, and have to be inside.
     """
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((5, n))
     for k in range(q.shape[0]):
-        _go_nearer(links, joints, task, T, unit, within_limits, q[k], seed, scratch, damped)
-        residual[k] = error_and_jacobian(links, joints, task, T, q[k], unit, damped)
+        _go_nearer(chain, goal, within_limits, q[k], seed, scratch, damped)
+        residual[k] = error_and_jacobian(chain, goal, q[k], damped)
 
 
 def excess(joints, q, i):
@@ -175,30 +166,23 @@ def excess(joints, q, i):
     return 0.0
 
 
-def tangent_near(links, joints, task, T, unit, q, guess, tangent, damped):
+def tangent_near(chain, goal, q, guess, tangent, damped):
     """Unit vector along the self-motion of q, near the direction of a guess, (n,)."""
     guess += q
-    size = _project(links, joints, task, T, unit, q, guess, tangent, damped)
+    size = _project(chain, goal, q, guess, tangent, damped)
     guess -= q
     tangent /= max(size, 1e-300)
     return size > 1e-6
 
 
 @entry()
-def enter_limits(
-    links: Links,
-    joints: Joints,
-    T: Pose,
-    unit: float,
-    q: Annotated[Floats, "solutions", "n"],
-    entered: Annotated[Flags, "solutions"],
-):
+def enter_limits(chain: Chain, goal: Goal, q: Some, entered: Annotated[Flags, "solutions"]):
     """Move solutions q (k, n) along their curves into the limits; one joint to spare.
 
     They are in the turns nearest to their limits. Where ``entered`` (k,) says that one is not
-    inside, its row means nothing. The other arguments are those of :func:`nearest_members`.
+    inside, its row means nothing.
     """
-    n = q.shape[1]
+    (_, joints), n = chain, q.shape[1]
     damped, scratch = make_damped(n), np.empty((4, n))
     tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(q.shape[0]):
@@ -206,7 +190,7 @@ def enter_limits(
         first_guess(guess)
         for _ in range(MOST_STEPS):
             along, across, total = 0.0, 0.0, 0.0
-            if not tangent_near(links, joints, POSE, T, unit, q[k], guess, tangent, damped):
+            if not tangent_near(chain, goal, q[k], guess, tangent, damped):
                 break
             for i in range(n):
                 guess[i] = tangent[i]
@@ -223,27 +207,23 @@ def enter_limits(
             last = total
             step = min(max(along / across, -LONGEST), LONGEST)
             trial[:] = q[k] + step * tangent
-            if not restore(links, joints, POSE, T, unit, trial, work, damped) <= ACCEPT:
+            if not restore(chain, goal, trial, work, damped) <= ACCEPT:
                 break
             q[k] = trial
 
 
 @entry()
 def walk_family(
-    links: Links,
-    joints: Joints,
-    task: int,
-    T: Pose,
-    unit: float,
+    chain: Chain,
+    goal: Goal,
     length: float,
-    q: Annotated[Floats, "n"],
+    q: Configuration,
     members: Annotated[Floats, 2, "members", "n"],
     counts: Annotated[Integers, 2],
 ):
     """Members (2, k, n) of the family through q (n,), by walking away from it both ways.
 
-    Steps have a ``length`` [rad or m]; the other arguments are those of :func:`nearest_members`.
-    How many were found each way goes to ``counts`` (2,).
+    Steps have a ``length`` [rad or m]; how many were found each way goes to ``counts`` (2,).
     """
     n = q.shape[0]
     damped, scratch = make_damped(n), np.empty((3, n))
@@ -254,11 +234,11 @@ def walk_family(
         first_guess(guess)
         guess *= side
         for k in range(members.shape[1]):
-            if not tangent_near(links, joints, task, T, unit, at, guess, tangent, damped):
+            if not tangent_near(chain, goal, at, guess, tangent, damped):
                 break
             guess[:] = tangent
             members[way, k] = at + length * tangent
             at = members[way, k]
-            if not restore(links, joints, task, T, unit, at, work, damped) <= HELD:
+            if not restore(chain, goal, at, work, damped) <= HELD:
                 break
             counts[way] = k + 1

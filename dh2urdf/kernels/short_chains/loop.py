@@ -19,7 +19,8 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import Floats, Integers, Joints, dual_product, dual_times_joint, entry
+from dh2urdf.kernels.numbers import dual_product, dual_times_joint, entry
+from dh2urdf.kernels.shapes import Floats, Integers, Joints
 
 SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""

@@ -8,19 +8,11 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import finish_pose, work_array
+from dh2urdf.kernels.certificate import finish_pose
 from dh2urdf.kernels.chain import applied, turned
-from dh2urdf.kernels.numbers import (
-    Floats,
-    Joints,
-    Links,
-    Outputs,
-    Poses,
-    atan2,
-    elbow_angle,
-    entry,
-    hypot,
-)
+from dh2urdf.kernels.newton import work_array
+from dh2urdf.kernels.numbers import atan2, elbow_angle, entry, hypot
+from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""
@@ -77,8 +69,7 @@ def _one_link(l1, l2, x, y, slack, rest, out):
 class PlanarArm(NamedTuple):
     """Two or three joints with parallel axes, whose pose or position is asked for."""
 
-    links: Links
-    joints: Joints
+    chain: Chain
     plane: Annotated[Floats, 2, 4, 4]
     form: Annotated[Floats, 9]
     pose: bool
@@ -91,11 +82,11 @@ def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Output
     ``plane`` (2, 4, 4): base to the frame on axis 1, x to axis 2; what takes the tool's pose at
     q = 0 back to it. ``form`` (9,): l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3,
     the point on the last axis (the tool's origin for two joints) in the tool frame [m], rest value
-    of joint 1. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
+    of joint 1.
     """
-    links, joints, plane, form, pose = arm
+    chain, plane, form, pose = arm
     q, residual, count, branch, free = outputs
-    n, F = joints.shape[0], plane[0]
+    n, F = q.shape[2], plane[0]
     work, pairs, point = work_array(n), np.empty((2, 2)), np.empty(3)
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
     for i in range(Ts.shape[0]):
@@ -111,10 +102,10 @@ def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Output
             free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:
-            count[i] = finish_pose(links, joints, T, within_limits, *out, rows, work)
+            count[i] = finish_pose(chain, T, within_limits, out, rows, work)
         else:
             point[0], point[1], point[2] = T[0, 3], T[1, 3], T[2, 3]
-            count[i] = finish_pose(links, joints, point, within_limits, *out, rows, work)
+            count[i] = finish_pose(chain, point, within_limits, out, rows, work)
 
 
 def _heading(F, T, N):

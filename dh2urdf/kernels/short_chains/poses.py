@@ -10,29 +10,11 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ANYWHERE,
-    copy_rows,
-    finish_families,
-    finish_pose,
-    work_array,
-)
+from dh2urdf.kernels.certificate import copy_rows, finish_families, finish_pose
 from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
-from dh2urdf.kernels.numbers import (
-    Floats,
-    Integers,
-    Joints,
-    Links,
-    Outputs,
-    Pose,
-    Poses,
-    atan2,
-    dual_conjugate,
-    dual_of_pose,
-    entry,
-    sincos,
-    trig_roots,
-)
+from dh2urdf.kernels.newton import work_array
+from dh2urdf.kernels.numbers import atan2, dual_conjugate, dual_of_pose, entry, sincos, trig_roots
+from dh2urdf.kernels.shapes import Chain, Floats, Integers, Outputs, Pose, Poses
 from dh2urdf.kernels.short_chains.candidates import add_candidates
 from dh2urdf.kernels.short_chains.loop import (
     SAMPLES,
@@ -127,8 +109,7 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
 class ShortChain(NamedTuple):
     """Up to five joints, and how the loop that they close with the pose is cut."""
 
-    links: Links
-    joints: Joints
+    chain: Chain
     ends: Annotated[Floats, 2, 4, 4]
     loop: Annotated[Floats, "n", 8]
     plan: Annotated[Integers, "cuts", 2, 8]
@@ -143,9 +124,10 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
     quaternions of the links between the joints and a row for the last. ``plan`` (s, 2, 8) has the
     cuts of the loop, best first: its shape, see ``add_candidates``, and the nullity to expect; the
     slots that it has, -1 after the last. ``rest_unit`` (n + 1,): rest values, then the length of
-    one dual unit [m]. The others as for :class:`dh2urdf.ik.arm.solver.Solver`.
+    one dual unit [m].
     """
-    links, joints, ends, loop, plan, rest_unit = arm
+    chain, ends, loop, plan, rest_unit = arm
+    _, joints = chain
     q, residual, count, branch, free = outputs
     n = joints.shape[0]
     work = work_array(n)
@@ -154,7 +136,6 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
     pose, trial = np.empty((4, 4)), np.empty((2, n))
     order = np.empty(8, np.int64)
     many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
-    many_q, many_residual, many_branch, many_free = many
     rest, unit = rest_unit[:n], rest_unit[n]
     for i in range(Ts.shape[0]):
         T = Ts[i]
@@ -163,12 +144,12 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
         for s in range(plan.shape[0]):
             before, shape, slots = found, plan[s, 0], plan[s, 1]
             found, doubt = _candidates(
-                closed, shape, slots, joints, rest, unit, scratch, order, roots, many_q, found
+                closed, shape, slots, joints, rest, unit, scratch, order, roots, many[0], found
             )
             for k in range(before, found):
-                many_residual[k], many_branch[k], many_free[k] = -1.0, -1, 0
-            found = finish_pose(links, joints, T, ANYWHERE, *many, found, work)
+                many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
+            found = finish_pose(chain, T, False, many, found, work)
             if not doubt:
                 break
-        found = finish_families(links, joints, T, rest, within_limits, many, found, trial, work)
+        found = finish_families(chain, T, rest, within_limits, many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

@@ -16,27 +16,11 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ANYWHERE,
-    copy_rows,
-    finish_pose,
-    merge_families,
-    turn_inside,
-    work_array,
-)
+from dh2urdf.kernels.certificate import copy_rows, finish_pose, merge_families, turn_inside
 from dh2urdf.kernels.chain import applied, applied_inverse
-from dh2urdf.kernels.numbers import (
-    Floats,
-    Joints,
-    Links,
-    Outputs,
-    Poses,
-    Three,
-    atan2,
-    entry,
-    sincos,
-    trig_roots,
-)
+from dh2urdf.kernels.newton import work_array
+from dh2urdf.kernels.numbers import atan2, entry, sincos, trig_roots
+from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses, Three
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 
 FEW = 24
@@ -235,8 +219,7 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
 class PositionArm(NamedTuple):
     """Up to three joints, whose position is asked for."""
 
-    links: Links
-    joints: Joints
+    chain: Chain
     frames: Annotated[Floats, "n", 4, 4]
     tip: Three
     rest_unit: Annotated[Floats, "n + 1"]
@@ -247,10 +230,10 @@ def solve_short_positions(arm: PositionArm, Ts: Poses, within_limits: bool, outp
     """Solve the origins of poses Ts (m, 4, 4) of a chain of n <= 3 joints.
 
     ``frames`` (n, 4, 4) are ``F_1^-1``, A, B, ``tip`` (3,) is the tool's origin as the last joint
-    sees it, ``rest_unit`` (n + 1,) has the rest values, then the size of the arm [m]. The others as
-    for :class:`dh2urdf.ik.arm.solver.Solver`.
+    sees it, ``rest_unit`` (n + 1,) has the rest values, then the size of the arm [m].
     """
-    links, joints, frames, tip, rest_unit = arm
+    chain, frames, tip, rest_unit = arm
+    _, joints = chain
     q, residual, count, branch, free = outputs
     n = joints.shape[0]
     work = work_array(n)
@@ -266,8 +249,8 @@ def solve_short_positions(arm: PositionArm, Ts: Poses, within_limits: bool, outp
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
         for k in range(found):
             many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
-        found = finish_pose(links, joints, p, ANYWHERE, *many, found, work)
-        found = merge_families(links, joints, p, many, found, trial, work)
+        found = finish_pose(chain, p, False, many, found, work)
+        found = merge_families(chain, p, many, found, trial, work)
         if within_limits:
-            found = turn_inside(links, joints, p, within_limits, *many, found)
+            found = turn_inside(chain, p, True, many, found)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

@@ -8,20 +8,18 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import (
-    ANYWHERE,
+from dh2urdf.kernels.certificate import finish_families, finish_pose, invert_pose
+from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
+from dh2urdf.kernels.newton import (
     POSE,
     add_transposed,
     error_and_jacobian,
-    finish_families,
-    finish_pose,
-    invert_pose,
     make_damped,
     solve_damped,
     work_array,
 )
-from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
-from dh2urdf.kernels.numbers import Floats, Joints, Links, Outputs, Poses, atan2, entry, linear_trig
+from dh2urdf.kernels.numbers import atan2, entry, linear_trig
+from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 DAMPING = 1e-10
 """Added to the normal equations of the slides, which may lie in a plane: then they move as little
@@ -37,9 +35,9 @@ ROWS = 20
 """Rows of scratch: four links and the middle rotation, 4 x 4."""
 
 
-def _turning_links(links, joints, turning, scratch):
+def _turning_links(chain, turning, scratch):
     """Products of the links between the turning joints, to rows of scratch; how many turn."""
-    count = 0
+    (links, joints), count = chain, 0
     r = load_pose(links[0])
     for i in range(joints.shape[0]):
         if joints[i, 0] == 0.0:
@@ -65,13 +63,13 @@ def _outer(M, B):
     return x, y
 
 
-def _candidates(links, joints, T, q, turning, scratch, damped):
+def _candidates(chain, T, q, turning, scratch, damped):
     """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
     ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch. The slides are linear: from
     their zeros one step of Newton's method finds them.
     """
-    count = _turning_links(links, joints, turning, scratch)
+    count = _turning_links(chain, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
     found = 1
     q[:] = 0.0
@@ -95,10 +93,10 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
             store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
-        error_and_jacobian(links, joints, POSE, T, q[k], 1.0, damped)
+        error_and_jacobian(chain, (POSE, T, 1.0), q[k], damped)
         for i in range(q.shape[1]):
             for e in range(6):
-                damped[0][i, e] *= joints[i, 0]
+                damped[0][i, e] *= chain[1][i, 0]
         solve_damped(damped, DAMPING)
         add_transposed(damped, 1.0, q[k])
     return max(found, 0)
@@ -107,8 +105,7 @@ def _candidates(links, joints, T, q, turning, scratch, damped):
 class SlidingArm(NamedTuple):
     """Three joints that slide and two or three that turn; where a free joint rests."""
 
-    links: Links
-    joints: Joints
+    chain: Chain
     rest: Annotated[Floats, "n"]
 
 
@@ -116,19 +113,17 @@ class SlidingArm(NamedTuple):
 def solve_three_slides(arm: SlidingArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
-    Of a family the member stays whose first free joint is at its value in ``rest`` (n,). ``links``
-    and ``joints`` are those of :func:`~dh2urdf.kernels.certificate.certify.finish_pose`, the others
-    those of :class:`dh2urdf.ik.arm.solver.Solver`.
+    Of a family the member stays whose first free joint is at its value in ``rest`` (n,).
     """
-    links, joints, rest = arm
+    chain, rest = arm
     q, residual, count, branch, free = outputs
-    n = joints.shape[0]
+    n = rest.shape[0]
     work, damped, trial = work_array(n), make_damped(n), np.empty((2, n))
     turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))
     for i in range(Ts.shape[0]):
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
-        found = _candidates(links, joints, T, q[i], turning, scratch, damped)
+        found = _candidates(chain, T, q[i], turning, scratch, damped)
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
-        found = finish_pose(links, joints, T, ANYWHERE, *rows, found, work)
-        count[i] = finish_families(links, joints, T, rest, within_limits, rows, found, trial, work)
+        found = finish_pose(chain, T, False, rows, found, work)
+        count[i] = finish_families(chain, T, rest, within_limits, rows, found, trial, work)

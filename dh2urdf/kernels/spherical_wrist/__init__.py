@@ -1,34 +1,11 @@
 """Arms whose last three axes meet: position, then orientation (Pieper 1968, lecture notes 8.3).
 
 `poses` is the solver, with the wrist's ZYZ angles; `position_arm` puts the wrist centre by the
-common three turning joints, `position_any` by any three that turn or slide. `blocks` is the same
-for common arms, many poses side by side, in the arithmetic of `block_arithmetic` and
-`block_values`.
+common three turning joints, `position_any` by any three that turn or slide. `common` is the same
+for common arms, many poses side by side.
 """
 
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
-    BLOCK,
-    CLEAR,
-    COS,
-    DIRTY,
-    MERGED,
-    RESIDUAL,
-    ROWS,
-    SIN,
-    TURN,
-    VALID,
-    WORK,
-    at,
-    column,
-    dot,
-    load_poses,
-    measure,
-    minus,
-    planar_arm,
-    turned,
-)
-from dh2urdf.kernels.spherical_wrist.block_values import HALF_TURN, MIRRORS, NEGATED, OWN, emit
-from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
+from dh2urdf.kernels.spherical_wrist.common import solve_common_wrist
 from dh2urdf.kernels.spherical_wrist.poses import (
     add_wrist,
     append_wrist,

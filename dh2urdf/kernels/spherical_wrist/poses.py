@@ -16,20 +16,12 @@ from dh2urdf.kernels.certificate import (
     copy_rows,
     finish_pose,
     move,
-    polish,
     principal,
     same,
 )
-from dh2urdf.kernels.numbers import (
-    ClosedForm,
-    Outputs,
-    Poses,
-    atan2,
-    entry,
-    hypot,
-    root_of_gap,
-    sincos,
-)
+from dh2urdf.kernels.newton import polish
+from dh2urdf.kernels.numbers import atan2, entry, hypot, root_of_gap, sincos
+from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist.position_any import place_wrist
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
 
@@ -74,11 +66,10 @@ def _above(z, level, square):
     return z - level
 
 
-def add_wrist(form, D, values, R, slack, q, branch, free, count):
+def add_wrist(form, D, values, R, slack, rows, count):
     """Append the one or two wrists of a position solution, a row of ``arm``; the new count.
 
-    D (4, 4) is frame 6 in frame 0, the orientation left ``R_36 = R_03^T R_06`` goes to R (3, 3);
-    the candidates are q, branch and free.
+    D (4, 4) is frame 6 in frame 0, the orientation left ``R_36 = R_03^T R_06`` goes to R (3, 3).
     """
     for i in range(3):
         R[i, 0], R[i, 1], R[i, 2] = D[i, 0], D[i, 1], D[i, 2]
@@ -89,11 +80,12 @@ def add_wrist(form, D, values, R, slack, q, branch, free, count):
             x, y, z = R[0, j], R[1, j], R[2, j]
             x, y = c * x + s * y, c * y - s * x
             R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
-    return append_wrist(form, values, R, slack, q, branch, free, count)
+    return append_wrist(form, values, R, slack, rows, count)
 
 
-def append_wrist(form, values, R, slack, q, branch, free, count):
+def append_wrist(form, values, R, slack, rows, count):
     """:func:`add_wrist` for a known orientation ``R_36`` (3, 3)."""
+    q, _, branch, free = rows
     wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
@@ -138,32 +130,32 @@ def roots_meet(joints, arm, rows):
     return False
 
 
-def add_merged(links, joints, form, rows, slack, T, scratch):
+def add_merged(arm, places, T, scratch):
     """Candidates of position solutions whose double roots were merged; their count.
 
     Those of singular families, which only exist where the roots do merge, and those that reach
     the pose to rounding, which a straight elbow rather than one bent by 1e-8 does.
     """
-    D, R, arm, work, (q, residual, branch, free) = scratch
-    kept = 0
-    for k in range(rows):
-        found = add_wrist(form, D, arm[k], R, slack, q, branch, free, kept)
+    (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
+    (_, joints), (q, residual, _, free), kept = chain, rows, 0
+    for k in range(places):
+        found = add_wrist(form, D, place[k], R, slack, rows, kept)
         for j in range(kept, found):
-            residual[j] = polish(links, joints, T, q[j], work)
+            residual[j] = polish(chain, T, q[j], work)
             for i in range(6):
                 q[j, i] = q[j, i] if joints[i, 0] != 0.0 else principal(q[j, i])
             if residual[j] <= ROUNDING or (free[j] != 0 and residual[j] <= ACCEPT):
-                move(q, residual, branch, free, j, kept)
+                move(rows, j, kept)
                 kept += 1
     return kept
 
 
-def hidden(joints, many, merged, k):
+def hidden(joints, rows, merged, k):
     """Whether candidate k is, but for rounding, a member of a family among the merged ones.
 
     Both have the same values of the joints that are not free.
     """
-    q, _, _, free = many
+    q, _, _, free = rows
     for i in range(q.shape[1]):
         q[k, i] = q[k, i] if joints[i, 0] != 0.0 else principal(q[k, i])
     for j in range(merged):
@@ -173,23 +165,22 @@ def hidden(joints, many, merged, k):
     return False
 
 
-def finish_wrists(links, joints, form, rows, found, slack, T, within_limits, out, scratch):
-    """Certified solutions of one pose in ``out`` (q (8, 6), residual, branch, free); their count.
+def finish_wrists(arm, places, found, T, within_limits, out, scratch):
+    """Certified solutions of one pose in the rows ``out``; their count.
 
-    From ``rows`` position solutions and ``found`` candidates of :func:`add_merged`.
+    From ``places`` position solutions and ``found`` candidates of :func:`add_merged`.
     """
-    D, R, arm, work, many = scratch
-    q, residual, branch, free = many
-    merged = found
-    for k in range(rows):
-        parted = add_wrist(form, D, arm[k], R, slack, q, branch, free, found)
+    (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
+    (_, joints), merged = chain, found
+    for k in range(places):
+        parted = add_wrist(form, D, place[k], R, slack, rows, found)
         for j in range(found, parted):
-            residual[j] = -1.0
-            if not (merged and hidden(joints, many, merged, j)):
-                move(q, residual, branch, free, j, found)
+            rows[1][j] = -1.0
+            if not (merged and hidden(joints, rows, merged, j)):
+                move(rows, j, found)
                 found += 1
-    found = finish_pose(links, joints, T, within_limits, *many, found, work)
-    return copy_rows(many, found, out)
+    found = finish_pose(chain, T, within_limits, rows, found, work)
+    return copy_rows(rows, found, out)
 
 
 def make_scratch():
@@ -205,16 +196,16 @@ def solve_pose(arm, T, within_limits, out, scratch):
 
     Position solutions are parted, merged if they meet, and parted again.
     """
-    links, joints, form, ends, slack = arm
-    D, rows = scratch[0], scratch[2]
+    (_, joints), form, ends, slack = arm
+    D, place = scratch[0], scratch[2]
     tool_to_wrist(ends, T, D)
     x, y, z, merged = D[0, 3], D[1, 3], D[2, 3], 0
-    found = place_wrist(form, x, y, z, -slack, rows)
-    if roots_meet(joints, rows, found):
-        found = place_wrist(form, x, y, z, slack, rows)
-        merged = add_merged(links, joints, form, found, slack, T, scratch)
-        found = place_wrist(form, x, y, z, -slack, rows)
-    return finish_wrists(links, joints, form, found, merged, slack, T, within_limits, out, scratch)
+    found = place_wrist(form, x, y, z, -slack, place)
+    if roots_meet(joints, place, found):
+        found = place_wrist(form, x, y, z, slack, place)
+        merged = add_merged(arm, found, T, scratch)
+        found = place_wrist(form, x, y, z, -slack, place)
+    return finish_wrists(arm, found, merged, T, within_limits, out, scratch)
 
 
 @entry(n=6, solutions=8)

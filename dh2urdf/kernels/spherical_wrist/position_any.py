@@ -12,6 +12,7 @@ Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 
 import numpy as np
 
+from dh2urdf.kernels.blocks import dot, minus
 from dh2urdf.kernels.certificate import ACCEPT
 from dh2urdf.kernels.numbers import (
     add_square,
@@ -23,7 +24,6 @@ from dh2urdf.kernels.numbers import (
     sincos,
     trig_roots,
 )
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import dot, minus
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,

@@ -106,7 +106,7 @@ def test_count_equals_that_of_a_search(name):
 
 def test_block_and_scalar_kernels_agree():
     """The vectorised kernel returns the same solutions and branches as the scalar one."""
-    from dh2urdf.kernels.spherical_wrist.blocks import solve_common_wrist
+    from dh2urdf.kernels.spherical_wrist.common import solve_common_wrist
     from dh2urdf.kernels.spherical_wrist.poses import solve_wrist_arm
 
     chain = ref.shipped("denso_vs6556")

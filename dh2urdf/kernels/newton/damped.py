@@ -2,21 +2,21 @@
 
 ``dq = J^T (J J^T + damping)^-1 e`` is the shortest of the steps that do the same, so that what
 a redundant chain can do while its tool stays is left alone. Position and turn count alike when
-positions are divided by ``unit``, a length of the arm's size.
+positions are divided by a length of the arm's size.
 """
 
 import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.newton import (
+from dh2urdf.kernels.chain import jacobian_rows
+from dh2urdf.kernels.newton.steps import (
     damped_step,
     residual_of,
     turn_between,
     way_between,
     work_array,
 )
-from dh2urdf.kernels.chain import jacobian_rows
 
 RESTORED = 1e-13
 """Residual [m and rad] at which a configuration is back on the target, some 100 roundings."""
@@ -36,14 +36,14 @@ def make_damped(n):
     return np.empty((n, 6)), work_array(6)
 
 
-def error_and_jacobian(links, joints, task, T, q, unit, damped):
-    """Residual of q (n,) at a task [m and rad]; its error and the Jacobian go to ``damped``.
+def error_and_jacobian(chain, goal, q, damped):
+    """Residual of q (n,) at a `Goal` [m and rad]; its error and the Jacobian go to ``damped``.
 
     The error is (position / unit, rotation vector as long as the sine of its angle) from the
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
     """
-    J, work = damped
-    r = jacobian_rows(links, joints, q, J)
+    (J, work), (task, T, unit) = damped, goal
+    r = jacobian_rows(chain, q, J)
     x, y, z = way_between(r, T)
     work[0, 6], work[1, 6], work[2, 6] = x / unit, y / unit, z / unit
     for i in range(q.shape[0]):
@@ -103,26 +103,22 @@ def add_transposed(damped, factor, dq):
     return largest
 
 
-def restore(links, joints, task, T, unit, q, dq, damped):
+def restore(chain, goal, q, dq, damped):
     """Newton's method by shortest steps, q (n,) in place; returns the residual.
 
     Stops when the residual is rounding, or no longer falls. ``dq`` (n,) is scratch.
     """
-    n = q.shape[0]
-    residual = error_and_jacobian(links, joints, task, T, q, unit, damped)
+    residual = error_and_jacobian(chain, goal, q, damped)
     for _ in range(MOST_STEPS):
         if residual <= RESTORED:
             break
         solve_damped(damped, 0.0)
-        for i in range(n):
-            dq[i] = 0.0
+        dq[:] = 0.0
         add_transposed(damped, 1.0, dq)
-        for i in range(n):
-            q[i] += dq[i]
-        after = error_and_jacobian(links, joints, task, T, q, unit, damped)
+        q += dq
+        after = error_and_jacobian(chain, goal, q, damped)
         if not after < residual:
-            for i in range(n):
-                q[i] -= dq[i]
+            q -= dq
             break
         residual = after
     return residual

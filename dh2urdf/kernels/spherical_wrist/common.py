@@ -13,13 +13,13 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import ClosedForm, Outputs, Poses, entry, side_by_side
-from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
+from dh2urdf.kernels.blocks import (
     BLOCK,
     CLEAR,
     COS,
     DIRTY,
     MERGED,
+    MIRRORS,
     RESIDUAL,
     ROWS,
     SIN,
@@ -27,12 +27,14 @@ from dh2urdf.kernels.spherical_wrist.block_arithmetic import (
     WORK,
     at,
     column,
+    emit,
     load_poses,
     measure,
     planar_arm,
     turned_and_tilted,
 )
-from dh2urdf.kernels.spherical_wrist.block_values import MIRRORS, emit
+from dh2urdf.kernels.numbers import entry, side_by_side
+from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
 
 JOINT_OF = np.array([0] * 2 + [1] * 4 + [2] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
@@ -132,7 +134,7 @@ def _wrists(form, n, S):
 @entry(n=6, solutions=8)
 def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
-    _, joints, form, ends, slack = arm
+    (_, joints), form, ends, slack = arm
     q, residual, count, branch, free = outputs
     m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRRORS)
     for first in range(0, m, BLOCK):

@@ -1,6 +1,6 @@
 """Newton's method on the exact chain, and the residual that it works on.
 
-``links`` and ``joints`` as in :mod:`dh2urdf.kernels.certificate.certify`. A target T is a pose
+A target T is a pose
 (4, 4), or a point (3,) for the tool's origin: then only the position counts.
 """
 
@@ -75,20 +75,21 @@ def turn_between(r, T):
     return 0.5 * ex, 0.5 * ey, 0.5 * ez, trace
 
 
-def pose_residual(links, joints, T, q):
+def pose_residual(chain, T, q):
     """Residual of one configuration q (n,) on the exact chain against T."""
+    links, joints = chain
     r = load_pose(links[0])
     for i in range(q.shape[0]):
         r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
     return residual_of(r, T)
 
 
-def normal_equations(links, joints, T, q, work):
+def normal_equations(chain, T, q, work):
     """``J^T J`` and ``J^T e`` at q, the error e = (position, rotation vector) to T.
 
     J as of :func:`jacobian_rows`. Written to ``work[:, 8:]`` (lower triangle) and ``work[:, 6]``.
     """
-    r = jacobian_rows(links, joints, q, work)
+    r = jacobian_rows(chain, q, work)
     px, py, pz = way_between(r, T)
     ex, ey, ez = 0.0, 0.0, 0.0
     if T.ndim == 2:
@@ -146,45 +147,39 @@ def damped_step(work, damping):
     return substitute(work)
 
 
-def polish(links, joints, T, q, work):
+def polish(chain, T, q, work):
     """Newton's method on the exact chain, q (n,) in place; returns the residual.
 
     First plain steps, which near a singularity may go uphill once before they converge; where
     they do not, Levenberg's damped steps from the best point, each of which must go downhill.
     """
-    n = q.shape[0]
-    residual = pose_residual(links, joints, T, q)
+    residual = pose_residual(chain, T, q)
     if residual <= POLISH or not residual <= HOPELESS:
         return residual
-    best, kept = residual, np.empty(n)
-    for i in range(n):
-        kept[i] = q[i]
+    best, kept = residual, np.empty(q.shape[0])
+    kept[:] = q
     for _ in range(PLAIN_STEPS):
-        normal_equations(links, joints, T, q, work)
+        normal_equations(chain, T, q, work)
         _move_along(q, work, damped_step(work, TINY_DAMPING), residual)
-        residual = pose_residual(links, joints, T, q)
+        residual = pose_residual(chain, T, q)
         if residual < best:
             best = residual
-            for i in range(n):
-                kept[i] = q[i]
+            kept[:] = q
         if residual <= POLISH or not residual <= HOPELESS:
             break
     damping, failures = 1e-3 * best, 0
-    for i in range(n):
-        q[i] = kept[i]
+    q[:] = kept
     while best > POLISH and failures < DAMPED_FAILURES and damping > TINY_DAMPING:
-        normal_equations(links, joints, T, q, work)
+        normal_equations(chain, T, q, work)
         _move_along(q, work, damped_step(work, damping), best)
-        residual = pose_residual(links, joints, T, q)
+        residual = pose_residual(chain, T, q)
         damping = 0.01 * damping if residual < 0.5 * best else 100.0 * damping
         failures += 1 if residual > 0.5 * best else 0
         if residual < best:
             best = residual
-            for i in range(n):
-                kept[i] = q[i]
+            kept[:] = q
         else:
-            for i in range(n):
-                q[i] = kept[i]
+            q[:] = kept
     return best
 
 

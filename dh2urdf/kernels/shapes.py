@@ -28,17 +28,51 @@ Rows: TypeAlias = Annotated[Floats, "n", 7]
 Ends: TypeAlias = Annotated[Floats, 3, 4, 4]
 """From base to the first row's frame and from the last to the tool, both inverse; the tool."""
 
+Configuration: TypeAlias = Annotated[Floats, "n"]
+Configurations: TypeAlias = Annotated[Floats, "poses", "n"]
+Some: TypeAlias = Annotated[Floats, "solutions", "n"]
+"""Configurations, one a row."""
+
+Sizes: TypeAlias = Annotated[Floats, "solutions"]
+Masks: TypeAlias = Annotated[Integers, "solutions"]
+
 Solutions: TypeAlias = Annotated[Floats, "poses", "solutions", "n"]
 Values: TypeAlias = Annotated[Floats, "poses", "solutions"]
 Codes: TypeAlias = Annotated[Integers, "poses", "solutions"]
 Counts: TypeAlias = Annotated[Integers, "poses"]
 
 
-class ClosedForm(NamedTuple):
-    """An arm with a closed form: its chain, its Denavit-Hartenberg rows, how far rims reach."""
+class Chain(NamedTuple):
+    """A serial chain: its links, the kinds and limits of its joints."""
 
     links: Links
     joints: Joints
+
+
+class Found(NamedTuple):
+    """Solutions of one pose: a row of `Outputs`, without their number."""
+
+    q: Some
+    residual: Sizes
+    branch: Masks
+    free: Masks
+
+
+class Goal(NamedTuple):
+    """What a chain is asked for: a task of :mod:`dh2urdf.kernels.newton.damped` at a pose.
+
+    Errors of the position count in parts of ``unit``, a length of the arm's size [m].
+    """
+
+    task: int
+    T: Pose
+    unit: float
+
+
+class ClosedForm(NamedTuple):
+    """An arm with a closed form: its chain, its Denavit-Hartenberg rows, how far rims reach."""
+
+    chain: Chain
     form: Rows
     ends: Ends
     slack: float
