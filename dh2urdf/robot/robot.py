@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import threading
-from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -27,16 +26,17 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
 from dh2urdf.exceptions import ConfigurationError, UrdfError, VerificationError
-from dh2urdf.kernels.chain import chain_fk_batch, chain_frames_batch, chain_jacobian_batch
+from dh2urdf.kernels.chain import (
+    chain_fk,
+    chain_fk_batch,
+    chain_frames_batch,
+    chain_jacobian,
+    chain_jacobian_batch,
+)
 from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.inverse import RobotIK
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
-
-_forward_kinematics = pin.forwardKinematics
-_update_frame_placement = pin.updateFramePlacement
-_frame_jacobian = pin.computeFrameJacobian
-_ALIGNED = pin.LOCAL_WORLD_ALIGNED
 
 AGREEMENT = 1e-12
 """Largest difference between Pinocchio and the chain when a robot is built [rad, and m per m of
@@ -159,8 +159,7 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         Parameters
         ----------
         q : array_like, shape (n,) or (..., n)
-            Configuration [rad] or [m]. One configuration is placed by Pinocchio, a stack by a
-            kernel.
+            Configuration [rad] or [m].
 
         Returns
         -------
@@ -172,15 +171,10 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
             Last axis is not n long, or not all are finite numbers.
         """
         config = real_array(q, "q", "finite numbers", ConfigurationError)
-        if config.shape == self._direct:
-            model, data = self.model, self._working.data
-            _forward_kinematics(model, data, config)
-            oMt = _update_frame_placement(model, data, self._tip)
-            if self._M_base_world is not None:
-                oMt = self._M_base_world * oMt
-            T_base_tip: Array = oMt.homogeneous
-            if isfinite(T_base_tip.item(3)):  # NaN if any joint value is
-                return T_base_tip
+        if config.shape == self._plain and config.flags.c_contiguous:
+            T = np.empty((4, 4))
+            if chain_fk(self.chain.links, self.chain.prismatic, config, T):
+                return T
         flat, shape = self._flat(config, finite=False)
         T = np.empty((len(flat), 4, 4))
         if not chain_fk_batch(self.chain.links, self.chain.prismatic, flat, T):
@@ -219,11 +213,10 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         array, shape (6, n) or (..., 6, n)
         """
         config = real_array(q, "q", "finite numbers", ConfigurationError)
-        if config.shape == self._direct_jacobian:
-            data = self._working.data
-            J: Array = _frame_jacobian(self.model, data, config, self._tip, _ALIGNED)
-            if isfinite(J.item(self._turning)):  # as above: the tip's place is in it
-                return J if J.ndim == 2 else J.reshape(6, 1)
+        if config.shape == self._plain and config.flags.c_contiguous:
+            J = np.empty((6, self.n))
+            if chain_jacobian(self.chain.links, self.chain.prismatic, config, J):
+                return J
         flat, shape = self._flat(config)
         out = np.empty((len(flat), 6, self.chain.n))
         chain_jacobian_batch(self.chain.links, self.chain.prismatic, flat, out)
@@ -232,24 +225,10 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         return out.reshape(*shape, 6, self.n)
 
     def _prepare(self) -> None:
-        """What a call needs: Pinocchio's data, the constant base, the frames carried along."""
+        """What a call needs: Pinocchio's data, the frames carried along."""
         model, path = self.model, self._path
         self._working = _Working(model)
-        joints = [model.joints[i] for i in path.ids]
-        one_to_one = (
-            path.up == 0
-            and self._coupling is None
-            and model.frames[path.base].parentJoint == 0
-            and all(j.nq == 1 and j.idx_q == k for k, j in enumerate(joints))
-        )
-        self._direct = (self.n,) if one_to_one else None
-        self._tip = path.tip
-        placement = model.frames[path.base].placement
-        identity = model.frames[path.base].parentJoint == 0 and placement.isIdentity(0.0)
-        self._M_base_world = None if identity else placement.inverse()
-        self._turning = int(np.argmin(self.chain.prismatic))
-        slides = bool(self.chain.prismatic[self._turning])
-        self._direct_jacobian = self._direct if identity and not slides else None
+        self._plain = (self.n,) if self._coupling is None else None
         self._carried = (
             carried_dh_frames(self.table)
             if self.table

@@ -7,8 +7,10 @@ by side, `held_joint` holds one joint at a value.
 from dh2urdf.kernels.chain.forward import (
     applied,
     applied_inverse,
+    chain_fk,
     chain_fk_batch,
     chain_frames_batch,
+    chain_jacobian,
     chain_jacobian_batch,
     jacobian_rows,
     joint_times_link,

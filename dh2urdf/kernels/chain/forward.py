@@ -4,13 +4,14 @@ The chain is ``T = links[0] Z_1(q_1) links[1] ... Z_n(q_n) links[n]`` with ``Z_i
 or ``Trans_z(q_i)`` where ``prismatic[i]``.
 """
 
+import math
 from typing import Annotated
 
 import numpy as np
 
 from dh2urdf.kernels.chain.lanes import BLOCK, ROWS, lanes_fk
 from dh2urdf.kernels.numbers import entry, few_turns, sincos
-from dh2urdf.kernels.shapes import Flags, Floats, Links, Poses
+from dh2urdf.kernels.shapes import Flags, Floats, Links, Pose, Poses
 
 
 def _slid(a, b, c, d, q):
@@ -105,13 +106,23 @@ def turned_back(A, v):
 
 
 @entry()
+def chain_fk(links: Links, prismatic: Annotated[Flags, "n"], q: Annotated[Floats, "n"], T: Pose):
+    """``T_base_tool`` of a configuration q (n,), written to T (4, 4).
+
+    Returns whether its x is finite: every joint value is in it, if only times zero.
+    """
+    r = load_pose(links[0])
+    for i in range(q.shape[0]):
+        r = joint_times_link(r, prismatic[i], q[i], links[i + 1])
+    store_pose(r, T)
+    return math.isfinite(r[3])
+
+
+@entry()
 def chain_fk_batch(
     links: Links, prismatic: Annotated[Flags, "n"], q: Annotated[Floats, "poses", "n"], T: Poses
 ):
-    """``T_base_tool`` of configurations q (m, n), written to T (m, 4, 4).
-
-    Returns whether all x of the tip are finite: every joint value is in them, if only times zero.
-    """
+    """:func:`chain_fk` of configurations q (m, n), written to T (m, 4, 4), for all of them."""
     m, finite, S = q.shape[0], True, np.empty(ROWS * BLOCK)
     for first in range(0, m, BLOCK):
         finite &= lanes_fk(links, prismatic, q, first, min(BLOCK, m - first), T, S)
@@ -163,21 +174,34 @@ def jacobian_rows(chain, q, J):
 
 
 @entry()
+def chain_jacobian(
+    links: Links,
+    prismatic: Annotated[Flags, "n"],
+    q: Annotated[Floats, "n"],
+    J: Annotated[Floats, 6, "n"],
+):
+    """:func:`jacobian_rows` of q (n,), as columns to J (6, n), and whether q is finite.
+
+    These are Pinocchio's ``LOCAL_WORLD_ALIGNED``.
+    """
+    n = q.shape[0]
+    rows, joints = np.empty((n, 6)), np.empty((n, 1))
+    for i in range(n):
+        joints[i, 0] = 1.0 if prismatic[i] else 0.0
+    r = jacobian_rows((links, joints), q, rows)
+    for i in range(n):
+        for e in range(6):
+            J[e, i] = rows[i, e]
+    return math.isfinite(r[3])
+
+
+@entry()
 def chain_jacobian_batch(
     links: Links,
     prismatic: Annotated[Flags, "n"],
     q: Annotated[Floats, "poses", "n"],
     J: Annotated[Floats, "poses", 6, "n"],
 ):
-    """:func:`jacobian_rows` of q (m, n), as columns to J (m, 6, n).
-
-    These are Pinocchio's ``LOCAL_WORLD_ALIGNED``.
-    """
-    rows, joints = np.empty((q.shape[1], 6)), np.empty((q.shape[1], 1))
-    for i in range(q.shape[1]):
-        joints[i, 0] = 1.0 if prismatic[i] else 0.0
+    """:func:`chain_jacobian` of configurations q (m, n), written to J (m, 6, n)."""
     for k in range(q.shape[0]):
-        jacobian_rows((links, joints), q[k], rows)
-        for i in range(q.shape[1]):
-            for e in range(6):
-                J[k, e, i] = rows[i, e]
+        chain_jacobian(links, prismatic, q[k], J[k])
