@@ -2,6 +2,7 @@
 
 `numbers.engine` decides whether they run compiled; CONTRIBUTING.md says which part it is.
 
-`shapes` says what entries take; `numbers`, `chain` and `certificate` serve all; then a room a
-family: `spherical_wrist`, `parallel_axes`, `general_6r`, `nearly`, `short_chains`, `redundant`.
+`shapes` says what entries take; `numbers`, `rigid`, `chain`, `newton` and `certificate` serve all,
+`blocks` those that work on many poses side by side; then the families: `spherical_wrist`,
+`parallel_axes`, `general_6r`, `short_chains`, `nearly`, `redundant`.
 """

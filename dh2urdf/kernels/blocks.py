@@ -16,6 +16,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import CLUSTER, TWO_PI
 from dh2urdf.kernels.newton import POLISH
 from dh2urdf.kernels.numbers import arctangent, side_by_side
+from dh2urdf.kernels.rigid import dot, minus
 
 BLOCK = 32
 CLEAR = 1e-6
@@ -63,16 +64,6 @@ def at(k):
 def column(S, start, step):
     """Three entries of S, ``step`` apart."""
     return S[start], S[start + step], S[start + 2 * step]
-
-
-def dot(v, w):
-    """Scalar product."""
-    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
-
-
-def minus(v, w):
-    """Difference."""
-    return v[0] - w[0], v[1] - w[1], v[2] - w[2]
 
 
 def turned(c, s, x, y):
@@ -246,14 +237,8 @@ def emit(form, joints, table, within_limits, place, named, first, n, S, out):
     joint; row whose angle it is or mirrors, and how. ``named``: branches have the number of their
     solution, else -1.
     """
+    (q, residual, count, branch, free), row_of, clean = out, table[1], 0
     _settle(form, joints, table, within_limits, n, S)
-    return _write(place, table[1], named, first, n, S, out)
-
-
-def _write(place, row_of, named, first, n, S, out):
-    """The second half of :func:`emit`."""
-    q, residual, count, branch, free = out
-    clean = 0
     for i in side_by_side(n):
         found, row = 0, first + i
         for k in range(8):

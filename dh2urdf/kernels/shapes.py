@@ -40,6 +40,11 @@ Solutions: TypeAlias = Annotated[Floats, "poses", "solutions", "n"]
 Values: TypeAlias = Annotated[Floats, "poses", "solutions"]
 Codes: TypeAlias = Annotated[Integers, "poses", "solutions"]
 Counts: TypeAlias = Annotated[Integers, "poses"]
+Slides: TypeAlias = Annotated[Flags, "n"]
+"""Whether each joint slides."""
+
+Held: TypeAlias = Annotated[Floats, "poses"]
+"""Values of the held joint."""
 
 
 class Chain(NamedTuple):

@@ -49,7 +49,7 @@ def finish(links, joints, T, candidates, *, within_limits=True, residual=None):
     branch, free = np.arange(k), np.zeros(k, np.int64)
     work = work_array(n)
     arm, rows = (links, joints), (q, residual, branch, free)
-    count = finish_pose(arm, np.ascontiguousarray(T), within_limits, rows, k, work)
+    count = finish_pose(arm, np.ascontiguousarray(T), within_limits, *rows, k, work)
     return q[:count], residual[:count], branch[:count]
 
 

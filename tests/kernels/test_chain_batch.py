@@ -5,8 +5,7 @@ import pytest
 from dh_product import dh_frames, difference
 
 from dh2urdf import Robot, list_tables, load_table
-from dh2urdf.kernels.chain.forward import chain_fk_batch
-from dh2urdf.kernels.chain.lanes import BLOCK
+from dh2urdf.kernels.chain import BLOCK, chain_fk_batch
 
 COUNTS = (0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK)
 

@@ -146,7 +146,7 @@ def test_an_array_is_read_by_its_values_however_it_is_stored(make, call):
 
 def test_a_stored_batch_compiles_nothing_anew():
     """A kernel has one form: a read-only or mapped stack reaches it as any other does."""
-    from dh2urdf.kernels.chain.forward import chain_fk_batch, chain_jacobian_batch
+    from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
     from dh2urdf.kernels.numbers.poses import first_bad_pose
 
     for make in MAKES.values():

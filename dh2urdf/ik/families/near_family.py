@@ -23,13 +23,14 @@ from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
-from dh2urdf.kernels.certificate import finish_batch, invert_poses
+from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.nearly import (
     add_candidates,
     search_beside,
     solve_near_parallel,
     solve_near_wrist,
 )
+from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array
 
 WIDTH = 48

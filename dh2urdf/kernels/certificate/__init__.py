@@ -6,7 +6,7 @@ a batch and for what a solver of the reversed chain found; `arrange` turns solut
 `numeric` searches from any start.
 """
 
-from dh2urdf.kernels.certificate.arrange import measure_all, measure_and_sort, turn_to
+from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_and_sort, turn_to
 from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,
@@ -21,12 +21,10 @@ from dh2urdf.kernels.certificate.certify import (
     turn_inside,
 )
 from dh2urdf.kernels.certificate.finish import (
+    finish_all,
     finish_batch,
     finish_families,
     free_joints,
-    invert_pose,
-    invert_poses,
-    merge_families,
     null_direction,
     reverse_joints,
     turn_back,

@@ -76,6 +76,14 @@ def measure_all(chain: Chain, task: int, Ts: Poses, q: Solutions, count: Counts,
             residual[i, k] = _measure(chain, task, Ts[i], q[i, k], damped)
 
 
+def distance2(q, seed):
+    """Squared distance of two configurations."""
+    total = 0.0
+    for i in range(q.shape[0]):
+        total += (q[i] - seed[i]) * (q[i] - seed[i])
+    return total
+
+
 @entry()
 def measure_and_sort(
     chain: Chain, task: int, T: Pose, seed: Configuration, found: Found, distance: Sizes
@@ -88,10 +96,7 @@ def measure_and_sort(
     damped = make_damped(q.shape[1])
     for k in range(q.shape[0]):
         residual[k] = _measure(chain, task, T, q[k], damped)
-        total = 0.0
-        for i in range(q.shape[1]):
-            total += (q[k, i] - seed[i]) * (q[k, i] - seed[i])
-        distance[k] = math.sqrt(total)
+        distance[k] = math.sqrt(distance2(q[k], seed))
         row = k
         while row > 0 and distance[row] < distance[row - 1]:
             _swap(found, distance, row, row - 1)

@@ -93,10 +93,10 @@ def _into_limits(chain, T, within_limits, q, residual, free):
     return pose_residual(chain, T, q)
 
 
-def move(rows, source, target):
+def move(q, residual, branch, free, source, target):
     """Copy one of the rows over another."""
-    q, residual, branch, free = rows
-    q[target] = q[source]
+    for i in range(q.shape[1]):
+        q[target, i] = q[source, i]
     residual[target], branch[target], free[target] = residual[source], branch[source], free[source]
 
 
@@ -109,7 +109,7 @@ def copy_rows(source, count, target):
     return min(count, room)
 
 
-def finish_pose(chain, T, within_limits, rows, count, work):
+def finish_pose(chain, T, within_limits, q, residual, branch, free, count, work):
     """Certify the candidates of one pose in place; returns how many solutions are left.
 
     They are the first ``count`` rows, in any turn; their residual is what the caller measured on
@@ -121,7 +121,7 @@ def finish_pose(chain, T, within_limits, rows, count, work):
     their residual: on the rim of the workspace two branches meet as a square root. The one with
     the smaller residual stays, or the first if it reaches the pose to rounding.
     """
-    (q, residual, branch, free), (_, joints) = rows, chain
+    _, joints = chain
     kept = 0
     for k in range(count):
         if residual[k] < 0.0 or residual[k] > POLISH:
@@ -140,17 +140,16 @@ def finish_pose(chain, T, within_limits, rows, count, work):
         if twin < 0:
             kept += 1
         elif residual[kept] < residual[twin] and residual[twin] > ROUNDING:
-            move(rows, kept, twin)
-    return turn_inside(chain, T, within_limits, rows, kept)
+            move(q, residual, branch, free, kept, twin)
+    return turn_inside(chain, T, within_limits, q, residual, branch, free, kept)
 
 
-def turn_inside(chain, T, within_limits, rows, count):
+def turn_inside(chain, T, within_limits, q, residual, branch, free, count):
     """Turn solutions by full turns, near or into their limits; how many are left."""
-    q, residual, _, free = rows
     solutions = 0
     for k in range(count):
         residual[k] = _into_limits(chain, T, within_limits, q[k], residual[k], free[k])
         if residual[k] <= ACCEPT:
-            move(rows, k, solutions)
+            move(q, residual, branch, free, k, solutions)
             solutions += 1
     return solutions

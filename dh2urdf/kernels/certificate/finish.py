@@ -17,7 +17,6 @@ from dh2urdf.kernels.certificate.certify import (
     move,
     turn_inside,
 )
-from dh2urdf.kernels.chain import inverse_pose, store_pose
 from dh2urdf.kernels.newton import (
     POLISH,
     damped_step,
@@ -114,13 +113,12 @@ def free_joints(chain, T, q, trial, work):
     return mask if away > 0.25 * WALK * WALK else 0
 
 
-def one_of_each_family(joints, rest, rows, count):
+def one_of_each_family(joints, rest, q, residual, branch, free, count):
     """Keep one representative of each singular family; the new count.
 
     Solutions with the same free joints are taken for one family. The one whose first free joint
     is at rest stays; without one, the first.
     """
-    q, _, _, free = rows
     kept = 0
     for k in range(count):
         keep = True
@@ -132,7 +130,7 @@ def one_of_each_family(joints, rest, rows, count):
             if (other and not mine) or (not other and not mine and j < k):
                 keep = False
         if keep:
-            move(rows, k, kept)
+            move(q, residual, branch, free, k, kept)
             kept += 1
     return kept
 
@@ -182,9 +180,8 @@ def _one(chain, T, q, p, accuracy, middle, start, work):
     return True
 
 
-def merge_solutions(chain, T, rows, count, trial, work):
+def merge_solutions(chain, T, q, residual, branch, free, count, trial, work):
     """Keep one of each group of solutions that are one, the best; the new count."""
-    q, residual, _, _ = rows
     kept = 0
     for k in range(count):
         twin = -1
@@ -194,10 +191,10 @@ def merge_solutions(chain, T, rows, count, trial, work):
                 twin = j
                 break
         if twin < 0:
-            move(rows, k, kept)
+            move(q, residual, branch, free, k, kept)
             kept += 1
         elif residual[k] < residual[twin]:
-            move(rows, k, twin)
+            move(q, residual, branch, free, k, twin)
     return kept
 
 
@@ -207,17 +204,24 @@ def merge_families(chain, T, rows, count, trial, work):
     ``trial`` (2, n) is scratch.
     """
     q, _, _, free = rows
-    count = merge_solutions(chain, T, rows, count, trial, work)
+    count = merge_solutions(chain, T, *rows, count, trial, work)
     for k in range(count):
         free[k] = free_joints(chain, T, q[k], trial[0], work)
     return count
 
 
-def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
-    """The same of each family's member at the rest values (n,), brought into the limits."""
+def finish_all(chain, T, within_limits, rows, count, trial, work):
+    """Certify candidates, merge what is one, and find the free joints; how many are left."""
+    count = finish_pose(chain, T, False, *rows, count, work)
     count = merge_families(chain, T, rows, count, trial, work)
-    count = one_of_each_family(chain[1], rest, rows, count)
-    return turn_inside(chain, T, True, rows, count) if within_limits else count
+    return turn_inside(chain, T, True, *rows, count) if within_limits else count
+
+
+def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
+    """Merge solutions and keep of each family the member at the rest values (n,), in the limits."""
+    count = merge_families(chain, T, rows, count, trial, work)
+    count = one_of_each_family(chain[1], rest, *rows, count)
+    return turn_inside(chain, T, True, *rows, count) if within_limits else count
 
 
 @entry()
@@ -233,22 +237,7 @@ def finish_batch(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs)
         for k in range(count[i]):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         rows = q[i], residual[i], branch[i], free[i]
-        found = finish_pose(chain, Ts[i], False, rows, count[i], work)
-        count[i] = merge_families(chain, Ts[i], rows, found, trial, work)
-        if within_limits:
-            count[i] = turn_inside(chain, Ts[i], True, rows, count[i])
-
-
-def invert_pose(T, out):
-    """``out = T^-1`` for a rigid pose (4, 4)."""
-    store_pose(inverse_pose(T), out)
-
-
-@entry()
-def invert_poses(Ts: Poses, out: Poses):
-    """``out[i] = Ts[i]^-1`` for rigid poses (m, 4, 4)."""
-    for i in range(Ts.shape[0]):
-        invert_pose(Ts[i], out[i])
+        count[i] = finish_all(chain, Ts[i], within_limits, rows, count[i], trial, work)
 
 
 def reverse_joints(q, free):
@@ -274,4 +263,4 @@ def turn_back(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
             free[i, k] = reverse_joints(q[i, k], free[i, k])
             residual[i, k] = -1.0
         rows = q[i], residual[i], branch[i], free[i]
-        count[i] = finish_pose(chain, Ts[i], within_limits, rows, count[i], work)
+        count[i] = finish_pose(chain, Ts[i], within_limits, *rows, count[i], work)

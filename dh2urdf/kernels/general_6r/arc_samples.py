@@ -90,8 +90,7 @@ def circle_arcs(samples, series, turned, arcs):
     ``turned`` (17, 24) are scratch.
     """
     _transform(samples, CIRCLE_TABLE, series)
-    for k in side_by_side(LANES):
-        turned[0, k] = series[0]
+    turned[0] = series[0]
     for m in range(1, DEGREE + 1):
         a, b = series[2 * m - 1], series[2 * m]
         for k in side_by_side(LANES):
@@ -99,12 +98,9 @@ def circle_arcs(samples, series, turned, arcs):
             turned[2 * m - 1, k] = a * c + b * s
             turned[2 * m, k] = b * c - a * s
     for i in range(TERMS):
-        for k in side_by_side(LANES):
-            arcs[i, k] = 0.0
+        arcs[i] = 0.0
         for m in range(TERMS):
-            w = ARC_TABLE[i, m]
-            for k in side_by_side(LANES):
-                arcs[i, k] += w * turned[m, k]
+            arcs[i] += ARC_TABLE[i, m] * turned[m]
     for k in side_by_side(LANES):
         arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
     return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)

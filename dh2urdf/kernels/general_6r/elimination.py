@@ -35,8 +35,7 @@ def close_loop(chain, shift, reverse, loop):
         if (joint == 5) == (reverse == 0):
             _invert(chain[joint], loop[i])
         else:
-            for e in range(12):
-                loop[i, e] = chain[joint, e]
+            loop[i] = chain[joint]
 
 
 def _invert(a, out):
@@ -93,11 +92,8 @@ def move_line_back(a, line):
 def _turn_line(sample, line):
     """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
     lx, ly, lz, px, py, pz = line
-    c, s = 1.0, 0.0
-    if sample == 1:
-        c, s = -0.5, HALF_SQRT3
-    elif sample == 2:
-        c, s = -0.5, -HALF_SQRT3
+    c = 1.0 if sample == 0 else -0.5
+    s = 0.0 if sample == 0 else HALF_SQRT3 if sample == 1 else -HALF_SQRT3
     return c * lx - s * ly, s * lx + c * ly, lz, c * px - s * py, s * px + c * py, pz
 
 
@@ -182,9 +178,7 @@ def reduce_right(right, beta, basis):
             for i in range(j, 14):
                 right[c, i] += d * right[j, i]
     for r in range(4, 14):
-        for i in range(14):
-            basis[r, i] = 0.0
-        basis[r, r] = 1.0
+        basis[r], basis[r, r] = 0.0, 1.0
         for j in range(7, -1, -1):
             if j <= r:
                 d = 0.0
@@ -202,14 +196,11 @@ def six_equations(right, basis, lefts, e, equations):
     """
     left = lefts[e]
     for r in range(6):
-        for m in range(27):
-            equations[r, m] = 0.0
-        constant = 0.0
+        equations[r], constant = 0.0, 0.0
         for f in range(14):
             w = basis[8 + r, f]
             constant += w * right[8, f]
-            for m in range(27):
-                equations[r, m] += w * left[f, m]
+            equations[r] += w * left[f]
         for m in range(0, 9, 6):
             equations[r, m] -= constant
             equations[r, m + 2] -= constant

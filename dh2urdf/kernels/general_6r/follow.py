@@ -91,8 +91,7 @@ def _polish(lanes, damped, arm):
     n = (lanes + 7) // 8 * 8
     goal = CONVERGED * max(size, 1.0)
     weight = 1.0 / size
-    for k in range(lanes):
-        before[k] = math.inf
+    before[:lanes] = math.inf
     for step in range(MOST_STEPS + 1):
         chain_frames(links, cosines, sines, n, frames)
         pose_error(target, frames, n, error, position, angle)
@@ -153,8 +152,7 @@ def _place(k, found, out_q, out_residual, arm):
     elif residual >= out_residual[place]:
         return found, place
     out_residual[place], kept[place] = residual, determinant[k]
-    for i in range(6):
-        out_q[place, i] = q[i]
+    out_q[place] = q
     return max(found, place + 1), place
 
 
@@ -181,8 +179,7 @@ def follow(e, count, found, out_q, out_residual, arm):
     for copies in range(1, 3):
         lanes = _seeds(e, roots if copies == 1 else doubles, count, copies, arm)
         _polish(lanes, copies - 1, arm)
-        for f in range(LANES):
-            seen[f] = 0.0
+        seen[:] = 0.0
         for lane in range(lanes):
             found, place = _place(lane, found, out_q, out_residual, arm)
             led = place >= 0 and seen[place] == 0.0 and slopes[lane] > 0.0

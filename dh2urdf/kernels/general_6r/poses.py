@@ -10,13 +10,15 @@ for a pose. So the arm's record holds several, best first; a pose for which one 
 looked at again, first with new samples where the polynomial is small, then with the next one.
 """
 
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
 from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Counts, Floats, Poses
+from dh2urdf.kernels.shapes import Counts, Poses, Solutions, Values
+
+Arms: TypeAlias = Annotated[Any, ARM_6R, "arm_6r", 1]
 
 COARSE = 1e-2
 """Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:
@@ -68,23 +70,16 @@ def _solve_pose(T, out_q, out_residual, arm):
     return found
 
 
-@entry()
-def solve_general_6r(
-    arms: Annotated[Any, ARM_6R, "arm_6r", 1],
-    Ts: Poses,
-    out_q: Annotated[Floats, "poses", 16, 6],
-    out_residual: Annotated[Floats, "poses", 16],
-    out_count: Counts,
-):
+@entry(n=6, solutions=16)
+def solve_general_6r(arms: Arms, Ts: Poses, q: Solutions, residual: Values, count: Counts):
     """All solutions of poses Ts (m, 4, 4), by the record ``arms`` (1,) of an arm.
 
-    Angles in (-pi, pi] go to out_q (m, 16, 6), the larger of position error [m] and orientation
-    error [rad] to out_residual (m, 16), how many there are to out_count (m,). The record is not to
-    be shared between threads.
+    Angles in (-pi, pi] go to q (m, 16, 6), the larger of position error [m] and orientation error
+    [rad] to ``residual``. The record is not to be shared between threads.
     """
     arm = arms[0]
     if arm["ready"] == 0:
         prepare(arm)
         arm["ready"] = 1
     for m in range(Ts.shape[0]):
-        out_count[m] = _solve_pose(Ts[m], out_q[m], out_residual[m], arm)
+        count[m] = _solve_pose(Ts[m], q[m], residual[m], arm)

@@ -21,7 +21,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, move_line_back
-from dh2urdf.kernels.newton import chain_frames
+from dh2urdf.kernels.newton import chain_frames, twelve
 from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side
 
 HALF = 3 * LANES
@@ -42,22 +42,13 @@ def _fill(equations, term, hidden, n, A, column):
             A[a + k] = e0 + e1 * hidden[0, k] + e2 * hidden[1, k]
 
 
-def _keep_lower_half(A, source, W, target, half):
-    """Copy rows 3 to 5 of a column of A to a half of a column of W."""
-    a = source * COLUMN + HALF
-    w = target * COLUMN + half * HALF
-    for k in range(HALF):
-        W[w + k] = A[a + k]
-
-
 def resultants(equations, hidden, n, A, W, determinant, V, beta):
     """Determinants at n values of the hidden joint; W (6 x 6 lanes) is left triangular.
 
     ``equations`` (6, 27) as from `six_equations`; ``hidden`` (2, 24) has cosines and sines; A
     (9 * 144,), V (144,) and beta (24,) are scratch.
     """
-    for k in range(LANES):
-        determinant[k] = 1.0
+    determinant[:] = 1.0
     for half in range(2):
         for term in range(9):
             block, j = term // 3, term % 3
@@ -66,7 +57,9 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
         reduce_columns(A, 3, 9, n, determinant, V, beta)
         for source in range(3, 9):
             target = source - 3 if half == 0 else (source if source < 6 else source - 6)
-            _keep_lower_half(A, source, W, target, half)
+            a, w = source * COLUMN + HALF, target * COLUMN + half * HALF
+            for k in range(HALF):
+                W[w + k] = A[a + k]
     reduce_columns(W, 5, 6, n, determinant, V, beta)
     last = 5 * COLUMN + 5 * LANES
     for k in side_by_side(n):
@@ -144,14 +137,9 @@ def split_pairs(b, second, n):
             b[i * LANES + k] = (c0 * b[i * LANES + k] + c1 * second[i * LANES + k]) * h
 
 
-def _entries(a):
-    """Entries of a transform (12,) as scalars, which no writing in a loop can change."""
-    return a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]
-
-
 def _functions(loop, frames, n, out):
     """The fourteen functions of axis 6's line, to out (14, LANES)."""
-    second = _entries(loop[1])
+    second = twelve(loop[1])
     for k in side_by_side(n):
         f = LEFT + k
         lx, ly, lz = frames[f + 2 * LANES], frames[f + 6 * LANES], frames[f + 10 * LANES]
@@ -202,7 +190,7 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
 def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
     x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]
-    first = _entries(loop[0])
+    first = twelve(loop[0])
     for k in side_by_side(n):
         c1, s1, c2, s2 = cosines[k], sines[k], cosines[LANES + k], sines[LANES + k]
         row = (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0, 0.0, 0.0, 0.0)

@@ -3,9 +3,6 @@
 Everything works on the record `ARM_6R`.
 """
 
-import numpy as np
-
-from dh2urdf.kernels.chain import load_pose, times_link
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arc
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
@@ -27,6 +24,7 @@ from dh2urdf.kernels.general_6r.elimination import (
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
 from dh2urdf.kernels.numbers import LANES, sincos
+from dh2urdf.kernels.rigid import load_pose, times_link
 
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
@@ -42,9 +40,6 @@ NARROWER = 2.4
 
 EDGE = 1e-7
 """Angle [rad] by which a root may lie outside its span."""
-
-INSIDE, OUTSIDE = np.bool_(True), np.bool_(False)
-"""Which roots to keep; as literals they would have a kernel compiled twice."""
 
 NUDGE = 1e-3
 """Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
@@ -114,8 +109,7 @@ def _sample(k, arm):
     spans, hidden, beta = arm["spans"], arm["hidden"], arm["beta"]
     middle, half_tan = 0.0, ARC_TAN
     if k == 0:
-        for i in range(LANES):
-            hidden[0, i], hidden[1, i] = CIRCLE_COS[i], CIRCLE_SIN[i]
+        hidden[0], hidden[1] = CIRCLE_COS, CIRCLE_SIN
     else:
         middle = 0.5 * (spans[0, k] + spans[1, k])
         sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
@@ -165,12 +159,12 @@ def find_roots(arm):
                 stack, middle + arc * ARC, half_tan, noise, casteljau, fresh, count, roots, slopes
             )
         if k > 0:
-            count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], INSIDE)
+            count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], True)
         last = int(spans[0, 0])
         for n in range(1, int(fresh[0, 0]) + 1):
             low, high = fresh[0, n], fresh[1, n]
             if last < SPANS and (k == 0 or high - low < NARROWER * half_tan):
-                count = _keep(roots, slopes, first, count, low, high, OUTSIDE)
+                count = _keep(roots, slopes, first, count, low, high, False)
                 last += 1
                 spans[0, last], spans[1, last] = low, high
             else:

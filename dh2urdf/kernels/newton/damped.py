@@ -91,16 +91,13 @@ def solve_damped(damped, damping):
 
 
 def add_transposed(damped, factor, dq):
-    """``dq += factor J^T y``; returns the largest entry of the sum."""
+    """``dq += factor J^T y``."""
     J, work = damped
-    largest = 0.0
     for i in range(dq.shape[0]):
         total = 0.0
         for a in range(6):
             total += J[i, a] * work[a, 7]
         dq[i] += factor * total
-        largest = max(largest, abs(dq[i]))
-    return largest
 
 
 def restore(chain, goal, q, dq, damped):

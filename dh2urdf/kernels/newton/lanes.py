@@ -13,6 +13,11 @@ LARGEST_STEP = 0.5
 """A Newton step [rad] is shortened to this."""
 
 
+def twelve(a):
+    """Entries of a transform (12,) as scalars."""
+    return a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]
+
+
 def chain_frames(steps, cosines, sines, n, frames):
     """``F_0 = steps[0]``, ``F_i = F_(i-1) Z_i steps[i]`` for n lanes, to seven runs of twelve.
 
@@ -24,9 +29,7 @@ def chain_frames(steps, cosines, sines, n, frames):
         for k in side_by_side(n):
             frames[f + k] = value
     for i in range(len(steps) - 1):
-        a00, a01, a02, a03 = steps[i + 1, 0], steps[i + 1, 1], steps[i + 1, 2], steps[i + 1, 3]
-        a10, a11, a12, a13 = steps[i + 1, 4], steps[i + 1, 5], steps[i + 1, 6], steps[i + 1, 7]
-        a20, a21, a22, a23 = steps[i + 1, 8], steps[i + 1, 9], steps[i + 1, 10], steps[i + 1, 11]
+        a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = twelve(steps[i + 1])
         q = i * LANES
         for row in range(3):
             f = i * FRAME + 4 * row * LANES
@@ -48,9 +51,7 @@ def pose_error(target, frames, n, error, position, angle):
     ``error`` (6 runs of LANES): linear, angular. ``position`` [length] and ``angle`` [rad] are its
     sizes; an angle beyond 90 degrees is reported as 3.
     """
-    t00, t01, t02, t03 = target[0], target[1], target[2], target[3]
-    t10, t11, t12, t13 = target[4], target[5], target[6], target[7]
-    t20, t21, t22, t23 = target[8], target[9], target[10], target[11]
+    t00, t01, t02, t03, t10, t11, t12, t13, t20, t21, t22, t23 = twelve(target)
     f = 6 * FRAME
     for k in side_by_side(n):
         r00, r01, r02 = frames[f + k], frames[f + 24 + k], frames[f + 48 + k]
@@ -134,8 +135,7 @@ def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines,
     _newton_system(frames, error, n, J if damped == 1 else A)
     if damped == 1:
         _damped_system(J, weight, n, len(error) // LANES, A)
-    for k in side_by_side(n):
-        scale[k] = 1.0
+    scale[:n] = 1.0
     reduce_columns(A, 6, 7, n, scale, V, beta)
     for i in range(6):
         a = 6 * COLUMN + i * LANES

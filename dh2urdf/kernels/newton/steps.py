@@ -8,7 +8,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.chain import jacobian_rows, joint_times_link, load_pose
+from dh2urdf.kernels.chain import jacobian_rows
+from dh2urdf.kernels.rigid import joint_times_link, load_pose
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""

@@ -25,8 +25,7 @@ def _make_reflector(V, A, column, row, n, scale, beta):
     multiplied; the cleared entries of A are left as they are.
     """
     start = column * COLUMN
-    for k in side_by_side(n):
-        beta[k] = 0.0
+    beta[:n] = 0.0
     for i in range(len(V) // LANES):
         r = i * LANES
         if i >= row:

@@ -54,8 +54,7 @@ def is_pose(T: Pose):
 @entry()
 def copy_pose(T: Pose, out: Pose):
     """Write T (4, 4) to ``out``."""
-    for i in range(4):
-        out[i, 0], out[i, 1], out[i, 2], out[i, 3] = T[i, 0], T[i, 1], T[i, 2], T[i, 3]
+    out[:] = T
 
 
 @entry()
@@ -85,6 +84,5 @@ def pad_solutions(outputs: Outputs, nothing: float):
             singular = singular or free[i, k] != 0
         for k in range(count[i], q.shape[1]):
             residual[i, k], branch[i, k], free[i, k] = nothing, -1, 0
-            for j in range(q.shape[2]):
-                q[i, k, j] = nothing
+            q[i, k] = nothing
     return singular

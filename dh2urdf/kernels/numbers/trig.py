@@ -6,7 +6,7 @@ residual of the chain decides later whether the merged root is a solution.
 """
 
 import math
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 from dh2urdf.kernels.numbers.elementary import hypot, sincos
 from dh2urdf.kernels.numbers.engine import entry
@@ -27,6 +27,8 @@ SWEEPS = 60
 
 SETTLED = 1e-9
 """Relative step after which the next one, its cube, is below rounding."""
+
+Roots: TypeAlias = Annotated[Floats, "most"]
 
 TAN_EIGHTH = 0.4142135623730950
 A0, A1, A2 = -0.3333333333333333, 0.19999999999999804, -0.14285714285659828
@@ -104,12 +106,7 @@ def add_square(series, weight, constant, cosine, sine):
 
 
 @entry()
-def trig_roots(
-    series: Annotated[Floats, "terms"],
-    degree: int,
-    cosines: Annotated[Floats, "most"],
-    sines: Annotated[Floats, "most"],
-):
+def trig_roots(series: Annotated[Floats, "terms"], degree: int, cosines: Roots, sines: Roots):
     """Find the real roots of a trigonometric polynomial of low degree.
 
     ``f(x) = series[0] + sum_m series[2 m - 1] cos(m x) + series[2 m] sin(m x)``, m up to

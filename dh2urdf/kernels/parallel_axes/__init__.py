@@ -1,7 +1,7 @@
 """Six turning joints, three neighbouring axes parallel: UR and its kin (Elias and Wen; EAIK).
 
-`poses` is the solver: `plane` looks at the arm in the plane in which the three turn, `pairs`
-finds the joints outside them, `leaning` what rounding leaves where axis 5 is in line with them.
+`poses` is the solver: `plane` looks at the arm in the plane in which the three turn, and at what
+rounding leaves where axis 5 is in line with them; `pairs` finds the joints outside them.
 `blocks` is the same for the UR geometry, many poses side by side.
 """
 

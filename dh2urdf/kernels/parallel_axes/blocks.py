@@ -25,7 +25,6 @@ from dh2urdf.kernels.blocks import (
     WORK,
     at,
     column,
-    dot,
     emit,
     load_poses,
     measure,
@@ -34,6 +33,7 @@ from dh2urdf.kernels.blocks import (
 from dh2urdf.kernels.numbers import entry, side_by_side
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
+from dh2urdf.kernels.rigid import dot
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import tool_to_wrist
 

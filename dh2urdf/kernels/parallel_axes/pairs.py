@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.numbers import add_square, circle_pair, hypot, linear_trig, sincos, trig_roots
-from dh2urdf.kernels.parallel_axes.leaning import levels
+from dh2urdf.kernels.parallel_axes.plane import levels
 from dh2urdf.kernels.spherical_wrist import FREE
 
 EPSILON = 1e-15

@@ -16,9 +16,15 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
 from dh2urdf.kernels.numbers import atan2, entry, hypot
-from dh2urdf.kernels.parallel_axes.leaning import MOST_ARCS, pairs_of_leaning
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
-from dh2urdf.kernels.parallel_axes.plane import common_axis, last_joint, seen_arm, seen_from_plane
+from dh2urdf.kernels.parallel_axes.plane import (
+    MOST_ARCS,
+    common_axis,
+    last_joint,
+    pairs_of_leaning,
+    seen_arm,
+    seen_from_plane,
+)
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import FREE, NICE, middle_angle, planar, tool_to_wrist
 
@@ -69,9 +75,8 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     return cx - vx, cy - vy
 
 
-def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, rows, count):
+def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, residual, branch, free, count):
     """Append the elbows of one set of outer joints; returns the new count."""
-    q, _, branch, free = rows
     in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     if first == 1:
@@ -136,7 +141,7 @@ def add_pairs(form, first, pairs, slack, rows, scratch):
                     wrists = slope_of_last(form, D, cs, slack)
             moving = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
-                found = _add_planar(form, first, D, cs, shoulder, moving, slack, arm, rows, found)
+                found = _add_planar(form, first, D, cs, shoulder, moving, slack, arm, *rows, found)
                 cs[4, 1] = -cs[4, 1]
     return found
 
@@ -146,7 +151,7 @@ def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
     (chain, form, _, slack), work, rows = arm, scratch[3], scratch[5]
     found = add_pairs(form, first, pairs, slack, rows, scratch)
     rows[1][:found] = -1.0
-    found = finish_pose(chain, T, within_limits, rows, found, work)
+    found = finish_pose(chain, T, within_limits, *rows, found, work)
     return copy_rows(rows, found, out)
 
 

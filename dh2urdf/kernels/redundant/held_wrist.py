@@ -19,25 +19,34 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
-from typing import Annotated, NamedTuple, TypeAlias
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, finish_pose, invert_pose, reverse_joints
-from dh2urdf.kernels.chain import (
+from dh2urdf.kernels.certificate import ACCEPT, finish_pose, reverse_joints
+from dh2urdf.kernels.chain import held_links, held_pose, insert_held
+from dh2urdf.kernels.newton import make_damped, restore
+from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
+from dh2urdf.kernels.rigid import (
     applied,
     applied_inverse,
-    held_links,
-    held_pose,
-    insert_held,
+    invert_pose,
     joint_times_link,
     load_pose,
     store_pose,
     turned_back,
 )
-from dh2urdf.kernels.newton import make_damped, restore
-from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
-from dh2urdf.kernels.shapes import Chain, Counts, Floats, Goal, Integers, Outputs, Poses, Solutions
+from dh2urdf.kernels.shapes import (
+    Chain,
+    Counts,
+    Floats,
+    Goal,
+    Held,
+    Integers,
+    Outputs,
+    Poses,
+    Solutions,
+)
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
@@ -141,7 +150,7 @@ def held_candidates(arm, value, T, rows, scratch):
     found = 0
     for k in range(_place_wrist(form, D, S, slack, scratch)):
         _orientation_left(D, S, place[k], R)
-        found = append_wrist(form, place[k], R, slack, rows, found)
+        found = append_wrist(form, place[k], R, slack, *rows, found)
     if which[REVERSED] != 0:
         for k in range(found):
             free[k] = reverse_joints(q[k], free[k])
@@ -155,7 +164,7 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
     found = held_candidates(arm, value, T, rest, scratch)
     residual[:found] = -1.0
     held_links(frames[:8], which[SLIDES] != 0, which[HELD], value, links)
-    found = finish_pose((links, joints), T, within_limits, rest, found, work)
+    found = finish_pose((links, joints), T, within_limits, *rest, found, work)
     insert_held(which[HELD], value, scratch[7], q, free, found)
     return found
 
@@ -168,10 +177,6 @@ def solve_rough(arm, values, Ts, within_limits, first, last, outputs):
         if count[i] < 0:
             out = q[i], residual[i], branch[i], free[i]
             count[i] = solve_held_pose(arm, values[i], Ts[i], within_limits, out, scratch)
-
-
-Held: TypeAlias = Annotated[Floats, "poses"]
-"""Values of the held joint."""
 
 
 class HeldForm(NamedTuple):
@@ -213,3 +218,34 @@ def points_on_curves(
             if restore(chain, goal, q[i, kept], work, damped) <= ACCEPT:
                 kept += 1
         count[i] = kept
+
+
+class Samples(NamedTuple):
+    """Outputs of a solver for every sample of some poses."""
+
+    q: Annotated[Floats, "samples_in", "some", "n"]
+    residual: Annotated[Floats, "samples_in", "some"]
+    counts: Annotated[Integers, "samples_in"]
+    branch: Annotated[Integers, "samples_in", "some"]
+    free: Annotated[Integers, "samples_in", "some"]
+
+
+@entry()
+def gather_samples(found: Samples, first: int, last: int, samples: int, outputs: Outputs):
+    """Join the solutions of the samples of a pose, rows in the order of the values.
+
+    ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
+    the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`.
+    """
+    q, residual, count, branch, free = outputs
+    some_q, some_residual, some_count, some_branch, some_free = found
+    for i in range(first, last):
+        total = 0
+        for k in range(samples):
+            row = (i - first) * samples + k
+            for r in range(some_count[row]):
+                q[i, total] = some_q[row, r]
+                residual[i, total] = some_residual[row, r]
+                branch[i, total], free[i, total] = some_branch[row, r], some_free[row, r]
+                total += 1
+        count[i] = total

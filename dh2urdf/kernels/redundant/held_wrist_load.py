@@ -12,7 +12,7 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
-from dh2urdf.kernels.blocks import BLOCK, WORK, at, column, dot, load_poses
+from dh2urdf.kernels.blocks import BLOCK, WORK, at, column, load_poses
 from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
@@ -23,6 +23,7 @@ from dh2urdf.kernels.redundant.held_wrist import (
     SLIDES,
     VARIES,
 )
+from dh2urdf.kernels.rigid import dot
 
 UPPER, LEVER = WORK, WORK + 12
 """S1 (twelve, rotation first); the point whose position error counts (three)."""

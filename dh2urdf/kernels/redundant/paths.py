@@ -13,13 +13,12 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import turn_to
+from dh2urdf.kernels.certificate import distance2, turn_to
 from dh2urdf.kernels.newton import POSE, make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import (
     HELD,
     LONGEST,
-    distance2,
     dot,
     enter_limits,
     excess,

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT
+from dh2urdf.kernels.certificate import ACCEPT, distance2
 from dh2urdf.kernels.newton import (
     add_transposed,
     error_and_jacobian,
@@ -57,14 +57,6 @@ def _project(chain, goal, q, seed, step, damped):
     solve_damped(damped, 0.0)
     add_transposed(damped, -1.0, step)
     return math.sqrt(dot(step, step))
-
-
-def distance2(q, seed):
-    """Squared distance."""
-    total = 0.0
-    for i in range(q.shape[0]):
-        total += (q[i] - seed[i]) * (q[i] - seed[i])
-    return total
 
 
 def dot(v, w):
@@ -192,8 +184,8 @@ def enter_limits(chain: Chain, goal: Goal, q: Some, entered: Annotated[Flags, "s
             along, across, total = 0.0, 0.0, 0.0
             if not tangent_near(chain, goal, q[k], guess, tangent, damped):
                 break
+            guess[:] = tangent
             for i in range(n):
-                guess[i] = tangent[i]
                 way = excess(joints, q[k], i)
                 if way != 0.0:
                     along += way * tangent[i]

@@ -126,8 +126,7 @@ def _meet_line(basis, at, shape, joints, x, unit, q, count):
             if abs(s) + abs(t) <= VANISHING * scale:
                 continue
             size = 1.0 / (abs(s) + abs(t))
-            for i in range(8):
-                point[i] = size * (s * p[i] + t * r[i])
+            point[:] = size * (s * p + t * r)
             count = _append(point, shape, joints, x, unit, q, count)
     return count, conditions
 
@@ -165,6 +164,5 @@ def _hold(basis, nullity, shape, place, slides, value, unit):
         known = v * basis[3 + left, start] - u * basis[3 + left, start + step]
         for k in range(left):
             factor = (v * basis[3 + k, start] - u * basis[3 + k, start + step]) / known
-            for i in range(8):
-                basis[3 + k, i] -= factor * basis[3 + left, i]
+            basis[3 + k] -= factor * basis[3 + left]
     return left

@@ -15,12 +15,17 @@ The matrix is kept by columns: row k of an array is column k of M.
 """
 
 import math
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 import numpy as np
 
 from dh2urdf.kernels.numbers import dual_product, dual_times_joint, entry
 from dh2urdf.kernels.shapes import Floats, Integers, Joints
+
+Loop: TypeAlias = Annotated[Floats, "n", 8]
+"""Dual quaternions of the links of the closed loop, the last with the target in it."""
+
+Columns: TypeAlias = Annotated[Floats, 12, 8]
 
 SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""
@@ -50,16 +55,10 @@ def _pair_columns(loop, joints, first, second, out):
 
 
 @entry()
-def loop_columns(
-    loop: Annotated[Floats, "n", 8],
-    joints: Joints,
-    order: Annotated[Integers, 7],
-    out: Annotated[Floats, 12, 8],
-):
+def loop_columns(loop: Loop, joints: Joints, order: Annotated[Integers, 7], out: Columns):
     """Columns of A_0 (rows 0 to 3 of out (12, 8)), A_1 (4 to 7) and -B (8 to 11).
 
-    From the links of the closed loop (n, 8), L_n with the target, and its joints a, b, x, c, d in
-    ``order``; -1 where there is none.
+    ``order`` has the joints a, b, x, c, d; -1 where there is none.
     """
     x = order[2]
     _pair_columns(loop, joints, order[0], order[1], out[0:4])
@@ -76,11 +75,7 @@ def loop_columns(
 
 @entry()
 def loop_matrix(
-    columns: Annotated[Floats, 12, 8],
-    used: Annotated[Integers, 8],
-    u: float,
-    v: float,
-    M: Annotated[Floats, 8, 8],
+    columns: Columns, used: Annotated[Integers, 8], u: float, v: float, M: Annotated[Floats, 8, 8]
 ):
     """M at (u_x : v_x), column ``used[k]`` of the pairs (0 to 3 left, 4 to 7 right) in row k.
 
@@ -92,11 +87,10 @@ def loop_matrix(
         if j < 0:
             break
         size += 1
-        for i in range(8):
-            if j < 4:
-                M[k, i] = u * columns[j, i] + v * columns[j + 4, i]
-            else:
-                M[k, i] = columns[j + 4, i]
+        if j < 4:
+            M[k] = u * columns[j] + v * columns[j + 4]
+        else:
+            M[k] = columns[j + 4]
     return size
 
 

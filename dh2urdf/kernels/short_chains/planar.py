@@ -4,33 +4,27 @@
 """
 
 import math
-from typing import Annotated, NamedTuple
+from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
 from dh2urdf.kernels.certificate import finish_pose
-from dh2urdf.kernels.chain import applied, turned
 from dh2urdf.kernels.newton import work_array
 from dh2urdf.kernels.numbers import atan2, elbow_angle, entry, hypot
+from dh2urdf.kernels.rigid import applied, turned
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""
+
+Elbows: TypeAlias = Annotated[Floats, 2, 2]
 
 SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
 
 
 @entry()
-def planar_rr(
-    l1: float,
-    l2: float,
-    x: float,
-    y: float,
-    slack: float,
-    rest: float,
-    out: Annotated[Floats, 2, 2],
-):
+def planar_rr(l1: float, l2: float, x: float, y: float, slack: float, rest: float, out: Elbows):
     """Both elbows of the planar RR arm.
 
     ``cos t2 = (x^2 + y^2 - l1^2 - l2^2) / (2 l1 l2)`` with its sine of either sign, and
@@ -102,10 +96,10 @@ def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Output
             free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:
-            count[i] = finish_pose(chain, T, within_limits, out, rows, work)
+            count[i] = finish_pose(chain, T, within_limits, *out, rows, work)
         else:
             point[0], point[1], point[2] = T[0, 3], T[1, 3], T[2, 3]
-            count[i] = finish_pose(chain, point, within_limits, out, rows, work)
+            count[i] = finish_pose(chain, point, within_limits, *out, rows, work)
 
 
 def _heading(F, T, N):

@@ -11,13 +11,14 @@ from typing import Annotated, NamedTuple
 import numpy as np
 
 from dh2urdf.kernels.certificate import copy_rows, finish_families, finish_pose
-from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.newton import work_array
 from dh2urdf.kernels.numbers import atan2, dual_conjugate, dual_of_pose, entry, sincos, trig_roots
+from dh2urdf.kernels.rigid import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.shapes import Chain, Floats, Integers, Outputs, Pose, Poses
 from dh2urdf.kernels.short_chains.candidates import add_candidates
 from dh2urdf.kernels.short_chains.loop import (
     SAMPLES,
+    Loop,
     determinant_series,
     factor,
     loop_columns,
@@ -38,13 +39,7 @@ ZERO = 1e-11
 
 
 @entry()
-def close_loop(
-    ends: Annotated[Floats, 2, 4, 4],
-    T: Pose,
-    unit: float,
-    pose: Pose,
-    loop: Annotated[Floats, "n", 8],
-):
+def close_loop(ends: Annotated[Floats, 2, 4, 4], T: Pose, unit: float, pose: Pose, loop: Loop):
     """Write the last link of the loop, ``(L_0^-1 T L_n^-1)^-1``, to the last row of loop."""
     r = joint_times_link(load_pose(ends[0]), False, 0.0, T)
     store_pose(joint_times_link(r, False, 0.0, ends[1]), pose)
@@ -53,11 +48,12 @@ def close_loop(
     dual_conjugate(last, last)
 
 
-def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q, count):
+def _from_matrix(columns, cut, x, scratch, order, q, count):
     """Append the candidates of the matrix at x, for each nullity that it may have.
 
     Returned are the rows of q in use and the largest nullity that was tried.
     """
+    shape, used, joints, rest, unit = cut
     M, basis = scratch[0:8], scratch[8:14]
     size = loop_matrix(columns, used, x[0], x[1], M)
     factor(M, size, order)
@@ -73,19 +69,18 @@ def _from_matrix(columns, shape, used, joints, x, rest, unit, scratch, order, q,
     return count, tried
 
 
-def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q, count):
+def _candidates(loop, cut, scratch, order, roots, q, count):
     """Append all candidates that one cut of the loop gives.
 
     Returned are the rows of q in use, and a doubt: the pose is singular for this cut, and another
     one may see more.
     """
+    shape, used, joints, rest, unit = cut
     columns = scratch[17:29]
     loop_columns(loop, joints, shape, columns)
     x = shape[2]
     if x < 0:
-        count, nullity = _from_matrix(
-            columns, shape, used, joints, (1.0, 0.0), rest, unit, scratch, order, q, count
-        )
+        count, nullity = _from_matrix(columns, cut, (1.0, 0.0), scratch, order, q, count)
         return count, nullity > shape[7]
     series = roots[0]
     determinant_series(columns, used, scratch[0:8], order, series)
@@ -99,9 +94,7 @@ def _candidates(loop, shape, used, joints, rest, unit, scratch, order, roots, q,
     for k in range(found):
         half = 0.5 * atan2(roots[2, k], roots[1, k])
         here = (sincos(half)[1], sincos(half)[0])
-        count, nullity = _from_matrix(
-            columns, shape, used, joints, here, rest, unit, scratch, order, q, count
-        )
+        count, nullity = _from_matrix(columns, cut, here, scratch, order, q, count)
         doubt = doubt or nullity > shape[7]
     return count, doubt
 
@@ -111,7 +104,7 @@ class ShortChain(NamedTuple):
 
     chain: Chain
     ends: Annotated[Floats, 2, 4, 4]
-    loop: Annotated[Floats, "n", 8]
+    loop: Loop
     plan: Annotated[Integers, "cuts", 2, 8]
     rest_unit: Annotated[Floats, "n + 1"]
 
@@ -142,13 +135,11 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
         close_loop(ends, T, unit, pose, closed)
         found = 0
         for s in range(plan.shape[0]):
-            before, shape, slots = found, plan[s, 0], plan[s, 1]
-            found, doubt = _candidates(
-                closed, shape, slots, joints, rest, unit, scratch, order, roots, many[0], found
-            )
+            before, cut = found, (plan[s, 0], plan[s, 1], joints, rest, unit)
+            found, doubt = _candidates(closed, cut, scratch, order, roots, many[0], found)
             for k in range(before, found):
                 many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
-            found = finish_pose(chain, T, False, many, found, work)
+            found = finish_pose(chain, T, False, *many, found, work)
             if not doubt:
                 break
         found = finish_families(chain, T, rest, within_limits, many, found, trial, work)

@@ -16,10 +16,10 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import copy_rows, finish_pose, merge_families, turn_inside
-from dh2urdf.kernels.chain import applied, applied_inverse
+from dh2urdf.kernels.certificate import copy_rows, finish_all
 from dh2urdf.kernels.newton import work_array
 from dh2urdf.kernels.numbers import atan2, entry, sincos, trig_roots
+from dh2urdf.kernels.rigid import applied, applied_inverse, dot, minus
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses, Three
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 
@@ -37,11 +37,6 @@ TINY = 1e-13
 
 STEEP = 0.1
 """Cosine between a slide and the axis before it from which the height alone gives the slide."""
-
-
-def _dot(v, w):
-    """Scalar product."""
-    return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 
 
 def _turn(v, w, rest):
@@ -67,7 +62,7 @@ def _condition(slides, A, p, v):
     """F(v): zero where joints 1 and 2 can bring v to p."""
     if not slides[0] and not slides[1]:
         a, c, s = A[0, 3], A[2, 2], A[2, 1]
-        first = _dot(p, p) - a * a - _dot(v, v)
+        first = dot(p, p) - a * a - dot(v, v)
         second = p[2] - c * v[2]
         both = 2.0 * a * s
         return (
@@ -79,8 +74,8 @@ def _condition(slides, A, p, v):
         w = applied(A, v)
         return A[0, 2] * (p[1] - w[1]) - A[1, 2] * (p[0] - w[0])
     w, direction, target = _line(slides, A, p, v)
-    steep, rise, along = direction[2], target[2] - w[2], _dot(w, direction)
-    lengths = _dot(w, w) - _dot(target, target)
+    steep, rise, along = direction[2], target[2] - w[2], dot(w, direction)
+    lengths = dot(w, w) - dot(target, target)
     return steep * steep * lengths + 2.0 * steep * rise * along + rise * rise
 
 
@@ -93,8 +88,8 @@ def _slide_values(w, direction, square, height, unit):
     dz, rise = direction[2], height - w[2]
     if abs(dz) >= STEEP:
         return 1, rise / dz, 0.0
-    half = _dot(w, direction)
-    discriminant = half * half - (_dot(w, w) - square)
+    half = dot(w, direction)
+    discriminant = half * half - (dot(w, w) - square)
     if discriminant < -SLACK * unit * unit:
         return 0, 0.0, 0.0
     root = math.sqrt(max(discriminant, 0.0))
@@ -109,7 +104,7 @@ def _slide_values(w, direction, square, height, unit):
 def _two_turns(A, p, v, rest, unit, out):
     """Values of two turning joints that bring v to p, to out (2, 2); how many."""
     a, c, s = A[0, 3], A[2, 2], A[2, 1]
-    first = _dot(p, p) - a * a - _dot(v, v)
+    first = dot(p, p) - a * a - dot(v, v)
     second = p[2] - c * v[2]
     radius2 = v[0] * v[0] + v[1] * v[1]
     scale = unit * unit
@@ -141,13 +136,13 @@ def _pair(slides, A, p, v, rest, unit, out):
         return _two_turns(A, p, v, rest, unit, out)
     if slides[0] and slides[1]:
         w = applied(A, v)
-        x, y, z = p[0] - w[0], p[1] - w[1], p[2] - w[2]
+        x, y, z = minus(p, w)
         flat = A[0, 2] * A[0, 2] + A[1, 2] * A[1, 2]
         out[0, 1] = (x * A[0, 2] + y * A[1, 2]) / flat
         out[0, 0] = z - out[0, 1] * A[2, 2]
         return 1
     w, direction, target = _line(slides, A, p, v)
-    count, t1, t2 = _slide_values(w, direction, _dot(target, target), target[2], unit)
+    count, t1, t2 = _slide_values(w, direction, dot(target, target), target[2], unit)
     for k in range(count):
         t = t1 if k == 0 else t2
         u = w[0] + t * direction[0], w[1] + t * direction[1], w[2] + t * direction[2]
@@ -249,8 +244,5 @@ def solve_short_positions(arm: PositionArm, Ts: Poses, within_limits: bool, outp
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
         for k in range(found):
             many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
-        found = finish_pose(chain, p, False, many, found, work)
-        found = merge_families(chain, p, many, found, trial, work)
-        if within_limits:
-            found = turn_inside(chain, p, True, many, found)
+        found = finish_all(chain, p, within_limits, many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

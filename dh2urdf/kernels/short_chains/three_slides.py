@@ -8,8 +8,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import finish_families, finish_pose, invert_pose
-from dh2urdf.kernels.chain import joint_times_link, load_pose, store_pose, times_link
+from dh2urdf.kernels.certificate import finish_families, finish_pose
 from dh2urdf.kernels.newton import (
     POSE,
     add_transposed,
@@ -19,6 +18,7 @@ from dh2urdf.kernels.newton import (
     work_array,
 )
 from dh2urdf.kernels.numbers import atan2, entry, linear_trig
+from dh2urdf.kernels.rigid import invert_pose, joint_times_link, load_pose, store_pose, times_link
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 DAMPING = 1e-10
@@ -95,8 +95,7 @@ def _candidates(chain, T, q, turning, scratch, damped):
     for k in range(found):
         error_and_jacobian(chain, (POSE, T, 1.0), q[k], damped)
         for i in range(q.shape[1]):
-            for e in range(6):
-                damped[0][i, e] *= chain[1][i, 0]
+            damped[0][i] *= chain[1][i, 0]
         solve_damped(damped, DAMPING)
         add_transposed(damped, 1.0, q[k])
     return max(found, 0)
@@ -125,5 +124,5 @@ def solve_three_slides(arm: SlidingArm, Ts: Poses, within_limits: bool, outputs:
         found = _candidates(chain, T, q[i], turning, scratch, damped)
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
-        found = finish_pose(chain, T, False, rows, found, work)
+        found = finish_pose(chain, T, False, *rows, found, work)
         count[i] = finish_families(chain, T, rest, within_limits, rows, found, trial, work)

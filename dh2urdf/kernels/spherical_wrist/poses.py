@@ -66,7 +66,7 @@ def _above(z, level, square):
     return z - level
 
 
-def add_wrist(form, D, values, R, slack, rows, count):
+def add_wrist(form, D, values, R, slack, q, residual, branch, free, count):
     """Append the one or two wrists of a position solution, a row of ``arm``; the new count.
 
     D (4, 4) is frame 6 in frame 0, the orientation left ``R_36 = R_03^T R_06`` goes to R (3, 3).
@@ -80,12 +80,11 @@ def add_wrist(form, D, values, R, slack, rows, count):
             x, y, z = R[0, j], R[1, j], R[2, j]
             x, y = c * x + s * y, c * y - s * x
             R[0, j], R[1, j], R[2, j] = x, ca * y + sa * z, ca * z - sa * y
-    return append_wrist(form, values, R, slack, rows, count)
+    return append_wrist(form, values, R, slack, q, residual, branch, free, count)
 
 
-def append_wrist(form, values, R, slack, rows, count):
+def append_wrist(form, values, R, slack, q, residual, branch, free, count):
     """:func:`add_wrist` for a known orientation ``R_36`` (3, 3)."""
-    q, _, branch, free = rows
     wrists, c5, s5 = middle_angle(form, R[0, 2], R[1, 2], R[2, 2], slack)
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
@@ -139,13 +138,13 @@ def add_merged(arm, places, T, scratch):
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
     (_, joints), (q, residual, _, free), kept = chain, rows, 0
     for k in range(places):
-        found = add_wrist(form, D, place[k], R, slack, rows, kept)
+        found = add_wrist(form, D, place[k], R, slack, *rows, kept)
         for j in range(kept, found):
             residual[j] = polish(chain, T, q[j], work)
             for i in range(6):
                 q[j, i] = q[j, i] if joints[i, 0] != 0.0 else principal(q[j, i])
             if residual[j] <= ROUNDING or (free[j] != 0 and residual[j] <= ACCEPT):
-                move(rows, j, kept)
+                move(*rows, j, kept)
                 kept += 1
     return kept
 
@@ -173,13 +172,13 @@ def finish_wrists(arm, places, found, T, within_limits, out, scratch):
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
     (_, joints), merged = chain, found
     for k in range(places):
-        parted = add_wrist(form, D, place[k], R, slack, rows, found)
+        parted = add_wrist(form, D, place[k], R, slack, *rows, found)
         for j in range(found, parted):
             rows[1][j] = -1.0
             if not (merged and hidden(joints, rows, merged, j)):
-                move(rows, j, found)
+                move(*rows, j, found)
                 found += 1
-    found = finish_pose(chain, T, within_limits, rows, found, work)
+    found = finish_pose(chain, T, within_limits, *rows, found, work)
     return copy_rows(rows, found, out)
 
 

@@ -12,7 +12,6 @@ Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 
 import numpy as np
 
-from dh2urdf.kernels.blocks import dot, minus
 from dh2urdf.kernels.certificate import ACCEPT
 from dh2urdf.kernels.numbers import (
     add_square,
@@ -24,6 +23,7 @@ from dh2urdf.kernels.numbers import (
     sincos,
     trig_roots,
 )
+from dh2urdf.kernels.rigid import dot, minus
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,
@@ -112,7 +112,6 @@ def _two_turns(form, Y, V, free, slack, pairs):
         M[1, 0], M[1, 1], N[1, 0], N[1, 1], d[1] = C[1], S[1], -E[1], -F[1], m[1] - k[1]
     else:
         M[0, 0], M[0, 1], N[0, 0], N[0, 1], d[0] = C[2], S[2], -E[2], -F[2], m[2] - k[2]
-    if form[1, 5] == 0.0:
         # k.C, k.S, m.E and m.F without what cancels in them, so that what vanishes is 0
         d2 = form[1, 3]
         M[1, 0], M[1, 1] = 2.0 * k[0] * C[0], 2.0 * k[0] * S[0]

@@ -8,8 +8,8 @@ Each function writes rows to ``arm`` (8, 5): the three joint values as DH variab
 mask of free joints; and returns how many.
 """
 
-from dh2urdf.kernels.chain import load_pose, store_pose, times_link
 from dh2urdf.kernels.numbers import atan2, elbow_angle, hypot, root_of_gap
+from dh2urdf.kernels.rigid import load_pose, store_pose, times_link
 
 FREE = 5e-10
 """Distance from an axis [m], or sine, up to which the angle about it is reported as free: turned

@@ -5,18 +5,35 @@ eps moves a regular solution by about eps, but near a singularity by up to its s
 branches appear and vanish. So a pose is in doubt, and left to the general solver, where a
 candidate moves far, does not converge, falls together with another, is one of an odd number, or
 has a nearly singular Jacobian, and where there is none.
+
+Where two singularities nearly meet, several solutions lie close together, and seeds from a nominal
+arm, or roots of a polynomial, lead to some of them only. From one of them the others lie along the
+direction in which the pose hardly changes.
 """
 
+import math
 from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, finish_pose
-from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish, solve_damped
+from dh2urdf.kernels.certificate import ACCEPT, finish_pose, is_known, null_direction, principal
+from dh2urdf.kernels.newton import (
+    MAX_TURN,
+    POLISH,
+    POSE,
+    error_and_jacobian,
+    make_damped,
+    normal_equations,
+    polish,
+    pose_residual,
+    solve_damped,
+    work_array,
+)
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
 from dh2urdf.kernels.shapes import (
+    Chain,
     ClosedForm,
     Counts,
     Floats,
@@ -28,6 +45,15 @@ from dh2urdf.kernels.shapes import (
 )
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
+
+SINGULAR = 1e-11
+"""Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
+
+WAYS = (-1e-3, 1e-3, -1e-2, 1e-2, -0.1, 0.1, -0.3, 0.3)
+"""How far along that direction Newton's method starts [rad], either way."""
+
+STEPS = 15
+"""Newton steps; where they have not converged, there is nothing."""
 
 
 def _settle(chain, T, trust, doubt, rows, found, start, work, damped):
@@ -49,7 +75,7 @@ def _settle(chain, T, trust, doubt, rows, found, start, work, damped):
             solve_damped(damped, 0.0)
             for a in range(6):
                 doubt = doubt or damped[1][a, 8 + a] < regular
-    left = finish_pose(chain, T, False, rows, found, work)
+    left = finish_pose(chain, T, False, *rows, found, work)
     for k in range(left):
         branch[k], free[k] = -1, 0
     return -1 - left if doubt or left < found else left
@@ -66,7 +92,7 @@ def solve_near_wrist(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outputs)
         tool_to_wrist(ends, Ts[i], D)
         rows, found = (q[i], residual[i], branch[i], free[i]), 0
         for k in range(place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, places)):
-            found = add_wrist(form, D, places[k], R, slack, rows, found)
+            found = add_wrist(form, D, places[k], R, slack, *rows, found)
         count[i] = _settle(chain, Ts[i], trust, False, rows, found, start, work, damped)
 
 
@@ -118,3 +144,66 @@ def add_candidates(
         for r in range(-1 - count[i]):
             wide[d, wide_count[d]] = q[i, r]
             wide_count[d] += 1
+
+
+def _solve(A, step):
+    """Solve six equations, the rows of A (6, 7), by elimination with pivots; the longest entry.
+
+    Not by the normal equations, which lose directions in which the pose changes by 1e-9 or less.
+    """
+    for c in range(6):
+        best = c
+        for r in range(c + 1, 6):
+            best = r if abs(A[r, c]) > abs(A[best, c]) else best
+        for k in range(c, 7):
+            A[c, k], A[best, k] = A[best, k], A[c, k]
+        if A[c, c] == 0.0:
+            return math.inf
+        for r in range(6):
+            factor = A[r, c] / A[c, c] if r != c else 0.0
+            A[r] -= factor * A[c]
+    longest = 0.0
+    for c in range(6):
+        step[c] = A[c, 6] / A[c, c]
+        longest = max(longest, abs(step[c]))
+    return longest
+
+
+def _converges(chain, T, q, A, step, damped):
+    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
+    for _ in range(STEPS):
+        error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
+        for r in range(6):
+            A[r, 6] = damped[1][r, 6]
+            for j in range(6):
+                A[r, j] = damped[0][j, r]
+        longest = _solve(A, step)
+        if not longest < math.inf:
+            return False
+        scale = min(1.0, MAX_TURN / max(longest, MAX_TURN))
+        q += step * scale
+    for j in range(6):
+        q[j] = principal(q[j])
+    return pose_residual(chain, T, q) <= POLISH
+
+
+@entry(n=6)
+def search_beside(chain: Chain, Ts: Poses, q: Solutions, count: Counts):
+    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
+    _, joints = chain
+    start, trial, work = np.empty(6), np.empty(6), work_array(6)
+    A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)
+    for i in range(Ts.shape[0]):
+        for k in range(count[i]):
+            normal_equations(chain, Ts[i], q[i, k], work)
+            if null_direction(work) > SINGULAR:
+                continue
+            for j in range(6):
+                start[j] = work[j, 6]
+            for w in range(len(WAYS)):
+                trial[:] = q[i, k] + WAYS[w] * start
+                if not _converges(chain, Ts[i], trial, A, step, damped):
+                    continue
+                if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
+                    q[i, count[i]] = trial
+                    count[i] += 1
