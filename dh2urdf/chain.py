@@ -23,7 +23,7 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.dh import JointType
 from dh2urdf.doors import instance, real_array
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
-from dh2urdf.transforms import Array, inverse
+from dh2urdf.transforms import Array, dot, inverse, product
 
 FARTHEST = 1000 * LENGTH
 """Longest link [m]: all rows of the largest table in one."""
@@ -97,7 +97,7 @@ class SerialChain:
         """Frame of each joint in base at q = 0, z along the axis, shape (n, 4, 4)."""
         frames, T = [], np.eye(4)
         for link in self.links[:-1]:
-            T = T @ link
+            T = product(T, link)
             frames.append(T)
         return np.stack(frames)
 
@@ -114,8 +114,7 @@ class SerialChain:
     @cached_property
     def tool(self) -> Array:
         """``T_base_tool`` at q = 0, shape (4, 4)."""
-        T: Array = self.joint_frames[-1] @ self.links[-1]
-        return T
+        return product(self.joint_frames[-1], self.links[-1])
 
     @cached_property
     def size(self) -> float:
@@ -139,7 +138,7 @@ class SerialChain:
         """
         total, last = 0.0, self.points[0]
         for point, axis in zip(self.points[1:], self.axes[1:], strict=True):
-            foot = point + axis * float(axis @ (last - point))
+            foot = point + axis * float(dot(axis, last - point))
             total += math.dist(foot, last)
             last = foot
         return total + math.dist(self.tool[:3, 3], last)
@@ -156,7 +155,8 @@ class SerialChain:
         T: Array = self.links[0]
         for qi, slides, link in zip(q, self.prismatic, self.links[1:], strict=True):
             c, s, t = (1.0, 0.0, qi) if slides else (math.cos(qi), math.sin(qi), 0.0)
-            T = T @ np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, t], [0, 0, 0, 1]]) @ link
+            Z = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, t], [0, 0, 0, 1]])
+            T = product(T, Z, link)
         return T
 
     def reversed(self) -> SerialChain:
@@ -166,8 +166,8 @@ class SerialChain:
         """
         S = np.diag([1.0, -1.0, -1.0, 1.0])
         inv = inverse(self.links)[::-1]
-        links = np.stack([L if k == 0 else S @ L for k, L in enumerate(inv)])
-        links[:-1] = links[:-1] @ S
+        links = np.stack([L if k == 0 else product(S, L) for k, L in enumerate(inv)])
+        links[:-1] = product(links[:-1], S)
         return replace(
             self,
             links=links,

@@ -7,6 +7,7 @@ radians, lengths in metres. Roll, pitch and yaw follow URDF: ``R = Rz(yaw) Ry(pi
 
 import math
 from collections.abc import Sequence
+from functools import reduce
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -184,13 +185,31 @@ def origin_matrix(xyz: Sequence[float], rpy: Sequence[float]) -> Array:
     return T
 
 
+def product(first: Array, *others: Array) -> Array:
+    """Product of matrices (..., m, n): ``@`` with the same order of sums on every machine."""
+    for other in others:
+        terms = (first[..., :, k, None] * other[..., k, None, :] for k in range(first.shape[-1]))
+        first = reduce(np.add, terms)
+    return first
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Product of vectors (..., n), summed from the first number to the last."""
+    return product(a[..., None, :], b[..., :, None])[..., 0, 0]
+
+
+def length(v: Array) -> float:
+    """Length of a vector (n,)."""
+    return math.sqrt(dot(v, v))
+
+
 def inverse(T: ArrayLike) -> Array:
     """Inverse of rigid poses, shape (..., 4, 4): ``T_b_a`` from ``T_a_b``."""
     m = _matrices(T, "T", 4)
     out = np.zeros_like(m)
     Rt = np.swapaxes(m[..., :3, :3], -1, -2)
     out[..., :3, :3] = Rt
-    out[..., :3, 3] = -(Rt @ m[..., :3, 3, None])[..., 0]
+    out[..., :3, 3] = -product(Rt, m[..., :3, 3, None])[..., 0]
     out[..., 3, 3] = 1.0
     return out
 

@@ -5,6 +5,7 @@ and no NaN.
 """
 
 import hashlib
+import sys
 from collections.abc import Iterable
 from itertools import islice
 from pathlib import Path
@@ -47,5 +48,12 @@ def kept() -> dict[str, list[str]]:
     return out
 
 
+def apart(arms: Iterable[str]) -> list[str]:
+    """Lines that differ from those of the file."""
+    return [text for arm in arms for text in lines(arm) if text not in kept()[arm]]
+
+
 if __name__ == "__main__":
+    if sys.argv[1:]:  # arms, to be compared by a process with settings of its own
+        sys.exit("\n".join(apart(sys.argv[1:])) or 0)
     FILE.write_text("".join(f"{text}\n" for arm in workload.arms() for text in lines(arm)))

@@ -156,7 +156,7 @@ def written(calls: list[Call], path: Path) -> None:
     with path.open("wb") as out:
         for call in calls:
             k = order.index(call.entry)
-            e, given, lengths = extension().entries[k], leaves(call.given), dict[str, int]()
+            e, given, lengths = extension().file.entries[k], leaves(call.given), dict[str, int]()
             for t, value in zip(_flat(e.arguments), given, strict=True):
                 shape = zip(t.shape, value.shape, strict=True) if isinstance(t, Array) else ()
                 lengths |= {d: n for d, n in shape if isinstance(d, str) and d.isidentifier()}
@@ -175,6 +175,7 @@ def _flat(types: tuple[Type, ...]) -> list[Type]:
 def answers(calls: list[Call], path: Path) -> list[list[np.ndarray]]:
     """What the program wrote, in the shapes of what each call had left behind."""
     data, at, out = path.read_bytes(), 0, []
+    path.unlink()
     for call in calls:
         found = []
         for x in call.after:

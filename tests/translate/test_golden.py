@@ -1,3 +1,7 @@
+import os
+import subprocess
+import sys
+
 import pytest
 
 from tests.translate import golden, workload
@@ -20,6 +24,33 @@ def test_interpreted_kernels_give_the_golden_answers(arm):
     """The kernels as they are written give the bits that compiled ones gave."""
     with interpreted():
         assert list(golden.lines(arm, SLICE[arm])) == golden.kept()[arm][: SLICE[arm]]
+
+
+OLD = {
+    "OPENBLAS_CORETYPE": "Nehalem",
+    "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX2 FMA3 AVX512F AVX512_SKX",
+    "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable",
+    "DH2URDF_LEVEL": "any",
+}
+"""Settings under which libraries, and the kernels, do as on an old processor."""
+
+
+def check_old(arms):
+    """The golden answers come out of a process that takes the processor for an old one."""
+    words = [sys.executable, "-W", "ignore", "-m", "tests.translate.golden", *arms]
+    done = subprocess.run(words, env=os.environ | OLD, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_old_processors_give_the_golden_answers():
+    """No library's choice of instructions decides a bit, on an arm of each kind."""
+    check_old(["cylindrical_wrist", "fanuc_crx10ia", "franka_fer", "puma560~", "ur10", "xarm5"])
+
+
+@pytest.mark.exhaustive
+def test_old_processors_give_all_golden_answers():
+    """The same on all arms."""
+    check_old(workload.arms())
 
 
 def test_file_names_all_arms():

@@ -91,6 +91,7 @@ def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str
     q = configurations(robot, count, seed)
     T = poses_of(robot, q)
     yield "kinematics", [robot.fk(q), robot.frames(q), robot.jacobian(q)]
+    yield "kinematics, one by one", [f(row) for row in q[:4] for f in (robot.fk, robot.jacobian)]
     for task in ("pose", "position", "position+axis"):
         few = count if task == "pose" else -(-count // 8)
         for inside in (True, False):

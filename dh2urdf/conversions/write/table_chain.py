@@ -8,7 +8,7 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHRow, DHTable
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, product
 
 FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
 """``Rot_x(pi)`` exactly: turns an axis round, ``FLIP Z(q) FLIP = Z(-q)``."""
@@ -59,11 +59,11 @@ def link_frames(table: DHTable) -> LinkFrames:
     for row in table.rows:
         if row.is_joint:
             before, after = _split_row(row, table.convention)
-            origins.append(dh[-1] @ before)
+            origins.append(product(dh[-1], before))
             dh.append(after)
         else:
-            dh[-1] = dh[-1] @ row.transform(0.0, table.convention)
-    return LinkFrames(tuple(origins), tuple(dh), dh[-1] @ table.tool.matrix)
+            dh[-1] = product(dh[-1], row.transform(0.0, table.convention))
+    return LinkFrames(tuple(origins), tuple(dh), product(dh[-1], table.tool.matrix))
 
 
 def dh_to_chain(table: DHTable) -> SerialChain:
@@ -72,7 +72,7 @@ def dh_to_chain(table: DHTable) -> SerialChain:
     links = np.stack([*frames.origins, frames.tool])
     for i, row in enumerate(joints):
         if row.sign < 0:
-            links[i], links[i + 1] = links[i] @ FLIP, FLIP @ links[i + 1]
+            links[i], links[i + 1] = product(links[i], FLIP), product(FLIP, links[i + 1])
     return SerialChain(
         links=links,
         joint_types=tuple(row.joint_type for row in joints),

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.transforms import Array, rot_z, trans
+from dh2urdf.transforms import Array, product, rot_z, trans
 
 NORMAL = (2.0**-4, 2.0**4)
 """Lengths [m] of arms whose unit is the metre."""
@@ -42,7 +42,7 @@ def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
     for i in range(chain.n):
         if i in held:
             Z = trans(0.0, 0.0, held[i]) if chain.prismatic[i] else rot_z(held[i])
-            links[-1] = links[-1] @ Z @ chain.links[i + 1]
+            links[-1] = product(links[-1], Z, chain.links[i + 1])
         else:
             links.append(chain.links[i + 1])
     return part(chain, np.stack(links), [i for i in range(chain.n) if i not in held])

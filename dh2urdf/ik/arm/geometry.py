@@ -13,7 +13,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
-from dh2urdf.transforms import Array, inverse, pose_error
+from dh2urdf.kernels.numbers import atan2, hypot, sincos
+from dh2urdf.transforms import Array, dot, inverse, length, pose_error, product
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,13 +50,13 @@ class AxisLines:
     def _directions(self) -> tuple[Array, Array]:
         axes, signs = self.chain.axes.copy(), np.ones(self.chain.n)
         for i in range(1, self.chain.n):
-            along = float(axes[i] @ axes[i - 1])
+            along = float(dot(axes[i], axes[i - 1]))
             if np.linalg.norm(np.cross(axes[i], axes[i - 1])) <= self.tolerance:
                 signs[i] = math.copysign(1.0, along)
                 axes[i] = axes[i - 1]
             elif abs(along) <= EXACT:
                 axes[i] -= along * axes[i - 1]
-                axes[i] /= np.linalg.norm(axes[i])
+                axes[i] /= length(axes[i])
         return axes, signs
 
     @cached_property
@@ -75,7 +76,7 @@ class AxisLines:
             elif i - 1 in turning and (meet := self._meeting(points, i - 1, i)) is not None:
                 points[i] = meet
             else:
-                points[i] += self.axes[i] * (self.axes[i] @ (points[i - 1] - points[i]))
+                points[i] += self.axes[i] * dot(self.axes[i], points[i - 1] - points[i])
         for i in range(chain.n - 2):
             centre = self._centre(points, i)
             if centre is not None and not chain.prismatic[i : i + 3].any():
@@ -85,27 +86,32 @@ class AxisLines:
     def _meeting(self, points: Array, i: int, j: int) -> Array | None:
         """Where lines i and j meet, the point of j nearest to i; None if they are apart."""
         normal = np.cross(self.axes[i], self.axes[j])
-        square = float(normal @ normal)
+        square = float(dot(normal, normal))
         gap = points[i] - points[j]
         if square <= self.tolerance**2:
-            apart = gap - self.axes[j] * (self.axes[j] @ gap)
+            apart = gap - self.axes[j] * dot(self.axes[j], gap)
             return points[i] if np.linalg.norm(apart) <= self.length else None
-        if abs(gap @ normal) > self.length * math.sqrt(square):
+        if abs(dot(gap, normal)) > self.length * math.sqrt(square):
             return None
-        point: Array = points[j] + self.axes[j] * (np.cross(self.axes[i], gap) @ normal / square)
-        point += normal * (gap @ normal / square)
+        point: Array = points[j] + self.axes[j] * (
+            dot(np.cross(self.axes[i], gap), normal) / square
+        )
+        point += normal * (dot(gap, normal) / square)
         return point
 
     def _centre(self, points: Array, i: int) -> Array | None:
         """Point within the tolerance of lines i, i + 1, i + 2, neighbours not parallel."""
         if self.parallel(i) or self.parallel(i + 1):
             return None
-        planes = [np.eye(3) - np.outer(a, a) for a in self.axes[i : i + 3]]
-        right = sum(P @ p for P, p in zip(planes, points[i : i + 3], strict=True))
-        centre: Array = np.linalg.lstsq(np.sum(planes, axis=0), right, rcond=1e-15)[0]
-        gaps = [
-            np.linalg.norm(P @ (centre - p)) for P, p in zip(planes, points[i : i + 3], strict=True)
-        ]
+        planes = np.array([np.eye(3) - np.outer(a, a) for a in self.axes[i : i + 3]])
+        near, some = points[i + 1], points[i : i + 3]
+        # normal equations (sum P) x = sum P (p - near), by Cramer's rule
+        x, y, z = planes[0] + planes[1] + planes[2]
+        moments = product(planes, (some - near)[:, :, None])[:, :, 0]
+        right = moments[0] + moments[1] + moments[2]
+        crossed = np.array([np.cross(y, z), np.cross(z, x), np.cross(x, y)])
+        centre: Array = near + dot(crossed, right) / dot(x, crossed[0])
+        gaps = [length(v) for v in product(planes, (centre - some)[:, :, None])[:, :, 0]]
         return centre if max(gaps) <= self.length else None
 
     def parallel(self, i: int) -> bool:
@@ -152,16 +158,16 @@ class DHForm:
         """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
         axes, points = self.lines.axes, self.lines.points
         x, origin = np.cross(axes[0], np.eye(3)[np.abs(axes[0]).argmin()]), points[0]
-        x /= np.linalg.norm(x)
+        x /= length(x)
         frames: list[Array] = []
         for i in range(len(axes)):
             if i > 0:
                 x, origin = self._normal(i - 1, x, origin)
             if i == 1:
                 frames[0] = pose_along(x, axes[0], frames[0][:3, 3])
-            frames.append(pose_along(x - axes[i] * (axes[i] @ x), axes[i], origin))
+            frames.append(pose_along(x - axes[i] * dot(axes[i], x), axes[i], origin))
         if len(axes) > 1:
-            frames[0][:3, 3] += axes[0] * (axes[0] @ (frames[1][:3, 3] - frames[0][:3, 3]))
+            frames[0][:3, 3] += axes[0] * dot(axes[0], frames[1][:3, 3] - frames[0][:3, 3])
         return np.stack(frames)
 
     def _normal(self, i: int, x: Array, origin: Array) -> tuple[Array, Array]:
@@ -169,16 +175,16 @@ class DHForm:
         lines = self.lines
         z, z_next, p_next = lines.axes[i], lines.axes[i + 1], lines.points[i + 1]
         if lines.parallel(i):
-            foot = p_next + z_next * (z_next @ (origin - p_next))
+            foot = p_next + z_next * dot(z_next, origin - p_next)
             gap = foot - origin
-            distance = np.linalg.norm(gap)
+            distance = length(gap)
             return (gap / distance, foot) if distance > lines.length else (x, origin)
         normal = np.cross(z, z_next)
-        square = float(normal @ normal)
+        square = float(dot(normal, normal))
         gap = lines.points[i] - p_next
-        foot = p_next + z_next * (np.cross(z, gap) @ normal / square)
+        foot = p_next + z_next * (dot(np.cross(z, gap), normal) / square)
         normal /= math.sqrt(square)
-        if gap @ normal > lines.length:
+        if dot(gap, normal) > lines.length:
             normal = -normal
         return normal, foot
 
@@ -193,11 +199,12 @@ class DHForm:
             rows[i, 1] = 1.0
             if i == n - 1:
                 break
-            step = inverse(frames[i]) @ frames[i + 1]
+            step = product(inverse(frames[i]), frames[i + 1])
             x = step[:3, 0]
-            rows[i, 4] = math.atan2(x[1], x[0])
+            rows[i, 4] = atan2(float(x[1]), float(x[0]))
             rows[i, 3] = step[2, 3]
-            a = math.cos(rows[i, 4]) * step[0, 3] + math.sin(rows[i, 4]) * step[1, 3]
+            sine, cosine = sincos(float(rows[i, 4]))
+            a = cosine * step[0, 3] + sine * step[1, 3]
             rows[i, 0] = a if abs(a) > lines.length else 0.0
             rows[i, 1:3] = _unit(step[2, 2], step[2, 1])
             if lines.parallel(i):
@@ -208,8 +215,7 @@ class DHForm:
     @cached_property
     def tool(self) -> Array:
         """``T_dhn_tool``; frame n is frame n - 1 at q = 0, shape (4, 4)."""
-        T: Array = inverse(self.frames[-1]) @ self.lines.chain.tool
-        return T
+        return product(inverse(self.frames[-1]), self.lines.chain.tool)
 
     @cached_property
     def ends(self) -> Array:
@@ -220,8 +226,8 @@ class DHForm:
         """Forward kinematics of the snapped arm at q (n,), shape (4, 4)."""
         T: Array = self.frames[0]
         for row, qi in zip(self.rows, q, strict=True):
-            T = T @ row_motion(row, float(qi))
-        return T @ self.tool
+            T = product(T, row_motion(row, float(qi)))
+        return product(T, self.tool)
 
     @cached_property
     def error(self) -> float:
@@ -240,7 +246,7 @@ def row_motion(row: Array, q: float) -> Array:
     """The displacement of a row of :class:`DHForm` with its joint at q, shape (4, 4)."""
     a, ca, sa, d, theta, slides, sign = row
     t, s = (theta, sign * q + d) if slides else (sign * q + theta, d)
-    ct, st = math.cos(t), math.sin(t)
+    st, ct = sincos(t)
     return np.array(
         [
             [ct, -st * ca, st * sa, a * ct],
@@ -257,13 +263,13 @@ def _unit(c: float, s: float) -> tuple[float, float]:
         return 0.0, math.copysign(1.0, s)
     if abs(s) <= EXACT:
         return math.copysign(1.0, c), 0.0
-    r = math.hypot(c, s)
+    r = hypot(c, s)
     return c / r, s / r
 
 
 def pose_along(x: Array, z: Array, origin: Array) -> Array:
     """Frame with the given z, the direction of x, and origin, shape (4, 4)."""
     T = np.eye(4)
-    x = x / np.linalg.norm(x)
+    x = x / length(x)
     T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, np.cross(z, x), z, origin
     return T

@@ -16,7 +16,7 @@ from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.task import Task, task_error
 from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.kernels.redundant import nearest_members, walk_family
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, length
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two members are one, as two solutions are."""
@@ -52,7 +52,7 @@ class Family:
             members = inside if len(inside) else self._inside_members(start, seed)
         if not len(members):
             return None
-        start[self.free] = min(members, key=lambda m: float(np.linalg.norm(m - seed[self.free])))
+        start[self.free] = min(members, key=lambda m: length(m - seed[self.free]))
         return start
 
     def holds(self, seed: Array) -> bool:
@@ -118,7 +118,7 @@ def slide_to_seed(
             continue
         member = family.nearest(seed, within_limits, full_turns=k not in around)
         q[k] = q[k] if member is None else member
-    gaps = {k: float(np.linalg.norm(q[k] - goal)) for k in around}
+    gaps = {k: length(q[k] - goal) for k in around}
     if gaps and min(gaps.values()) > SAME:
         q[min(gaps, key=lambda k: gaps[k])] = goal
     keep = np.ones(len(q), np.bool_)

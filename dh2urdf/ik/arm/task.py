@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.tolerances import NO_RANK, SPARE_RANK, WEAK_RANK
 from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, dot, product
 
 TRIALS = 4
 """Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
@@ -42,7 +42,7 @@ def task_error(T_found: Array, T: Array, task: Task) -> Array:
         return position
     if task is Task.POSITION_AXIS:
         turn = np.cross(T_found[:, :3, 2], T[:3, 2])
-        behind = T_found[:, :3, 2] @ T[:3, 2] < 0.0
+        behind = dot(T_found[:, :3, 2], T[:3, 2]) < 0.0
     else:
         turn = 0.5 * np.cross(T_found[:, :3, :3], T[None, :3, :3], axisa=1, axisb=1).sum(axis=1)
         behind = np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) < 1.0
@@ -64,7 +64,7 @@ def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
         T = np.empty((len(q), 4, 4))
         chain_fk_batch(chain.links, chain.prismatic, q, T)
         z = T[:, :3, 2]
-        J[:, 3:] -= z[:, :, None] * (z[:, None] @ J[:, 3:])
+        J[:, 3:] -= z[:, :, None] * product(z[:, None], J[:, 3:])
     return J
 
 

@@ -17,13 +17,17 @@ from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, solve_general_6r
-from dh2urdf.transforms import Array
+from dh2urdf.kernels.numbers import sincos
+from dh2urdf.transforms import Array, inverse, product
 
 Arm: TypeAlias = NDArray[np.void]
 """What the kernel knows of an arm, and the arrays that it works in: one record."""
 
 TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 """Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
+
+GRID = 2.0**-24
+"""What slides of frames are rounded to, in parts of the longest link: no library decides bits."""
 
 POSES = 24
 """Random poses on which each elimination is tried."""
@@ -109,7 +113,7 @@ class General6R(SolverBase):
 
 def _z(angle: float, offset: float) -> Array:
     """Turn about z, then shift along it."""
-    c, s = math.cos(angle), math.sin(angle)
+    s, c = sincos(angle)
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, offset], [0, 0, 0, 1.0]])
 
 
@@ -124,11 +128,12 @@ def _short_links(links: Array) -> Array:
         matrix[rows, i - 1] = [0.0, 0.0, -1.0]
         matrix[rows, i] = links[i, :3, 2]
         rhs[rows] = -links[i, :3, 3]
-    slides = np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0]
+    grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
+    slides = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
     short = links.copy()
     for i in range(6):
-        short[i] = short[i] @ _z(0.0, slides[i])
-        short[i + 1] = _z(TURN[i], -slides[i]) @ short[i + 1]
+        short[i] = product(short[i], _z(0.0, slides[i]))
+        short[i + 1] = product(_z(TURN[i], -slides[i]), short[i + 1])
     return short
 
 
@@ -144,7 +149,7 @@ def _random_poses(links: Array) -> Array:
     for m, q in enumerate(rng.uniform(-math.pi, math.pi, (POSES, 6))):
         T = links[0]
         for i in range(6):
-            T = T @ _z(q[i], 0.0) @ links[i + 1]
+            T = product(T, _z(q[i], 0.0), links[i + 1])
         poses[m] = T
     return poses
 
@@ -178,8 +183,9 @@ def _place(arm: Arm, links: Array) -> None:
     """Set the links (7, 4, 4) of an arm."""
     short = _short_links(links)
     size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
-    arm["links"], arm["size"], arm["ends"] = _flat(links), size, np.linalg.inv(short[[0, 6]])
-    arm["turns"] = np.cos(TURN), np.sin(TURN), TURN
+    arm["links"], arm["size"], arm["ends"] = _flat(links), size, inverse(short[[0, 6]])
+    sines, cosines = zip(*(sincos(x) for x in TURN.tolist()), strict=True)
+    arm["turns"] = cosines, sines, TURN
     arm["chain"][0, :5] = _flat(short[1:6])
     arm["chain"][0, :5, 3::4] /= size
 

@@ -57,7 +57,7 @@ class NearFamily(SolverBase):
         self.nominal = family(seen, tolerance=tolerance)
         self.name = f"nearly {self.nominal.name}{', from the tool' if self.reversed else ''}"
         self.general = General6R(chain)
-        self.distance = self.nominal.form.error
+        self.distance = float(f"{self.nominal.form.error:.3g}")
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
         self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance, noise), 0.3)
         self.trust = np.array([chain.size, NOISE_MOTION * noise, NEARLY_SINGULAR * noise])

@@ -17,7 +17,7 @@ from dh2urdf.exceptions import PoseError
 from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.kernels.short_chains import planar_rr, solve_planar
-from dh2urdf.transforms import Array, check_pose, inverse
+from dh2urdf.transforms import Array, check_pose, inverse, product
 
 RIM = 1e-12
 """Relative excess over the rim of the annulus that is rounding of the point or the lengths."""
@@ -115,11 +115,11 @@ class PlanarArm(SolverBase):
         frames = axis_frames(chain)
         T_first_base = inverse(frames[0])
         last = chain.tool if chain.n == 2 else frames[2]
-        point = (inverse(chain.tool) @ last)[:3, 3]
-        link1 = (T_first_base @ frames[1])[0, 3]
-        link2 = ((T_first_base @ last)[:3, 3])[:2] - (link1, 0.0)
+        point = product(inverse(chain.tool), last)[:3, 3]
+        link1 = product(T_first_base, frames[1])[0, 3]
+        link2 = product(T_first_base, last)[:2, 3] - (link1, 0.0)
         signs = np.sign(chain.axes @ chain.axes[0])
-        plane = np.stack([T_first_base, inverse(chain.tool) @ frames[0]])
+        plane = np.stack([T_first_base, product(inverse(chain.tool), frames[0])])
         polar = math.hypot(*link2), math.atan2(link2[1], link2[0])
         rest = float(np.clip(0.0, chain.lower[0], chain.upper[0]))
         self.form = np.array([link1, *polar, signs[1], signs[-1], *point, rest])

@@ -127,7 +127,7 @@ class ShortChain(SolverBase):
             sigma = np.linalg.svd(M[:size], compute_uv=False)
             here = int((sigma < VANISHED).sum())
             nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
-        return blind, nullity, -gap
+        return blind, nullity, -round(gap, 9)
 
 
 def _shape(prismatic: NDArray[np.bool_], start: int) -> list[int]:

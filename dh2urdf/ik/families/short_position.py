@@ -7,7 +7,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import Others, SolverBase, Task, pose_along
 from dh2urdf.kernels.short_chains import solve_short_positions
-from dh2urdf.transforms import Array, inverse
+from dh2urdf.transforms import Array, dot, inverse, length, product
 
 MOST_JOINTS = 3
 
@@ -25,8 +25,11 @@ class ShortPosition(SolverBase):
     def __init__(self, chain: SerialChain, task: Task = Task.POSITION, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         frames = axis_frames(chain)
-        tip = (inverse(frames[-1]) @ chain.tool)[:3, 3].copy()
-        steps = [inverse(frames[0]), *(inverse(a) @ b for a, b in itertools.pairwise(frames))]
+        tip = product(inverse(frames[-1]), chain.tool)[:3, 3].copy()
+        steps = [
+            inverse(frames[0]),
+            *(product(inverse(a), b) for a, b in itertools.pairwise(frames)),
+        ]
         rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), chain.size)
         self.constants = chain.tables, np.stack(steps), tip, rest_unit
 
@@ -51,17 +54,17 @@ def _on_common_normal(first: Array, second: Array) -> tuple[Array, Array]:
     z1, z2 = first[:3, 2], second[:3, 2]
     p1, p2 = first[:3, 3], second[:3, 3]
     normal = np.cross(z1, z2)
-    square = float(normal @ normal)
+    square = float(dot(normal, normal))
     gap = p2 - p1
     if square > 1e-18:
-        foot1 = p1 + z1 * float(np.cross(gap, z2) @ normal) / square
-        foot2 = p2 + z2 * float(np.cross(gap, z1) @ normal) / square
+        foot1 = p1 + z1 * float(dot(np.cross(gap, z2), normal)) / square
+        foot2 = p2 + z2 * float(dot(np.cross(gap, z1), normal)) / square
     else:
-        foot1, foot2 = p1, p2 - z2 * float(z2 @ gap)
+        foot1, foot2 = p1, p2 - z2 * float(dot(z2, gap))
     x = foot2 - foot1
     if np.linalg.norm(x) <= 1e-12 * max(1.0, float(np.linalg.norm(gap))):
         x = normal
-    x = x / np.linalg.norm(x)
+    x = x / length(x)
     lines = (z1, foot1), (z2, foot2)
-    first, second = (pose_along(x - z * float(x @ z), z, foot) for z, foot in lines)
+    first, second = (pose_along(x - z * float(dot(x, z)), z, foot) for z, foot in lines)
     return first, second

@@ -24,7 +24,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.families import SphericalWrist
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import points_on_curves, solve_held_blocks, solve_held_wrist
-from dh2urdf.transforms import Array, inverse
+from dh2urdf.transforms import Array, inverse, product
 
 TRIAL_VALUE = 0.731
 """Value of the held joint [rad or m] at which the geometry of the rest is looked at: one that
@@ -71,11 +71,12 @@ class _Oriented(NamedTuple):
         S1, links = np.array([link]), self.chain.links
         lever = np.array([ends[0] if self.reversed else ends[2]])
         if self.varies == 1:
-            S1 = before @ HELD_PARTS @ after
+            S1 = product(before, HELD_PARTS, after)
         if self.reversed and self.joint == 0:
-            lever = lever @ (HELD_PARTS * [[[1]], [[-1]], [[-1]], [[1]]]) @ inverse(links[0])
+            back = HELD_PARTS * [[[1]], [[-1]], [[-1]], [[1]]]
+            lever = product(lever, back, inverse(links[0]))
         elif not self.reversed and self.joint == self.chain.n - 1:
-            lever = lever @ HELD_PARTS @ links[-1]
+            lever = product(lever, HELD_PARTS, links[-1])
         factors = np.zeros((16, 4))
         factors[:9, -len(S1) :] = S1[:, :3, :3].reshape(-1, 9).T
         factors[9:12, -len(S1) :] = S1[:, :3, 3].T
@@ -105,9 +106,9 @@ class HeldWrist(HeldSolver):
         before, after = np.eye(4), np.eye(4)
         j, seen, ends = oriented.varies, oriented.chain, self.form.ends
         if j >= 0:
-            to_form = inverse(self.form.frames) @ rest.joint_frames
-            before = to_form[j] @ seen.links[oriented.joint]
-            after = seen.links[oriented.joint + 1] @ inverse(to_form[j + 1])
+            to_form = product(inverse(self.form.frames), rest.joint_frames)
+            before = product(to_form[j], seen.links[oriented.joint])
+            after = product(seen.links[oriented.joint + 1], inverse(to_form[j + 1]))
         fixed = chain.links, seen.links, np.stack([*links, before, after]), ends
         factors = oriented.factors(links[1], before, after, ends)
         self.frames = np.concatenate([*fixed, oriented.sides(ends), factors])

@@ -16,19 +16,19 @@ DEGREE = 8
 TERMS = 2 * DEGREE + 1
 HARMONICS = 23
 ARC = 2.0 * math.pi / LANES
-ARC_TAN = math.tan(0.25 * ARC)
+ARC_TAN = sincos(0.25 * ARC)[0] / sincos(0.25 * ARC)[1]
 
 CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
-CIRCLE_COS = np.cos(CIRCLE_ANGLE)
-CIRCLE_SIN = np.sin(CIRCLE_ANGLE)
-NODE = np.cos(np.pi * (np.arange(LANES) + 0.5) / LANES)
+CIRCLE_SIN, CIRCLE_COS = np.array([sincos(x) for x in CIRCLE_ANGLE.tolist()]).T.copy()
+NODE = np.array([sincos(math.pi * (k + 0.5) / LANES)[1] for k in range(LANES)])
 
 
 def _circle_table():
     """Weights of the 24 samples in a_0, a_1, b_1, ... b_11."""
     rows = [np.full(LANES, 0.5)]
     for m in range(1, 12):
-        rows += [np.cos(m * CIRCLE_ANGLE), np.sin(m * CIRCLE_ANGLE)]
+        turns = m * np.arange(LANES) % LANES
+        rows += [CIRCLE_COS[turns], CIRCLE_SIN[turns]]
     return np.ascontiguousarray(np.array(rows).T * (2.0 / LANES))
 
 
@@ -54,9 +54,16 @@ def _window_table():
     """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
     x = 0.5 * (1.0 + NODE)
     basis = np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
-    u, s, vt = np.linalg.svd(basis)
-    rows = np.vstack([vt.T @ (u[:, :TERMS] / s).T, u[:, TERMS:].T])
-    return np.ascontiguousarray(rows.T)
+    # Q R by reflections, beside Q' itself; then R^-1 times its first rows
+    both = np.hstack([basis, np.eye(LANES)])
+    for k in range(TERMS):
+        v = np.where(np.arange(LANES) < k, 0.0, both[:, k])[:, None]
+        v[k] += math.copysign(math.sqrt(float((v * v).sum(axis=0)[0])), v[k, 0])
+        both -= v * ((v * both).sum(axis=0) * (2.0 / (v * v).sum(axis=0)))
+    for k in reversed(range(TERMS)):
+        both[k] /= both[k, k]
+        both[:k] -= both[:k, k, None] * both[k]
+    return np.ascontiguousarray(both[:, TERMS:].T)
 
 
 CIRCLE_TABLE = _circle_table()

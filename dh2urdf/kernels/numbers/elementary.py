@@ -75,7 +75,7 @@ def few_turns(x):
     return near - (x - near) / FULL * FULL_REST
 
 
-def sincos(x):
+def sincos(x: float) -> tuple[float, float]:
     """Sine and cosine of x [rad], |x| <= ``FAR``."""
     quarters = (x * PER_TURN + ROUND) - ROUND
     # The reduced angle is r - c; its head on a grid of 2^-18 has an exact square and cube.
@@ -100,7 +100,7 @@ def sincos(x):
     return e * s - o * k, e * k + o * s
 
 
-def atan2(y, x):
+def atan2(y: float, x: float) -> float:
     """Angle of the point (x, y) [rad], in -pi ... pi."""
     a, b = abs(y), abs(x)
     steep = a > b
@@ -178,7 +178,7 @@ def asin(x):
     return math.copysign(math.nan if ax > 1.0 else angle, x)
 
 
-def hypot(x, y):
+def hypot(x: float, y: float) -> float:
     """Length of (x, y)."""
     a, b = abs(x), abs(y)
     large, small = (a if a > b else b), (b if a > b else a)

@@ -19,7 +19,7 @@ from typing import Annotated, TypeAlias
 
 import numpy as np
 
-from dh2urdf.kernels.numbers import dual_product, dual_times_joint, entry
+from dh2urdf.kernels.numbers import dual_product, dual_times_joint, entry, sincos
 from dh2urdf.kernels.shapes import Floats, Integers, Joints
 
 Loop: TypeAlias = Annotated[Floats, "n", 8]
@@ -31,10 +31,10 @@ SAMPLES = 7
 """Determinants that give the five coefficients and, by two that must vanish, their noise."""
 
 SAMPLE_ANGLE = 2.0 * np.pi * np.arange(SAMPLES) / SAMPLES
-SAMPLE_HALF = np.stack([np.cos(0.5 * SAMPLE_ANGLE), np.sin(0.5 * SAMPLE_ANGLE)])
-SAMPLE_TABLE = np.stack(
-    [np.full(SAMPLES, 0.5)] + [f(m * SAMPLE_ANGLE) for m in (1, 2, 3) for f in (np.cos, np.sin)]
-) * (2.0 / SAMPLES)
+SAMPLE_HALF = np.array([sincos(0.5 * x)[::-1] for x in SAMPLE_ANGLE.tolist()]).T.copy()
+SAMPLE_TABLE = np.array(
+    [[0.5, *(f for m in (1, 2, 3) for f in sincos(m * x)[::-1])] for x in SAMPLE_ANGLE.tolist()]
+).T.copy() * (2.0 / SAMPLES)
 
 
 def _pair_columns(loop, joints, first, second, out):
