@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from dh2urdf.translate.calls import Calls
 from dh2urdf.translate.definitions import Definitions, Instance
 from dh2urdf.translate.expressions import BINARY
-from dh2urdf.translate.scopes import scopes_of
 from dh2urdf.translate.source import loaded
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import Value
@@ -17,7 +16,6 @@ class Assignments(Calls):
 
     def __init__(self, file: Definitions, instance: Instance) -> None:
         super().__init__(file, instance)
-        self.scopes = scopes_of(self.source)
         self.hoisted: dict[str, str] = {}
         """Names that are declared before the block that gives them a value, by their line."""
 
@@ -98,7 +96,7 @@ class Assignments(Calls):
         if name == "_" or value.text == c:
             self.values.setdefault(name, value)
             return
-        here, before = (id(s), name) in self.scopes.at, self.values.get(name)
+        here, before = name in self.source.declared[0][s], self.values.get(name)
         if before is not None and before.type != t:
             types = f"{told(before.type)} and {told(t)}"
             self.refuse(target, f"one name for two types, {types}", "two names, or 0.0 for 0")

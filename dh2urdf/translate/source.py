@@ -6,48 +6,39 @@ import io
 import sys
 import textwrap
 import tokenize
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, cached_property
 from importlib import import_module
 from types import ModuleType
 from typing import Any, NoReturn
 
-REFUSED: dict[type[ast.AST], str] = {
-    ast.ListComp: "a loop",
-    ast.GeneratorExp: "a loop",
-    ast.DictComp: "a loop",
-    ast.SetComp: "a loop",
-    ast.List: "np.empty, or a tuple",
-    ast.Dict: "a record, or arguments",
-    ast.Set: "comparisons",
-    ast.Lambda: "a kernel of the module",
-    ast.FunctionDef: "a kernel of the module",
-    ast.ClassDef: "a record of the module",
-    ast.Try: "a returned status",
-    ast.Raise: "a returned status",
-    ast.Assert: "a returned status",
-    ast.With: "the statements alone",
-    ast.Yield: "into an array that is handed in",
-    ast.YieldFrom: "into an array that is handed in",
-    ast.Global: "an argument",
-    ast.Nonlocal: "an argument",
-    ast.JoinedStr: "numbers only",
-    ast.Import: "the import at the head of the module",
-    ast.ImportFrom: "the import at the head of the module",
-    ast.Delete: "nothing",
-    ast.NamedExpr: "an assignment of its own",
-    ast.AnnAssign: "an assignment without a type",
-    ast.Match: "if and elif",
-    ast.Pow: "products, or math.sqrt",
-    ast.MatMult: "loops",
-    ast.In: "comparisons with ==",
-    ast.NotIn: "comparisons with !=",
-    ast.Is: "==",
-    ast.IsNot: "!=",
-    ast.keyword: "a positional argument",
+ADVICE: dict[str, tuple[type[ast.AST], ...]] = {
+    "a loop": (ast.ListComp, ast.GeneratorExp, ast.DictComp, ast.SetComp),
+    "loops": (ast.MatMult,),
+    "np.empty, or a tuple": (ast.List,),
+    "a record, or arguments": (ast.Dict,),
+    "comparisons": (ast.Set,),
+    "comparisons with ==": (ast.In, ast.Is),
+    "comparisons with !=": (ast.NotIn, ast.IsNot),
+    "a kernel of the module": (ast.Lambda, ast.FunctionDef),
+    "a record of the module": (ast.ClassDef,),
+    "a returned status": (ast.Try, ast.Raise, ast.Assert),
+    "the statements alone": (ast.With,),
+    "into an array that is handed in": (ast.Yield, ast.YieldFrom),
+    "an argument": (ast.Global, ast.Nonlocal),
+    "a positional argument": (ast.keyword,),
+    "numbers only": (ast.JoinedStr,),
+    "the import at the head of the module": (ast.Import, ast.ImportFrom),
+    "nothing": (ast.Delete,),
+    "an assignment of its own": (ast.NamedExpr,),
+    "an assignment without a type": (ast.AnnAssign,),
+    "if and elif": (ast.Match,),
+    "products, or math.sqrt": (ast.Pow,),
 }
-"""Syntax outside the subset, and what to write instead."""
+"""What to write instead of syntax outside the subset."""
+
+REFUSED = {kind: advice for advice, kinds in ADVICE.items() for kind in kinds}
 
 ENGINE = "dh2urdf.kernels.numbers.engine"
 
@@ -134,15 +125,25 @@ class Source:
         """What a kernel returns that does nothing but make arrays; None for another kernel."""
         self.__dict__["made"] = None  # for kernels that call themselves
         last = self.body[-1]
-        if len(self.body) > 1 or not isinstance(last, ast.Return) or last.value is None:
+        if len(self.body) > 1 or not isinstance(last, ast.Return):
             return None
-        for n in ast.walk(last.value):
-            if isinstance(n, ast.Call):
-                name = ast.unparse(n.func)
-                callee = self.kernel(name)
-                if name in MAKERS or (callee is not None and callee.made is not None):
-                    return last.value
-        return None
+        calls = {ast.unparse(n.func) for n in ast.walk(last) if isinstance(n, ast.Call)}
+        kernels = filter(None, map(self.kernel, calls))
+        return last.value if calls & {*MAKERS} or any(k.made for k in kernels) else None
+
+    @cached_property
+    def declared(self) -> tuple[dict[ast.stmt, set[str]], dict[ast.stmt, set[str]]]:
+        """Names that C declares at their assignments, and those it declares before statements."""
+        at: dict[ast.stmt, set[str]] = defaultdict(set)
+        before: dict[ast.stmt, set[str]] = defaultdict(set)
+        counters = stored(s.target for s in every(self.body) if isinstance(s, ast.For))
+        for name in self.stored - {*self.parameters, *counters, "_"}:
+            places = _assignments(name, self.body)
+            for s in places or []:
+                at[s].add(name)
+            if not places:
+                before[next(s for s in self.body if uses(s)[name])].add(name)
+        return at, before
 
 
 @cache
@@ -163,6 +164,12 @@ def loaded(node: ast.AST) -> set[str]:
     return {n.id for n in ast.walk(node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
 
 
+@cache
+def uses(node: ast.AST) -> Counter[str]:
+    """How often a node names something."""
+    return Counter(n.id for n in ast.walk(node) if isinstance(n, ast.Name))
+
+
 def blocks_of(statement: ast.stmt) -> list[list[ast.stmt]]:
     """The blocks inside a statement."""
     return [b for b in (getattr(statement, "body", []), getattr(statement, "orelse", [])) if b]
@@ -174,3 +181,18 @@ def every(statements: list[ast.stmt]) -> Iterator[ast.stmt]:
         yield statement
         for block in blocks_of(statement):
             yield from every(block)
+
+
+def _assignments(name: str, block: list[ast.stmt]) -> list[ast.stmt]:
+    """Assignments that all uses of a name in a block follow; none if that cannot be."""
+    users = [s for s in block if uses(s)[name]]
+    first, found = users[0], list[ast.stmt]()
+    if isinstance(first, ast.Assign) and name in stored([first]) and name not in loaded(first):
+        return [first]
+    for s in users:
+        inside = [b for b in blocks_of(s) if any(uses(x)[name] for x in b)]
+        places = [_assignments(name, b) for b in inside]
+        if not all(places) or sum(uses(x)[name] for b in inside for x in b) != uses(s)[name]:
+            return []
+        found += [place for inner in places for place in inner]
+    return found

@@ -5,7 +5,7 @@ import ast
 from dh2urdf.translate.assignments import Assignments
 from dh2urdf.translate.c_text import folded
 from dh2urdf.translate.definitions import Definitions, Instance
-from dh2urdf.translate.source import every, loaded, stored
+from dh2urdf.translate.source import every, loaded, stored, uses
 from dh2urdf.translate.types import Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import COMPARISON, Value
 
@@ -107,7 +107,7 @@ class Body(Assignments):
             if line <= s.lineno and line not in self.said:
                 self.said.add(line)
                 self.out(f"/* {text} */")
-        for name in self.scopes.before.get(id(s), []):
+        for name in sorted(self.source.declared[1][s]):
             declared = f"{name} is declared"
             self.hoisted[declared] = name
             self.out(declared)
@@ -143,8 +143,10 @@ class Body(Assignments):
                 pass
             case _:
                 self.refuse(s.iter, "a loop over something else", "for ... in range(...)")
-        own = counter not in self.scopes.astray and counter not in stored(s.body)
-        if counter != "_" and not own:
+        body = self.source.body
+        loops = [x for x in every(body) if isinstance(x, ast.For) and uses(x.target)[counter]]
+        astray = sum(uses(x)[counter] for x in loops) != sum(uses(x)[counter] for x in body)
+        if counter != "_" and (astray or counter in stored(s.body)):
             self.refuse(s.target, "a counter that is more than that", "another name")
         low, high = (None, arguments[0]) if len(arguments) == 1 else arguments[:2]
         step = self.size(arguments[2]) if len(arguments) == 3 else 1
