@@ -4,8 +4,7 @@ import ast
 from collections.abc import Iterator
 
 from dh2urdf.translate.calls import Calls
-from dh2urdf.translate.definitions import Definitions, Instance
-from dh2urdf.translate.expressions import BINARY
+from dh2urdf.translate.expressions import SIGNS
 from dh2urdf.translate.source import loaded
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import Value
@@ -14,11 +13,6 @@ from dh2urdf.translate.values import Value
 class Assignments(Calls):
     """Writes the assignments of one kernel."""
 
-    def __init__(self, file: Definitions, instance: Instance) -> None:
-        super().__init__(file, instance)
-        self.hoisted: dict[str, str] = {}
-        """Names that are declared before the block that gives them a value, by their line."""
-
     def assign(self, s: ast.Assign) -> None:
         """An assignment: all is read before anything is written."""
         late = []
@@ -26,63 +20,55 @@ class Assignments(Calls):
         for i, (target, n, value) in enumerate(given):
             root = _root(target)
             later = ((v.words() if v.text or v.parts else loaded(m)) for _, m, v in given[i + 1 :])
-            if {root, self.name(root)} & set[str]().union(*later):
-                if isinstance(value.type, Array) and isinstance(target, ast.Subscript):
-                    self.refuse(s, "an array that is read after it", "two assignments")
-                late.append((target, n, self.temporary(value, f"{root}_next")))
-            else:
+            if not {root, self.name(root)} & set[str]().union(*later):
                 self._store(s, target, n, value)
+                continue
+            if isinstance(value.type, Array) and isinstance(target, ast.Subscript):
+                self.refuse(s, "an array that is read after it", "two assignments")
+            late.append((target, n, self.temporary(value, f"{root}_next")))
         for target, n, value in late:
             self._store(s, target, n, value)
 
-    def _pairs(self, target: ast.expr, n: ast.expr) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
+    def _pairs(
+        self, target: ast.expr, n: ast.expr, value: Value | None = None
+    ) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
         """The single assignments that one of tuples is made of."""
-        starred = isinstance(n, ast.Tuple) and any(isinstance(x, ast.Starred) for x in n.elts)
-        if isinstance(target, ast.Tuple) and isinstance(n, ast.Tuple) and not starred:
-            if len(target.elts) != len(n.elts):
-                self.refuse(n, f"{len(n.elts)} values for {len(target.elts)} names", "as many")
-            for x, y in zip(target.elts, n.elts, strict=True):
-                yield from self._pairs(x, y)
-        elif isinstance(target, ast.Tuple):
-            yield from self._unpacked(target, n, self.value(n))
-        elif isinstance(target, ast.Name):
-            size = self.size(n) if target.id in self.source.once else None
-            if size is None:
-                yield target, n, self.value(n)
+        size = self.size(n) if isinstance(target, ast.Name) and not value else None
+        if isinstance(target, ast.Tuple):
+            items: list[tuple[ast.expr, Value | None]]
+            if isinstance(n, ast.Tuple) and not value and not _starred(n):
+                items = [(x, None) for x in n.elts]
             else:
-                self.known[target.id] = size
+                items = [(n, part) for part in self.parts(n, value or self.value(n))]
+            if len(target.elts) != len(items):
+                self.refuse(n, f"{len(items)} values for {len(target.elts)} names", "as many")
+            for x, (y, part) in zip(target.elts, items, strict=True):
+                yield from self._pairs(x, y, part)
+        elif size is not None and _root(target) in self.source.once:
+            self.known[_root(target)] = size
+        elif value or isinstance(target, ast.Name):
+            yield target, n, value or self.value(n)
         else:
             t = self.value(target).type
             yield target, n, Value(t) if isinstance(t, Array) else self.number(n)
 
-    def _unpacked(
-        self, target: ast.Tuple, n: ast.expr, value: Value
-    ) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
-        parts = self.parts(n, value)
-        if len(parts) != len(target.elts):
-            self.refuse(n, f"{len(parts)} values for {len(target.elts)} names", "as many")
-        for x, part in zip(target.elts, parts, strict=True):
-            if isinstance(x, ast.Tuple):
-                yield from self._unpacked(x, n, part)
-            else:
-                yield x, n, part
-
-    def _store(self, s: ast.stmt, target: ast.expr, n: ast.expr, value: Value) -> None:
+    def _store(self, s: ast.Assign, target: ast.expr, n: ast.expr, value: Value) -> None:
         if isinstance(target, ast.Name):
             self._bind(s, target, value)
             return
-        written = self.value(target)
-        self._writable(target)
+        written = self._written(target)
         if isinstance(written.type, Array):
-            self._elements(target, n, "")
+            self._elements(target, written, n, "")
         else:
             self._fits(target, written.type, value.type)
             self.out(f"{written.text} = {value.text};")
 
-    def _writable(self, target: ast.expr) -> None:
+    def _written(self, target: ast.expr) -> Value:
+        """What is assigned to, unless it is a constant."""
         array = self.values.get(_root(target))
         if array is None or (isinstance(array.type, Array) and array.type.constant):
             self.refuse(target, "a constant that is written to", "an array of the caller")
+        return self.value(target)
 
     def _fits(self, target: ast.expr, kept: Type, given: Type) -> None:
         """Refuse what an element of an array does not hold."""
@@ -91,109 +77,91 @@ class Assignments(Calls):
         if NUMBERS.index(given) > NUMBERS.index(kept):
             self.refuse(target, f"{given} for an element of {kept}", "int(x), or a comparison")
 
-    def _bind(self, s: ast.stmt, target: ast.Name, value: Value) -> None:
+    def _bind(self, s: ast.Assign, target: ast.Name, value: Value) -> None:
         name, c, t = target.id, self.name(target.id), value.type
         if name == "_" or value.text == c:
             self.values.setdefault(name, value)
             return
-        here, before = name in self.source.declared[0][s], self.values.get(name)
+        before = self.values.get(name)
         if before is not None and before.type != t:
             types = f"{told(before.type)} and {told(t)}"
             self.refuse(target, f"one name for two types, {types}", "two names, or 0.0 for 0")
+        here, once = name in self.source.declared[0][s], name in self.source.once
         if value.maker or value.leaves() != [value]:
-            if not here or name not in self.source.once:
+            changing = {self.name(x) for x in self.source.changing}
+            if not (here and once) or value.words() & changing:
                 self.refuse(s, "arrays that are made, or put together, in a block", "it before")
-            self.values[name] = self._kept(self.stored(value, c), c)
+            self.values[name] = self.stored(value, c)
             return
-        self.values[name] = Value(t, c)
-        text = self.text(value)
-        if not here:
-            self.out(f"{c} = {text};")
-            return
-        const = "const " if name in self.source.once and not isinstance(t, Array | Record) else ""
-        if isinstance(t, Tuple):
-            text = text.removeprefix(f"({self.file.tuple_name(t)})")
-        self.out(f"{const}{self.file.declaration(t, c)} = {text};")
-
-    def _kept(self, value: Value, name: str) -> Value:
-        """A group of values by names that do not change while it is used."""
-        if value.parts:
-            parts = (self._kept(part, f"{name}_{k}") for k, part in enumerate(value.parts))
-            return Value(value.type, parts=tuple(parts))
-        if value.words() & set(map(self.name, self.source.changing)):
-            return self.temporary(value, name)
-        return value
+        self.values[name], text = Value(t, c), self.text(value)
+        if here:
+            const = "const " if once and not isinstance(t, Array | Record) else ""
+            if isinstance(t, Tuple):
+                text = text.removeprefix(f"({self.file.tuple_name(t)})")
+            c = const + self.file.declaration(t, c)
+        self.out(f"{c} = {text};")
 
     def augment(self, s: ast.AugAssign) -> None:
         """An assignment with an operator."""
-        if type(s.op) not in BINARY:
+        if type(s.op) not in SIGNS:
             self.refuse(s, "an operator that has no such assignment", "x = x ... y")
-        sign, target = BINARY[type(s.op)][0], self.value(s.target)
-        if isinstance(s.target, ast.Subscript):
-            self._writable(s.target)
+        name = isinstance(s.target, ast.Name) and s.target.id in self.values
+        sign, target = (
+            SIGNS[type(s.op)][0],
+            self.value(s.target) if name else self._written(s.target),
+        )
         if isinstance(target.type, Array):
-            self._elements(s.target, s.value, sign)
+            self._elements(s.target, target, s.value, sign)
             return
         value = self.number(s.value)
-        after = self._binary(s, s.op, target, value).type
+        after = self.joined(s, s.op, target, value).type
         if after != target.type:
             self.refuse(s, f"{told(after)} for {told(target.type)}", "another name, or float(x)")
         self.out(f"{target.text} {sign}= {value.text};")
 
-    def _elements(self, target: ast.expr, n: ast.expr, sign: str) -> None:
+    def _elements(self, target: ast.expr, written: Value, n: ast.expr, sign: str) -> None:
         """All elements of an array, one after the other."""
-        t = self.value(target).type
+        t, first = written.type, self._count(target, written.type)
         assert isinstance(t, Array)
-        e = self.fresh("e")
-        self.values[e] = Value("int", e)
-        self.out(f"for (int {e} = 0; {e} < {self._length(target, t)}; {e}++) {{")
-        self.depth += 1
-        element, value = _at(target, e), self._element(target, n, t, e)
-        if isinstance(t.at(1), Array):
-            self._elements(element, value, sign)
-        else:
-            given = self.number(value)
-            self._fits(target, t.at(1), given.type)
-            self.out(f"{self.value(element).text} {sign}= {given.text};")
-        self.depth -= 1
-        self.out("}")
-        self.taken.discard(e)
+        for x in ast.walk(n):
+            if not isinstance(x, ast.Subscript) or _root(x) != _root(target):
+                continue
+            if not isinstance(self.value(x).type, Array):
+                self.refuse(
+                    x, "an element of the array that is assigned to", "an assignment before"
+                )
+        indices = [self.fresh("e") for _ in t.shape]
+        for e, length in zip(indices, (first, *t.shape[1:]), strict=True):
+            self.out(f"for (int {e} = 0; {e} < {length}; {e}++) {{")
+            self.depth += 1
+        self.whole = t, indices
+        element, value = self.number(target), self.number(n)
+        self._fits(target, element.type, value.type)
+        self.out(f"{element.text} {sign}= {value.text};")
+        self.whole = None
+        for _ in indices:
+            self.depth -= 1
+            self.out("}")
+        self.taken -= {*indices}
 
-    def _length(self, target: ast.expr, t: Array) -> str:
+    def _count(self, target: ast.expr, t: Type) -> str:
+        """How many elements, or rows, are assigned to."""
         match target:
             case ast.Subscript(slice=ast.Slice(lower=None, upper=ast.expr() as upper)):
                 return self.value(upper).text
             case ast.Subscript(slice=ast.Slice(lower=ast.expr())):
                 self.refuse(target, "an assignment to elements from the middle", "a loop")
-        if t.shape[0] is None:
+        if not isinstance(t, Array) or t.shape[0] is None:
             self.refuse(target, "an array whose length is not known", "a loop")
         return str(t.shape[0])
 
-    def _element(self, target: ast.expr, n: ast.expr, t: Array, e: str) -> ast.expr:
-        """An expression with arrays for one element of them."""
-        match n:
-            case ast.BinOp():
-                left, right = (self._element(target, x, t, e) for x in (n.left, n.right))
-                return ast.copy_location(ast.BinOp(left, n.op, right), n)
-            case ast.UnaryOp():
-                return ast.copy_location(
-                    ast.UnaryOp(n.op, self._element(target, n.operand, t, e)), n
-                )
-        given = self.base(n).type
-        if isinstance(given, Array):
-            if len(given.shape) != len(t.shape):
-                self.refuse(n, f"{told(given)} for {told(t)}", "a loop")
-            return _at(n, e)
-        if _root(target) in loaded(n):
-            self.refuse(n, "an element of the array that is assigned to", "an assignment before")
-        return n
 
-
-def _at(n: ast.expr, e: str) -> ast.expr:
-    return ast.copy_location(ast.Subscript(n, ast.copy_location(ast.Name(e), n)), n)
+def _starred(n: ast.Tuple) -> bool:
+    return any(isinstance(x, ast.Starred) for x in n.elts)
 
 
 def _root(n: ast.AST) -> str:
+    """The name that a target starts with."""
     while isinstance(n, ast.Subscript | ast.Attribute):
         n = n.value
     return str(getattr(n, "id", ""))

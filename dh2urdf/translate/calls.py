@@ -10,18 +10,23 @@ from dh2urdf.translate.types import Array, Tuple
 from dh2urdf.translate.values import POSTFIX, PREFIX, Value, sized
 
 LIBRARY = {
-    "math.sqrt": ("sqrt", 1),
-    "math.copysign": ("copysign", 2),
-    "math.fmod": ("fmod", 2),
-    "np.floor": ("floor", 1),
-    "np.ceil": ("ceil", 1),
-    "np.rint": ("rint", 1),
+    "math.sqrt": ("sqrt", 1, "float"),
+    "math.copysign": ("copysign", 2, "float"),
+    "math.fmod": ("fmod", 2, "float"),
+    "np.floor": ("floor", 1, "float"),
+    "np.ceil": ("ceil", 1, "float"),
+    "np.rint": ("rint", 1, "float"),
+    "math.isinf": ("isinf", 1, "bool"),
+    "math.isnan": ("isnan", 1, "bool"),
+    "math.isfinite": ("isfinite", 1, "bool"),
 }
-"""Functions whose result is the same everywhere, and how many arguments they take."""
-
-PREDICATES = {"math.isinf": "isinf", "math.isnan": "isnan", "math.isfinite": "isfinite"}
+"""Functions whose result is the same everywhere, how many arguments they take, what they give."""
 
 CASTS = {"float": "double", "int": "int"}
+
+EXTREMES = {"max": "larger", "min": "smaller"}
+
+ALLOWED = (*LIBRARY, *CASTS, *EXTREMES, "abs", "len", *MAKERS)
 
 ELEMENT_OF = {"np.float64": "float", "np.int64": "int", "np.bool_": "bool"}
 
@@ -32,60 +37,62 @@ NOTHING = Tuple(())
 class Calls(Expressions):
     """Writes the calls of one kernel."""
 
-    def call(self, n: ast.Call) -> Value:
-        """A call."""
-        name = ast.unparse(n.func)
+    def _call(self, n: ast.Call) -> Value:
+        name, length = ast.unparse(n.func), self.size(n)
         callee = self.source.kernel(name)
         if callee is not None:
             return self._made_by(n, callee) if callee.made else self._kernel(n, callee)
-        if name in MAKERS:
-            return self._array(n, name)
-        if name == "len":
-            length = self.size(n)
-            if length is None:
-                self.refuse(n, "a length that is not known", "an argument for it")
-            return sized(length)
         if name not in ALLOWED:
             self.refuse(n, "a call of something else", f"a kernel, or {', '.join(ALLOWED)}")
-        values = [self.number(a) for a in n.args]
-        if name in ("min", "max") and len(values) > 1:
-            if len({value.type for value in values}) > 1:
-                self.refuse(n, f"{name} of values of two types", "float(x) of the whole numbers")
-            return self._extreme(name, values)
-        if name == "abs" and len(values) == 1:
-            if values[0].type != "float":
-                return self.helper("size_int", "int", *values)
-            return Value("float", f"fabs({values[0].text})", POSTFIX)
-        if name in CASTS and len(values) == 1:
-            if values[0].type == name:
-                return values[0]
-            return Value(name, f"({CASTS[name]}){values[0].at(PREFIX)}", PREFIX)
-        c, arguments = LIBRARY.get(name) or (PREDICATES.get(name, ""), 1)
-        if not c or len(values) != arguments:
-            self.refuse(n, f"{len(values)} arguments of {name}", f"{arguments if c else 'others'}")
-        kind = "bool" if name in PREDICATES else "float"
-        return Value(kind, f"{c}({', '.join(value.text for value in values)})", POSTFIX)
+        if name in MAKERS:
+            return self._array(n, name)
+        if name == "len" and length is None:
+            self.refuse(n, "a length that is not known", "an argument for it")
+        if length is not None:
+            return sized(length)
+        return self._number(n, name, [self.number(a) for a in n.args])
 
-    def _extreme(self, name: str, values: list[Value]) -> Value:
+    def _number(self, n: ast.Call, name: str, values: list[Value]) -> Value:
+        """A call that gives a number."""
+        count = len(values)
+        if name in EXTREMES and count > 1:
+            return self._extreme(n, name, values)
+        if name in LIBRARY and count == LIBRARY[name][1]:
+            c, _, t = LIBRARY[name]
+            return Value(t, f"{c}({', '.join(value.text for value in values)})", POSTFIX)
+        if name in EXTREMES or name in LIBRARY or count != 1:
+            wanted = LIBRARY[name][1] if name in LIBRARY else "others"
+            self.refuse(n, f"{count} arguments of {name}", str(wanted))
+        (value,) = values
+        if name == "abs" and value.type != "float":
+            return self.helper("size_int", "int", value)
+        if name == "abs":
+            return Value("float", f"fabs({value.text})", POSTFIX)
+        if value.type == name:
+            return value
+        return Value(name, f"({CASTS[name]}){value.at(PREFIX)}", PREFIX)
+
+    def _extreme(self, n: ast.Call, name: str, values: list[Value]) -> Value:
         """The first of the largest or smallest, as Python has it."""
-        found = values[0]
-        helper = {"max": "larger", "min": "smaller"}[name] + "_int" * (found.type != "float")
-        for other in values[1:]:
-            found = self.helper(helper, str(found.type), found, other)
+        found, *others = values
+        if any(other.type != found.type for other in others):
+            self.refuse(n, f"{name} of values of two types", "float(x) of the whole numbers")
+        helper = EXTREMES[name] + "_int" * (found.type != "float")
+        for other in others:
+            found = self.helper(helper, found.type, found, other)
         return found
 
     def _kernel(self, n: ast.Call, callee: Source) -> Value:
         given = self.spread(n.args)
         if len(given) != len(callee.parameters):
             self.refuse(n, f"{len(given)} arguments", f"{len(callee.parameters)}")
+        pairs = list(zip(callee.parameters, given, strict=True))
         handed = [
-            self.stored(value, self.fresh(f"array_{name}") if value.maker else name)
-            for name, (_, value) in zip(callee.parameters, given, strict=True)
+            self.stored(value, self.fresh(f"array_{p}") if value.maker else p)
+            for p, (_, value) in pairs
         ]
         instance = self.file.instance(callee, tuple(value.type for value in handed))
-        for p, (name, _) in zip(callee.parameters, given, strict=True):
-            if p in instance.asked:
-                self.instance.asked.add(name)
+        self.instance.asked |= {name for p, (name, _) in pairs if p in instance.asked}
         missing = set(instance.lengths()) - set(self.instance.lengths())
         if missing:
             self.refuse(n, f"the length {missing.pop()} is not known here", "an argument with it")
@@ -94,21 +101,15 @@ class Calls(Expressions):
         return Value(instance.returned or NOTHING, text, POSTFIX)
 
     def stored(self, value: Value, name: str) -> Value:
-        """A value whose arrays have names."""
-        if value.maker:
-            return self.storage(value, name)
+        """A value whose arrays have names: what a maker makes is declared."""
         if value.parts:
             parts = (self.stored(part, f"{name}_{k}") for k, part in enumerate(value.parts))
             return replace(value, parts=tuple(parts))
-        return value
-
-    def storage(self, value: Value, name: str) -> Value:
-        """The array that a maker makes, by its name."""
         t = value.type
-        assert isinstance(t, Array)
+        if not value.maker or not isinstance(t, Array):
+            return value
+        zeros, fixed = value.maker == "np.zeros", all(isinstance(d, int) for d in t.shape)
         declared = self.file.declaration(t, name, storage=True)
-        fixed = all(isinstance(length, int) for length in t.shape)
-        zeros = value.maker == "np.zeros"
         self.out(f"{declared}{' = {0}' if zeros and fixed else ''};")
         if zeros and not fixed:
             self.out(f"memset({name}, 0, sizeof {name});")
@@ -128,12 +129,7 @@ class Calls(Expressions):
         """The arrays that a kernel makes: C returns none, so that they are the caller's."""
         assert callee.made
         maker = Calls(self.file, Instance(callee, self.instance.arguments))
-        for p, a in zip(callee.parameters, n.args, strict=True):
-            size = self.size(a)
-            if size is None:
-                self.refuse(a, "a length that is not known before the kernel runs", "a number")
-            maker.known[p] = size
+        maker.known = {p: self.size(a) for p, a in zip(callee.parameters, n.args, strict=True)}
+        if None in maker.known.values():
+            self.refuse(n, "a length that is not known before the kernel runs", "a number")
         return maker.value(callee.made)
-
-
-ALLOWED = (*LIBRARY, *PREDICATES, *CASTS, "abs", "min", "max", "len", *MAKERS)

@@ -18,6 +18,8 @@ class Body(Assignments):
     def __init__(self, file: Definitions, instance: Instance) -> None:
         super().__init__(file, instance)
         self.said = set[int]()
+        self.hoisted: dict[str, str] = {}
+        """Names that are declared before the block that gives them a value, by their line."""
         for p, t in zip(self.source.parameters, instance.arguments, strict=True):
             self.values[p] = self._parameter(p, t, self._pattern(p))
 
@@ -152,8 +154,8 @@ class Body(Assignments):
         step = self.size(arguments[2]) if len(arguments) == 3 else 1
         if not isinstance(step, int) or step == 0:
             self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
-        start = "0" if low is None else self._whole(low).text
-        end = self._whole(high)
+        start = "0" if low is None else self.integer(low, "a bound").text
+        end = self.integer(high, "a bound")
         if self._changes(high, s.body):
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
@@ -165,12 +167,6 @@ class Body(Assignments):
         self.out(f"for (int {i} = {start}; {i} {sign} {end.at(COMPARISON + 1)}; {move}) {{")
         self._inner(s.body)
         self.out("}")
-
-    def _whole(self, n: ast.expr) -> Value:
-        value = self.value(n)
-        if value.type != "int":
-            self.refuse(n, f"{told(value.type)} in a range", "a whole number")
-        return value
 
     def _changes(self, n: ast.expr, body: list[ast.stmt]) -> bool:
         """Whether the end of a loop may change in it, which Python would not see."""

@@ -2,32 +2,15 @@
 
 import ast
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NoReturn
 
-import numpy as np
-
-from dh2urdf.translate.c_text import RESERVED, number
+from dh2urdf.translate.c_text import RESERVED
 from dh2urdf.translate.definitions import Definitions, Instance
 from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, type_of_value
 
-ATOM, POSTFIX, PREFIX, PRODUCT, SUM, COMPARISON, AND, OR, CHOICE = 16, 15, 14, 13, 12, 9, 5, 4, 3
+ATOM, POSTFIX, PREFIX, SUM, COMPARISON, OR, CHOICE = 16, 15, 14, 12, 9, 4, 3
 """How tightly the operators of C bind."""
-
-SUMS: dict[type[ast.operator], tuple[str, Callable[[int, int], int]]] = {
-    ast.Add: ("+", int.__add__),
-    ast.Sub: ("-", int.__sub__),
-    ast.Mult: ("*", int.__mul__),
-    ast.FloorDiv: ("//", int.__floordiv__),
-}
-
-DECIDE: dict[type[ast.cmpop], Callable[[int, int], bool]] = {
-    ast.Eq: int.__eq__,
-    ast.NotEq: int.__ne__,
-    ast.Lt: int.__lt__,
-    ast.Gt: int.__gt__,
-}
 
 
 @dataclass(frozen=True)
@@ -58,7 +41,7 @@ class Value:
         return [self]
 
 
-def sized(length: int | str) -> Value:
+def sized(length: Length) -> Value:
     """A length as a value."""
     text = str(length)
     return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM)
@@ -71,7 +54,7 @@ class Names:
         self.file, self.instance, self.source = file, instance, instance.source
         self.values: dict[str, Value] = {}
         """What names stand for that have been given a value so far."""
-        self.known: dict[str, int | str] = {}
+        self.known: dict[str, Length] = {}
         self.lines: list[tuple[int, str]] = []
         self.depth = 1
         outside = {x.lstrip("_") for x in self.source.names - self.source.stored}
@@ -104,74 +87,73 @@ class Names:
         self.out(f"{const}{self.file.declaration(t, name)} = {value.text};")
         return Value(t, name)
 
-    def size(self, n: ast.expr) -> Length:
-        """A whole number that is known before the kernel runs, or in terms of its lengths."""
-        match n:
-            case ast.Constant(value=int(value)):
-                return None if isinstance(value, bool) else value
-            case ast.Name() if n.id in self.source.stored:
-                return self.known.get(n.id)
-            case ast.Name():
-                constant = self.source.stands_for(n.id)
-                whole = isinstance(constant, int | np.integer) and not isinstance(constant, bool)
-                return int(constant) if whole else None
-            case ast.UnaryOp(op=ast.USub()):
-                inner = self.size(n.operand)
-                return -inner if isinstance(inner, int) else None
-            case ast.BinOp():
-                return self._sum(n)
-            case ast.Attribute(attr="ndim"):
-                t = self._type(n.value)
-                return len(t.shape) if isinstance(t, Array) else None
-            case ast.Subscript(value=ast.Attribute(attr="shape", value=array)):
-                index = self.size(n.slice)
-                return self.length(array, index) if isinstance(index, int) else None
-            case ast.Call(func=ast.Name(id="len"), args=[array]):
-                return self.length(array, 0)
-        return None
-
-    def _sum(self, n: ast.BinOp) -> Length:
-        a, b = self.size(n.left), self.size(n.right)
-        if a is None or b is None or type(n.op) not in SUMS:
-            return None
-        sign, exact = SUMS[type(n.op)]
-        if isinstance(a, int) and isinstance(b, int):
-            return exact(a, b)
-        return None if sign == "//" else f"({a} {sign} {b})"
-
-    def _type(self, n: ast.expr) -> Type | None:
-        if isinstance(n, ast.Name):
-            found = self.values.get(n.id)
-            return found.type if found else type_of_value(self.source.stands_for(n.id))
-        return self.base(n).type if isinstance(n, ast.Subscript) else None
+    def named(self, n: ast.Name) -> Value:
+        """What a name stands for."""
+        if n.id in self.known:
+            return sized(self.known[n.id])
+        if n.id in self.values:
+            return self.values[n.id]
+        if n.id in self.source.stored:
+            self.refuse(n, "a name before its value", "the assignment above it")
+        t = type_of_value(self.source.stands_for(n.id))
+        if t is None:
+            self.refuse(n, "a name that stands for no number or array", "an argument")
+        return Value(t, self.file.constant(self.source, n.id))
 
     def base(self, n: ast.expr) -> Value:
         """An expression whose first length does not matter."""
         raise NotImplementedError
 
-    def length(self, n: ast.expr, index: int) -> Length:
+    def size(self, n: ast.expr) -> Length:
+        """A whole number that is known before the kernel runs, or in terms of its lengths."""
+        match n:
+            case ast.Constant(value=int(value)) if not isinstance(value, bool):
+                return value
+            case ast.Name() if n.id in self.source.stored:
+                return self.known.get(n.id)
+            case ast.Name():
+                constant = self.source.stands_for(n.id)
+                return int(constant) if type_of_value(constant) == "int" else None
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return self._sum(ast.Constant(0), ast.Sub(), operand)
+            case ast.BinOp():
+                return self._sum(n.left, n.op, n.right)
+            case ast.Attribute(attr="ndim"):
+                t = self.base(n.value).type
+                return len(t.shape) if isinstance(t, Array) else None
+            case ast.Subscript(value=ast.Attribute(attr="shape", value=array)):
+                index = self.size(n.slice)
+                return self._length(array, index) if isinstance(index, int) else None
+            case ast.Call(func=ast.Name(id="len"), args=[array]):
+                return self._length(array, 0)
+        return None
+
+    def _sum(self, left: ast.expr, op: ast.operator, right: ast.expr) -> Length:
+        signs = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.FloorDiv: "//"}
+        sign, a, b = signs.get(type(op)), self.size(left), self.size(right)
+        if sign is None or a is None or b is None:
+            return None
+        if isinstance(a, int) and isinstance(b, int):
+            return int(eval(f"{a} {sign} {b}"))
+        return None if sign == "//" else f"({a} {sign} {b})"
+
+    def _length(self, n: ast.expr, index: int) -> Length:
         """A length of a named array or tuple; that of a parameter is asked for."""
+        if not isinstance(n, ast.Name | ast.Subscript):
+            return None
         if index == 0 and isinstance(n, ast.Name):
             self.instance.asked.add(n.id)
-        t = self._type(n)
+        t = self.base(n).type
         if isinstance(t, Tuple):
             return len(t.items)
         return t.shape[index] if isinstance(t, Array) and 0 <= index < len(t.shape) else None
 
     def decided(self, test: ast.expr) -> bool | None:
         """What a comparison of whole numbers says that are known before the kernel runs."""
-        if isinstance(test, ast.Compare) and len(test.ops) == 1:
+        if isinstance(test, ast.Compare):
             a, b = self.size(test.left), self.size(test.comparators[0])
-            if isinstance(a, int) and isinstance(b, int) and type(test.ops[0]) in DECIDE:
-                return DECIDE[type(test.ops[0])](a, b)
+            if isinstance(a, int) and isinstance(b, int) and len(test.ops) == 1:
+                return bool(
+                    eval(ast.unparse(ast.Compare(ast.Constant(a), test.ops, [ast.Constant(b)])))
+                )
         return None
-
-    def literal(self, n: ast.expr, value: object) -> Value:
-        """A number that is written out."""
-        if isinstance(value, bool):
-            return Value("bool", number(value))
-        if isinstance(value, int):
-            return Value("int", number(value))
-        if isinstance(value, float):
-            return Value("float", number(value), PREFIX if number(value)[0] == "-" else ATOM)
-        self.refuse(n, "a value that is no number", "numbers only")
