@@ -13,13 +13,14 @@ EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 
 
 class Body(Assignments):
-    """Writes the body of one kernel."""
+    """Writes the body of one kernel; methods for statements say whether nothing comes after."""
 
     def __init__(self, file: Definitions, instance: Instance) -> None:
         super().__init__(file, instance)
         self.said = set[int]()
-        self.hoisted: dict[str, str] = {}
-        """Names that are declared before the block that gives them a value, by their line."""
+        """Lines of the kernel's comments that are written."""
+        self.hoisted: dict[int, str] = {}
+        """Names that are declared before the block that gives them a value, by their line of C."""
         for p, t in zip(self.source.parameters, instance.arguments, strict=True):
             self.values[p] = self._parameter(p, t, self._pattern(p))
 
@@ -34,11 +35,8 @@ class Body(Assignments):
 
     def _parameter(self, name: str, t: Type, pattern: ast.expr | None) -> Value:
         if not isinstance(t, Tuple) or t.is_struct:
-            name = (
-                pattern.id
-                if isinstance(pattern, ast.Name) and pattern.id in self.source.once
-                else name
-            )
+            if isinstance(pattern, ast.Name) and pattern.id in self.source.once:
+                name = pattern.id
             self.instance.parameters.append((self.name(name), t))
             return Value(t, self.name(name))
         inner: list[ast.expr | None] = [None] * len(t.items)
@@ -53,18 +51,12 @@ class Body(Assignments):
         ended = self.block(self.source.body)
         if self.instance.returned is not None and not ended:
             self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
-        lines = [(depth, self._declared(text)) for depth, text in self.lines]
-        return "\n".join(x for depth, text in lines if text for x in folded(text, 4 * depth))
-
-    def _declared(self, line: str) -> str:
-        """The declaration that stands for a name, whose type is known by now."""
-        name = self.hoisted.get(line)
-        if name is None or name not in self.values:
-            return line if name is None else ""
-        t = self.values[name].type
-        pointer = isinstance(t, Array | Record)
-        empty = EMPTY[t] if isinstance(t, str) else "NULL" if pointer else "{0}"
-        return f"{self.file.declaration(t, self.name(name))} = {empty};"
+        for k, name in self.hoisted.items():
+            if name in self.values:
+                t = self.values[name].type
+                empty = "{0}" if isinstance(t, Tuple) else EMPTY.get(str(t), "NULL")
+                self.lines[k] = 1, f"{self.file.declaration(t, self.name(name))} = {empty};"
+        return "\n".join(x for depth, text in self.lines if text for x in folded(text, 4 * depth))
 
     def block(self, statements: list[ast.stmt]) -> bool:
         """Statements one after the other, and whether nothing comes after them."""
@@ -77,7 +69,14 @@ class Body(Assignments):
         return ended
 
     def _statement(self, s: ast.stmt) -> bool:
-        self._before(s)
+        """A statement, the comments above it, and names that have their values inside it."""
+        for line, text in self.source.comments.items():
+            if line <= s.lineno and line not in self.said:
+                self.said.add(line)
+                self.out(f"/* {text} */")
+        for name in sorted(self.source.declared[1][s]):
+            self.hoisted[len(self.lines)] = name
+            self.out("")
         match s:
             case ast.Assign():
                 self.assign(s)
@@ -92,8 +91,7 @@ class Body(Assignments):
             case ast.If():
                 return self._if(s)
             case ast.Return():
-                self._return(s)
-                return True
+                return self._return(s)
             case ast.Break() | ast.Continue():
                 self.out(f"{type(s).__name__.lower()};")
                 return True
@@ -103,37 +101,23 @@ class Body(Assignments):
                 self.refuse(s, f"{type(s).__name__} is not allowed", "assignments, calls, loops")
         return False
 
-    def _before(self, s: ast.stmt) -> None:
-        """Comments above a statement, and declarations of names that it gives values to inside."""
-        for line, text in self.source.comments.items():
-            if line <= s.lineno and line not in self.said:
-                self.said.add(line)
-                self.out(f"/* {text} */")
-        for name in sorted(self.source.declared[1][s]):
-            declared = f"{name} is declared"
-            self.hoisted[declared] = name
-            self.out(declared)
-
-    def _if(self, s: ast.If) -> bool:
+    def _if(self, s: ast.If, before: str = "") -> bool:
         taken = self.decided(s.test)
         if taken is not None:
-            for left in s.orelse if taken else s.body:
-                self.said.update(range(left.lineno, (left.end_lineno or 0) + 1))
+            left = s.orelse if taken else s.body
+            self.said.update(k for x in left for k in range(x.lineno, (x.end_lineno or 0) + 1))
             return self.block(s.body if taken else s.orelse)
-        self.out(f"if ({self.test(s.test).text}) {{")
+        self.out(f"{before}if ({self.test(s.test, alone=bool(before)).text}) {{")
         ended = self._inner(s.body)
-        if not s.orelse:
-            self.out("}")
-            return False
-        start = len(self.lines)
-        self.out("} else {")
-        ended = self._inner(s.orelse) and ended
-        first = self.lines[start + 1][1] if start + 1 < len(self.lines) else ""
-        if isinstance(s.orelse[0], ast.If) and len(s.orelse) == 1 and first.startswith("if ("):
-            rest = [(depth - 1, text) for depth, text in self.lines[start + 2 :]]
-            self.lines[start:] = [(self.depth, f"}} else {first}"), *rest]
-        else:
-            self.out("}")
+        match s.orelse:
+            case [ast.If() as other] if self.decided(other.test) is None:
+                return self._if(other, "} else ") and ended
+            case [_, *_]:
+                self.out("} else {")
+                ended = self._inner(s.orelse) and ended
+            case _:
+                ended = False
+        self.out("}")
         return ended
 
     def _for(self, s: ast.For) -> None:
@@ -142,7 +126,8 @@ class Body(Assignments):
                 target=ast.Name(id=counter),
                 iter=ast.Call(func=ast.Name(id="range" | "side_by_side" as kind), args=arguments),
             ) if 1 <= len(arguments) <= 3:
-                pass
+                several = len(arguments) > 1
+                low, high, *more = arguments if several else (ast.Constant(0), *arguments)
             case _:
                 self.refuse(s.iter, "a loop over something else", "for ... in range(...)")
         body = self.source.body
@@ -150,12 +135,10 @@ class Body(Assignments):
         astray = sum(uses(x)[counter] for x in loops) != sum(uses(x)[counter] for x in body)
         if counter != "_" and (astray or counter in stored(s.body)):
             self.refuse(s.target, "a counter that is more than that", "another name")
-        low, high = (None, arguments[0]) if len(arguments) == 1 else arguments[:2]
-        step = self.size(arguments[2]) if len(arguments) == 3 else 1
+        step = self.size(more[0]) if more else 1
         if not isinstance(step, int) or step == 0:
             self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
-        start = "0" if low is None else self.integer(low, "a bound").text
-        end = self.integer(high, "a bound")
+        start, end = self.integer(low, "a bound").text, self.integer(high, "a bound")
         if self._changes(high, s.body):
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
@@ -175,10 +158,10 @@ class Body(Assignments):
         inside = any(isinstance(x, ast.Subscript) for x in ast.walk(n))
         return inside or bool(loaded(n) & set(stored(body)))
 
-    def _return(self, s: ast.Return) -> None:
+    def _return(self, s: ast.Return) -> bool:
         if s.value is None:
             self.out("return;")
-            return
+            return True
         value = self.value(s.value)
         if isinstance(value.type, Array | Record) or value.leaves() != [value]:
             self.refuse(s, "a returned array", "into an array that is handed in")
@@ -187,3 +170,4 @@ class Body(Assignments):
             self.refuse(s, f"returned values of other types, {types}", "the same types")
         self.instance.returned = value.type
         self.out(f"return {self.text(value)};")
+        return True
