@@ -97,7 +97,7 @@ class Assignments(Calls):
         if here:
             const = "const " if once and not isinstance(t, Array | Record) else ""
             if isinstance(t, Tuple):
-                text = text.removeprefix(f"({self.file.tuple_name(t)})")
+                text = text.removeprefix(f"({self.file.struct(t)})")
             c = const + self.file.declaration(t, c)
         self.out(f"{c} = {text};")
 

@@ -3,6 +3,7 @@
 import math
 import re
 import textwrap
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,8 @@ _RESERVED = """
 auto bool case char const default do double enum extern false far float goto inline int long near
 register restrict short signed sizeof static struct switch true typedef union unsigned void volatile
 """
-RESERVED = {*re.findall(r"\w+", _RESERVED)}
+RESERVED = {*_RESERVED.split()}
+"""Words of C that no name is."""
 
 _LIBRARY = """
 abs acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
@@ -23,36 +25,17 @@ fdim floor fma fmax fmin fmod free frexp gamma hypot index isfinite isinf isnan 
 lgamma log log10 log1p log2 logb lrint lround memcpy memset modf nan nearbyint pow remainder rint
 round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc write y0 y1 yn
 """
-LIBRARY = {*re.findall(r"\w+", _LIBRARY)}
+LIBRARY = {*_LIBRARY.split()}
 """Functions of C whose names no function of a file has."""
 
 NUMBER = {"float": "double", "int": "int", "bool": "bool"}
 ELEMENT = {"float": "double", "int": "int64_t", "bool": "bool"}
 
-HELPERS = {
-    "larger": "static inline double larger(double a, double b) { return b > a ? b : a; }",
-    "smaller": "static inline double smaller(double a, double b) { return b < a ? b : a; }",
-    "larger_int": "static inline int larger_int(int a, int b) { return b > a ? b : a; }",
-    "smaller_int": "static inline int smaller_int(int a, int b) { return b < a ? b : a; }",
-    "size_int": "static inline int size_int(int a) { return a < 0 ? -a : a; }",
-    "floor_div": "static inline int floor_div(int a, int b)\n"
-    "{\n    return a / b - (a % b != 0 && (a < 0) != (b < 0));\n}",
-    "floor_mod": "static inline int floor_mod(int a, int b)\n"
-    "{\n    return a % b + (a % b != 0 && (a < 0) != (b < 0) ? b : 0);\n}",
-}
+_SUPPORT = Path(__file__).with_name("support.h").read_text().strip().split("\n\n")
+LANES, LEAVE, *_FUNCTIONS = _SUPPORT
+HELPERS = {re.findall(r"\w+(?=\()", text)[0]: text for text in _FUNCTIONS}
 """As Python defines them: the first of two that compare as equal, division towards minus
 infinity."""
-
-
-LANES = """
-/* A loop whose turns do not depend on one another. */
-#if defined(__clang__)
-#define SIDE_BY_SIDE _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
-#define SIDE_BY_SIDE _Pragma("GCC ivdep")
-#else
-#define SIDE_BY_SIDE
-#endif"""
 
 
 def number(value: object) -> str:
@@ -95,12 +78,13 @@ def folded(text: str, indent: int = 0) -> list[str]:
     return [*out, pad + text]
 
 
-def table(name: str, values: NDArray[np.generic]) -> str:
-    """A constant array."""
+def constant(name: str, value: object) -> str:
+    """A number or a table that does not change."""
+    values = np.asarray(value)
+    kind = (ELEMENT if values.shape else NUMBER)[ELEMENTS[values.dtype.kind]]
     sizes = "".join(f"[{d}]" for d in values.shape)
-    head = f"static const {ELEMENT[ELEMENTS[values.dtype.kind]]} {name}{sizes}"
-    return "\n".join(folded(f"{head} = {_rows(values)};"))
+    return "\n".join(folded(f"static const {kind} {name}{sizes} = {_rows(values)};"))
 
 
 def _rows(a: NDArray[np.generic]) -> str:
-    return "{" + ", ".join(_rows(x) if a.ndim > 1 else number(x) for x in a) + "}"
+    return "{" + ", ".join(map(_rows, a)) + "}" if a.shape else number(a[()])

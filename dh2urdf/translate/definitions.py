@@ -2,27 +2,16 @@
 
 import ast
 import inspect
-import re
 import sys
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import pairwise
 from types import ModuleType
 
-import numpy as np
-
-from dh2urdf.translate.c_text import (
-    ELEMENT,
-    HELPERS,
-    LANES,
-    LIBRARY,
-    NUMBER,
-    RESERVED,
-    comment,
-    number,
-    table,
-)
+from dh2urdf.translate import c_text
+from dh2urdf.translate.c_text import ELEMENT, HELPERS, NUMBER
 from dh2urdf.translate.source import Source, stored
-from dh2urdf.translate.types import Array, Record, Tuple, Type, lengths_of, type_of_value
+from dh2urdf.translate.types import Array, Record, Tuple, Type, lengths_of
 
 
 @dataclass(eq=False)
@@ -71,11 +60,14 @@ class Definitions:
 
     def definitions(self) -> list[str]:
         """Helpers and constants."""
-        out, said = [LANES, "", *(HELPERS[name] for name in HELPERS if name in self._helpers)], ""
+        out, said = (
+            ["", c_text.LANES, "", *(HELPERS[name] for name in HELPERS if name in self._helpers)],
+            "",
+        )
         for name, value, doc in self._constants.values():
             if doc and doc != said:
-                out += ["", *comment(doc)]
-            out.append(_constant(name, value))
+                out += ["", *c_text.comment(doc)]
+            out.append(c_text.constant(name, value))
             said = doc
         return out
 
@@ -85,7 +77,8 @@ class Definitions:
         more = [f"{name}_{i}" for i in range(2, 999)]
         for candidate in (name, f"{name}_{room[-1]}", f"{name}_{'_'.join(room)}", *more):
             c = self.prefix + candidate
-            if c not in RESERVED | LIBRARY | set(HELPERS) and self._names.setdefault(c, key) == key:
+            taken = c in c_text.RESERVED | c_text.LIBRARY or c in HELPERS
+            if not taken and self._names.setdefault(c, key) == key:
                 return c
         raise AssertionError(name)
 
@@ -106,60 +99,40 @@ class Definitions:
     def declaration(self, t: Type | None, name: str, storage: bool = False) -> str:
         """A name with its type; ``storage``: the array itself, not where it is."""
         match t:
-            case Array():
-                base = "const " * t.constant + self._element(t)
+            case Array(element=element):
+                kind = ELEMENT[element] if isinstance(element, str) else self.struct(element)
+                base = f"{'const ' * t.constant}{kind}"
                 inner = "".join(f"[{d}]" for d in t.shape[1:])
                 if storage:
                     return f"{base} {name}[{t.shape[0]}]{inner}"
                 return f"{base} (*{name}){inner}" if inner else f"{base} *{name}"
             case Record():
-                return f"{self._record(t)} *{name}"
+                return f"{self.struct(t)} *{name}"
             case Tuple():
-                return f"{self.tuple_name(t)} {name}"
-        return f"{'void' if t is None else NUMBER[t]} {name}"
+                return f"{self.struct(t)} {name}"
+            case None:
+                return f"void {name}"
+        return f"{(ELEMENT if storage else NUMBER)[t]} {name}"
 
-    def _element(self, t: Array) -> str:
-        return ELEMENT[t.element] if isinstance(t.element, str) else self._record(t.element)
-
-    def _record(self, t: Record) -> str:
+    def struct(self, t: Tuple | Record) -> str:
+        """Name of the struct for a tuple of numbers, or for a record."""
         if t not in self._structs:
-            fields = [
-                self.declaration(x, key, storage=True)
-                if isinstance(x, Array)
-                else f"{ELEMENT[x]} {key}"
-                for key, x in t.fields().items()
-            ]
+            storage = isinstance(t, Record)
+            fields = [self.declaration(x, key, storage) for key, x in t.fields().items()]
             self._structs[t] = self.unique(t.name, "", t), fields
         return self._structs[t][0]
-
-    def tuple_name(self, t: Tuple) -> str:
-        """Name of the struct for a tuple of numbers."""
-        if t not in self._structs:
-            fields = [self.declaration(x, f"f{i}") for i, x in enumerate(t.items)]
-            letters = "".join(x[0] if isinstance(x, str) else "t" for x in t.items)
-            runs = (m[0] for m in re.finditer(r"(.)\1*", letters))
-            short = "".join(run[0] + (str(len(run)) if len(run) > 1 else "") for run in runs)
-            self._structs[t] = self.unique(f"tuple_{short}", "", t), fields
-        return self._structs[t][0]
-
-
-def _constant(name: str, value: object) -> str:
-    if isinstance(value, np.ndarray | tuple):
-        return table(name, np.asarray(value))
-    return f"static const {NUMBER[str(type_of_value(value))]} {name} = {number(value)};"
 
 
 @cache
 def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     """The module that defines a constant, and what it says of it there."""
-    body = _tree(module).body
-    for s, after in zip(body, [*body[1:], None], strict=True):
+    for s, after in pairwise([*_tree(module).body, ast.Pass()]):
         if isinstance(s, ast.ImportFrom) and any(a.name == name for a in s.names):
             return _home(sys.modules[str(s.module)], name)
         if isinstance(s, ast.Assign) and name in stored([s]):
-            if isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
-                return module, str(after.value.value)
-            return module, ""
+            match after:
+                case ast.Expr(value=ast.Constant(value=str(doc))):
+                    return module, doc
     return module, ""
 
 

@@ -18,34 +18,24 @@ from dh2urdf.translate.values import (
     sized,
 )
 
-SIGNS: dict[type[ast.AST], tuple[str, int]] = {
-    ast.Add: ("+", 12),
-    ast.Sub: ("-", 12),
-    ast.Mult: ("*", 13),
-    ast.Div: ("/", 13),
-    ast.LShift: ("<<", 11),
-    ast.RShift: (">>", 11),
-    ast.BitAnd: ("&", 8),
-    ast.BitXor: ("^", 7),
-    ast.BitOr: ("|", 6),
-    ast.And: ("&&", 5),
-    ast.Or: ("||", 4),
-    ast.USub: ("-", 14),
-    ast.UAdd: ("+", 14),
-    ast.Invert: ("~", 14),
+LEVELS: dict[int, dict[type[ast.AST], str]] = {
+    PREFIX: {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"},
+    13: {ast.Mult: "*", ast.Div: "/"},
+    SUM: {ast.Add: "+", ast.Sub: "-"},
+    11: {ast.LShift: "<<", ast.RShift: ">>"},
+    COMPARISON + 1: {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
+    COMPARISON: {ast.Eq: "==", ast.NotEq: "!="},
+    8: {ast.BitAnd: "&"},
+    7: {ast.BitXor: "^"},
+    6: {ast.BitOr: "|"},
+    OR + 1: {ast.And: "&&"},
+    OR: {ast.Or: "||"},
 }
+SIGNS = {kind: (sign, level) for level, signs in LEVELS.items() for kind, sign in signs.items()}
 """C's signs for operators, and how tightly they bind."""
 
-BITS = (ast.BitAnd, ast.BitOr, ast.BitXor, ast.LShift, ast.RShift)
+SHIFTS, MASKS = (ast.LShift, ast.RShift), (ast.BitAnd, ast.BitOr, ast.BitXor)
 FLOORED: dict[type[ast.operator], str] = {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"}
-COMPARE: dict[type[ast.cmpop], str] = {
-    ast.Lt: "<",
-    ast.LtE: "<=",
-    ast.Gt: ">",
-    ast.GtE: ">=",
-    ast.Eq: "==",
-    ast.NotEq: "!=",
-}
 
 
 class Expressions(Names):
@@ -127,7 +117,7 @@ class Expressions(Names):
         if not isinstance(value.type, Tuple) or not value.parts:
             return value.text
         parts = ", ".join(self.text(part) for part in value.parts)
-        return f"({self.file.tuple_name(value.type)}){{{parts}}}"
+        return f"({self.file.struct(value.type)}){{{parts}}}"
 
     def helper(self, name: str, t: Type, *values: Value) -> Value:
         """A call of one of the file's small functions."""
@@ -172,21 +162,22 @@ class Expressions(Names):
     def joined(self, n: ast.AST, op: ast.operator, left: Value, right: Value) -> Value:
         """Two numbers and an operator between them."""
         kind, t = type(op), wider(left.type, right.type)
+        if kind in FLOORED and t == "float":
+            self.refuse(n, "floor division of floats", "np.floor(x / y)")
         if kind in FLOORED:
-            if t == "float":
-                self.refuse(n, "floor division of floats", "np.floor(x / y)")
             return self.helper(FLOORED[kind], "int", left, right)
         if kind not in SIGNS:
             self.refuse(n, f"{kind.__name__} is not allowed", "+, -, *, /, //, % or bits")
         sign, binds = SIGNS[kind]
-        if kind in BITS and t == "float":
-            self.refuse(n, "bits of a float", "int(x)")
+        if kind in SHIFTS + MASKS:
+            if t == "float":
+                self.refuse(n, "bits of a float", "int(x)")
+            text = f"{left.at(PREFIX)} {sign} {right.at(PREFIX)}"
+            return Value(t if t and kind in MASKS else "int", text, binds)
         if kind is ast.Div and t != "float":
-            left = Value("float", f"(double){left.at(PREFIX)}", PREFIX)
-        if kind not in (ast.BitAnd, ast.BitOr, ast.BitXor):
-            t = "float" if kind is ast.Div or t == "float" else "int"
-        lowest = (PREFIX, PREFIX) if kind in BITS else (binds, binds + 1)
-        return Value(t or "int", f"{left.at(lowest[0])} {sign} {right.at(lowest[1])}", binds)
+            left, t = Value("float", f"(double){left.at(PREFIX)}", PREFIX), "float"
+        text = f"{left.at(binds)} {sign} {right.at(binds + 1)}"
+        return Value("float" if t == "float" else "int", text, binds)
 
     def _boolop(self, n: ast.BoolOp) -> Value:
         sign, binds = SIGNS[type(n.op)]
@@ -199,7 +190,7 @@ class Expressions(Names):
         if any(isinstance(x, ast.Call) and self.source.kernel(ast.unparse(x.func)) for x in middle):
             self.refuse(n, "a call that would be made twice", "an assignment before")
         terms = [self.number(x).at(COMPARISON + 2) for x in (n.left, *n.comparators)]
-        signs = [COMPARE[type(op)] for op in n.ops]
+        signs = [SIGNS[type(op)][0] for op in n.ops]
         tests = [f"{a} {s} {b}" for a, s, b in zip(terms[:-1], signs, terms[1:], strict=True)]
         return Value("bool", " && ".join(tests), COMPARISON if len(tests) == 1 else OR + 1)
 
@@ -292,6 +283,5 @@ class Expressions(Names):
 
 def _items(value: Value) -> tuple[Value, ...]:
     assert isinstance(value.type, Tuple)
-    items = enumerate(value.type.items)
-    fields = (Value(t, f"{value.at(POSTFIX)}.f{k}", POSTFIX) for k, t in items)
-    return value.parts or tuple(fields)
+    fields = value.type.fields().items()
+    return value.parts or tuple(Value(t, f"{value.at(POSTFIX)}.{f}", POSTFIX) for f, t in fields)

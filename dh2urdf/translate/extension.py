@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from dh2urdf.translate.c_file import INCLUDES, CFile
-from dh2urdf.translate.c_text import folded
+from dh2urdf.translate.c_text import LEAVE, folded
 from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, lengths_of, told
 
@@ -35,20 +35,6 @@ KINDS = {"float": "NPY_DOUBLE, 8", "int": "NPY_INT64, 8", "bool": "NPY_BOOL, 1"}
 """NumPy's kinds of elements, and their bytes."""
 
 SHARED = Path(__file__).with_name("doors.h")
-
-LEAVE = r"""
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
-
-/* Clear the wide registers, as code for old ones asks for; compilers forget it at times. */
-static void leave(void)
-{
-#ifdef __AVX__
-    _mm256_zeroupper();
-#endif
-}
-"""
 
 DOOR = """static PyObject *py_{name}(PyObject *self, PyObject *const *args, Py_ssize_t count)
 {{
@@ -106,7 +92,7 @@ class Extension:
         names = ", ".join(e.name for e in self.file.entries)
         head = "\n".join(['#include "kernels.h"', *self.file.definitions()])
         table = _lines([f"const Entries TABLE = {{leave, {names}}};"])
-        return f"{head}{self.bodies}{LEAVE}\n{table}\n"
+        return f"{head}{self.bodies}\n{LEAVE}\n\n{table}\n"
 
     def header(self) -> str:
         """Types that both files share."""

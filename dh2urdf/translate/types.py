@@ -27,9 +27,9 @@ class Record:
     name: str
     dtype: np.dtype[Any] = field(compare=False)
 
-    def fields(self) -> dict[str, "Array | str"]:
+    def fields(self) -> dict[str, "Type"]:
         """Types of the fields, by their names."""
-        found: dict[str, Array | str] = {}
+        found: dict[str, Type] = {}
         for key, (dtype, *_) in (self.dtype.fields or {}).items():
             element = ELEMENTS[dtype.base.kind]
             found[key] = Array(element, dtype.shape) if dtype.shape else element
@@ -60,6 +60,16 @@ class Tuple:
     """Values that travel together: as a struct if all are numbers, else one by one."""
 
     items: tuple[Union[str, Array, Record, "Tuple"], ...]
+
+    @property
+    def name(self) -> str:
+        """Name of the struct, by letters of the items."""
+        letters = "".join(x[0] if isinstance(x, str) else "t" for x in self.items)
+        return "tuple_" + re.sub(r"(.)\1+", lambda run: f"{run[1]}{len(run[0])}", letters)
+
+    def fields(self) -> dict[str, "Type"]:
+        """Types of the struct's fields, by their names."""
+        return {f"f{i}": t for i, t in enumerate(self.items)}
 
     @property
     def is_struct(self) -> bool:
