@@ -2,7 +2,6 @@
 
 import inspect
 from collections.abc import Callable
-from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
@@ -22,16 +21,10 @@ def engine() -> Any:
     return import_module(f"{ROOM}.numbers.engine")
 
 
-def modules() -> list[Path]:
-    """Files of the kernels, in the order of their names."""
-    found = import_module(ROOM)
-    return sorted(Path(str(found.__file__)).parent.rglob("*.py"))
-
-
 def entries() -> dict[str, Callable[..., Any]]:
     """All kernels that Python calls, by module and name."""
     top = Path(str(import_module(ROOM).__file__)).parent
-    for path in modules():
+    for path in sorted(top.rglob("*.py")):
         parts = path.relative_to(top).with_suffix("").parts
         import_module(".".join([ROOM, *(p for p in parts if p != "__init__")]))
     return dict(sorted(engine().INTERPRETED.items()))
@@ -45,30 +38,24 @@ def argument_types(function: Callable[..., Any]) -> list[Type]:
         path, line = inspect.getsourcefile(function), function.__code__.co_firstlineno
         raise SubsetError(f"{path}:{line}: {function.__name__}: no type for {', '.join(missing)}")
     lengths = engine().LENGTHS.get(f"{function.__module__}.{function.__name__}", {})
-    return [_fixed(_type_of(hints[name]), lengths) for name in names]
+    return [_type_of(hints[name], lengths) for name in names]
 
 
-def _type_of(hint: Any) -> Type:
+def _type_of(hint: Any, lengths: dict[str, int]) -> Type:
+    """The type that an annotation gives, with numbers in the place of some lengths."""
     if hint in ELEMENTS_OF:
         return ELEMENTS_OF[hint]
     if isinstance(hint, type) and issubclass(hint, tuple):
         fields = get_type_hints(hint, include_extras=True)
-        return Tuple(tuple(_type_of(fields[name]) for name in fields))
+        return Tuple(tuple(_type_of(field, lengths) for field in fields.values()))
     assert get_origin(hint) is Annotated, hint
     array, *shape = get_args(hint)
     if isinstance(shape[0], np.dtype):
-        return Array(Record(str(shape[1]), shape[0]), tuple(shape[2:]))
-    dtype = np.dtype(get_args(get_args(array)[1])[0])
-    return Array(ELEMENTS[dtype.kind], tuple(shape))
-
-
-def _fixed(t: Type, lengths: dict[str, int]) -> Type:
-    """A type with numbers in the place of some lengths."""
-    if isinstance(t, Tuple):
-        return Tuple(tuple(_fixed(x, lengths) for x in t.items))
-    if isinstance(t, Array):
-        return replace(t, shape=tuple(_length(d, lengths) for d in t.shape))
-    return t
+        dtype, name, *shape = shape
+        element: str | Record = Record(str(name), dtype)
+    else:
+        element = ELEMENTS[np.dtype(get_args(get_args(array)[1])[0]).kind]
+    return Array(element, tuple(_length(d, lengths) for d in shape))
 
 
 def _length(d: Length, lengths: dict[str, int]) -> Length:

@@ -106,11 +106,14 @@ class Extension:
 
     def doors(self) -> str:
         """The functions that Python calls, and what it asks for at import."""
-        methods = (
-            f'{{"{_public(e)}", (PyCFunction)(void (*)(void))py_{e.name}, METH_FASTCALL, NULL}},'
-            for e in self.file.entries
-        )
-        levels = (f'{{"{x}", {_present(x)}, &entries_{x}}},' for x in LEVELS)
+        methods, levels = list[str](), list[str]()
+        for e in self.file.entries:  # by names that pickle takes
+            public = f"{e.source.module.__name__}.{e.source.name}".replace(".", "__")
+            call = f"(PyCFunction)(void (*)(void))py_{e.name}"
+            methods.append(f'{{"{public}", {call}, METH_FASTCALL, NULL}},')
+        for level, (_, features) in LEVELS.items():
+            has = " && ".join(f'__builtin_cpu_supports("{x}")' for x in features.split())
+            levels.append(f'{{"{level}", {has or 1}, &entries_{level}}},')
         module = MODULE.format(
             module=self.module,
             methods=_lines(methods, 4),
@@ -148,11 +151,6 @@ def _lines(statements: Iterable[str], indent: int = 0) -> str:
     return "\n".join(line for s in statements for line in folded(s, indent))
 
 
-def _present(level: str) -> str:
-    """Whether the processor has what a level needs."""
-    return " && ".join(f'__builtin_cpu_supports("{x}")' for x in LEVELS[level][1].split()) or "1"
-
-
 def _taken(name: str, t: Type) -> Iterator[tuple[str, Type]]:
     """An argument, and the items of a tuple after it."""
     yield name, t
@@ -179,19 +177,13 @@ def _length(d: Length, names: list[str]) -> str:
     return f"{{0, {d}}}" if isinstance(d, int) else f"{{{names.index(name)}, {more or 0}}}"
 
 
-def _public(e: Instance) -> str:
-    """Name of an entry for Python: one that pickle takes, with its module for namesakes."""
-    return f"{e.source.module.__name__}.{e.source.name}".replace(".", "__")
-
-
 def _answer(t: Type | None) -> str:
     """What is found, for Python."""
     if t is None:
         return "Py_NewRef(Py_None)"
-    found = (
-        {f"found.f{i}": x for i, x in enumerate(t.items)} if isinstance(t, Tuple) else {"found": t}
-    )
+    fields = t.fields() if isinstance(t, Tuple) else {}
+    found = {f"found.{name}": x for name, x in fields.items()} or {"found": t}
     letters = "".join({"float": "d", "int": "i", "bool": "N"}[str(x)] for x in found.values())
     values = (f"PyBool_FromLong({c})" if x == "bool" else c for c, x in found.items())
-    form = f"({letters})" if isinstance(t, Tuple) else letters
+    form = f"({letters})" if fields else letters
     return f'Py_BuildValue("{form}", {", ".join(values)})'
