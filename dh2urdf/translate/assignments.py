@@ -4,10 +4,9 @@ import ast
 from collections.abc import Iterator
 
 from dh2urdf.translate.calls import Calls
-from dh2urdf.translate.expressions import SIGNS
 from dh2urdf.translate.source import loaded
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import Value
+from dh2urdf.translate.values import SIGNS, Value, sized
 
 
 class Assignments(Calls):
@@ -33,7 +32,6 @@ class Assignments(Calls):
         self, target: ast.expr, n: ast.expr, value: Value | None = None
     ) -> Iterator[tuple[ast.expr, ast.expr, Value]]:
         """The single assignments that one of tuples is made of."""
-        size = self.size(n) if isinstance(target, ast.Name) and not value else None
         if isinstance(target, ast.Tuple):
             items: list[tuple[ast.expr, Value | None]]
             if isinstance(n, ast.Tuple) and not value and not _starred(n):
@@ -44,10 +42,16 @@ class Assignments(Calls):
                 self.refuse(n, f"{len(items)} values for {len(target.elts)} names", "as many")
             for x, (y, part) in zip(target.elts, items, strict=True):
                 yield from self._pairs(x, y, part)
-        elif size is not None and _root(target) in self.source.once:
-            self.known[_root(target)] = size
         elif value or isinstance(target, ast.Name):
-            yield target, n, value or self.value(n)
+            value = value or self.value(n)
+            if (
+                _root(target) in self.source.once
+                and value.type == "int"
+                and value.known is not None
+            ):
+                self.values[_root(target)] = sized(value.known)
+            else:
+                yield target, n, value
         else:
             t = self.value(target).type
             yield target, n, Value(t) if isinstance(t, Array) else self.number(n)

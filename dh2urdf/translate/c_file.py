@@ -66,7 +66,7 @@ class CFile(Definitions):
     def text(self, header: str = "") -> str:
         """The whole file, to be compiled by itself."""
         bodies, out = self.bodies(), comment(header) if header else []
-        return "\n".join([*out, *INCLUDES, *self.types(), *self.definitions()]) + bodies
+        return "\n".join([*out, *INCLUDES, *self.types(), *self.definitions(bodies)]) + bodies
 
     def bodies(self) -> str:
         """The functions."""

@@ -7,7 +7,7 @@ from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
 from dh2urdf.translate.types import Array, Tuple
-from dh2urdf.translate.values import POSTFIX, PREFIX, Value, sized
+from dh2urdf.translate.values import POSTFIX, PREFIX, Value
 
 LIBRARY = {
     "math.sqrt": ("sqrt", 1, "float"),
@@ -38,7 +38,7 @@ class Calls(Expressions):
     """Writes the calls of one kernel."""
 
     def _call(self, n: ast.Call) -> Value:
-        name, length = ast.unparse(n.func), self.size(n)
+        name = ast.unparse(n.func)
         callee = self.source.kernel(name)
         if callee is not None:
             return self._made_by(n, callee) if callee.made else self._kernel(n, callee)
@@ -46,10 +46,8 @@ class Calls(Expressions):
             self.refuse(n, "a call of something else", f"a kernel, or {', '.join(ALLOWED)}")
         if name in MAKERS:
             return self._array(n, name)
-        if name == "len" and length is None:
-            self.refuse(n, "a length that is not known", "an argument for it")
-        if length is not None:
-            return sized(length)
+        if name == "len":
+            return self.length(n.args[0], 0)
         return self._number(n, name, [self.number(a) for a in n.args])
 
     def _number(self, n: ast.Call, name: str, values: list[Value]) -> Value:
@@ -117,7 +115,7 @@ class Calls(Expressions):
 
     def _array(self, n: ast.Call, maker: str) -> Value:
         shape = n.args[0].elts if isinstance(n.args[0], ast.Tuple) else n.args[:1]
-        lengths = tuple(self.size(x) for x in shape)
+        lengths = tuple(self.value(x).known for x in shape)
         if None in lengths:
             self.refuse(n, "a shape that is not known before the kernel runs", "lengths, numbers")
         dtype = ast.unparse(n.args[1]) if n.args[1:] else "np.float64"
@@ -129,7 +127,8 @@ class Calls(Expressions):
         """The arrays that a kernel makes: C returns none, so that they are the caller's."""
         assert callee.made
         maker = Calls(self.file, Instance(callee, self.instance.arguments))
-        maker.known = {p: self.size(a) for p, a in zip(callee.parameters, n.args, strict=True)}
-        if None in maker.known.values():
-            self.refuse(n, "a length that is not known before the kernel runs", "a number")
+        for p, a in zip(callee.parameters, n.args, strict=True):
+            maker.values[p] = self.value(a)
+            if maker.values[p].known is None:
+                self.refuse(a, "a length that is not known before the kernel runs", "a number")
         return maker.value(callee.made)

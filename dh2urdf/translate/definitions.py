@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import re
 import sys
 from dataclasses import dataclass, field
 from functools import cache
@@ -42,7 +43,6 @@ class Definitions:
         self.prefix = prefix
         """Before the names of all that the file defines."""
         self._names: dict[str, object] = {}
-        self._helpers: set[str] = set()
         self._constants: dict[tuple[str, str], tuple[str, object, str]] = {}
         self._structs: dict[Tuple | Record, tuple[str, list[str]]] = {}
 
@@ -58,17 +58,16 @@ class Definitions:
             for line in ["", "typedef struct {", *(f"    {f};" for f in fields), f"}} {name};"]
         ]
 
-    def definitions(self) -> list[str]:
-        """Helpers and constants."""
-        out, said = (
-            ["", c_text.LANES, "", *(HELPERS[name] for name in HELPERS if name in self._helpers)],
-            "",
-        )
+    def definitions(self, text: str) -> list[str]:
+        """Helpers and constants that a text names."""
+        words = set(re.findall(r"\w+", re.sub(r"(?s)/\*.*?\*/", "", text)))
+        out = ["", c_text.LANES, "", *(HELPERS[name] for name in HELPERS if name in words)]
+        said = ""
         for name, value, doc in self._constants.values():
-            if doc and doc != said:
-                out += ["", *c_text.comment(doc)]
-            out.append(c_text.constant(name, value))
-            said = doc
+            if name in words:
+                out += ["", *c_text.comment(doc)] if doc and doc != said else []
+                out.append(c_text.constant(name, value))
+                said = doc
         return out
 
     def unique(self, name: str, module: str, key: object) -> str:
@@ -81,11 +80,6 @@ class Definitions:
             if not taken and self._names.setdefault(c, key) == key:
                 return c
         raise AssertionError(name)
-
-    def helper(self, name: str) -> str:
-        """Name of a helper, which the file gets."""
-        self._helpers.add(name)
-        return name
 
     def constant(self, source: Source, name: str) -> str:
         """Name of a module's constant, defined when it is first used."""

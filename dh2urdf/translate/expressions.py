@@ -4,7 +4,7 @@ import ast
 from dataclasses import replace
 
 from dh2urdf.translate.c_text import number
-from dh2urdf.translate.types import Array, Record, Tuple, Type, told, type_of_value, wider
+from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, told, type_of_value, wider
 from dh2urdf.translate.values import (
     ATOM,
     CHOICE,
@@ -12,27 +12,13 @@ from dh2urdf.translate.values import (
     OR,
     POSTFIX,
     PREFIX,
+    SIGNS,
     SUM,
     Names,
     Value,
+    known_of,
     sized,
 )
-
-LEVELS: dict[int, dict[type[ast.AST], str]] = {
-    PREFIX: {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"},
-    13: {ast.Mult: "*", ast.Div: "/"},
-    SUM: {ast.Add: "+", ast.Sub: "-"},
-    11: {ast.LShift: "<<", ast.RShift: ">>"},
-    COMPARISON + 1: {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
-    COMPARISON: {ast.Eq: "==", ast.NotEq: "!="},
-    8: {ast.BitAnd: "&"},
-    7: {ast.BitXor: "^"},
-    6: {ast.BitOr: "|"},
-    OR + 1: {ast.And: "&&"},
-    OR: {ast.Or: "||"},
-}
-SIGNS = {kind: (sign, level) for level, signs in LEVELS.items() for kind, sign in signs.items()}
-"""C's signs for operators, and how tightly they bind."""
 
 SHIFTS, MASKS = (ast.LShift, ast.RShift), (ast.BitAnd, ast.BitOr, ast.BitXor)
 FLOORED: dict[type[ast.operator], str] = {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"}
@@ -122,27 +108,40 @@ class Expressions(Names):
     def helper(self, name: str, t: Type, *values: Value) -> Value:
         """A call of one of the file's small functions."""
         arguments = ", ".join(value.text for value in values)
-        return Value(t, f"{self.file.helper(name)}({arguments})", POSTFIX)
+        return Value(t, f"{name}({arguments})", POSTFIX)
 
     def _constant(self, n: ast.expr, value: object = None) -> Value:
         value = n.value if isinstance(n, ast.Constant) else value
         t = type_of_value(value)
         if not isinstance(t, str):
             self.refuse(n, "a value that is no number", "numbers only")
-        text = number(value)
-        return Value(t, text, PREFIX if text[0] == "-" else ATOM)
+        text, known = number(value), value if isinstance(value, int) and t == "int" else None
+        return Value(t, text, PREFIX if text[0] == "-" else ATOM, known=known)
 
     def _name(self, n: ast.Name) -> Value:
         self.instance.asked.add(n.id)
         return self.named(n)
 
     def _attribute(self, n: ast.Attribute) -> Value:
-        size = self.size(n)
-        if size is not None:
-            return sized(size)
+        if n.attr == "ndim":
+            t = self.base(n.value).type
+            return sized(len(t.shape) if isinstance(t, Array) else 0)
         if ast.unparse(n.value) != "math":
             self.refuse(n, "an attribute", "a name of the module, or one of math")
         return self._constant(n, self.source.stands_for(ast.unparse(n)))
+
+    def length(self, n: ast.expr, index: Length) -> Value:
+        """A length of an array or a tuple; the first one of a parameter is asked for."""
+        value = self.value(n) if index == 0 else self.base(n)
+        shape: tuple[Length, ...] = ()
+        if isinstance(value.type, Array):
+            shape = value.type.shape
+        elif isinstance(value.type, Tuple):
+            shape = (len(value.type.items),)
+        found = shape[index] if isinstance(index, int) and 0 <= index < len(shape) else None
+        if found is None:
+            self.refuse(n, "a length that is not known", "an argument for it")
+        return sized(found)
 
     def _tuple(self, n: ast.Tuple) -> Value:
         parts = tuple(value for _, value in self.spread(n.elts))
@@ -154,7 +153,10 @@ class Expressions(Names):
         value = self.number(n.operand)
         if value.type == "bool":
             self.refuse(n, "a sign before true or false", "not")
-        return replace(value, text=SIGNS[type(n.op)][0] + value.at(POSTFIX), binds=PREFIX)
+        text, known = SIGNS[type(n.op)][0] + value.at(POSTFIX), None
+        if isinstance(n.op, ast.USub) and isinstance(value.known, int):
+            known = -value.known
+        return Value(value.type, text, PREFIX, known=known)
 
     def _binop(self, n: ast.BinOp) -> Value:
         return self.joined(n, n.op, self.number(n.left), self.number(n.right))
@@ -165,7 +167,8 @@ class Expressions(Names):
         if kind in FLOORED and t == "float":
             self.refuse(n, "floor division of floats", "np.floor(x / y)")
         if kind in FLOORED:
-            return self.helper(FLOORED[kind], "int", left, right)
+            found = self.helper(FLOORED[kind], "int", left, right)
+            return replace(found, known=known_of(op, left.known, right.known))
         if kind not in SIGNS:
             self.refuse(n, f"{kind.__name__} is not allowed", "+, -, *, /, //, % or bits")
         sign, binds = SIGNS[kind]
@@ -176,8 +179,10 @@ class Expressions(Names):
             return Value(t if t and kind in MASKS else "int", text, binds)
         if kind is ast.Div and t != "float":
             left, t = Value("float", f"(double){left.at(PREFIX)}", PREFIX), "float"
-        text = f"{left.at(binds)} {sign} {right.at(binds + 1)}"
-        return Value("float" if t == "float" else "int", text, binds)
+        text, known = f"{left.at(binds)} {sign} {right.at(binds + 1)}", None
+        if t != "float":
+            known = known_of(op, left.known, right.known)
+        return Value("float" if t == "float" else "int", text, binds, known=known)
 
     def _boolop(self, n: ast.BoolOp) -> Value:
         sign, binds = SIGNS[type(n.op)]
@@ -189,16 +194,21 @@ class Expressions(Names):
         middle = [x for term in n.comparators[:-1] for x in ast.walk(term)]
         if any(isinstance(x, ast.Call) and self.source.kernel(ast.unparse(x.func)) for x in middle):
             self.refuse(n, "a call that would be made twice", "an assignment before")
-        terms = [self.number(x).at(COMPARISON + 2) for x in (n.left, *n.comparators)]
+        terms = [self.number(x) for x in (n.left, *n.comparators)]
         signs = [SIGNS[type(op)][0] for op in n.ops]
-        tests = [f"{a} {s} {b}" for a, s, b in zip(terms[:-1], signs, terms[1:], strict=True)]
-        return Value("bool", " && ".join(tests), COMPARISON if len(tests) == 1 else OR + 1)
+        texts = [term.at(COMPARISON + 2) for term in terms]
+        tests = [f"{a} {s} {b}" for a, s, b in zip(texts[:-1], signs, texts[1:], strict=True)]
+        if len(tests) > 1:
+            return Value("bool", " && ".join(tests), OR + 1)
+        whole = all(isinstance(term.known, int) for term in terms)
+        known = eval(f"{terms[0].known} {signs[0]} {terms[1].known}") if whole else None
+        return Value("bool", tests[0], COMPARISON, known=known)
 
     def _ifexp(self, n: ast.IfExp) -> Value:
-        known = self.decided(n.test)
-        if known is not None:
-            return self.value(n.body if known else n.orelse)
-        return self._chosen(n, self.test(n.test), self.alone(n.body), self.alone(n.orelse))
+        test = self.test(n.test)
+        if test.known is not None:
+            return self.value(n.body if test.known else n.orelse)
+        return self._chosen(n, test, self.alone(n.body), self.alone(n.orelse))
 
     def _chosen(self, n: ast.IfExp, test: Value, a: Value, b: Value) -> Value:
         if a.parts or b.parts:
@@ -214,15 +224,12 @@ class Expressions(Names):
         return Value(t, text, CHOICE)
 
     def _subscript(self, n: ast.Subscript) -> Value:
-        size = self.size(n)
-        if size is not None:
-            return sized(size)
-        if isinstance(n.value, ast.Attribute):
-            self.refuse(n, "a length that is not known", "an argument for it")
+        if isinstance(n.value, ast.Attribute) and n.value.attr == "shape":
+            return self.length(n.value.value, self.value(n.slice).known)
         base = self.base(n.value)
         match base.type:
             case Tuple():
-                k = self.size(n.slice)
+                k = self.value(n.slice).known
                 if not isinstance(k, int) or not 0 <= k < len(base.type.items):
                     self.refuse(n, "item of a tuple by a variable", "a number")
                 return _items(base)[k]
@@ -248,7 +255,8 @@ class Expressions(Names):
                 if k < len(indices) - 1:
                     self.refuse(n, "a slice before the last index", "a loop")
                 return self._slice(n, text, left, index)
-            value, known, length = self.integer(index, "an index"), self.size(index), left.shape[0]
+            value, length = self.integer(index, "an index"), left.shape[0]
+            known = value.known
             beyond = isinstance(known, int) and isinstance(length, int) and known >= length
             if isinstance(known, int) and (known < 0 or beyond):
                 self.refuse(n, "an index outside the array", "one from 0 to its length less 1")
@@ -262,12 +270,11 @@ class Expressions(Names):
         if s.step is not None:
             self.refuse(n, "a slice with a step", "a loop")
         start = self.integer(s.lower, "a slice") if s.lower else sized(0)
+        low, high = start.known, t.shape[0]
         if s.upper:
-            self.integer(s.upper, "a slice")
+            high = self.integer(s.upper, "a slice").known
         elif isinstance(n.value, ast.Name):
             self.instance.asked.add(n.value.id)
-        low = self.size(s.lower) if s.lower else 0
-        high = self.size(s.upper) if s.upper else t.shape[0]
         if any(isinstance(x, int) and x < 0 for x in (low, high)):
             self.refuse(n, "a slice that counts from the end", "its place from the start")
         length = high if low == 0 else None
@@ -275,7 +282,7 @@ class Expressions(Names):
             length = high - low
         match s.upper:
             case ast.BinOp(op=ast.Add()) if s.lower and ast.dump(s.upper.left) == ast.dump(s.lower):
-                length = self.size(s.upper.right)
+                length = self.value(s.upper.right).known
         if s.lower is None:
             return Value(t.first(length), text, POSTFIX)
         return Value(t.first(length), f"{text} + {start.at(SUM)}", SUM)

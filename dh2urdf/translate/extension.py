@@ -90,7 +90,7 @@ class Extension:
     def kernels(self) -> str:
         """The kernels, and their entries in the table of a level."""
         names = ", ".join(e.name for e in self.file.entries)
-        head = "\n".join(['#include "kernels.h"', *self.file.definitions()])
+        head = "\n".join(['#include "kernels.h"', *self.file.definitions(self.bodies)])
         table = _lines([f"const Entries TABLE = {{leave, {names}}};"])
         return f"{head}{self.bodies}\n{LEAVE}\n\n{table}\n"
 

@@ -52,7 +52,7 @@ class Body(Assignments):
         if self.instance.returned is not None and not ended:
             self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
         for k, name in self.hoisted.items():
-            if name in self.values:
+            if self.values[name].known is None:
                 t = self.values[name].type
                 empty = "{0}" if isinstance(t, Tuple) else EMPTY.get(str(t), "NULL")
                 self.lines[k] = 1, f"{self.file.declaration(t, self.name(name))} = {empty};"
@@ -102,15 +102,16 @@ class Body(Assignments):
         return False
 
     def _if(self, s: ast.If, before: str = "") -> bool:
-        taken = self.decided(s.test)
+        test = self.test(s.test, alone=bool(before))
+        taken = test.known
         if taken is not None:
             left = s.orelse if taken else s.body
             self.said.update(k for x in left for k in range(x.lineno, (x.end_lineno or 0) + 1))
             return self.block(s.body if taken else s.orelse)
-        self.out(f"{before}if ({self.test(s.test, alone=bool(before)).text}) {{")
+        self.out(f"{before}if ({test.text}) {{")
         ended = self._inner(s.body)
         match s.orelse:
-            case [ast.If() as other] if self.decided(other.test) is None:
+            case [ast.If() as other] if self.test(other.test).known is None:
                 return self._if(other, "} else ") and ended
             case [_, *_]:
                 self.out("} else {")
@@ -135,11 +136,11 @@ class Body(Assignments):
         astray = sum(uses(x)[counter] for x in loops) != sum(uses(x)[counter] for x in body)
         if counter != "_" and (astray or counter in stored(s.body)):
             self.refuse(s.target, "a counter that is more than that", "another name")
-        step = self.size(more[0]) if more else 1
+        step = self.value(more[0]).known if more else 1
         if not isinstance(step, int) or step == 0:
             self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
         start, end = self.integer(low, "a bound").text, self.integer(high, "a bound")
-        if self._changes(high, s.body):
+        if end.known is None and self._changes(high, s.body):
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
@@ -153,7 +154,7 @@ class Body(Assignments):
 
     def _changes(self, n: ast.expr, body: list[ast.stmt]) -> bool:
         """Whether the end of a loop may change in it, which Python would not see."""
-        if self.size(n) is not None or not loaded(n) & self.source.stored:
+        if not loaded(n) & self.source.stored:
             return False
         inside = any(isinstance(x, ast.Subscript) for x in ast.walk(n))
         return inside or bool(loaded(n) & set(stored(body)))

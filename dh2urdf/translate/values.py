@@ -12,6 +12,22 @@ from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, type_of_
 ATOM, POSTFIX, PREFIX, SUM, COMPARISON, OR, CHOICE = 16, 15, 14, 12, 9, 4, 3
 """How tightly the operators of C bind."""
 
+LEVELS: dict[int, dict[type[ast.AST], str]] = {
+    PREFIX: {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"},
+    13: {ast.Mult: "*", ast.Div: "/"},
+    SUM: {ast.Add: "+", ast.Sub: "-"},
+    11: {ast.LShift: "<<", ast.RShift: ">>"},
+    COMPARISON + 1: {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
+    COMPARISON: {ast.Eq: "==", ast.NotEq: "!="},
+    8: {ast.BitAnd: "&"},
+    7: {ast.BitXor: "^"},
+    6: {ast.BitOr: "|"},
+    OR + 1: {ast.And: "&&"},
+    OR: {ast.Or: "||"},
+}
+SIGNS = {kind: (sign, level) for level, signs in LEVELS.items() for kind, sign in signs.items()}
+"""C's signs for operators, and how tightly they bind."""
+
 
 @dataclass(frozen=True)
 class Value:
@@ -24,6 +40,8 @@ class Value:
     """Of a tuple that is written out."""
     maker: str = ""
     """What makes an array that has no name yet."""
+    known: Length = None
+    """Of a whole number that is known before the kernel runs, or in terms of its lengths."""
 
     def at(self, level: int) -> str:
         """The text, in brackets where it binds less."""
@@ -44,7 +62,17 @@ class Value:
 def sized(length: Length) -> Value:
     """A length as a value."""
     text = str(length)
-    return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM)
+    return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM, known=length)
+
+
+def known_of(op: ast.operator, a: Length, b: Length) -> Length:
+    """What is known of two lengths with an operator between them."""
+    sign = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.FloorDiv: "//"}.get(type(op))
+    if sign is None or a is None or b is None:
+        return None
+    if isinstance(a, int) and isinstance(b, int):
+        return int(eval(f"{a} {sign} {b}"))
+    return None if sign == "//" else f"({a} {sign} {b})"
 
 
 class Names:
@@ -54,7 +82,6 @@ class Names:
         self.file, self.instance, self.source = file, instance, instance.source
         self.values: dict[str, Value] = {}
         """What names stand for that have been given a value so far."""
-        self.known: dict[str, Length] = {}
         self.lines: list[tuple[int, str]] = []
         self.depth = 1
         outside = {x.lstrip("_") for x in self.source.names - self.source.stored}
@@ -89,71 +116,13 @@ class Names:
 
     def named(self, n: ast.Name) -> Value:
         """What a name stands for."""
-        if n.id in self.known:
-            return sized(self.known[n.id])
         if n.id in self.values:
             return self.values[n.id]
         if n.id in self.source.stored:
             self.refuse(n, "a name before its value", "the assignment above it")
-        t = type_of_value(self.source.stands_for(n.id))
+        constant = self.source.stands_for(n.id)
+        t = type_of_value(constant)
         if t is None:
             self.refuse(n, "a name that stands for no number or array", "an argument")
-        return Value(t, self.file.constant(self.source, n.id))
-
-    def base(self, n: ast.expr) -> Value:
-        """An expression whose first length does not matter."""
-        raise NotImplementedError
-
-    def size(self, n: ast.expr) -> Length:
-        """A whole number that is known before the kernel runs, or in terms of its lengths."""
-        match n:
-            case ast.Constant(value=int(value)) if not isinstance(value, bool):
-                return value
-            case ast.Name() if n.id in self.source.stored:
-                return self.known.get(n.id)
-            case ast.Name():
-                constant = self.source.stands_for(n.id)
-                return int(constant) if type_of_value(constant) == "int" else None
-            case ast.UnaryOp(op=ast.USub(), operand=operand):
-                return self._sum(ast.Constant(0), ast.Sub(), operand)
-            case ast.BinOp():
-                return self._sum(n.left, n.op, n.right)
-            case ast.Attribute(attr="ndim"):
-                t = self.base(n.value).type
-                return len(t.shape) if isinstance(t, Array) else None
-            case ast.Subscript(value=ast.Attribute(attr="shape", value=array)):
-                index = self.size(n.slice)
-                return self._length(array, index) if isinstance(index, int) else None
-            case ast.Call(func=ast.Name(id="len"), args=[array]):
-                return self._length(array, 0)
-        return None
-
-    def _sum(self, left: ast.expr, op: ast.operator, right: ast.expr) -> Length:
-        signs = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.FloorDiv: "//"}
-        sign, a, b = signs.get(type(op)), self.size(left), self.size(right)
-        if sign is None or a is None or b is None:
-            return None
-        if isinstance(a, int) and isinstance(b, int):
-            return int(eval(f"{a} {sign} {b}"))
-        return None if sign == "//" else f"({a} {sign} {b})"
-
-    def _length(self, n: ast.expr, index: int) -> Length:
-        """A length of a named array or tuple; that of a parameter is asked for."""
-        if not isinstance(n, ast.Name | ast.Subscript):
-            return None
-        if index == 0 and isinstance(n, ast.Name):
-            self.instance.asked.add(n.id)
-        t = self.base(n).type
-        if isinstance(t, Tuple):
-            return len(t.items)
-        return t.shape[index] if isinstance(t, Array) and 0 <= index < len(t.shape) else None
-
-    def decided(self, test: ast.expr) -> bool | None:
-        """What a comparison of whole numbers says that are known before the kernel runs."""
-        if isinstance(test, ast.Compare):
-            a, b = self.size(test.left), self.size(test.comparators[0])
-            if isinstance(a, int) and isinstance(b, int) and len(test.ops) == 1:
-                return bool(
-                    eval(ast.unparse(ast.Compare(ast.Constant(a), test.ops, [ast.Constant(b)])))
-                )
-        return None
+        known = int(constant) if t == "int" else None
+        return Value(t, self.file.constant(self.source, n.id), known=known)

@@ -6,92 +6,85 @@ import pytest
 from dh2urdf.kernels.certificate import measure_all
 from dh2urdf.kernels.numbers import engine
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist
+from dh2urdf.translate.entries import argument_types
+from dh2urdf.translate.types import Array, Tuple
 
 pytestmark = pytest.mark.skipif(not engine._COMPILED, reason="kernels are interpreted")
 
-CODES = np.int64
-POSES = 3
+SIZES = {"poses": 3, "solutions": 2, "n": 4, "n + 1": 5}
+KINDS = {"float": np.float64, "int": np.int64, "bool": np.bool_}
+ENTRIES = [solve_common_wrist, measure_all]
 
 
-def arguments():
-    """Arm, poses, whether within limits, and room for solutions: as the entry declares them."""
-    arm = [np.zeros((7, 4, 4)), np.zeros((6, 3)), np.zeros((6, 7)), np.zeros((3, 4, 4)), 1.0]
-    outputs = [np.full((POSES, 8, 6), 5.0), np.full((POSES, 8), 5.0)]
-    outputs += [np.full(shape, 5, CODES) for shape in (POSES, (POSES, 8), (POSES, 8))]
-    return [arm, np.zeros((POSES, 4, 4)), True, outputs]
+def types(entry):
+    """Names of an entry's arguments, and their types as they are declared."""
+    function = engine.INTERPRETED[entry.__name__.replace("__", ".")]
+    return dict(zip(function.__code__.co_varnames, argument_types(function), strict=False))
 
 
-def called(given):
-    """Call the compiled entry."""
-    given = [tuple(x) if isinstance(x, list) else x for x in given]
-    return solve_common_wrist(*given)
+def good(t):
+    """A value of a type."""
+    if isinstance(t, Tuple):
+        return tuple(map(good, t.items))
+    if isinstance(t, Array):
+        return np.zeros([SIZES.get(d, d) for d in t.shape], KINDS[t.element])
+    return {"float": 1.0, "int": 0, "bool": True}[t]
 
 
-def test_what_is_declared_is_taken():
+def others(name, t, value):
+    """Values that are not of the type: of which part, the error, what is handed instead."""
+    yield name, TypeError, "text" if t != "bool" else np.zeros(2)
+    if t == "int":
+        yield name, TypeError, 2**31
+        yield name, TypeError, 1.0
+    if isinstance(t, Tuple):
+        yield name, TypeError, value[:-1]
+        for i, item in enumerate(t.items):
+            for part, error, other in others(f"{name}[{i}]", item, value[i]):
+                yield part, error, (*value[:i], other, *value[i + 1 :])
+    if isinstance(t, Array):
+        yield name, TypeError, value.tolist()
+        yield name, TypeError, value[None]
+        yield name, TypeError, value.astype(np.float32)
+        yield name, TypeError, np.repeat(value, 2, -1)[..., ::2]
+        for axis in range(value.ndim):
+            yield "", ValueError, np.delete(value, 0, axis)
+            yield "", ValueError, np.concatenate([value, value.take([0], axis)], axis)
+
+
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_what_is_declared_is_taken(entry):
     """The arguments of the other tests are good ones but for what they change."""
-    given = arguments()
-    assert called(given) is None
-    assert not np.array_equal(given[3][2], np.full(POSES, 5))
+    assert entry(*map(good, types(entry).values())) is None
 
 
-FLOATS = "array of float"
-ELSE = {
-    "no number": (0, 4, "long", TypeError, r"arm\[4\]: expected float"),
-    "no truth": (2, None, np.zeros(2), TypeError, "within_limits: expected bool"),
-    "no array": (1, None, [1.0], TypeError, rf"Ts: expected {FLOATS} \(poses, 4, 4\)"),
-    "whole numbers": (1, None, np.zeros((3, 4, 4), CODES), TypeError, "Ts: expected"),
-    "floats": (3, 2, np.zeros(3), TypeError, r"outputs\[2\]: expected array of int \(poses\)"),
-    "dimensions": (1, None, np.zeros((4, 4)), TypeError, "Ts: expected"),
-    "columns first": (1, None, np.zeros((3, 4, 4)).swapaxes(1, 2), TypeError, "in C order"),
-    "no tuple": (0, None, np.zeros(5), TypeError, "arm: expected a tuple of 5"),
-    "short tuple": (3, None, [np.zeros((3, 8, 6))], TypeError, "outputs: expected a tuple of 5"),
-    "first length": (0, 0, np.zeros((6, 4, 4)), ValueError, r"arm\[0\]: expected"),
-    "inner length": (1, None, np.zeros((3, 4, 3)), ValueError, "Ts: expected"),
-    "joints": (0, 1, np.zeros((7, 3)), ValueError, rf"arm\[1\]: expected {FLOATS} \(6, 3\)"),
-    "other poses": (3, 0, np.zeros((2, 8, 6)), ValueError, r"outputs\[0\]: expected"),
-    "few solutions": (3, 1, np.zeros((3, 7)), ValueError, r"outputs\[1\]: expected"),
-    "few counts": (3, 2, np.zeros(2, CODES), ValueError, r"outputs\[2\]: expected"),
-    "many codes": (3, 4, np.zeros((3, 9), CODES), ValueError, r"outputs\[4\]: expected"),
-}
-"""An argument, which of its items, what is handed instead, and what is said of it."""
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_anything_else_is_refused_by_name(entry):
+    """The message names the argument and what it has to be: every length, every kind."""
+    arguments = [good(t) for t in types(entry).values()]
+    for i, (name, t) in enumerate(types(entry).items()):
+        for part, error, other in others(name, t, arguments[i]):
+            given = [*arguments[:i], other, *arguments[i + 1 :]]
+            with pytest.raises(error) as refusal:
+                entry(*given)
+            told, _, wanted = str(refusal.value).partition(": expected ")
+            assert wanted, refusal
+            assert told == (part or told)
 
 
-@pytest.mark.parametrize("what", ELSE)
-def test_anything_else_is_refused_by_name(what):
-    """The message names the argument and what it has to be; nothing is written."""
-    at, item, other, error, message = ELSE[what]
-    given = arguments()
-    outputs = list(given[3])
-    if item is None:
-        given[at] = tuple(other) if what == "short tuple" else other
-    else:
-        given[at][item] = other
-    with pytest.raises(error, match=message):
-        called(given)
+def test_nothing_is_written_where_one_output_is_too_short():
+    """The others are as they were."""
+    *arguments, outputs = (good(t) for t in types(solve_common_wrist).values())
+    for array in outputs:
+        array.fill(5)
+    with pytest.raises(ValueError, match=r"outputs\[4\]: expected array of int \(poses, 8\)"):
+        solve_common_wrist(*arguments, (*outputs[:4], outputs[4][:2]))
     assert all((array == 5).all() for array in outputs)
 
 
 @pytest.mark.parametrize("count", [0, 3, 5])
 def test_other_counts_of_arguments_are_refused(count):
     """Too few and too many."""
-    given = [*arguments(), 0.0][:count]
+    given = [*map(good, types(solve_common_wrist).values()), 0.0][:count]
     with pytest.raises(TypeError, match=f"expected 4 arguments, got {count}"):
-        called(given)
-
-
-@pytest.mark.parametrize("task", [2**31, 1.0, None])
-def test_whole_numbers_that_c_does_not_hold_are_refused(task):
-    """They would lose bits."""
-    chain, poses = (np.zeros((3, 4, 4)), np.zeros((2, 3))), np.zeros((0, 4, 4))
-    found = np.zeros((0, 1, 2)), np.zeros(0, CODES), np.zeros((0, 1))
-    measure_all(chain, 0, poses, *found)
-    with pytest.raises(TypeError, match="task: expected int"):
-        measure_all(chain, task, poses, *found)
-
-
-def test_lengths_that_depend_on_one_another_are_compared():
-    """There is one link more than joints, whatever comes first."""
-    found = np.zeros((0, 4, 4)), np.zeros((0, 1, 2)), np.zeros(0, CODES), np.zeros((0, 1))
-    for links in (0, 2, 4):
-        with pytest.raises(ValueError, match=r"chain\[[01]\]: expected array of float"):
-            measure_all((np.zeros((links, 4, 4)), np.zeros((2, 3))), 0, *found)
+        solve_common_wrist(*given)
