@@ -43,13 +43,9 @@ class Assignments(Calls):
             for x, (y, part) in zip(target.elts, items, strict=True):
                 yield from self._pairs(x, y, part)
         elif value or isinstance(target, ast.Name):
-            value = value or self.value(n)
-            if (
-                _root(target) in self.source.once
-                and value.type == "int"
-                and value.known is not None
-            ):
-                self.values[_root(target)] = sized(value.known)
+            value, name = value or self.value(n), _root(target)
+            if name in self.source.once and value.known is not None and value.type == "int":
+                self.values[name] = sized(value.known)
             else:
                 yield target, n, value
         else:

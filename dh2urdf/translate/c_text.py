@@ -1,9 +1,9 @@
 """Pieces of C text: numbers, comments, tables, lines, and small helpers that the subset needs."""
 
-import math
 import re
 import textwrap
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,16 +38,14 @@ HELPERS = {re.findall(r"\w+(?=\()", text)[0]: text for text in _FUNCTIONS}
 infinity."""
 
 
-def number(value: object) -> str:
+def number(value: Any) -> str:
     """A literal that reads back as the same number."""
     if isinstance(value, bool | np.bool_):
         return "true" if value else "false"
     if isinstance(value, int | np.integer):
         return str(int(value))
-    assert isinstance(value, float | np.floating)
-    if math.isfinite(value):
-        return repr(float(value))
-    return "NAN" if math.isnan(value) else "INFINITY" if value > 0 else "-INFINITY"
+    text = repr(float(value))
+    return {"nan": "NAN", "inf": "INFINITY", "-inf": "-INFINITY"}.get(text, text)
 
 
 def comment(text: str) -> list[str]:

@@ -52,23 +52,19 @@ class Calls(Expressions):
 
     def _number(self, n: ast.Call, name: str, values: list[Value]) -> Value:
         """A call that gives a number."""
-        count = len(values)
-        if name in EXTREMES and count > 1:
+        if name in EXTREMES and len(values) > 1:
             return self._extreme(n, name, values)
-        if name in LIBRARY and count == LIBRARY[name][1]:
-            c, _, t = LIBRARY[name]
-            return Value(t, f"{c}({', '.join(value.text for value in values)})", POSTFIX)
-        if name in EXTREMES or name in LIBRARY or count != 1:
-            wanted = LIBRARY[name][1] if name in LIBRARY else "others"
-            self.refuse(n, f"{count} arguments of {name}", str(wanted))
-        (value,) = values
+        c, count, t = LIBRARY.get(name, ("fabs", 1, "float"))
+        if name in EXTREMES or len(values) != count:
+            wanted = "others" if name in EXTREMES else str(count)
+            self.refuse(n, f"{len(values)} arguments of {name}", wanted)
+        value = values[0]
+        if name in CASTS:
+            text = f"({CASTS[name]}){value.at(PREFIX)}"
+            return value if value.type == name else Value(name, text, PREFIX)
         if name == "abs" and value.type != "float":
             return self.helper("size_int", "int", value)
-        if name == "abs":
-            return Value("float", f"fabs({value.text})", POSTFIX)
-        if value.type == name:
-            return value
-        return Value(name, f"({CASTS[name]}){value.at(PREFIX)}", PREFIX)
+        return self.helper(c, t, *values)
 
     def _extreme(self, n: ast.Call, name: str, values: list[Value]) -> Value:
         """The first of the largest or smallest, as Python has it."""

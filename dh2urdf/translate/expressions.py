@@ -106,7 +106,7 @@ class Expressions(Names):
         return f"({self.file.struct(value.type)}){{{parts}}}"
 
     def helper(self, name: str, t: Type, *values: Value) -> Value:
-        """A call of one of the file's small functions."""
+        """A call of a small function of the file or of C."""
         arguments = ", ".join(value.text for value in values)
         return Value(t, f"{name}({arguments})", POSTFIX)
 
@@ -200,8 +200,11 @@ class Expressions(Names):
         tests = [f"{a} {s} {b}" for a, s, b in zip(texts[:-1], signs, texts[1:], strict=True)]
         if len(tests) > 1:
             return Value("bool", " && ".join(tests), OR + 1)
-        whole = all(isinstance(term.known, int) for term in terms)
-        known = eval(f"{terms[0].known} {signs[0]} {terms[1].known}") if whole else None
+        a, b, known = terms[0].known, terms[1].known, None
+        if isinstance(a, int) and isinstance(b, int):
+            known = {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b, "==": a == b}.get(
+                signs[0], a != b
+            )
         return Value("bool", tests[0], COMPARISON, known=known)
 
     def _ifexp(self, n: ast.IfExp) -> Value:
