@@ -1,12 +1,12 @@
 """The translator: kernels, which are Python, are written as C99 and compiled into the package.
 
-`entries` finds what Python calls and the types of its arguments; `source` reads a function and
-refuses what is outside the subset; `types` are those of C. One pass writes each function for the
-types that it is called with: `values` (names and lengths), `expressions`, `calls`, `assignments`
-and `statements` stand on one another, `scopes` decides where names are declared. `definitions` has
-what functions share, `c_text` the pieces of text, `c_file` the whole. `extension` adds the doors
-for Python, `build` compiles. The standard library and NumPy suffice: it runs before the package is
-installed.
+`entries` finds what Python calls and the types of its arguments; `source` reads a function, refuses
+what is outside the subset and decides where names are declared; `types` are those of C. One pass
+writes each function for the types that it is called with: `values` (names and known lengths),
+`expressions`, `calls`, `assignments` and `statements` stand on one another. `definitions` has what
+functions share, `c_text` the pieces of text, `c_file` the whole. `extension` adds the doors for
+Python, `build` compiles. What is C once and for all is in `support.h` and `doors.h`. The standard
+library and NumPy suffice: it runs before the package is installed.
 
 What the author of a kernel must know, for the interpreted function is the definition:
 
