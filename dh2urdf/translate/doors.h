@@ -50,7 +50,9 @@ static int fits(PyArrayObject *array, const Expected *e, npy_intp *lengths)
     for (int k = 0; k < e->count; k++) {
         const npy_intp rest = PyArray_DIM(array, k) - e->lengths[k].more;
         npy_intp *length = lengths + e->lengths[k].name;
-        *length = *length < 0 ? rest : *length;
+        if (*length < 0) {
+            *length = rest;
+        }
         if (rest < 0 || rest != *length) {
             return 0;
         }
@@ -75,7 +77,7 @@ static int take(PyObject *given, const Expected **next, Given **to, npy_intp *le
         (*to)++->array = PyArray_DATA(array);
         return fits(array, e, lengths) || refuse(e, PyExc_ValueError);
     }
-    if (!PyTuple_Check(given) || PyTuple_Size(given) != e->count) {
+    if (PyTuple_Size(given) != e->count) {
         return refuse(e, PyExc_TypeError);
     }
     int taken = 1;
