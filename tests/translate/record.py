@@ -51,21 +51,21 @@ def entries_as(form: Callable[[str, Any], Any]) -> Iterator[None]:
     entries()
     where = {name: name.rpartition(".") for name in INTERPRETED}
     now = {name: getattr(sys.modules[room], key) for name, (room, _, key) in where.items()}
-    other = {id(f): form(name, f) for name, f in now.items()}
-    places = [
-        (holder, key, value)
-        for holder in _holders()
-        for key, value in vars(holder).items()
-        if id(getattr(value, "__func__", value)) in other
-    ]
-    for holder, key, value in places:
-        new = other[id(getattr(value, "__func__", value))]
-        setattr(holder, key, staticmethod(new) if isinstance(holder, type) else new)
+    pairs = [(f, form(name, f)) for name, f in now.items()]
+    _swap({id(old): new for old, new in pairs})
     try:
         yield
-    finally:
-        for holder, key, value in places:
-            setattr(holder, key, value)
+    finally:  # in modules that were imported meanwhile too
+        _swap({id(new): old for old, new in pairs})
+
+
+def _swap(other: dict[int, Any]) -> None:
+    """Put others in the place of some functions, wherever these are named."""
+    for holder in _holders():
+        for key, value in list(vars(holder).items()):
+            new = other.get(id(getattr(value, "__func__", value)))
+            if new is not None:
+                setattr(holder, key, staticmethod(new) if isinstance(holder, type) else new)
 
 
 def _holders() -> list[Any]:
