@@ -30,6 +30,7 @@ OLD = {
     "OPENBLAS_CORETYPE": "Nehalem",
     "NPY_DISABLE_CPU_FEATURES": "X86_V3 X86_V4 AVX2 FMA3 AVX512F AVX512_SKX",
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX2_Usable,-FMA_Usable",
+    "DH2URDF_ENGINE": "compiled",
     "DH2URDF_LEVEL": "any",
 }
 """Settings under which libraries, and the kernels, do as on an old processor."""
