@@ -48,6 +48,29 @@ def test_old_processors_give_the_golden_answers():
     check_old(["cylindrical_wrist", "fanuc_crx10ia", "franka_fer", "puma560~", "ur10", "xarm5"])
 
 
+TABLES = """
+import pkgutil, numpy as np
+from hashlib import md5
+from importlib import import_module
+import dh2urdf.kernels as kernels
+for module in pkgutil.walk_packages(kernels.__path__, kernels.__name__ + "."):
+    for name, table in vars(import_module(module.name)).items():
+        if isinstance(table, np.ndarray):
+            print(module.name, name, md5(np.ascontiguousarray(table).tobytes()).hexdigest())
+"""
+
+
+@pytest.mark.parametrize("core", ["Nehalem", "Haswell", "SkylakeX"])
+def test_kernels_tables_are_the_same_on_old_processors(core):
+    """What is compiled in does not depend on where: not on BLAS, not on NumPy's vector code."""
+    words, seen = [sys.executable, "-c", TABLES], []
+    for settings in {}, OLD | {"OPENBLAS_CORETYPE": core}:
+        env = os.environ | settings | {"DH2URDF_ENGINE": "python"}
+        seen.append(subprocess.run(words, env=env, capture_output=True, text=True, check=True))
+    assert "WINDOW_TABLE" in seen[0].stdout
+    assert seen[0].stdout == seen[1].stdout
+
+
 @pytest.mark.exhaustive
 def test_old_processors_give_all_golden_answers():
     """The same on all arms."""

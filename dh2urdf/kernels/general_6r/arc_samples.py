@@ -37,25 +37,35 @@ def _arc_table():
 
     From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
     """
-    low, high = complex(1.0, -ARC_TAN), complex(1.0, ARC_TAN)
     binomial = np.array([math.comb(2 * DEGREE, i) for i in range(TERMS)])
     columns = []
     for m in range(DEGREE + 1):
-        product = np.ones(1, dtype=complex)
+        real, imaginary = np.ones(1), np.zeros(1)
         for factor in range(2 * DEGREE):
-            pair = [low, high] if factor < DEGREE + m else [high, low]
-            product = np.convolve(product, pair)
-        product = product / binomial
-        columns += [product.real] if m == 0 else [product.real, product.imag]
+            t = ARC_TAN if factor < DEGREE + m else -ARC_TAN
+            (a, b), (c, d) = _beside(real), _beside(imaginary)
+            real, imaginary = a + b + t * (c - d), c + d - t * (a - b)
+        columns += [real / binomial] if m == 0 else [real / binomial, imaginary / binomial]
     return np.ascontiguousarray(np.array(columns).T)
+
+
+def _beside(rows):
+    """Coefficients of a polynomial as they are and shifted by one, for a linear factor.
+
+    Neither powers nor convolutions of arrays: their bits depend on the processor.
+    """
+    nothing = np.zeros_like(rows[:1])
+    return np.concatenate([rows, nothing]), np.concatenate([nothing, rows])
 
 
 def _window_table():
     """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
-    x = 0.5 * (1.0 + NODE)
-    basis = np.array([math.comb(16, i) * x**i * (1.0 - x) ** (16 - i) for i in range(TERMS)]).T
+    x, basis = 0.5 * (1.0 + NODE), np.ones((1, LANES))
+    for _ in range(2 * DEGREE):
+        low, high = _beside(basis)
+        basis = (1.0 - x) * low + x * high
     # Q R by reflections, beside Q' itself; then R^-1 times its first rows
-    both = np.hstack([basis, np.eye(LANES)])
+    both = np.hstack([basis.T, np.eye(LANES)])
     for k in range(TERMS):
         v = np.where(np.arange(LANES) < k, 0.0, both[:, k])[:, None]
         v[k] += math.copysign(math.sqrt(float((v * v).sum(axis=0)[0])), v[k, 0])
