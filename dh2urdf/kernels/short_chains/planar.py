@@ -8,14 +8,18 @@ from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import finish_pose
+from dh2urdf.kernels.certificate import finish_pose, principal
 from dh2urdf.kernels.newton import work_array
-from dh2urdf.kernels.numbers import atan2, elbow_angle, entry, hypot
+from dh2urdf.kernels.numbers import atan2, elbow_angle, entry, hypot, root_of_gap, sincos
 from dh2urdf.kernels.rigid import applied, turned
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""
+
+FOLDED = 1e-3
+"""The same, within which both links are as good as equal: l1 + l2 cos t2 keeps no digits there, and
+the direction of the point few."""
 
 Elbows: TypeAlias = Annotated[Floats, 2, 2]
 
@@ -38,16 +42,45 @@ def planar_rr(l1: float, l2: float, x: float, y: float, slack: float, rest: floa
     if l1 <= 0.0 or l2 <= 0.0:
         return _one_link(l1, l2, x, y, slack, rest, out)
     square = x * x + y * y
+    if square <= FOLDED * FOLDED * (l1 + l2) * (l1 + l2):
+        return _folded(l1, l2, x, y, slack, rest, out)
     count, c2, s2 = elbow_angle(l1, l2, square, slack)
-    free = count > 0 and math.sqrt(square) <= ON_AXIS * (l1 + l2)
-    if free:
-        out[0, 0], out[0, 1] = rest, math.pi
-        return 1, True
     for k in range(count):
         sine = -s2 if k == 0 else s2
         out[k, 0] = atan2(y, x) - atan2(l2 * sine, l1 + l2 * c2)
         out[k, 1] = atan2(sine, c2)
     return count, False
+
+
+def _folded(l1, l2, x, y, slack, rest, out):
+    """The arm with link 2 nearly back on link 1: the point as link 1 sees it, digits kept.
+
+    It is ``(l1 + l2 cos t2, l2 sin t2)``, the first from ``2 l1 along = l1^2 - l2^2 + |p|^2``.
+    """
+    distance = hypot(x, y)
+    along = ((l1 - l2) * (l1 + l2) + distance * distance) / (2.0 * l1)
+    gap = distance - abs(along)
+    if gap < -slack * (l1 + l2):
+        return 0, False
+    if distance <= ON_AXIS * (l1 + l2):
+        out[0, 0], out[0, 1] = rest, math.pi
+        return 1, True
+    root = max(root_of_gap(gap, distance, slack), 0.0) * math.sqrt(distance + abs(along))
+    count = 1 if root == 0.0 else 2
+    for k in range(count):
+        across = -root if k == 0 else root
+        out[k, 0] = atan2(y, x) - atan2(across, along)
+        out[k, 1] = atan2(across, along - l1)
+    return count, False
+
+
+def _by_heading(l1, l2, x, y, both, out):
+    """The one arm whose second link has a direction, ``both`` = t1 + t2, near the fold."""
+    if l1 <= 0.0 or x * x + y * y > FOLDED * FOLDED * (l1 + l2) * (l1 + l2):
+        return False
+    out[0, 0] = atan2(y - l2 * sincos(both)[0], x - l2 * sincos(both)[1])
+    out[0, 1] = principal(both - out[0, 0])
+    return True
 
 
 def _one_link(l1, l2, x, y, slack, rest, out):
@@ -87,12 +120,15 @@ def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Output
         T = Ts[i]
         x, y, _ = applied(F, applied(T, (form[5], form[6], form[7])))
         rows, no_direction = planar_rr(l1, l2, x, y, SLACK, rest, pairs)
+        if n == 2 and pose and _by_heading(l1, l2, x, y, _heading(F, T, plane[1]) + lean, pairs):
+            rows, no_direction = 1, False
         for k in range(rows):
             t1, t2 = pairs[k, 0], pairs[k, 1]
             q[i, k, 0], q[i, k, 1] = t1, sign2 * (t2 - lean)
             if n == 3:
                 q[i, k, 2] = sign3 * (_heading(F, T, plane[1]) - t1 - t2 + lean)
-            residual[i, k], branch[i, k] = -1.0, 2 * k  # elbow up, elbow down
+            residual[i, k] = -1.0
+            branch[i, k] = 2 if k == 1 or (rows == 1 and 0.0 < t2 < math.pi) else 0  # elbow
             free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:

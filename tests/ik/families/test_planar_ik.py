@@ -7,6 +7,7 @@ import pytest
 from dh_product import dh_frames
 from hypothesis import given
 from hypothesis import strategies as st
+from ik_checks import away_but_free
 from margins import assert_margin
 
 import dh2urdf
@@ -93,6 +94,38 @@ def test_equal_links_folded_leave_theta_1_free():
     assert rows.shape == (1, 2)
     assert rows[0, 0] == 0.0
     assert abs(rows[0, 1]) == math.pi
+
+
+@given(LENGTHS, ANGLES, st.sampled_from([0.0, *(10.0**-k for k in range(2, 15))]))
+def test_nearly_folded_equal_links_keep_both_elbows(length, t1, gap):
+    """Folded up to a gap, both angles are known to a rounding of the point over its distance."""
+    x, y, _ = tip((length, length), (t1, math.pi - gap))
+    rows = planar_rr_ik(length, length, x, y)
+    away = [same_angle(rows[-1, 0], t1), same_angle(rows[-1, 1], math.pi - gap)]
+    if math.hypot(x, y) <= 2e-10 * length:  # theta_1 is free
+        assert len(rows) == 1
+        away[0] = 0.0
+    bound = 1e-15 / max(gap, 2e-10) + 1e-14
+    assert_margin(away, bound, 1)
+
+
+@pytest.mark.parametrize("joints", [2, 3])
+@given(LENGTHS, ANGLES, st.sampled_from([0.0, *(10.0**-k for k in range(2, 15))]), ANGLES)
+def test_folded_planar_arms_lose_no_configuration(joints, length, t1, gap, t3):
+    """A folded arm's configuration is found, or only free joints tell it from a solution.
+
+    With two joints the direction of the tool fixes both angles, and none is free.
+    """
+    rows = [(0, 0, length, 0), (0, 0, length, 0), (0, 0, 0.3, 0)][:joints]
+    table = dh2urdf.DHTable.from_array(rows, "standard", "theta d a alpha")
+    robot, q = dh2urdf.Robot.from_dh(table), np.array([t1, math.pi - gap, t3][:joints])
+    for task in ("pose", "position")[: 4 - joints]:
+        found = robot.ik(robot.fk(q), task=task, within_limits=False)
+        free = [sum(1 << i for i in joints) for joints in found.free_joints]
+        fixed = joints == 2 and task == "pose"
+        assert not (fixed and any(free))
+        away = away_but_free(robot.chain, found.q, np.array(free), q)
+        assert_margin(away, 1e-13 if fixed else 2e-15 / (length * max(gap, 1e-10)) + 1e-13, 1)
 
 
 @given(LENGTHS, LENGTHS, LENGTHS, st.floats(-2.5, -0.05), ANGLES, ANGLES)
