@@ -21,10 +21,10 @@ class KernelsHook(BuildHookInterface):
         """Compile, and say that the wheel is of this platform, for Python 3.11 and later."""
         os.environ["DH2URDF_ENGINE"] = "python"
         sys.path.insert(0, self.root)
-        from dh2urdf.translate.build import build, place
+        from dh2urdf.translate.build import PLACE, build
 
-        build(place())
+        build()
         platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
         build_data["pure_python"] = False
         build_data["tag"] = f"cp311-abi3-{platform}"
-        build_data["artifacts"].append(f"dh2urdf/{place().name}")
+        build_data["artifacts"].append(f"dh2urdf/{PLACE.name}")

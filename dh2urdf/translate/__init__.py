@@ -4,9 +4,10 @@
 what is outside the subset and decides where names are declared; `types` are those of C. One pass
 writes each function for the types that it is called with: `values` (names and known lengths),
 `expressions`, `calls`, `assignments` and `statements` stand on one another. `definitions` has what
-functions share, `c_text` the pieces of text, `c_file` the whole. `extension` adds the doors for
-Python, `build` compiles. What is C once and for all is in `support.h` and `doors.h`. The standard
-library and NumPy suffice: it runs before the package is installed.
+functions share, `c_text` the pieces of text, `c_file` the whole. `doors` are those for Python, each
+level of processor is the same C, compiled once more: `build` does that. What is C once and for all
+is in `support.h` and `doors.c`; there the best level is chosen, or that of ``DH2URDF_LEVEL``. The
+standard library and NumPy suffice: it runs before the package is installed.
 
 What the author of a kernel must know, for the interpreted function is the definition:
 

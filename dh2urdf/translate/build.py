@@ -4,6 +4,7 @@
 """
 
 import os
+import platform
 import shutil
 import subprocess
 import sys
@@ -16,8 +17,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.doors import doors
 from dh2urdf.translate.entries import argument_types, engine, entries
-from dh2urdf.translate.extension import LEVELS, Extension
 
 FLAGS = ["-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC"]
 FLAGS += ["-fno-tree-slp-vectorize"]
@@ -26,7 +27,14 @@ FLAGS += ["-fno-tree-slp-vectorize"]
 GCC 12 fuses products with sums all the same (``vfmaddsub``) where it vectorizes straight lines.
 """
 
-NAME = "_kernels"
+LEVELS = {"v4": "x86-64-v4", "v3": "x86-64-v3", "any": "x86-64"}
+"""Processors, best first, as compilers call them; what they must have is in ``doors.c``."""
+
+if platform.machine() not in ("x86_64", "AMD64"):
+    LEVELS = {"any": ""}
+
+PLACE = Path(__file__).parent.parent / "_kernels.abi3.so"
+"""Where the extension belongs."""
 
 
 def compiler() -> list[str]:
@@ -45,24 +53,24 @@ def texts(names: list[str] | None = None) -> dict[str, str]:
     for name, function in entries().items():
         if names is None or name.rpartition(".")[2] in names:
             file.add_entry(function, argument_types(function))
-    extension = Extension(file, NAME, engine().fingerprint())
-    kernels = extension.kernels()
-    return {"kernels.h": extension.header(), "kernels.c": kernels, "doors.c": extension.doors()}
+    return {"kernels.h": file.header(), "kernels.c": file.kernels(), "doors.h": doors(file)}
 
 
-def build(target: Path) -> None:
+def build(target: Path = PLACE) -> None:
     """Compile the extension to a file, which appears whole or not at all."""
     cc, include = compiler(), [f"-I{sysconfig.get_paths()['include']}", f"-I{np.get_include()}"]
     with TemporaryDirectory() as folder:
         for name, text in texts().items():
             Path(folder, name).write_text(text)
-        jobs = [[*_processor("any", cc), "-c", "doors.c", "-o", "doors.o", *include]]
+        sources = f'-DSOURCES="{engine().fingerprint()}"'
+        doors_c = str(Path(__file__).with_name("doors.c"))
+        jobs = [[*_processor("any", cc), sources, "-I.", *include, doors_c, "-o", "doors.o"]]
         for level in LEVELS:
-            flags = [*_processor(level, cc), f"-DTABLE=entries_{level}"]
-            jobs.append([*flags, "-c", "kernels.c", "-o", f"{level}.o"])
+            table = f"-DTABLE=entries_{level}"
+            jobs.append([*_processor(level, cc), table, "kernels.c", "-o", f"{level}.o"])
         with ThreadPoolExecutor() as pool:
-            list(pool.map(lambda job: _run([*cc, *FLAGS, *job], folder), jobs))
-        objects = ["doors.o", *(f"{level}.o" for level in LEVELS)]
+            list(pool.map(lambda job: _run([*cc, *FLAGS, "-c", *job], folder), jobs))
+        objects = [job[-1] for job in jobs]
         _run([*cc, "-shared", "-s", *objects, "-o", "built.so", "-lm"], folder)
         partial = target.with_suffix(".partial")
         shutil.copy(Path(folder, "built.so"), partial)
@@ -71,8 +79,8 @@ def build(target: Path) -> None:
 
 def _processor(level: str, cc: list[str]) -> list[str]:
     """A compiler's option for a level, if it has one; zig spells them its own way."""
-    name = LEVELS[level][0]
-    return ["-march=" + (name.replace("-", "_") if "ziglang" in cc else name)] if name else []
+    name = LEVELS[level].replace("-", "_" if "ziglang" in cc else "-")
+    return [f"-march={name}"] if name else []
 
 
 def _run(words: list[str], folder: str) -> None:
@@ -81,14 +89,9 @@ def _run(words: list[str], folder: str) -> None:
         raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
 
 
-def place() -> Path:
-    """Where the extension belongs."""
-    return Path(__file__).parent.parent / f"{NAME}.abi3.so"
-
-
 if __name__ == "__main__":
     os.environ["DH2URDF_ENGINE"] = "python"
     if sys.argv[1:]:
         print(texts(sys.argv[1:])["kernels.c"])
     else:
-        build(place())
+        build()

@@ -18,12 +18,10 @@ INCLUDES = ["", *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint
 class CFile(Definitions):
     """Kernels, each once for each list of argument types, and what they share."""
 
-    def __init__(self, prefix: str = "") -> None:
-        super().__init__(prefix)
-        self.exported = True
-        """Whether the entries are seen from outside the file."""
+    def __init__(self) -> None:
+        super().__init__()
         self.entries: list[Instance] = []
-        """The kernels that others may call, in the order in which they were added."""
+        """The kernels that Python calls, in the order in which they were added."""
         self.order: list[Instance] = []
         """All kernels, those that others call before these."""
         self._instances: dict[tuple[Source, tuple[Type, ...]], Instance] = {}
@@ -63,34 +61,39 @@ class CFile(Definitions):
         made.parameters = [(c, loose.get(c, t)) for c, t in made.parameters]
         return made
 
-    def text(self, header: str = "") -> str:
-        """The whole file, to be compiled by itself."""
-        bodies, out = self.bodies(), comment(header) if header else []
-        return "\n".join([*out, *INCLUDES, *self.types(), *self.definitions(bodies)]) + bodies
+    def header(self) -> str:
+        """Types, and the table of the entries."""
+        lines = [*INCLUDES, *self.types(), "", "typedef struct {", "    void (*leave)(void);"]
+        for e in self.entries:
+            lines += folded(self._head(e, f"(*{e.name})") + ";", 4)
+        return "\n".join([*lines, "} Entries;", ""])
 
-    def bodies(self) -> str:
-        """The functions."""
-        return "\n\n" + "\n\n".join(map(self._function, self.order)) + "\n"
+    def kernels(self) -> str:
+        """The kernels, and their entries as the table that is to be named ``TABLE``."""
+        bodies = "\n\n".join(map(self._function, self.order))
+        names = ", ".join(e.name for e in self.entries)
+        table = folded(f"const Entries TABLE = {{leave, {names}}};")
+        head = ['#include "kernels.h"', *self.definitions(bodies)]
+        return "\n".join([*head, "", bodies, "", "extern const Entries TABLE;", *table, ""])
+
+    def _head(self, instance: Instance, name: str) -> str:
+        """A function's declaration."""
+        given = [f"int {length}" for length in instance.lengths()]
+        for c, t in instance.parameters:
+            storage = isinstance(t, Array) and isinstance(t.shape[0], int)
+            given.append(self.declaration(t, c, storage))
+        return self.declaration(instance.returned, f"{name}({', '.join(given) or 'void'})")
 
     def _function(self, instance: Instance) -> str:
         """A function with its docstring; what has no loop may become a part of its callers."""
-        head = f"{instance.name}({', '.join(self.parameters(instance)) or 'void'})"
-        head = self.declaration(instance.returned, head)
+        head = self._head(instance, instance.name)
         named = Counter(re.findall(r"\w+", head + instance.body))
         given = [*instance.lengths(), *(c for c, _ in instance.parameters)]
         unused = [f"    (void){c};" for c in given if named[c] == 1]
-        if not (self.exported and instance in self.entries):
-            loops = any(isinstance(s, ast.For | ast.While) for s in every(instance.source.body))
-            head = f"static {'' if loops else 'inline '}{head}"
+        loops = any(isinstance(s, ast.For | ast.While) for s in every(instance.source.body))
+        head = f"static {'' if loops else 'inline '}{head}"
         doc = comment(instance.source.doc) if instance.source.doc else []
         return "\n".join([*doc, *folded(head), "{", *unused, instance.body, "}"])
-
-    def parameters(self, instance: Instance) -> list[str]:
-        """Declarations of all that an instance is handed."""
-        return [f"int {length}" for length in instance.lengths()] + [
-            self.declaration(t, c, isinstance(t, Array) and isinstance(t.shape[0], int))
-            for c, t in instance.parameters
-        ]
 
 
 def _loose(t: Type) -> Type:

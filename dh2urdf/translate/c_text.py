@@ -25,14 +25,14 @@ fdim floor fma fmax fmin fmod free frexp gamma hypot index isfinite isinf isnan 
 lgamma log log10 log1p log2 logb lrint lround memcpy memset modf nan nearbyint pow remainder rint
 round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc write y0 y1 yn
 """
-LIBRARY = {*_LIBRARY.split()}
-"""Functions of C whose names no function of a file has."""
+LIBRARY = {*_LIBRARY.split(), "leave", "TABLE"}
+"""What C and the file define, whose names no kernel and no constant has."""
 
 NUMBER = {"float": "double", "int": "int", "bool": "bool"}
 ELEMENT = {"float": "double", "int": "int64_t", "bool": "bool"}
 
 _SUPPORT = Path(__file__).with_name("support.h").read_text().strip().split("\n\n")
-LANES, LEAVE, *_FUNCTIONS = _SUPPORT
+HEAD, *_FUNCTIONS = _SUPPORT
 HELPERS = {re.findall(r"\w+(?=\()", text)[0]: text for text in _FUNCTIONS}
 """As Python defines them: the first of two that compare as equal, division towards minus
 infinity."""

@@ -39,9 +39,7 @@ class Instance:
 class Definitions:
     """Definitions of a file, each made when it is first asked for."""
 
-    def __init__(self, prefix: str = "") -> None:
-        self.prefix = prefix
-        """Before the names of all that the file defines."""
+    def __init__(self) -> None:
         self._names: dict[str, object] = {}
         self._constants: dict[tuple[str, str], tuple[str, object, str]] = {}
         self._structs: dict[Tuple | Record, tuple[str, list[str]]] = {}
@@ -61,7 +59,7 @@ class Definitions:
     def definitions(self, text: str) -> list[str]:
         """Helpers and constants that a text names."""
         words = set(re.findall(r"\w+", re.sub(r"(?s)/\*.*?\*/", "", text)))
-        out = ["", c_text.LANES, "", *(HELPERS[name] for name in HELPERS if name in words)]
+        out = ["", c_text.HEAD, "", *(HELPERS[name] for name in HELPERS if name in words)]
         said = ""
         for name, value, doc in self._constants.values():
             if name in words:
@@ -74,8 +72,7 @@ class Definitions:
         """A name of the file for a key."""
         room = module.split(".")[-2:]
         more = [f"{name}_{i}" for i in range(2, 999)]
-        for candidate in (name, f"{name}_{room[-1]}", f"{name}_{'_'.join(room)}", *more):
-            c = self.prefix + candidate
+        for c in (name, f"{name}_{room[-1]}", f"{name}_{'_'.join(room)}", *more):
             taken = c in c_text.RESERVED | c_text.LIBRARY or c in HELPERS
             if not taken and self._names.setdefault(c, key) == key:
                 return c

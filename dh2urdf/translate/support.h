@@ -6,7 +6,6 @@
 #else
 #define SIDE_BY_SIDE
 #endif
-
 /* Clear the wide registers, as code for old ones asks for; compilers forget it at times. */
 #ifdef __AVX__
 #include <immintrin.h>

@@ -125,16 +125,17 @@ void all(int f, int count, const double (*from)[2], double *to)
 @pytest.fixture(scope="module", params=["-O0", "-O3", "-O3 -march=native"])
 def compiled(request, tmp_path_factory):
     """The functions as the translator and a compiler make them."""
-    folder, file = tmp_path_factory.mktemp("elementary"), CFile("own_")
+    folder, file = tmp_path_factory.mktemp("elementary"), CFile()
     made = {}
     for name in ("sincos", "acos", "asin", "atan2", "hypot"):
         function = getattr(elementary, name)
         made[name] = file.add_entry(function, ["float"] * function.__code__.co_argcount)
-    text = file.text() + HARNESS
+    text = file.kernels() + HARNESS
     for name, entry in made.items():
         text = text.replace(f"{name}_(", f"{entry.name}(")
+    folder.joinpath("kernels.h").write_text(file.header())
     folder.joinpath("some.c").write_text(text)
-    words = [*engines.own(), *FLAGS, *request.param.split()]
+    words = [*engines.own(), *FLAGS, *request.param.split(), "-DTABLE=entries_here"]
     replay.compiled(folder, [*words, "-shared", "some.c"], "some.so")
     return ctypes.CDLL(str(folder / "some.so"))
 

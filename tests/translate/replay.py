@@ -11,16 +11,18 @@ from pathlib import Path
 import numpy as np
 
 from dh2urdf.translate.c_file import CFile
+from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.entries import argument_types, entries
-from dh2urdf.translate.extension import LEVELS, Extension
 from dh2urdf.translate.types import Array, Tuple, Type
-from dh2urdf.translate.values import Instance
 from tests.translate.record import Call, interpreted, leaves
 
 HEAD = r"""
 #include <stdio.h>
 #include <stdlib.h>
 #include "kernels.h"
+#ifdef TABLE
+extern const Entries TABLE;
+#endif
 
 static FILE *calls, *answers;
 
@@ -90,28 +92,24 @@ int main(void)
 
 
 @cache
-def extension() -> Extension:
+def translated() -> CFile:
     """The kernels in C."""
     file = CFile()
     with interpreted():
         for function in entries().values():
             file.add_entry(function, argument_types(function))
-        return Extension(file, "kernels", "")
+    return file
 
 
 @cache
 def files() -> dict[str, str]:
     """The kernels' C, and the program's, whose entries have the order of their names."""
-    file, kernels, own = extension().file, extension().kernels(), [HEAD]
-    own += [_replay(file, e, k) for k, e in enumerate(file.entries)]
+    file = translated()
+    own = [HEAD, *(_replay(file, e, k) for k, e in enumerate(file.entries))]
     names = ", ".join(f"replay_{k}" for k in range(len(file.entries)))
     own.append(f"static void (*replays[])(const Entries *) = {{{names}}};")
-    for level, (_, features) in LEVELS.items():
-        has = "".join(f' && __builtin_cpu_supports("{f}")' for f in features.split())
-        own.append(f"#ifdef __x86_64__\nint has_{level}(void) {{ return 1{has}; }}\n#endif")
-    declared = '#include "kernels.h"\n#ifdef TABLE\nextern const Entries TABLE;\n#endif\n'
-    program = "\n".join(own).replace('#include "kernels.h"\n', declared) + TAIL
-    return {"kernels.h": extension().header(), "kernels.c": kernels, "replay.c": program}
+    program = "\n".join(own) + TAIL
+    return {"kernels.h": file.header(), "kernels.c": file.kernels(), "replay.c": program}
 
 
 def text() -> str:
@@ -156,7 +154,7 @@ def written(calls: list[Call], path: Path) -> None:
     with path.open("wb") as out:
         for call in calls:
             k = order.index(call.entry)
-            e, given, lengths = extension().file.entries[k], leaves(call.given), dict[str, int]()
+            e, given, lengths = translated().entries[k], leaves(call.given), dict[str, int]()
             for t, value in zip(_flat(e.arguments), given, strict=True):
                 shape = zip(t.shape, value.shape, strict=True) if isinstance(t, Array) else ()
                 lengths |= {d: n for d, n in shape if isinstance(d, str) and d.isidentifier()}

@@ -7,8 +7,7 @@ from functools import cache
 import pytest
 
 from dh2urdf.kernels.numbers.engine import INTERPRETED
-from dh2urdf.translate.build import place
-from dh2urdf.translate.extension import LEVELS
+from dh2urdf.translate.build import LEVELS, PLACE
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, recorded
 
@@ -94,9 +93,10 @@ def test_interpreted_kernels_agree():
 def by_level(level, some, folder):
     """What a level of the extension leaves behind calls."""
     program = ctypes.CDLL(str(replay.built(folder, engines.own(), "replay.so", "-shared", "-fPIC")))
-    if not getattr(program, f"has_{level}")():
+    extension = ctypes.CDLL(str(PLACE))
+    if not getattr(extension, f"has_{level}")():
         pytest.skip("the processor has not got it")
-    table = ctypes.c_char.in_dll(ctypes.CDLL(str(place())), f"entries_{level}")
+    table = ctypes.c_char.in_dll(extension, f"entries_{level}")
     replay.written(some, folder / "calls")
     paths = (str(folder / name).encode() for name in ("calls", "after"))
     assert program.replay(ctypes.byref(table), *paths) == 0

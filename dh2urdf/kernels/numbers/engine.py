@@ -63,7 +63,7 @@ def _edited(built: Any) -> bool:
 
 def sources() -> list[Path]:
     """Files that decide what the extension is: the kernels and their translator."""
-    patterns = ("kernels/**/*.py", "translate/*.py", "translate/*.h")
+    patterns = ("kernels/**/*.py", "translate/*.py", "translate/*.[ch]")
     return sorted(path for pattern in patterns for path in PACKAGE.glob(pattern))
 
 

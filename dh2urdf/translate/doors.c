@@ -1,4 +1,4 @@
-/* What the doors share: objects of Python are taken as an entry expects them. */
+/* The entries as functions of Python: objects are taken as an entry expects them. */
 
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
@@ -12,7 +12,8 @@
 static const Entries *entries;
 
 /* What an entry takes: a number (float, int or bool), an array, or a tuple, whose items follow.
- * A length is a number more than one that has a name; the first name is that of zero. */
+ * A length is a number more than one that has a name; the first name is that of zero, the second
+ * that of the poses. */
 typedef struct {
     const char *text;
     char number;
@@ -89,11 +90,14 @@ static int take(PyObject *given, const Expected **next, Given **to, npy_intp *le
 
 /* Take all arguments of an entry. */
 static int take_all(PyObject *const *args, Py_ssize_t count, Py_ssize_t parameters,
-    const Expected *next, Given *to, npy_intp *lengths)
+    const Expected *next, Given *to, npy_intp *lengths, int names)
 {
     if (count != parameters) {
         PyErr_Format(PyExc_TypeError, "expected %zd arguments, got %zd", parameters, count);
         return 0;
+    }
+    for (int k = 0; k < names; k++) {
+        lengths[k] = k == 0 ? 0 : -1;
     }
     int taken = 1;
     for (Py_ssize_t i = 0; taken && i < count; i++) {
@@ -102,30 +106,93 @@ static int take_all(PyObject *const *args, Py_ssize_t count, Py_ssize_t paramete
     return taken;
 }
 
-/* The same kernels for processors that have something: best first. */
+/* Poses of a call from which on other threads may run meanwhile. */
+#define MANY 256
+
+/* The function of an entry: how many parameters it has, numbers and arrays in them, and lengths;
+ * the call, what is answered, and what is expected. */
+#define DOOR(public, entry, parameters, values, names, call, answer, ...) \
+static PyObject *py_##entry(PyObject *self, PyObject *const *args, Py_ssize_t count) \
+{ \
+    static const Expected expected[] = {__VA_ARGS__}; \
+    npy_intp lengths[names]; \
+    Given given[values]; \
+    (void)self; \
+    if (!take_all(args, count, parameters, expected, given, lengths, names)) { \
+        return NULL; \
+    } \
+    PyThreadState *others = lengths[1] >= MANY ? PyEval_SaveThread() : NULL; \
+    call; \
+    entries->leave(); \
+    if (others) { \
+        PyEval_RestoreThread(others); \
+    } \
+    return answer; \
+}
+#include "doors.h"
+#undef DOOR
+
+/* By names that pickle takes. */
+#define DOOR(public, entry, ...) \
+    {#public, (PyCFunction)(void (*)(void))py_##entry, METH_FASTCALL, NULL},
+static PyMethodDef methods[] = {
+#include "doors.h"
+    {NULL, NULL, 0, NULL},
+};
+
+/* The same kernels for processors that have something. */
 typedef struct {
     const char *name;
-    int has;
+    int (*has)(void);
     const Entries *entries;
 } Level;
 
-/* The module, with the entries of the best level that the processor has, or of the one wanted. */
-static PyObject *made(struct PyModuleDef *definition, const Level *level, const char *names,
-    const char *sources)
+extern const Entries entries_any;
+int has_any(void) { return 1; }
+
+#ifdef __x86_64__
+#define HAS(feature) __builtin_cpu_supports(feature)
+extern const Entries entries_v4, entries_v3;
+int has_v4(void)
 {
+    return HAS("avx512f") && HAS("avx512cd") && HAS("avx512bw") && HAS("avx512dq") &&
+        HAS("avx512vl");
+}
+int has_v3(void) { return HAS("avx2") && HAS("bmi") && HAS("bmi2") && HAS("fma"); }
+#define PREPARE() __builtin_cpu_init()
+#define OTHERS {"v4", has_v4, &entries_v4}, {"v3", has_v3, &entries_v3},
+#define NAMES "v4, v3, any"
+#else
+#define PREPARE()
+#define OTHERS
+#define NAMES "any"
+#endif
+
+/* Best first. */
+static const Level levels[] = {OTHERS {"any", has_any, &entries_any}, {NULL, NULL, NULL}};
+
+static struct PyModuleDef definition = {
+    PyModuleDef_HEAD_INIT, "_kernels", NULL, -1, methods, NULL, NULL, NULL, NULL,
+};
+
+/* The module, with the entries of the best level that the processor has, or of the one wanted. */
+PyMODINIT_FUNC PyInit__kernels(void)
+{
+    import_array();
+    PREPARE();
     const char *wanted = getenv("DH2URDF_LEVEL");
     const int any = !wanted || !*wanted;
-    while (level->name && !(level->has && (any || !strcmp(wanted, level->name)))) {
+    const Level *level = levels;
+    while (level->name && !(level->has() && (any || !strcmp(wanted, level->name)))) {
         level++;
     }
     if (!level->name) {
-        PyErr_Format(PyExc_ValueError, "DH2URDF_LEVEL: expected one of %s that this processor has, "
-            "got %s", names, wanted);
-        return NULL;
+        return PyErr_Format(PyExc_ValueError,
+            "DH2URDF_LEVEL: expected one of " NAMES " that this processor has, got %s", wanted);
     }
     entries = level->entries;
-    PyObject *module = PyModule_Create(definition);
-    if (module && (PyModule_AddStringConstant(module, "SOURCES", sources) < 0
+    PyObject *module = PyModule_Create(&definition);
+    if (module && (PyModule_AddStringConstant(module, "SOURCES", SOURCES) < 0
             || PyModule_AddStringConstant(module, "COMPILER", __VERSION__) < 0
             || PyModule_AddStringConstant(module, "LEVEL", level->name) < 0)) {
         Py_DECREF(module);
