@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 from dh2urdf.dh import DHConvention, DHRow, JointType
+from dh2urdf.dh.motions import dh_matrix
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.exceptions import MissingExtraError
 
@@ -60,22 +61,8 @@ def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
     elif row.joint_type is JointType.PRISMATIC:
         d += row.sign * sp.Symbol(f"q_{i}")
     a, alpha = _length(row.a), _angle(row.alpha)
-    c, s, ca, sa = sp.cos(theta), sp.sin(theta), sp.cos(alpha), sp.sin(alpha)
-    if convention is DHConvention.MODIFIED:
-        rows = [
-            [c, -s, 0, a],
-            [s * ca, c * ca, -sa, -sa * d],
-            [s * sa, c * sa, ca, ca * d],
-            [0, 0, 0, 1],
-        ]
-    else:
-        rows = [
-            [c, -s * ca, s * sa, a * c],
-            [s, c * ca, -c * sa, a * s],
-            [0, sa, ca, d],
-            [0, 0, 0, 1],
-        ]
-    return sp.Matrix(rows)
+    functions = sp.cos(theta), sp.sin(theta), sp.cos(alpha), sp.sin(alpha)
+    return sp.Matrix(dh_matrix(*functions, d, a, convention))
 
 
 def symbolic_product(table: TableLike) -> Any:

@@ -179,10 +179,19 @@ def quaternion_to_matrix(q: Array) -> Array:
 
 def origin_matrix(xyz: Sequence[float], rpy: Sequence[float]) -> Array:
     """Pose of a URDF ``<origin xyz rpy>``, shape (4, 4)."""
-    T = np.eye(4)
-    T[:3, :3] = rpy_to_matrix(rpy)
-    T[:3, 3] = _three(xyz, "xyz")
+    return pose(rpy_to_matrix(rpy), _three(xyz, "xyz"))
+
+
+def pose(R: Array, p: ArrayLike = (0.0, 0.0, 0.0)) -> Array:
+    """Poses of rotations (..., 3, 3) and places (..., 3) [m], shape (..., 4, 4)."""
+    T = np.zeros((*np.broadcast_shapes(R.shape[:-2], np.shape(p)[:-1]), 4, 4))
+    T[..., :3, :3], T[..., :3, 3], T[..., 3, 3] = R, p, 1.0
     return T
+
+
+def moved(T: Array, points: Array) -> Array:
+    """Points (m, 3) [m] of a frame, seen from where its pose T (4, 4) is seen."""
+    return np.asarray(points @ T[:3, :3].T + T[:3, 3])
 
 
 def product(first: Array, *others: Array) -> Array:

@@ -123,8 +123,7 @@ def _step(doc: Document, joint: etree._Element, rpy: list[float] | None, q: Arra
     length = float(np.linalg.norm(axis))
     if not length:
         return None
-    turn, still = np.eye(4), np.zeros(len(q))
-    turn[:3, :3] = frame_along(axis / length)
+    turn, still = tf.pose(frame_along(axis / length)), np.zeros(len(q))
     variable = _within(doc, joint, q)
     slides = doc.kind(joint) == "prismatic"
     motion = turn_slide(still, variable) if slides else turn_slide(variable, still)

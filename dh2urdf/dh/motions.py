@@ -11,7 +11,7 @@ Lecture notes section 5; Spong, Hutchinson and Vidyasagar, eq. 3.10; Craig, eq. 
 import math
 from collections.abc import Iterator
 from enum import StrEnum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -80,9 +80,16 @@ def dh_transform(
     ArgumentError
     """
     theta, d, a, alpha = _numbers(theta, d, a, alpha)
-    ct, st, ca, sa = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
-    if convention_of(convention) is DHConvention.STANDARD:
-        rows = [[ct, -st * ca, st * sa, a * ct], [st, ct * ca, -ct * sa, a * st], [0.0, sa, ca, d]]
+    functions = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)
+    return np.array(dh_matrix(*functions, d, a, convention_of(convention)))
+
+
+def dh_matrix(
+    ct: Any, st: Any, ca: Any, sa: Any, d: Any, a: Any, convention: DHConvention
+) -> list[list[Any]]:
+    """The rows of :func:`dh_transform`, of cosines, sines and lengths in numbers or symbols."""
+    if convention is DHConvention.STANDARD:
+        rows = [[ct, -st * ca, st * sa, a * ct], [st, ct * ca, -ct * sa, a * st], [0, sa, ca, d]]
     else:
-        rows = [[ct, -st, 0.0, a], [st * ca, ct * ca, -sa, -sa * d], [st * sa, ct * sa, ca, ca * d]]
-    return np.array([*rows, [0.0, 0.0, 0.0, 1.0]])
+        rows = [[ct, -st, 0, a], [st * ca, ct * ca, -sa, -sa * d], [st * sa, ct * sa, ca, ca * d]]
+    return [*rows, [0, 0, 0, 1]]

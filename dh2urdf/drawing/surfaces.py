@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dh2urdf.conversions.write import Body
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import MATERIAL, rgb
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, moved
 
 AROUND = 32
 """Corners of a circle."""
@@ -103,8 +103,7 @@ def body_surface(body: Body, colour: tuple[int, int, int]) -> Surface:
         vertices, faces = _drum(*body.size)
     else:
         vertices, faces = _box(np.array(body.size))
-    placed = vertices @ body.pose[:3, :3].T + body.pose[:3, 3]
-    return Surface(placed, faces.astype(np.uint32), colour)
+    return Surface(moved(body.pose, vertices), faces.astype(np.uint32), colour)
 
 
 def _ball(radius: float) -> tuple[Array, NDArray[np.int64]]:

@@ -14,7 +14,7 @@ from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.solid_paint import Paint, paint_parts
 from dh2urdf.figures.solids.solids import Part, outlines
 from dh2urdf.figures.style import INK
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, pose, trans
 
 ROD = 0.008
 """Radius of a link's line, as a share of the arm's size."""
@@ -58,7 +58,7 @@ def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:
         if joint.joint_type is JointType.PRISMATIC:
             box = (BOX_WIDTH * size, BOX_WIDTH * size, BOX_LENGTH * size)
             body = Body("box", box, np.eye(4), "joint")
-        yield Part("joint", [(body, _along(spot, axis))])
+        yield Part("joint", [(body, pose(frame_along(axis), spot))])
 
 
 def _spot(arm: DrawnArm, row: DHRowPicture, placed: list[Array]) -> tuple[Array, Array]:
@@ -80,16 +80,8 @@ def _rod(start: Array, end: Array, radius: float) -> list[tuple[Body, Array]]:
     length = float(np.linalg.norm(end - start))
     rod = Body("cylinder", (radius, length), np.eye(4), "link")
     ball = Body("sphere", (radius,), np.eye(4), "link")
-    T_ball = np.eye(4)
-    T_ball[:3, 3] = end
-    return [(rod, _along((start + end) / 2, (end - start) / length)), (ball, T_ball)]
-
-
-def _along(centre: Array, z: Array) -> Array:
-    """A pose whose z is a unit vector, shape (4, 4)."""
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = frame_along(z), centre
-    return T
+    along = frame_along((end - start) / length)
+    return [(rod, pose(along, (start + end) / 2)), (ball, trans(*end))]
 
 
 def _ground(canvas: Canvas, arm: DrawnArm, scale: float) -> None:

@@ -84,8 +84,6 @@ class RobotConfigurations:
 
     def _bounds(self) -> None:
         """Names and limits of the values."""
-        coupling, chain = self._coupling, self.chain
-        self.joint_names: tuple[str, ...] = coupling.names if coupling else chain.names
-        self.n = len(self.joint_names)
-        self.lower: Array = coupling.lower if coupling else chain.lower
-        self.upper: Array = coupling.upper if coupling else chain.upper
+        leads = self._coupling or self.chain
+        self.joint_names, self.n = leads.names, len(leads.names)
+        self.lower, self.upper = leads.lower, leads.upper

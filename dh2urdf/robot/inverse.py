@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolverError
+from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -20,13 +20,8 @@ if TYPE_CHECKING:
     from dh2urdf.ik.solve import InverseKinematics, Locked
 
 
-class RobotIK:
+class RobotIK(RobotConfigurations):
     """What :class:`dh2urdf.Robot` knows of inverse kinematics."""
-
-    chain: SerialChain
-    joint_names: tuple[str, ...]
-    lower: Array
-    upper: Array
 
     @property
     def solver(self) -> Solver:
@@ -273,10 +268,6 @@ class RobotIK:
                 "ik needs joints that move independently; ik_numeric finds solutions one at a time"
             )
         return InverseKinematics(self.chain, self._placements)
-
-    def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Matrix (chain.n, n) and offset (chain.n,) from q to the chain's joints; which slide."""
-        raise NotImplementedError
 
     def _placements(self, q: Array) -> Array:
         """Poses of the tip in the base by Pinocchio, for configurations (k, n)."""

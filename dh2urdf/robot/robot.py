@@ -33,7 +33,6 @@ from dh2urdf.kernels.chain import (
     chain_jacobian,
     chain_jacobian_batch,
 )
-from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.inverse import RobotIK
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
@@ -54,7 +53,7 @@ class _Working(threading.local):
         return _Working, (self.model,)
 
 
-class Robot(RobotConfigurations, RobotIK, RobotPictures):
+class Robot(RobotIK, RobotPictures):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.
@@ -105,7 +104,10 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         self.chain = dh_to_chain(table) if table else model_to_chain(model, path)
         self._coupling = couple(self.chain, mimics or {})
         self._bounds()
-        self._prepare()
+        self._plain = (self.n,) if self._coupling is None else None
+        self._working = _Working(model)
+        own = carried_dh_frames(table) if table else carried_joint_frames(model, path, self.chain)
+        self._carried = own
         self._check_agreement()
 
     @classmethod
@@ -223,17 +225,6 @@ class Robot(RobotConfigurations, RobotIK, RobotPictures):
         if self._coupling is not None:
             out = out @ self._coupling.matrix
         return out.reshape(*shape, 6, self.n)
-
-    def _prepare(self) -> None:
-        """What a call needs: Pinocchio's data, the frames carried along."""
-        model, path = self.model, self._path
-        self._working = _Working(model)
-        self._plain = (self.n,) if self._coupling is None else None
-        self._carried = (
-            carried_dh_frames(self.table)
-            if self.table
-            else carried_joint_frames(model, path, self.chain)
-        )
 
     def _placements(self, q: Array) -> Array:
         """``T_base_tip`` of configurations (k, n) by Pinocchio, shape (k, 4, 4)."""

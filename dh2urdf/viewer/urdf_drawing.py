@@ -14,7 +14,7 @@ from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array, origin_matrix
+from dh2urdf.transforms import Array, moved, origin_matrix
 
 GREY = (200, 204, 212)
 """Colour of a visual that has none."""
@@ -117,8 +117,7 @@ def _mesh(
     scale = np.array(_numbers(shape.get("scale", "1 1 1")))
     out = []
     for mesh in scene:
-        vertices = np.asarray(mesh.vertices, float) * scale
-        placed = vertices @ T_link_visual[:3, :3].T + T_link_visual[:3, 3]
+        placed = moved(T_link_visual, np.asarray(mesh.vertices, float) * scale)
         faces = np.asarray(mesh.faces, np.uint32)
         out.append(Surface(placed, faces, colour or _mesh_colour(mesh)))
     return out

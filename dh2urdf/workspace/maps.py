@@ -9,7 +9,7 @@ from dh2urdf.bounds import ORIENTATIONS, SAMPLES
 from dh2urdf.doors import finite_array, flag, instance, integer
 from dh2urdf.ik.redundant import SweptJoint, sample_values
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, pose
 from dh2urdf.workspace.section import Section
 from dh2urdf.workspace.task import orientations, task_of
 
@@ -115,8 +115,6 @@ def _parts(grid: Section, turns: Array, progress: Progress | None) -> Iterator[A
     step = max(1, CHUNK // each)
     for start in range(0, len(points), step):
         part = points[start : start + step, None]
-        Ts = np.tile(np.eye(4), (len(part), each, 1, 1))
-        Ts[..., :3, :3], Ts[..., :3, 3] = turns, part
-        yield Ts.reshape(-1, 4, 4)
+        yield pose(turns, part).reshape(-1, 4, 4)
         if progress is not None:
             progress((start + len(part)) * each, len(points) * each)

@@ -18,7 +18,7 @@ from dh2urdf.dh_io.formats.grid import INDEX, heading, metadata, separator, unit
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off
-from dh2urdf.transforms import Array, origin_matrix, quaternion_to_matrix
+from dh2urdf.transforms import Array, origin_matrix, pose, quaternion_to_matrix
 
 _Cells = Sequence[str] | None
 
@@ -198,11 +198,10 @@ def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -
         return _of_matrix(values, where, nearest)
     if columns[-1].name == "yaw":
         return origin_matrix(values[:3], values[3:])
-    T, norm = origin_matrix(values[:3], (0.0, 0.0, 0.0)), math.hypot(*values[3:])
+    norm = math.hypot(*values[3:])
     if abs(norm - 1.0) > OFF_UNIT:
         raise PoseError(f"{where}: the norm of the quaternion is {norm:.3g}; expected 1")
-    T[:3, :3] = quaternion_to_matrix(np.array(values[3:]) / norm)
-    return T
+    return pose(quaternion_to_matrix(np.array(values[3:]) / norm), values[:3])
 
 
 def _of_matrix(entries: list[float], what: str, nearest: bool) -> Array:

@@ -10,7 +10,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign.frame_assignment import Assignment, FrameAssigner, XRule
 from dh2urdf.conversions.assign.prismatic_axes import place_prismatic_axes
-from dh2urdf.conversions.write import FLIP
+from dh2urdf.conversions.write import turned_round
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import NameNotFoundError
 from dh2urdf.transforms import Array
@@ -71,16 +71,6 @@ def chain_to_dh(
         tool=tidy_origin(assignment.end.tool, size),
     )
     return AssignedTable(table, assignment, links)
-
-
-def turned_round(links: Array, signs: Sequence[int]) -> Array:
-    """Links of the chain whose joint frames have z turned round where the sign is -1."""
-    out = links.copy()
-    for i, sign in enumerate(signs):
-        if sign < 0:
-            out[i] = out[i] @ FLIP
-            out[i + 1] = FLIP @ out[i + 1]
-    return out
 
 
 def flip_signs(chain: SerialChain, flip: Sequence[str]) -> tuple[int, ...]:

@@ -10,12 +10,9 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.chains.model_chain import ChainPath
 from dh2urdf.conversions.chains.tree_chain import ChainSource
 from dh2urdf.conversions.read import Actuation, Mimic
-from dh2urdf.conversions.write import FLIP, Inertial, link_frames, six_of
+from dh2urdf.conversions.write import FLIP, Inertial, link_frames, six_of, without_noise
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
-
-NOISE = 1e-15
-"""What a product of rotations leaves of an exact zero, relative to the largest entry."""
 
 
 def carry(table: DHTable, source: ChainSource) -> DHTable:
@@ -36,15 +33,9 @@ def _carried(
     if body is None:
         return row
     moved = body.moved(inverse(T_base_dh) @ T_base_joint)
-    x, y, z = (float(v) for v in _cleared(moved.com, 1e-3))
-    m = _cleared(0.5 * (moved.inertia + moved.inertia.T), 0.0)
+    x, y, z = without_noise(moved.com, 1e-3).tolist()
+    m = without_noise(0.5 * (moved.inertia + moved.inertia.T))
     return replace(row, mass=body.mass, com=(x, y, z), inertia=six_of(m))
-
-
-def _cleared(values: Array, least: float) -> Array:
-    """Values without the rounding noise of turning them, relative to the largest."""
-    noise = NOISE * max(float(np.abs(values).max(initial=0.0)), least)
-    return np.where(np.abs(values) <= noise, 0.0, values)
 
 
 def carried_dh_frames(table: DHTable) -> Array:

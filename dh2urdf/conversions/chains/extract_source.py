@@ -52,7 +52,8 @@ def read_source(
         if extra:
             raise UrdfError(f"{extra[0]}: only for joint axes typed by hand")
         if isinstance(source, pin.Model):
-            return _from_model(source, base, tip)
+            found, path = model_source(source, link_name(base, "base"), link_name(tip, "tip"))
+            return Source(found, model_referee(source, path.base, path.tip, found.chain.names))
         return _from_file(source, base, tip)
     if base is not None or tip is not None:
         raise UrdfError("base and tip: typed axes go from the base frame to the tool")
@@ -64,11 +65,6 @@ def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
     bodies, drives = (None,) * chain.n, (Actuation(),) * chain.n
     found = ChainSource(chain, name, "base", "tool", bodies, drives, origin=origin)
     return Source(found, screw_referee(chain))
-
-
-def _from_model(model: pin.Model, base: str | None, tip: str | None) -> Source:
-    found, path = model_source(model, link_name(base, "base"), link_name(tip, "tip"))
-    return Source(found, model_referee(model, path.base, path.tip, found.chain.names))
 
 
 def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None) -> Source:

@@ -95,8 +95,7 @@ def model_to_chain(model: pin.Model, path: ChainPath) -> SerialChain:
         linear = bool(np.abs(S[:3]).max() > np.abs(S[3:]).max())
         axis = S[:3] if linear else S[3:]
         types.append(JointType.PRISMATIC if linear else JointType.REVOLUTE)
-        turn = np.eye(4)
-        turn[:3, :3] = frame_with_z(-axis if k < path.up else axis)
+        turn = tf.pose(frame_with_z(-axis if k < path.up else axis))
         frames.append(data.oMi[i].homogeneous @ turn)
     frames.append(data.oMf[path.tip].homogeneous)
     slides = [kind is JointType.PRISMATIC for kind in types]

@@ -95,8 +95,7 @@ def frame_with_z(axis: Array) -> Array:
 def _halves(step: Step) -> tuple[Array, Array]:
     """A moving step at q as ``before Z(q) after``."""
     joint = step.joint
-    turn = np.eye(4)
-    turn[:3, :3] = frame_with_z(joint.axis)
+    turn = tf.pose(frame_with_z(joint.axis))
     if step.forward:
         return joint.origin @ turn, turn.T
     # (origin turn Z(q) turn^-1)^-1 = turn FLIP Z(q) FLIP turn^-1 origin^-1

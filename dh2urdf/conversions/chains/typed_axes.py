@@ -170,10 +170,7 @@ def _frame(i: int, axis: Array, point: Array) -> Array:
         raise UrdfError(f"joint {i}: a zero axis")
     if np.abs(point).max() > LENGTH:
         raise UrdfError(f"joint {i}: a point beyond {LENGTH:.0e} m")
-    T = np.eye(4)
-    T[:3, :3] = frame_with_z(axis if length == 1.0 else axis / length)
-    T[:3, 3] = point
-    return T
+    return tf.pose(frame_with_z(axis if length == 1.0 else axis / length), point)
 
 
 def read_axes(path: Path) -> tuple[SerialChain, str]:

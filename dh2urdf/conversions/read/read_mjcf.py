@@ -17,17 +17,7 @@ from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
-NUMBERS = (
-    "body_pos",
-    "body_quat",
-    "body_mass",
-    "body_inertia",
-    "body_ipos",
-    "jnt_axis",
-    "jnt_pos",
-    "qpos0",
-    "site_pos",
-)
+NUMBERS = "body_pos body_quat body_mass body_inertia body_ipos jnt_axis jnt_pos qpos0 site_pos"
 """What is read of a compiled model, by MuJoCo's own names."""
 
 KINDS = ("free", "ball", "prismatic", "revolute")
@@ -63,7 +53,7 @@ class _Bodies:
         m = self.m
         if m.nbody + m.njnt + m.nsite > LINKS:
             raise UrdfError(f"{self.where}: more than {LINKS} bodies, joints and sites")
-        for key in NUMBERS:
+        for key in NUMBERS.split():
             if not (np.abs(getattr(m, key)) <= LENGTH).all():
                 raise UrdfError(f"{self.where}: {key}: numbers that are no numbers or beyond 1e9")
         root = self.link(m.body(0).name or "world", None)
@@ -114,27 +104,15 @@ class _Bodies:
                 rest[:3, 3] = axis * reference
         limited = bool(m.jnt_limited[j])
         far = LENGTH if kind == "prismatic" else ANGLE
-        ends = [float(v) for v in m.jnt_range[j]]
-        lower, upper = (v if limited and abs(v) <= far else None for v in ends)
         name = m.joint(j).name or f"joint_{j}"
         dof = int(m.jnt_dofadr[j])
         resists = (float(values[dof]) or None for values in (m.dof_damping, m.dof_frictionloss))
         drive = Actuation(None, None, *resists)
         self.addresses[name] = int(m.jnt_qposadr[j])
-        self.joints.append(
-            TreeJoint(
-                name,
-                kind,
-                parent,
-                child,
-                origin=pose @ anchor,
-                axis=axis,
-                where=f'{self.where}: <joint name="{name}">',
-                lower=lower,
-                upper=upper,
-                drive=drive,
-            )
-        )
+        where, origin = f'{self.where}: <joint name="{name}">', pose @ anchor
+        low, high = (v if limited and abs(v) <= far else None for v in m.jnt_range[j].tolist())
+        ends = parent, child
+        self.joints.append(TreeJoint(name, kind, *ends, origin, axis, where, low, high, drive))
         out: Array = rest @ tf.inverse(anchor)
         return out
 
@@ -150,7 +128,4 @@ class _Bodies:
 
 def _pose(position: Array, wxyz: Array) -> Array:
     """A pose from MuJoCo's position and quaternion (w first)."""
-    T = np.eye(4)
-    T[:3, :3] = tf.quaternion_to_matrix(np.roll(wxyz, -1))
-    T[:3, 3] = position
-    return T
+    return tf.pose(tf.quaternion_to_matrix(np.roll(wxyz, -1)), position)

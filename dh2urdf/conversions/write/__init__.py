@@ -14,8 +14,9 @@ from dh2urdf.conversions.write.inertia import (
     six_of,
     tensor,
     why_impossible,
+    without_noise,
 )
-from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain, link_frames
+from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain, link_frames, turned_round
 from dh2urdf.conversions.write.urdf_elements import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,

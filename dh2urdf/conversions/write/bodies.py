@@ -17,7 +17,7 @@ from dh2urdf.conversions.write.inertia import Inertial
 from dh2urdf.conversions.write.link_paths import link_paths
 from dh2urdf.conversions.write.table_chain import link_frames
 from dh2urdf.dh import DHTable, JointType
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, pose, trans
 
 LINK_RADIUS = 0.042
 """Radius of the first link's capsule, as a share of the arm's length."""
@@ -196,7 +196,7 @@ def _capsules(path: list[Array], r: float) -> Iterator[Body]:
         if length < 0.2 * r:
             continue
         yield _cylinder((last + point) / 2, leg / length, (r, length), "link")
-        yield Body("sphere", (r,), _pose(np.eye(3), point), "link")
+        yield Body("sphere", (r,), trans(*point), "link")
         last = point
 
 
@@ -205,19 +205,13 @@ def _drum(centre: Array, r: float) -> Body:
 
 
 def _cylinder(centre: Array, axis: Array, size: tuple[float, float], material: str) -> Body:
-    return Body("cylinder", size, _pose(frame_along(axis), centre), material)
+    return Body("cylinder", size, pose(frame_along(axis), centre), material)
 
 
 def _box(T: Array, z: float, size: tuple[float, float, float], material: str) -> Body:
     """A box along the z axis of a frame, its middle at height z."""
     middle = T @ np.array([0.0, 0.0, z, 1.0])
-    return Body("box", size, _pose(T[:3, :3], middle[:3]), material)
-
-
-def _pose(R: Array, p: Array) -> Array:
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = R, p
-    return T
+    return Body("box", size, pose(T[:3, :3], middle[:3]), material)
 
 
 def frame_along(axis: Array) -> Array:

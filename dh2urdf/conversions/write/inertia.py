@@ -70,10 +70,12 @@ class Inertial:
         return Inertial(mass, com, inertia)
 
 
-def without_noise(inertia: Array) -> Array:
-    """The tensor with entries that are rounding error of a rotation set to 0."""
-    out: Array = np.where(np.abs(inertia) <= NOISE * _size(inertia), 0.0, inertia)
-    return out
+def without_noise(values: Array, least: float = 0.0) -> Array:
+    """A tensor or place, entries that are rounding error of turning it set to 0.
+
+    ``least`` is the size that its largest entry is taken to have at least.
+    """
+    return np.where(np.abs(values) <= NOISE * max(_size(values), least), 0.0, values)
 
 
 def _size(inertia: Array) -> float:

@@ -1,6 +1,7 @@
 """From a DH table to a serial chain, and to the frames in which the URDF puts its links."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -66,15 +67,21 @@ def link_frames(table: DHTable) -> LinkFrames:
     return LinkFrames(tuple(origins), tuple(dh), product(dh[-1], table.tool.matrix))
 
 
+def turned_round(links: Array, signs: Iterable[int]) -> Array:
+    """Links (n + 1, 4, 4) of the chain whose joints have z turned round where the sign is -1."""
+    out = links.copy()
+    for i, sign in enumerate(signs):
+        if sign < 0:
+            out[i], out[i + 1] = product(out[i], FLIP), product(FLIP, out[i + 1])
+    return out
+
+
 def dh_to_chain(table: DHTable) -> SerialChain:
     """The chain whose product equals the DH product of the table, factor by factor."""
     joints, frames = table.joints, link_frames(table)
     links = np.stack([*frames.origins, frames.tool])
-    for i, row in enumerate(joints):
-        if row.sign < 0:
-            links[i], links[i + 1] = product(links[i], FLIP), product(FLIP, links[i + 1])
     return SerialChain(
-        links=links,
+        links=turned_round(links, [row.sign for row in joints]),
         joint_types=tuple(row.joint_type for row in joints),
         names=table.joint_names,
         lower=np.array([-math.inf if r.lower is None else r.lower for r in joints]),

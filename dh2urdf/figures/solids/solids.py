@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.conversions.write import Body
 from dh2urdf.figures.projection import View
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, moved
 
 AROUND = 48
 """Corners of a circle."""
@@ -90,7 +90,7 @@ def _sheen(body: Body, T: Array, view: View) -> list[Face]:
     rim = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
     ends = [np.c_[rim, np.full(len(rim), z)] for z in (-length / 2, length / 2)]
     strip = np.concatenate([ends[0], ends[1][::-1]])
-    return [Face(view.flat(_placed(strip, T)), SHEEN)]
+    return [Face(view.flat(moved(T, strip)), SHEEN)]
 
 
 def _box_faces(body: Body, T: Array, view: View) -> list[Face]:
@@ -105,19 +105,14 @@ def _box_faces(body: Body, T: Array, view: View) -> list[Face]:
         corners[:, axis] = normal[axis] * half[axis]
         corners[:, others] = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * half[others]
         lit = 0.15 + 0.85 * max(float(world[2]), 0.0) + 0.2 * max(float(-world @ view.axes[0]), 0.0)
-        out.append(Face(view.flat(_placed(corners, T)), min(lit, 1.0)))
+        out.append(Face(view.flat(moved(T, corners)), min(lit, 1.0)))
     return out
 
 
 def _circle(body: Body, T: Array, side: float) -> Array:
     """Rim of a cylinder's cap in base, shape (AROUND, 3)."""
     radius, length = body.size
-    return _placed(np.c_[radius * RIM, np.full(AROUND, side * length / 2)], T)
-
-
-def _placed(points: Array, T: Array) -> Array:
-    """Points (m, 3) of a body in base."""
-    return np.asarray(points @ T[:3, :3].T + T[:3, 3])
+    return moved(T, np.c_[radius * RIM, np.full(AROUND, side * length / 2)])
 
 
 def hull_points(body: Body, T: Array) -> Array:
@@ -126,7 +121,7 @@ def hull_points(body: Body, T: Array) -> Array:
         return np.concatenate([_circle(body, T, -1.0), _circle(body, T, 1.0)])
     if body.shape == "box":
         corners = np.array(np.meshgrid(*[(-s / 2, s / 2) for s in body.size])).reshape(3, -1).T
-        return _placed(corners, T)
+        return moved(T, corners)
     return np.asarray(T[:3, 3] + body.size[0] * NORMALS)
 
 

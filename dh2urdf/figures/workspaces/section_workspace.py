@@ -10,7 +10,7 @@ from dh2urdf.drawing.arm import zero_configuration
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, pose
 from dh2urdf.workspace import Section, Task, caption, task_of
 
 Counts = NDArray[np.int64]
@@ -165,8 +165,7 @@ def _posed(
     zero = zero_configuration(robot, None)
     u, v, half = np.median(grid.u), np.median(grid.v), (grid.u[-1] - grid.u[0]) / 2
     across = [grid.plane.normal, grid.plane.u, grid.plane.v]
-    T = np.eye(4)
-    T[:3, :3] = R
+    T = pose(R)
     for share in (0.55, 0.45, 0.35, 0.65, 0.25):
         T[across, 3] = grid.at, u + share * half, v + 0.15 * half
         try:

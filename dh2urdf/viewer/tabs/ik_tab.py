@@ -9,7 +9,7 @@ import numpy as np
 from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array, quaternion_to_matrix
+from dh2urdf.transforms import Array, pose, quaternion_to_matrix
 from dh2urdf.viewer.arm_scene import Ghosts, set_poses
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
@@ -201,6 +201,4 @@ def dragged_axes(robot: Robot) -> tuple[bool, bool, bool]:
 def _pose(handle: Any) -> Array:
     """Pose of a handle of the scene, its quaternion brought to unit length, shape (4, 4)."""
     w, *xyz = np.array(handle.wxyz, float) / np.linalg.norm(handle.wxyz)
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = quaternion_to_matrix(np.array([*xyz, w])), handle.position
-    return T
+    return pose(quaternion_to_matrix(np.array([*xyz, w])), handle.position)
