@@ -1,0 +1,133 @@
+"""The referee of sweeps: what of the configurations that poses were made of is found, or lost."""
+
+import time
+from collections import Counter
+from dataclasses import dataclass, field
+
+import numpy as np
+from dh_arm import arm_of
+from ik_referee import forward, gaps, jacobians, residuals, same_to_rounding
+from self_motions import is_family, on_family
+from structured import table_line
+
+import dh2urdf
+
+REGULAR = 1e-4
+"""Smallest singular value of the Jacobian, lengths in sizes of the arm, of a regular pose."""
+
+ACCEPT = 1e-9
+"""Residual [m and rad] of a solution."""
+
+ROUNDING = 1e-12
+"""What a solution may be off by, times its smallest singular value; and bounds of that [rad]."""
+LEAST, MOST = 1e-8, 1e-6
+
+SURE = 1e-11
+"""Residual of a short walk along a family that has to be named: round a circle it is accepted."""
+
+SINGULAR_LOST = 1e-4
+"""Part of the singular poses that may be lost, each of them listed."""
+
+
+@dataclass
+class Tally:
+    """Figures of a class of poses, and what is wrong in words."""
+
+    name: str
+    count: Counter = field(default_factory=Counter)
+    notes: list = field(default_factory=list)
+    cases: list = field(default_factory=list)
+    seconds: float = 0.0
+
+    def note(self, what, table, q):
+        """Count a failure and describe it."""
+        self.count[what] += 1
+        self.cases.append((what, table, np.array(q)))
+        values = " ".join(f"{x!r}" for x in np.asarray(q).tolist())
+        self.notes.append(f"{what}: {table_line(table)} at q = {values}")
+
+    def line(self):
+        """One line of figures."""
+        c = self.count
+        micro = 1e6 * self.seconds / max(c["poses"], 1)
+        return (
+            f"{self.name}: {c['tables']} tables ({c['refused']} refused), {c['poses']} poses, "
+            f"{c['regular']} regular: {c['regular lost']} lost; "
+            f"{c['singular']} singular: {c['singular lost']} lost, "
+            f"{c['no answer']} without answer; {c['wrong']} wrong, {c['twice']} twice, "
+            f"{c['no family']} families that are none, {c['unnamed']} not named; {micro:.0f} us"
+        )
+
+    def failures(self):
+        """What may not be, in words."""
+        c = self.count
+        few = c["singular lost"] <= SINGULAR_LOST * c["singular"]
+        return [note for note in self.notes if not (few and note.startswith("singular lost"))]
+
+
+def smallest(arm, q, moving):
+    """Smallest singular value at configurations (m, n) of the joints that may move, (m,)."""
+    J = jacobians(arm, q)[..., moving]
+    J[..., :3, :] /= arm.size
+    return np.linalg.svd(J, compute_uv=False)[..., -1]
+
+
+def contains(arm, found, masks, q, T, tolerance):
+    """Whether q (n,) is a solution (k, n), on a named family, or a solution to rounding."""
+    away = gaps(arm, found, q) if len(found) else np.array([np.inf])
+    if away.min() <= tolerance:
+        return True
+    bits = (masks[:, None] >> np.arange(arm.n)) & 1 == 1
+    for k in np.argsort(away):
+        if masks[k] and on_family(arm, found[k], q, T, bits[k], MOST):
+            return True
+    near = [k for k in np.argsort(away) if away[k] < 0.1]
+    return tolerance > LEAST and any(same_to_rounding(arm, found[k], q, T) for k in near)
+
+
+def judge(tally, table, q, solve, robot=None, held=()):
+    """Solve the poses of configurations q (m, n) and count what is lost or wrong.
+
+    ``solve`` takes the robot and poses (m, 4, 4) and returns a batch; some joints may be held.
+    """
+    arm, robot = arm_of(table), robot or dh2urdf.Robot.from_dh(table)
+    moving = np.isin(np.arange(arm.n), held, invert=True)
+    Ts = np.ascontiguousarray(forward(arm, q))
+    begun = time.perf_counter()
+    batch = solve(robot, Ts)
+    tally.seconds += time.perf_counter() - begun
+    sigma = smallest(arm, q, moving)
+    tolerance = np.clip(ROUNDING / np.maximum(sigma, 1e-300), LEAST, MOST)
+    tally.count["tables"] += 1
+    for i, T in enumerate(Ts):
+        k = batch.count[i]
+        found, masks = batch.q[i, :k], batch.free_mask[i, :k]
+        kind = "regular" if sigma[i] > REGULAR else "singular"
+        tally.count["poses"] += 1
+        tally.count[kind] += 1
+        if k == 0:
+            tally.note("no answer", table, q[i])
+        if k == 0 or not contains(arm, found, masks, q[i], T, tolerance[i]):
+            tally.note(f"{kind} lost", table, q[i])
+        if k > 0:
+            _check_solutions(tally, table, arm, (found, masks, moving), T, q[i])
+
+
+def _check_solutions(tally, table, arm, solutions, T, q):
+    """Count solutions that miss the pose, are there twice, or are wrong about families."""
+    found, masks, moving = solutions
+    if residuals(arm, found, T).max() > ACCEPT:
+        tally.note("wrong", table, q)
+    away = gaps(arm, found[:, None], found[None])
+    alike = masks[:, None] == masks[None]
+    if ((away + 9.0 * np.eye(len(found)) < MOST) & alike).any():
+        tally.note("twice", table, q)
+    sigma = smallest(arm, found, moving)
+    for p, mask, small in zip(found, masks.tolist(), sigma, strict=True):
+        bits = (mask >> np.arange(arm.n)) & 1 == 1
+        if mask and not is_family(arm, p, T, bits):
+            tally.note("no family", table, q)
+            break
+        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE):
+            tally.note("unnamed", table, q)
+            break

@@ -1,0 +1,134 @@
+"""Poses that people type, by class of arm: nothing is lost, nothing is wrong.
+
+Each class prints a line of figures; ``SWEEP=10`` in the environment takes ten times as many poses.
+"""
+
+import os
+
+import numpy as np
+import pytest
+from dh_arm import arm_of
+from ik_referee import gaps
+from structured import (
+    ROUNDINGS,
+    random_tables,
+    rounded,
+    shipped_tables,
+    structured_configurations,
+    variant_tables,
+)
+from sweep import Tally, judge, smallest
+
+import dh2urdf
+from dh2urdf.exceptions import NoSolverError
+
+SIZE = float(os.environ.get("SWEEP", "1"))
+"""Poses of a class, as a multiple of what follows."""
+
+POSES, TABLES = int(120 * SIZE), int(60 * SIZE)
+"""Poses a table that ships, and tables of other classes, each with a third as many poses."""
+
+SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
+
+
+def anywhere(robot, Ts):
+    return robot.ik_batch(Ts, within_limits=False)
+
+
+def refused(table):
+    """Whether no solver covers an arm: three joints or more can move while the tool stays."""
+    try:
+        return not dh2urdf.Robot.from_dh(table).solver
+    except NoSolverError:
+        return True
+
+
+def sweep(name, tables, poses, decimals=None, seed=0):
+    """The tally of a class of tables."""
+    tally = Tally(f"{name}, {'exact' if decimals is None else f'{decimals} digits'}")
+    for k, table in enumerate(rounded(table, decimals) for table in tables):
+        if refused(table):
+            tally.count["refused"] += 1
+            continue
+        judge(tally, table, structured_configurations(arm_of(table), poses, seed + k), anywhere)
+    return tally
+
+
+def report(tally):
+    """Print the figures, and fail with what may not be."""
+    print("\n" + tally.line())
+    assert tally.failures() == []
+
+
+CLASSES = {
+    "shipped": lambda: [table for table in shipped_tables() if len(table.rows) != 7],
+    "variants": lambda: [t for t in variant_tables(TABLES) if len(t.rows) != 7],
+    "random of 6": lambda: random_tables(TABLES),
+    "random of 5": lambda: random_tables(TABLES // 4, joints=5),
+    "random of 4": lambda: random_tables(TABLES // 4, joints=4),
+}
+
+
+def test_the_referee_misses_what_is_taken_away():
+    """Without the solution that is nearest, and without its family, a configuration is lost."""
+    table = dh2urdf.load_table("puma560")
+    q = structured_configurations(arm_of(table), 60, 0)
+
+    def without_nearest(robot, Ts):
+        batch = anywhere(robot, Ts)
+        for i, k in enumerate(batch.count):
+            away = gaps(arm_of(table), batch.q[i, :k], q[i])
+            away[batch.free_mask[i, :k] > 0] = 0.0
+            keep = away > 0.2
+            batch.count[i] = keep.sum()
+            batch.q[i, : keep.sum()] = batch.q[i, :k][keep]
+            batch.free_mask[i, : keep.sum()] = 0
+        return batch
+
+    tally = Tally("taken away")
+    judge(tally, table, q, without_nearest)
+    assert tally.count["regular lost"] == tally.count["regular"]
+    assert tally.count["singular lost"] == tally.count["singular"]
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("decimals", ROUNDINGS)
+@pytest.mark.parametrize("name", CLASSES)
+def test_structured_poses_lose_nothing(name, decimals):
+    """All joints on a grid, or one or two of them, with noise from none to 1e-2."""
+    poses = POSES if name == "shipped" else POSES // 3
+    report(sweep(name, CLASSES[name](), poses, decimals))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("decimals", ROUNDINGS)
+def test_seven_joints_held_on_a_grid_lose_nothing(decimals):
+    """Each joint in turn is held at the value that it has."""
+    tally = Tally(f"seven held, {'exact' if decimals is None else f'{decimals} digits'}")
+    others = [table for table in variant_tables(TABLES) if len(table.rows) == 7]
+    for table in (rounded(table, decimals) for table in [*SEVEN, *others]):
+        robot = dh2urdf.Robot.from_dh(table)
+        for joint in range(7):
+            q = structured_configurations(arm_of(table), POSES // 6, joint)
+
+            def held(robot, Ts, joint=joint, values=q[:, joint]):
+                return robot.ik_batch(Ts, within_limits=False, locked={joint: values})
+
+            judge(tally, table, q, held, robot, (joint,))
+    report(tally)
+
+
+@pytest.mark.exhaustive
+def test_a_seed_that_reaches_the_pose_is_the_first_answer_of_seven_joints():
+    """A configuration is its own nearest solution."""
+    tally = Tally("seven seeded, exact")
+    for table in SEVEN:
+        robot, arm = dh2urdf.Robot.from_dh(table), arm_of(table)
+        for q in structured_configurations(arm, POSES // 2, 1):
+            tally.count["poses"] += 1
+            found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+            kind = "regular" if smallest(arm, q, np.ones(7, bool)) > 1e-4 else "singular"
+            tally.count[kind] += 1
+            if not len(found) or gaps(arm, found.q[0], q) > 1e-6:
+                tally.note(f"{kind} lost", table, q)
+    report(tally)
