@@ -21,3 +21,28 @@ def run(capsys, tmp_path, monkeypatch):
         return stop.value.code, out, err
 
     return call
+
+
+@pytest.fixture
+def refused(run):
+    """Run the command line on what it refuses: status 2, nothing but the message on stderr."""
+
+    def call(*argv):
+        status, out, err = run(*argv)
+        assert (status, out) == (2, "")
+        assert "dh2urdf: " in err
+        assert "Traceback" not in err
+        return err
+
+    return call
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write a text to a file of a new folder: its path."""
+
+    def write(name, text):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        return tmp_path / name
+
+    return write

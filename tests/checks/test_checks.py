@@ -34,16 +34,10 @@ every_case = pytest.mark.parametrize(("rule", "text"), CASES)
 
 
 @pytest.fixture
-def written(tmp_path):
+def urdf(written, tmp_path):
     """Write a URDF beside some meshes; its path."""
     write_meshes(tmp_path)
-
-    def write(text):
-        path = tmp_path / "arm.urdf"
-        path.write_text(text, encoding="utf-8")
-        return path
-
-    return write
+    return lambda text: written("arm.urdf", text)
 
 
 def predicted(findings, consumer):
@@ -75,9 +69,9 @@ def test_every_rule_has_a_file_that_breaks_it():
 
 
 @every_case
-def test_the_fault_is_found(rule, text, written):
+def test_the_fault_is_found(rule, text, urdf):
     """The rule of a fault finds it, on a line of the file, says whom it concerns and the cure."""
-    path = written(text)
+    path = urdf(text)
     found = [f for f in check_urdf(path) if f.rule == rule]
     assert found
     lines = text.splitlines()
@@ -89,30 +83,29 @@ def test_the_fault_is_found(rule, text, written):
         assert finding.consumers
 
 
-def test_sound_files_have_no_findings(written):
+def test_sound_files_have_no_findings(urdf):
     """A sound arm, with and without frames, has none, and everyone here accepts it."""
     frame = TOOL.replace('"tool0"/>', '"tool0"><inertial><mass value="0"/><inertia ixx="0" '
         'ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>', 1)  # fmt: skip
     for text in (SOUND, arm(extra=KEEP + frame)):
-        assert check_urdf(written(text)) == ()
-        assert [ask(c, written(text)).verdict for c in HERE] == [Verdict.ACCEPTS] * 4
+        assert check_urdf(urdf(text)) == ()
+        assert [ask(c, urdf(text)).verdict for c in HERE] == [Verdict.ACCEPTS] * 4
 
 
 @pytest.mark.parametrize("name", dh2urdf.list_tables())
-def test_own_files_have_no_findings(name, tmp_path):
+def test_own_files_have_no_findings(name, written):
     """What dh2urdf writes passes every rule."""
-    path = tmp_path / "arm.urdf"
-    path.write_text(dh2urdf.urdf_text(dh2urdf.load_table(name)))
+    path = written("arm.urdf", dh2urdf.urdf_text(dh2urdf.load_table(name)))
     assert check_urdf(path) == ()
 
 
 @pytest.mark.parametrize("consumer", HERE)
 @every_case
-def test_consumers_do_as_predicted(rule, text, consumer, written, capfd, caplog, monkeypatch):
+def test_consumers_do_as_predicted(rule, text, consumer, urdf, capfd, caplog, monkeypatch):
     """Each consumer refuses, complains or accepts exactly as the findings say."""
     if rule == "joins-itself":
         monkeypatch.setattr(consumers, "PATIENCE", 3.0)
-    path = written(text)
+    path = urdf(text)
     assert verdict_here(consumer, path, capfd, caplog) == predicted(check_urdf(path), consumer)
 
 
@@ -127,62 +120,62 @@ def test_predictions_hold_for_real_robots(path, consumer):
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("consumer", ELSEWHERE)
 @every_case
-def test_other_consumers_do_as_predicted(rule, text, consumer, written, monkeypatch):
+def test_other_consumers_do_as_predicted(rule, text, consumer, urdf, monkeypatch):
     """The same of PyBullet, Drake and ikpy, each in a process of its own."""
     pytest.importorskip(consumers.MODULES[consumer])
     if rule == "joins-itself":
         monkeypatch.setattr(consumers, "PATIENCE", 10.0)
-    path = written(text)
+    path = urdf(text)
     assert ask(consumer, path).verdict == predicted(check_urdf(path), consumer)
 
 
-def test_severity_is_that_of_the_worst_effect(written):
+def test_severity_is_that_of_the_worst_effect(urdf):
     """No mass: MuJoCo refuses, an error. Root with mass: KDL complains, a warning."""
-    (finding,) = check_urdf(written(arm(fore="")))
+    (finding,) = check_urdf(urdf(arm(fore="")))
     assert finding.severity is Severity.ERROR
-    (finding,) = check_urdf(written(arm(base=BODY)))
+    (finding,) = check_urdf(urdf(arm(base=BODY)))
     assert finding.severity is Severity.WARNING
-    (finding,) = check_urdf(written(arm(elbow=joint(kind="continuous", limit=""))))
+    (finding,) = check_urdf(urdf(arm(elbow=joint(kind="continuous", limit=""))))
     assert finding.severity is Severity.ADVICE
 
 
-def test_continuous_joints_have_two_numbers_in_pinocchio(written):
+def test_continuous_joints_have_two_numbers_in_pinocchio(urdf):
     """As the advice says: model.nq exceeds model.nv."""
-    model = pin.buildModelFromUrdf(str(written(arm(elbow=joint(kind="continuous", limit="")))))
+    model = pin.buildModelFromUrdf(str(urdf(arm(elbow=joint(kind="continuous", limit="")))))
     assert (model.nq, model.nv) == (3, 2)
 
 
-def test_mujoco_fuses_links_on_fixed_joints(written):
+def test_mujoco_fuses_links_on_fixed_joints(urdf):
     """As the advice says: tool0 is gone, and stays where fusestatic is false."""
     import mujoco
 
     (text,) = FAULTS["fused-frames"]
-    model = mujoco.MjModel.from_xml_path(str(written(text)))
+    model = mujoco.MjModel.from_xml_path(str(urdf(text)))
     assert "tool0" not in {model.body(i).name for i in range(model.nbody)}
-    model = mujoco.MjModel.from_xml_path(str(written(text.replace("</robot>", f"{KEEP}</robot>"))))
+    model = mujoco.MjModel.from_xml_path(str(urdf(text.replace("</robot>", f"{KEEP}</robot>"))))
     assert "tool0" in {model.body(i).name for i in range(model.nbody)}
 
 
-def test_pinocchio_does_not_follow_mimics(written):
+def test_pinocchio_does_not_follow_mimics(urdf):
     """As the advice says: a mimicking joint is free, unless asked for."""
     (text,) = FAULTS["mimic"]
-    path = str(written(text))
+    path = str(urdf(text))
     assert pin.buildModelFromUrdf(path).nv == 2
     assert pin.buildModelFromUrdf(path, True).nv == 1
 
 
-def test_frames_of_two_kinds_share_a_name_in_pinocchio(written):
+def test_frames_of_two_kinds_share_a_name_in_pinocchio(urdf):
     """As the advice says: getFrameId raises on a name that a link and a joint have."""
     (text,) = FAULTS["joint-named-as-link"]
-    model = pin.buildModelFromUrdf(str(written(text)))
+    model = pin.buildModelFromUrdf(str(urdf(text)))
     with pytest.raises(ValueError, match="Several frames"):
         model.getFrameId("fore")
 
 
-def test_bounds_left_out_read_as_zero_in_pinocchio(written):
+def test_bounds_left_out_read_as_zero_in_pinocchio(urdf):
     """As the warning says: the joint has nowhere to go."""
     (text,) = FAULTS["limit-without-bounds"]
-    model = pin.buildModelFromUrdf(str(written(text)))
+    model = pin.buildModelFromUrdf(str(urdf(text)))
     k = model.joints[model.getJointId("elbow")].idx_q
     assert model.lowerPositionLimit[k] == model.upperPositionLimit[k] == 0
 
@@ -213,13 +206,13 @@ def test_rounded_angles_are_told_from_others(word, meant):
     assert found == (None if meant is None else pytest.approx(meant, abs=1e-15))
 
 
-def test_cost_of_a_rounded_angle_is_measured(written):
+def test_cost_of_a_rounded_angle_is_measured(urdf):
     """An angle off by e turns the rest of the arm, 1 m long, about by 2 sin(e / 2) m."""
     tip = '<link name="tip"/>' + fixed("t", "fore", "tip").replace(
         "<parent", '<origin xyz="0 1 0"/><parent'
     )
     text = arm(elbow=joint(rpy="1.5708 0 0", kind="fixed", axis="", limit=""), extra=KEEP + tip)
-    (finding,) = [f for f in check_urdf(written(text)) if f.rule == "rounded-angle"]
+    (finding,) = [f for f in check_urdf(urdf(text)) if f.rule == "rounded-angle"]
     assert "'tip' by up to 3.67 um" in finding.message
     assert "1.5707963267948966 0.0 0.0" in finding.mend
 
@@ -227,29 +220,28 @@ def test_cost_of_a_rounded_angle_is_measured(written):
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "not XML"),
-        (b"\x00\x01", "not XML"),
-        (b"<robot>", "not XML"),
-        (b"<mujoco/>", "MJCF"),
-        (b"<sdf/>", "SDF"),
-        (b"<!DOCTYPE r [<!ENTITY a 'b'>]><robot name='&a;'/>", "DOCTYPE"),
+        ("", "not XML"),
+        ("\x00\x01", "not XML"),
+        ("<robot>", "not XML"),
+        ("<mujoco/>", "MJCF"),
+        ("<sdf/>", "SDF"),
+        ("<!DOCTYPE r [<!ENTITY a 'b'>]><robot name='&a;'/>", "DOCTYPE"),
     ],
 )
-def test_what_is_no_urdf_is_an_error_of_one_line(content, message, tmp_path):
+def test_what_is_no_urdf_is_an_error_of_one_line(content, message, written):
     """Unreadable files raise UrdfError with the file's name."""
-    path = tmp_path / "arm.urdf"
-    path.write_bytes(content)
+    path = written("arm.urdf", content)
     with pytest.raises(UrdfError, match=message) as caught:
         check_urdf(path)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-def test_elements_in_odd_places_are_passed_over(written):
+def test_elements_in_odd_places_are_passed_over(urdf):
     """Numbers outside joints, inertials and shapes are nobody's, and no rule stumbles on them."""
     odd = '<origin xyz="-0.0 nan up"/><limit lower="x"/>'
     text = arm(upper=f"{BODY}{odd}", extra=f"{odd}<gazebo>{odd}</gazebo><!-- note --><?pi?>")
-    assert {f.rule for f in check_urdf(written(text))} <= {"number", "not-finite"}
+    assert {f.rule for f in check_urdf(urdf(text))} <= {"number", "not-finite"}
 
 
 WORDS = ["", "nan", "-0", "1e400", "1 2", "0 0 0", "fore", "upper", "${x}", "revolute", "fixed"]
@@ -263,7 +255,7 @@ RICH = arm(
 
 @settings(max_examples=200, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WORDS)), max_size=6))
-def test_no_damage_makes_a_rule_stumble(written, damage):
+def test_no_damage_makes_a_rule_stumble(urdf, damage):
     """Whatever is dropped from a file, doubled or replaced, findings come and no exception."""
     root = etree.fromstring(RICH.encode())
     for where, word in damage:
@@ -276,7 +268,7 @@ def test_no_damage_makes_a_rule_stumble(written, damage):
             element.addnext(deepcopy(element))
         elif keys:
             element.set(keys[where % len(keys)], word)
-    findings = check_urdf(written(etree.tostring(root, encoding="unicode")))
+    findings = check_urdf(urdf(etree.tostring(root, encoding="unicode")))
     assert all(finding.mend for finding in findings)
 
 

@@ -1,10 +1,12 @@
 """The command line as a user meets it: output, exit status, messages, files left behind."""
 
+import io
 import json
 import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -32,28 +34,31 @@ def test_convert_writes_a_verified_urdf(run, tmp_path):
     assert dh2urdf.load_table(tmp_path / "arm.urdf").n == 3
 
 
-@pytest.mark.parametrize("suffix", ["yaml", "toml", "json", "csv", "md"])
-def test_the_same_table_is_written_again_and_another_one_is_not_lost(run, tmp_path, suffix):
-    """A command can be repeated; a table that somebody may have edited stays, unless forced."""
+@pytest.mark.parametrize("suffix", ["yaml", "yml", "toml", "json", "csv", "md"])
+def test_the_same_table_is_written_again_and_another_one_is_not_lost(
+    run, refused, tmp_path, suffix
+):
+    """``-o arm.yaml`` is the table itself, and can be repeated; others stay, unless forced."""
     target = tmp_path / f"arm.{suffix}"
-    for table in ("stanford", "stanford"):
-        assert run("convert", table, "-o", target)[0] == 0
+    for _ in range(2):
+        status, out, _ = run("convert", "stanford", "-o", target)
+        assert (status, "reads back as the same table" in out) == (0, True)
+    assert dh2urdf.load_table(target) == dh2urdf.load_table("stanford")
     for kept in (target.read_text(), target.read_text() + "\n", "not a table\n"):
         target.write_text(kept)
-        status, _, err = run("convert", "planar_rr", "-o", target)
-        assert (status, "--force" in err) == (2, True)
+        assert "--force" in refused("convert", "planar_rr", "-o", target)
         assert target.read_text() == kept
     assert run("convert", "planar_rr", "-o", target, "--force")[0] == 0
+    assert dh2urdf.load_table(target) == dh2urdf.load_table("planar_rr")
 
 
-def test_a_name_that_no_urdf_can_hold_is_told_with_its_place(run, tmp_path):
+def test_a_name_that_no_urdf_can_hold_is_told_with_its_place(refused, tmp_path):
     """The message of convert and fk has file, line and column of the name."""
     (tmp_path / "arm.yaml").write_text(
         RPR.replace("{theta: theta_1", '{name: "a\\x01", theta: theta_1')
     )
     for argv in (["convert", "arm.yaml"], ["fk", "arm.yaml", "0", "0", "0"]):
-        status, _, err = run(*argv)
-        assert status == 2
+        err = refused(*argv)
         place = re.search(r"arm\.yaml:(\d+):(\d+): joints\[1\]\.name", err)
         line = (tmp_path / "arm.yaml").read_text().splitlines()[int(place[1]) - 1]
         assert line[int(place[2]) - 1 :].startswith('"a')
@@ -135,15 +140,8 @@ def test_show_prints_table_transforms_and_product(run):
     """show holds the table, each H_i^{i-1}, the product and the solver."""
     status, out, _ = run("show", "planar_rr", "--q=90deg,0", "--symbolic")
     assert status == 0
-    for part in (
-        "planar_rr: 2 joints",
-        "H_1^0 =",
-        "H_2^1 =",
-        "H_2^0 =",
-        "c12",
-        "inverse kinematics",
-    ):
-        assert part in out
+    parts = "planar_rr: 2 joints", "H_1^0 =", "H_2^1 =", "H_2^0 =", "c12", "inverse kinematics"
+    assert all(part in out for part in parts)
     assert json.loads(run("show", "ur5", "--json")[1])["convention"] == "standard"
     assert r"\begin{tabular}" in run("show", "ur5", "--format", "latex")[1]
 
@@ -154,30 +152,6 @@ def test_list_names_every_table(run):
     assert all(name in out for name in dh2urdf.list_tables())
     found = json.loads(run("list", "--json")[1])["tables"]
     assert [t["name"] for t in found] == list(dh2urdf.list_tables())
-
-
-USAGE = [
-    (["fk", "denso"], "did you mean"),
-    (["fk", "ur5", "0", "0"], "6 values are needed"),
-    (["fk", "ur5", "0", "0", "0", "0", "x", "0"], "wrist_2_joint"),
-    (["fk", "nowhere.urdf", "0"], "nowhere.urdf"),
-    (["convert"], "TABLES"),
-    (["convert", "ur5", "ur3", "-o", "x.urdf"], "--out-dir"),
-    (["convert", "ur5", "-o", "no/such/folder/x.urdf"], "folder"),
-    (["show", "ur5", "--format", "word"], "latex"),
-    (["frobnicate"], "frobnicate"),
-    (["fk", "ur5", "--nonsense"], "nonsense"),
-]
-
-
-@pytest.mark.parametrize(("argv", "message"), USAGE, ids=[" ".join(a) for a, _ in USAGE])
-def test_bad_usage_is_one_message_and_status_2(run, argv, message, tmp_path):
-    """Bad usage ends with status 2, a message that names it, no traceback, nothing written."""
-    status, out, err = run(*argv)
-    assert status == 2
-    assert message in err + out
-    assert "Traceback" not in err
-    assert list(tmp_path.iterdir()) == []
 
 
 BROKEN = {
@@ -214,20 +188,17 @@ BROKEN = {
 
 
 @pytest.mark.parametrize("kind", BROKEN)
-def test_broken_tables_leave_everything_as_it_was(run, kind, tmp_path):
+def test_broken_tables_leave_everything_as_it_was(refused, kind, tmp_path):
     """Status 2, one message that names the file, no traceback, the older output untouched."""
     (tmp_path / "arm.yaml").write_text(BROKEN[kind])
     (tmp_path / "arm.urdf").write_text("<dh2urdf/> older")
-    status, out, err = run("convert", "arm.yaml", "-o", "arm.urdf")
-    assert status == 2
+    err = refused("convert", "arm.yaml", "-o", "arm.urdf")
     assert err.startswith("dh2urdf: arm.yaml")
-    assert "Traceback" not in err
-    assert out == ""
     assert (tmp_path / "arm.urdf").read_text() == "<dh2urdf/> older"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["arm.urdf", "arm.yaml"]
 
 
-def test_other_broken_inputs(run, tmp_path):
+def test_other_broken_inputs(refused, tmp_path):
     """Binary data, a folder, a missing file, an r column, an embedded table cut short."""
     (tmp_path / "binary.yaml").write_bytes(bytes(range(256)))
     (tmp_path / "folder.yaml").mkdir()
@@ -242,27 +213,22 @@ def test_other_broken_inputs(run, tmp_path):
         "r.csv": ["a", "d"],
         "plain.urdf": ["extract"],
     }.items():
-        status, out, err = run("convert", name, "-o", "x.urdf")
-        assert (status, out) == (2, "")
+        err = refused("convert", name, "-o", "x.urdf")
         assert all(word in err for word in words), err
         assert not (tmp_path / "x.urdf").exists()
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
-def test_no_permission_is_a_message(run, tmp_path):
+def test_no_permission_is_a_message(refused, tmp_path):
     """A folder without write permission gives one message."""
     (tmp_path / "locked").mkdir(mode=0o500)
-    status, _, err = run("convert", "ur5", "-o", "locked/x.urdf")
-    assert status == 2
-    assert "permission" in err
+    assert "permission" in refused("convert", "ur5", "-o", "locked/x.urdf")
 
 
-def test_full_disk_loses_nothing(run):
+def test_full_disk_loses_nothing(refused):
     """On a full disk the message says so, and the older file stays whole."""
     if subprocess.run(["mountpoint", "-q", "/dev/shm"], check=False).returncode:
         pytest.skip("no small file system at hand")
-    from pathlib import Path
-
     folder = Path("/dev/shm/dh2urdf-tiny")
     folder.mkdir(exist_ok=True)
     mount = subprocess.run(
@@ -273,9 +239,7 @@ def test_full_disk_loses_nothing(run):
         pytest.skip("mounting a tmpfs takes root")
     try:
         (folder / "ur5.urdf").write_text("<dh2urdf/> older")
-        status, _, err = run("convert", "ur5", "-o", folder / "ur5.urdf")
-        assert status == 2
-        assert "full" in err
+        assert "full" in refused("convert", "ur5", "-o", folder / "ur5.urdf")
         assert [p.name for p in folder.iterdir()] == ["ur5.urdf"]
         assert (folder / "ur5.urdf").read_text() == "<dh2urdf/> older"
     finally:
@@ -285,22 +249,10 @@ def test_full_disk_loses_nothing(run):
 
 def test_many_poses_come_from_stdin(run, monkeypatch):
     """`ik ur5 --csv -` reads poses from stdin and answers with one line a solution."""
-    import io
-
     monkeypatch.setattr("sys.stdin", io.StringIO("0.4,0.2,0.4,0,3.14,0\n"))
     status, out, _ = run("ik", "ur5", "--csv", "-")
     assert status == 0
     assert len(out.splitlines()) > 2
-
-
-def test_modified_headers_of_a_standard_table_are_refused(run, tmp_path):
-    """Columns a_{i-1} and alpha_{i-1} under convention: standard are status 2."""
-    head = "---\nconvention: standard\nunits: {length: m, angle: deg}\n---\n"
-    table = "| a_{i-1} | alpha_{i-1} | d | theta |\n|--|--|--|--|\n| 0.3 | 90 | 0 | 0 |\n"
-    (tmp_path / "arm.md").write_text(head + table)
-    status, out, err = run("convert", "arm.md", "-o", "arm.urdf")
-    assert (status, out) == (2, "")
-    assert "modified table's column" in err
 
 
 def test_closed_pipe_ends_quietly():
@@ -309,18 +261,3 @@ def test_closed_pipe_ends_quietly():
     done = subprocess.run(command, shell=True, capture_output=True, text=True, check=True)
     assert done.stdout.startswith("name")
     assert done.stderr == ""
-
-
-def test_import_and_convert_load_nothing_heavy():
-    """import dh2urdf loads nothing; converting loads no matplotlib, viser or mujoco."""
-    code = (
-        "import sys, dh2urdf\n"
-        "heavy = {'matplotlib', 'viser', 'mujoco', 'dask', 'yourdfpy', 'sympy', 'scipy'}\n"
-        "assert not ({'pinocchio', 'rich', 'cyclopts', 'lxml'} | heavy) & set(sys.modules)\n"
-        "from dh2urdf.cli import main\n"
-        "try: main(['convert', 'ur5', '-o', '-'])\n"
-        "except SystemExit as stop: assert stop.code == 0\n"
-        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr

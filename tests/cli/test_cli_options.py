@@ -16,7 +16,6 @@ from hypothesis import strategies as st
 import dh2urdf
 from dh2urdf.cli import VERBS, main
 
-POSE = ["--xyz=0,0,0", "--rpy=0,0,0"]
 FEW = ["--points", "5", "--orientations", "2"]
 
 
@@ -139,7 +138,32 @@ def test_a_number_beyond_the_bounds_of_its_option_is_told_those_bounds(argv, all
     assert f"{argv[-2]}: expected {allowed}, got {argv[-1]!r}\n" in err
 
 
-TOGETHER = [
+DENSO = ["ik", "denso_vs6556"]
+POSED = [*DENSO, "--xyz", "0.4", "0", "0.3", "--rpy", "0", "180", "0", "--deg"]
+USAGE = [
+    (["fk", "denso"], "did you mean"),
+    (["fk", "ur5", "0", "0"], "6 values are needed"),
+    (["fk", "ur5", "0", "0", "0", "0", "x", "0"], "wrist_2_joint"),
+    (["fk", "nowhere.urdf", "0"], "nowhere.urdf"),
+    (["convert"], "TABLES"),
+    (["convert", "ur5", "ur3", "-o", "x.urdf"], "--out-dir"),
+    (["convert", "ur5", "-o", "no/such/folder/x.urdf"], "folder"),
+    (["show", "ur5", "--format", "word"], "latex"),
+    (["frobnicate"], "frobnicate"),
+    (["fk", "ur5", "--nonsense"], "nonsense"),
+    (DENSO, "a pose is needed"),
+    ([*DENSO, "--xyz", "1", "2"], "3 numbers are needed, got 2"),
+    ([*DENSO, "--xyz", "1", "2", "3"], "--rpy is needed"),
+    ([*DENSO, "--xyz", "1", "x", "3", "--rpy", "0", "0", "0"], "--xyz"),
+    ([*DENSO, "--matrix", "1", "2"], "12 or 16 numbers"),
+    ([*DENSO, "--matrix", *"2000020000200001"], "orthonormal"),
+    ([*DENSO, "--csv", "nowhere.csv"], "nowhere.csv"),
+    ([*POSED, "--csv", "x.csv"], "stands alone"),
+    ([*POSED, "--locked", "elbow=1"], "joint_1"),
+    ([*POSED, "--locked", "joint_1"], "joint=value"),
+    ([*POSED, "--task", "wish"], "position+axis"),
+    ([*POSED, "--seed", "1"], "6 values"),
+    ([*POSED, "--nearest"], "--nearest"),
     (["show", "ur5", "--json", "--format", "csv"], "--json"),
     (["show", "ur5", "--json", "--symbolic"], "--symbolic"),
     (["show", "ur5", "--deg"], "--q"),
@@ -162,12 +186,13 @@ TOGETHER = [
 ]
 
 
-@pytest.mark.parametrize(("argv", "word"), TOGETHER, ids=[" ".join(a) for a, _ in TOGETHER])
-def test_options_that_do_nothing_together_are_refused(argv, word):
-    """Status 2 and the other option's name, before anything is read or written."""
+@pytest.mark.parametrize(("argv", "word"), USAGE, ids=[" ".join(a) for a, _ in USAGE])
+def test_bad_usage_and_options_that_do_nothing_together_are_refused(argv, word):
+    """Status 2 and what is wrong, or the other option's name; nothing is written."""
     status, out, err, left = call(*argv)
     assert (status, out, left) == (2, "", [])
     assert word in err
+    assert "Traceback" not in err
 
 
 def test_a_section_beside_the_workspace_is_status_1():
@@ -199,12 +224,12 @@ TOKENS = st.one_of(
     st.text(max_size=6),
     st.sampled_from(["", " ", "\0", "\ud800", "\uffff", "x" * 300, "-\n", "é.png", "/dev/null"]),
 )
-POSED = st.tuples(*[st.sampled_from(NUMBERS.split())] * 6).map(
+POSES = st.tuples(*[st.sampled_from(NUMBERS.split())] * 6).map(
     lambda v: ["--xyz", *v[:3], "--rpy", *v[3:]]
 )
 LINES = st.one_of(
     st.tuples(st.sampled_from(sorted(set(VERBS) - {"view"})), ROBOTS, st.lists(TOKENS, max_size=7)),
-    st.tuples(st.just("ik"), ROBOTS, POSED),
+    st.tuples(st.just("ik"), ROBOTS, POSES),
     st.tuples(st.just("fk"), ROBOTS, st.lists(st.sampled_from(NUMBERS.split()), max_size=7)),
 )
 

@@ -91,17 +91,6 @@ def test_a_program_that_calls_the_command_line_keeps_its_signals():
         signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
-def test_the_command_line_is_imported_before_anything_heavy():
-    """What is imported outside of the guarded part is the package's names and errors alone."""
-    code = "import sys, dh2urdf.cli; print(*sys.modules)"
-    loaded = subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    ).stdout.split()
-    ours = {name for name in loaded if name.startswith("dh2urdf")}
-    assert ours == {"dh2urdf", "dh2urdf.cli", "dh2urdf.cli.progress", "dh2urdf.exceptions"}
-    assert not {"numpy", "cyclopts", "rich", "pinocchio"} & set(loaded)
-
-
 @pytest.mark.parametrize("verb", ["list", "list --json", "convert ur5 -o -", "show ur5", "--help"])
 @pytest.mark.parametrize("place", ["> /dev/full", ">&-"])
 def test_a_stdout_that_cannot_be_written_is_one_message(verb, place):

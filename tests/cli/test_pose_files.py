@@ -119,6 +119,10 @@ FAULTS = {
     "far": ("1,2,1e300,0,0,0", "1: z: expected a number from -1e"),
     "endless": ("1,2,3,inf,0,0", "1: roll: 'inf': not a finite"),
     "skewed": ("1,0,0,0,0,1,0,0,0,0,1,0\n1,0,0,0,0,2,0,0,0,0,1,0", "2: rotation part is not"),
+    "columns": ("x,y,z\n1,2,3\n", "1: columns x, y, z, roll"),
+    "short": ("x,y,z,roll,pitch,yaw\n1,2,3\n", "2: 3 cells"),
+    "number": ("1,2,3,0,0,zero\n", "1: yaw"),
+    "empty": ("\n", "holds no poses"),
     "quote": ('x,y,z,roll,pitch,yaw\n"1,2,3,0,0,0', "not CSV"),
     "wide": ("x" * 200_000, "not CSV: field larger"),
 }

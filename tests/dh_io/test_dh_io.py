@@ -1,8 +1,6 @@
 """Table files mean what they say, in every format."""
 
 import math
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -340,18 +338,3 @@ def test_written_files_are_easy_on_the_eye() -> None:
         "  - {name: j1,    type: revolute, theta: 0, d: 335, a:  75, alpha: -90}\n"
         "  - {name: elbow, type: revolute, theta: 0, d:   0, a: 270, alpha:   0}\n"
     )
-
-
-def test_reading_a_csv_file_does_not_load_yaml() -> None:
-    """ruamel.yaml and Pinocchio are absent until a YAML file is read."""
-    program = (
-        "import sys, dh2urdf.dh_io as io\n"
-        "text = '# convention: standard\\n# units: m, rad\\ntheta,d,a,alpha\\n0,1,2,3\\n'\n"
-        "io.parse_table(text, 'csv')\n"
-        "heavy = {'ruamel', 'ruamel.yaml', 'pinocchio', 'matplotlib'}\n"
-        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", program], capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr

@@ -163,14 +163,20 @@ def test_an_all_zero_row_with_a_purpose_is_not_told(rows: list[str], convention:
     assert warnings(*rows, convention=convention) == []
 
 
-def test_a_modified_header_over_a_standard_table_is_refused() -> None:
+@pytest.mark.parametrize(
+    ("format", "text"),
+    [
+        ("csv", "# {}\n# units: m, deg\na_{{i-1}},alpha_{{i-1}},d_i,theta_i\n1,0,0,0\n"),
+        ("markdown", "{}\nunits: m, deg\n\n|a_{{i-1}}|alpha_{{i-1}}|d|th|\n|-|-|-|-|\n|1|0|0|0|"),
+    ],
+)
+def test_a_modified_header_over_a_standard_table_is_refused(format: str, text: str) -> None:
     """``a_{i-1}`` belongs to modified tables; both columns are named."""
-    text = "# convention: standard\n# units: m, deg\na_{i-1},alpha_{i-1},d_i,theta_i\n1,0,0,0\n"
-    with pytest.raises(TableFileError) as caught:
-        parse_table(text, "csv", "arm.csv")
+    with pytest.raises(TableFileError, match="is a modified table's column") as caught:
+        parse_table(text.format("convention: standard"), format, "arm")
     found = caught.value.problems
     assert [p.split(": ")[2].split(" is ")[0] for p in found] == ["a_{i-1}", "alpha_{i-1}"]
-    assert not parse_table(text.replace("standard", "modified"), "csv").warnings
+    assert not parse_table(text.format("convention: modified"), format).warnings
 
 
 def test_a_table_made_in_python_is_judged_by_its_floats() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pinocchio as pin
 import pytest
 from dh_product import dh_frames, difference
+from example_robots import fk_between
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import tables
@@ -25,20 +26,7 @@ def example(name):
 
 def reference(robot, path, q_by_name):
     """T_base_tip by Pinocchio's own full model, joints set by name, the rest neutral."""
-    model = pin.buildModelFromUrdf(path)
-    data = model.createData()
-    q = pin.neutral(model)
-    for name, value in q_by_name.items():
-        joint = model.joints[model.getJointId(name)]
-        if joint.nq == 2:
-            q[joint.idx_q : joint.idx_q + 2] = np.cos(value), np.sin(value)
-        else:
-            q[joint.idx_q] = value
-    pin.framesForwardKinematics(model, data, q)
-    base, tip = (
-        data.oMf[model.getFrameId(name, pin.FrameType.BODY)] for name in (robot.base, robot.tip)
-    )
-    return (base.inverse() * tip).homogeneous
+    return fk_between(pin.buildModelFromUrdf(path), robot.base, robot.tip, q_by_name)
 
 
 @settings(max_examples=150)
@@ -137,10 +125,9 @@ MIMIC = """<robot name="m">
 </robot>"""
 
 
-def test_mimicking_joint_follows_its_leader(tmp_path):
+def test_mimicking_joint_follows_its_leader(written):
     """q has no entry for a mimicking joint; FK, Jacobian and limits take it along."""
-    path = tmp_path / "mimic.urdf"
-    path.write_text(MIMIC)
+    path = written("mimic.urdf", MIMIC)
     robot = Robot.from_urdf(path)
     assert robot.joint_names == ("j1", "j3")
     assert robot.upper[0] == pytest.approx(0.4)

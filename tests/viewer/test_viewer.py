@@ -128,15 +128,6 @@ def test_bad_address_is_named(options, error, words):
         Robot.from_dh("planar_rr").view(**options)
 
 
-def test_import_loads_neither_viser_nor_matplotlib():
-    """The package and a robot come without the extras."""
-    code = (
-        "import sys, dh2urdf; dh2urdf.Robot.from_dh('ur5e');"
-        "assert not {'viser', 'matplotlib'} & set(sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True)
-
-
 def test_configuration_is_set_and_read(view):
     """The view's q moves sliders and read-out; a bad one raises and moves nothing."""
     view.q = [0.5, -0.25]

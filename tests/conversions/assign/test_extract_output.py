@@ -4,27 +4,21 @@ import io
 import json
 import math
 import re
-from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from axes import chains
 from dh_product import dh_frames, difference, shift, turn
+from example_robots import UR5
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_extract_sources import BROKEN, URDF
+from test_extract_sources import BOTH, BROKEN, URDF
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.conversions.assign.assigned_table import chain_to_dh
 from dh2urdf.conversions.write.constructors import matlab_corke, matlab_rst, rtb_python
-from dh2urdf.dh import DHConvention
 from dh2urdf.dh_io import parse_table
 from dh2urdf.exceptions import TableError
-
-UR5 = Path(pin.__file__).parents[4] / "share/example-robot-data/robots/ur_description/urdf"
-UR5 = str(UR5 / "ur5_robot.urdf")
-BOTH = pytest.mark.parametrize("convention", list(DHConvention))
 
 
 @pytest.fixture
@@ -87,35 +81,27 @@ def test_json_holds_everything(extract):
     assert data["changes"][0]["cost"] < 1e-10
 
 
-def test_foreign_files_are_not_written_over(tmp_path, extract):
+def test_foreign_files_are_not_written_over(written, extract, refused):
     """An existing file is kept unless dh2urdf extracted it, or --force."""
-    path = tmp_path / "notes.yaml"
-    path.write_text("mine: 1\n")
-    status, _, err = extract(UR5, "-o", path)
-    assert (status, "--force" in err) == (2, True)
+    path = written("notes.yaml", "mine: 1\n")
+    assert "--force" in refused("extract", UR5, "-o", path)
     assert path.read_text() == "mine: 1\n"
     for more in (["--force"], []):
         assert extract(UR5, "-o", path, *more)[0] == 0
 
 
-def test_an_unknown_suffix_is_told(tmp_path, extract):
+def test_an_unknown_suffix_is_told(tmp_path, refused):
     """A suffix that means nothing is bad usage, and nothing is written."""
-    status, _, err = extract(UR5, "-o", tmp_path / "ur5.xlsx")
-    assert (status, "suffix tells no format" in err) == (2, True)
+    assert "suffix tells no format" in refused("extract", UR5, "-o", tmp_path / "ur5.xlsx")
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("fault", BROKEN)
-def test_broken_files_exit_with_2(fault, tmp_path, extract):
+def test_broken_files_exit_with_2(fault, written, refused):
     """One line on stderr, nothing on stdout, no traceback."""
     old, new, _ = BROKEN[fault]
-    text = URDF.replace(old, new, 1)
-    if fault == "another root":
-        text = URDF.replace("<robot", "<world").replace("</robot", "</world")
-    path = tmp_path / "broken.urdf"
-    path.write_text(text)
-    status, out, err = extract(path, "--base", "root", "--tip", "hand")
-    assert (status, out) == (2, "")
+    path = written("broken.urdf", URDF.replace(old, new, 1))
+    err = refused("extract", path, "--base", "root", "--tip", "hand")
     assert len(err.splitlines()) == 1
     assert err.startswith(f"dh2urdf: {path}")
 
@@ -204,8 +190,8 @@ class Steps(list):
         return Steps([*self, *other])
 
 
-def run_python(source):
-    """The robot that a Python constructor makes, with the toolbox by its documented meaning."""
+def run_python(source, q):
+    """FK of the robot that a Python constructor makes, the toolbox by its documented meaning."""
     body = re.sub(r"^(import|from) .*$", "", source, flags=re.M)
     body = re.sub(r"rtb\.ET\.(\w+)\(", r"ET('\1')(", body)
     space = {
@@ -214,19 +200,7 @@ def run_python(source):
         "ET": lambda name: lambda *v, **k: Steps(getattr(Toolbox.ET, name)(*v, **k)),
     }
     exec(body, space)
-    return space["robot"]
-
-
-@BOTH
-@settings(max_examples=60)
-@given(chain=chains(max_joints=5), data=st.data())
-def test_python_constructors_make_the_arm(convention, chain, data):
-    """Signs, offsets, slides, base, tool and fixed rows arrive in the toolbox's own terms."""
-    signs = data.draw(st.lists(st.sampled_from([1, -1]), min_size=chain.n, max_size=chain.n))
-    table = chain_to_dh(chain, convention, signs=signs).table
-    robot = run_python(rtb_python(table))
-    q = np.random.default_rng(1).uniform(-2, 2, chain.n)
-    assert difference(robot.fkine(q), dh_frames(table, q)[-1]) <= 1e-12
+    return space["robot"].fkine(q)
 
 
 def matrix_of(text):
@@ -265,15 +239,21 @@ def run_rst(source, q):
     return T
 
 
+@pytest.mark.parametrize(
+    ("write", "fk"), [(rtb_python, run_python), (matlab_rst, run_rst)], ids=["rtb", "matlab-rst"]
+)
 @BOTH
 @settings(max_examples=60)
 @given(chain=chains(max_joints=5), data=st.data())
-def test_matlab_trees_make_the_arm(convention, chain, data):
-    """What setFixedTransform ignores stands in bodies of its own."""
+def test_constructors_make_the_arm(write, fk, convention, chain, data):
+    """Signs, offsets, slides, base, tool and fixed rows arrive in the toolbox's own terms.
+
+    What MATLAB's setFixedTransform ignores stands in bodies of its own.
+    """
     signs = data.draw(st.lists(st.sampled_from([1, -1]), min_size=chain.n, max_size=chain.n))
     table = chain_to_dh(chain, convention, signs=signs).table
     q = np.random.default_rng(1).uniform(-2, 2, chain.n)
-    assert difference(run_rst(matlab_rst(table), q), dh_frames(table, q)[-1]) <= 1e-12
+    assert difference(fk(write(table), q), dh_frames(table, q)[-1]) <= 1e-12
 
 
 @BOTH
@@ -322,10 +302,9 @@ def test_a_base_beside_the_arm():
     assert extract_dh(UR5, base="base").tip == "tool0"
 
 
-def test_our_own_files_are_explained_too(tmp_path, extract):
+def test_our_own_files_are_explained_too(written, extract):
     """--explain assigns frames even where the file carries its table."""
-    path = tmp_path / "denso.urdf"
-    path.write_text(urdf_text(load_table("denso_vs6556")))
+    path = written("denso.urdf", urdf_text(load_table("denso_vs6556")))
     status, out, _ = extract(path, "--explain")
     assert (status, "Frame 6." in out) == (0, True)
     assert "carries the table" in extract_dh(path).explain()

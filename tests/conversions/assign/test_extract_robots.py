@@ -5,11 +5,11 @@ The referee is Pinocchio's model of the whole untouched file. Each file prints i
 
 import math
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from example_robots import ROBOTS, fk_between
 from lxml import etree
 
 from dh2urdf import extract_dh
@@ -17,7 +17,6 @@ from dh2urdf.dh import DHConvention
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import pose_error
 
-ROBOTS = Path(pin.__file__).parents[4] / "share/example-robot-data/robots"
 FILES = sorted(ROBOTS.rglob("*.urdf"))
 
 ALLOWED = 1e-10
@@ -74,27 +73,14 @@ class Tree:
         ]
 
 
-def fk(model, data, base, tip, names, q):
-    config = pin.neutral(model)
-    for name, value in zip(names, q, strict=True):
-        joint = model.joints[model.getJointId(name)]
-        if joint.nq == 2:
-            config[joint.idx_q : joint.idx_q + 2] = math.cos(value), math.sin(value)
-        else:
-            config[joint.idx_q] = value
-    pin.framesForwardKinematics(model, data, config)
-    oMb, oMt = (data.oMf[model.getFrameId(name, pin.FrameType.BODY)] for name in (base, tip))
-    return oMb.actInv(oMt).homogeneous
-
-
 def chain_error(model, path, base, tip, convention):
-    data = model.createData()
     found = extract_dh(path, base, tip, convention)
     rng = np.random.default_rng(11)
     errors = [found.max_error]
     for _ in range(6):
         q = rng.uniform(-math.pi, math.pi, found.table.n)
-        truth = fk(model, data, base, tip, found.table.joint_names, q)
+        by_name = dict(zip(found.table.joint_names, q, strict=True))
+        truth = fk_between(model, base, tip, by_name)
         errors.append(pose_error(found.table.fk(q), truth))
     return found.table.n, max(errors)
 

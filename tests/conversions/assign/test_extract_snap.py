@@ -2,23 +2,21 @@
 
 import math
 import re
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
 from axes import chains, pose, screw_fk
 from dh_product import dh_frames, difference
+from example_robots import ROBOTS, fk_between
 from hypothesis import given, settings
 
-from dh2urdf import extract_dh
+from dh2urdf import extract_dh, load_table, urdf_text
+from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import pose_error
 
-TIAGO = (
-    Path(pin.__file__).parents[4]
-    / "share/example-robot-data/robots/tiago_description/robots/tiago_no_hand.urdf"
-)
+TIAGO = ROBOTS / "tiago_description/robots/tiago_no_hand.urdf"
 FOUR_DIGITS = """<robot name="rough">
   <link name="base"/><link name="one"/><link name="two"/><link name="three"/><link name="tool"/>
   <joint name="a" type="revolute"><parent link="base"/><child link="one"/>
@@ -40,9 +38,7 @@ BOTH = pytest.mark.parametrize("convention", list(DHConvention))
 def truth(q):
     """FK of the file as written, by Pinocchio."""
     model = pin.buildModelFromXML(FOUR_DIGITS.replace("<limit ", '<limit lower="0" upper="0" '))
-    data = model.createData()
-    pin.framesForwardKinematics(model, data, np.asarray(q, float))
-    return data.oMf[model.getFrameId("tool")].homogeneous
+    return fk_between(model, "base", "tool", dict(zip("abc", q, strict=True)))
 
 
 @BOTH
@@ -81,13 +77,8 @@ def test_the_offered_tolerance_is_enough():
     warning = next(text for text in extract_dh(TIAGO).warnings if "nearly round" in text)
     tolerance = float(re.search(r"snap=([\d.e-]+)", warning).group(1))
     found = extract_dh(TIAGO, snap=tolerance)
-    assert not [text for text in extract_dh_again(found) if "nearly round" in text]
-
-
-def extract_dh_again(found):
-    from dh2urdf.conversions.write.table_chain import dh_to_chain
-
-    return extract_dh(dh_to_chain(found.table)).warnings
+    again = extract_dh(dh_to_chain(found.table)).warnings
+    assert not [text for text in again if "nearly round" in text]
 
 
 @BOTH
@@ -142,25 +133,16 @@ def test_steps_say_case_by_case_what_was_done():
     ]
     found = extract_dh(axes, tool=tool)
     assert [step.frame for step in found.steps] == [0, 1, 2, 3, 4, 5]
-    assert [str(step.case) for step in found.steps[1:5]] == [
-        "intersecting",
-        "parallel",
-        "skew",
-        "collinear",
-    ]
-    for step, words in zip(
-        found.steps,
-        [
-            "frame 0 is the base frame",
-            "Case 3: z_0 and z_1 intersect at o_1 = (0, 0, 0.3)",
-            "Case 2: z_1 and z_2 are parallel, 0.4 m apart",
-            "Case 1: z_2 and z_3 are not coplanar",
-            "Cases 2 and 3 at once: z_3 and z_4 are one line",
-            "The tool transform takes up the rest",
-        ],
-        strict=True,
-    ):
-        assert words in str(step)
+    told = (
+        ("None", "frame 0 is the base frame"),
+        ("intersecting", "Case 3: z_0 and z_1 intersect at o_1 = (0, 0, 0.3)"),
+        ("parallel", "Case 2: z_1 and z_2 are parallel, 0.4 m apart"),
+        ("skew", "Case 1: z_2 and z_3 are not coplanar"),
+        ("collinear", "Cases 2 and 3 at once: z_3 and z_4 are one line"),
+        ("None", "The tool transform takes up the rest"),
+    )
+    for step, (case, words) in zip(found.steps, told, strict=True):
+        assert (str(step.case), words in str(step)) == (case, True)
     frames = dh_frames(found.table, np.zeros(5))
     for step, frame in zip(found.steps, frames, strict=False):
         assert step.origin == pytest.approx(frame[:3, 3], abs=1e-14)
@@ -171,8 +153,6 @@ def test_steps_say_case_by_case_what_was_done():
 
 def test_the_notes_arm_is_explained_like_the_notes():
     """The Denso: intersecting axes 1 and 2 as skew, the parallel elbow, the wrist in one point."""
-    from dh2urdf import load_table, urdf_text
-
     found = extract_dh(urdf_text(load_table("denso_vs6556")), embedded=False)
     cases = [str(step.case) for step in found.steps[1:6]]
     assert cases == ["skew", "parallel", "skew", "intersecting", "intersecting"]

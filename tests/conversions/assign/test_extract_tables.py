@@ -1,13 +1,12 @@
 """Tables whose parameters are published come back, and every table comes back as the same arm."""
 
 import math
-from pathlib import Path
 
 import numpy as np
-import pinocchio as pin
 import pytest
 from axes import pose
 from dh_product import dh_frames, difference, rows
+from example_robots import PANDA, ROBOTS
 from hypothesis import given, settings
 from strategies import tables
 
@@ -16,7 +15,6 @@ from dh2urdf.conversions.write.urdf_elements import UrdfOptions
 from dh2urdf.dh import DHConvention
 
 HALF = math.pi / 2
-ROBOTS = Path(pin.__file__).parents[4] / "share/example-robot-data/robots"
 STRIPPED = UrdfOptions(embed_table=False, balance_inertia=False)
 
 PUBLISHED = {
@@ -86,8 +84,7 @@ def test_universal_robots_tables_come_back(name):
 
 def test_the_panda_table_comes_back():
     """Franka's seven rows come back, the flange 0.107 m further as the tool."""
-    path = ROBOTS / "panda_description/urdf/panda.urdf"
-    found = extract_dh(path, "panda_link0", "panda_link8", convention="modified")
+    found = extract_dh(PANDA, "panda_link0", "panda_link8", convention="modified")
     assert parameters(found.table) == [tuple(map(float, row)) for row in PUBLISHED["panda"]]
     assert found.table.base.is_identity
     assert found.table.tool.xyz == (0.0, 0.0, 0.107)

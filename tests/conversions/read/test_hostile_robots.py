@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pinocchio as pin
 import pytest
+from example_robots import placed
 from hostile import hostile, outcome
 from hypothesis import strategies as st
 from lxml import etree
@@ -174,17 +175,16 @@ AXES_SLIPS = {
 
 
 @pytest.mark.parametrize("slip", AXES_SLIPS)
-def test_an_axes_file_beyond_its_bounds_is_one_message(slip, tmp_path):
+def test_an_axes_file_beyond_its_bounds_is_one_message(slip, written):
     """Aliases, depth, digits, shapes and counts."""
-    path = tmp_path / "axes.yaml"
-    path.write_text(AXES_SLIPS[slip])
+    path = written("axes.yaml", AXES_SLIPS[slip])
     assert isinstance(outcome(extract_dh, path), UrdfError)
 
 
-def test_a_name_that_is_null_is_none(tmp_path):
+def test_a_name_that_is_null_is_none(written):
     """``name: null`` is no name, and ``type: null`` no type."""
-    path = tmp_path / "axes.yaml"
-    path.write_text("axes:\n- {axis: [0, 0, 1], name: null, type: null}\n- {axis: [0, 1, 0]}\n")
+    text = "axes:\n- {axis: [0, 0, 1], name: null, type: null}\n- {axis: [0, 1, 0]}\n"
+    path = written("axes.yaml", text)
     assert extract_dh(path).table.joint_names == ("joint_1", "joint_2")
 
 
@@ -218,10 +218,9 @@ def test_a_chain_at_the_bound_is_built(tmp_path):
     robot = outcome(Robot.from_urdf, path)
     assert (robot.n, robot.tip) == (JOINTS, f"l{LINKS - 1}")
     model = pin.buildModelFromXML(text)
-    data, q = model.createData(), np.linspace(-1, 1, JOINTS)
-    pin.framesForwardKinematics(model, data, q)
-    expected = data.oMf[model.getFrameId(robot.tip, pin.FrameType.BODY)].homogeneous
-    np.testing.assert_allclose(robot.fk(q), expected, rtol=0, atol=1e-10)
+    q = np.linspace(-1, 1, JOINTS)
+    (expected,) = placed(model, dict(zip(robot.joint_names, q, strict=True)), robot.tip)
+    np.testing.assert_allclose(robot.fk(q), expected.homogeneous, rtol=0, atol=1e-10)
     assert outcome(extract_dh, path).max_error <= 1e-10
     outcome(check_urdf, path)
     path.write_text(chain_text(LINKS, LINKS - 1))
@@ -230,21 +229,19 @@ def test_a_chain_at_the_bound_is_built(tmp_path):
 
 
 @pytest.mark.parametrize("links", [LINKS + 1, 5000, 30_000])
-def test_more_links_than_are_allowed_are_refused_at_once(links, tmp_path):
+def test_more_links_than_are_allowed_are_refused_at_once(links, written):
     """Before anything is built, at every door, however many there are."""
-    path = tmp_path / "long.urdf"
-    path.write_text(chain_text(links, 6))
+    path = written("long.urdf", chain_text(links, 6))
     for door in (Robot.from_urdf, extract_dh, check_urdf):
         error = outcome(door, path)
         assert isinstance(error, UrdfError)
         assert re.search(rf"{links} links; up to {LINKS}|larger than \d+ kB", str(error))
 
 
-def test_more_joints_than_are_allowed_are_refused(tmp_path):
+def test_more_joints_than_are_allowed_are_refused(written):
     """For URDF, models and axes."""
     text = chain_text(JOINTS + 2, JOINTS + 1)
-    path = tmp_path / "long.urdf"
-    path.write_text(text)
+    path = written("long.urdf", text)
     sources = [path, pin.buildModelFromXML(text), [[0, 0, 1, 0, 0, 0]] * (JOINTS + 1)]
     for source in sources:
         error = outcome(extract_dh, source)
@@ -288,18 +285,16 @@ def test_expressions_of_a_xacro_cannot_leave_arithmetic(expression):
         check_expression(expression)
 
 
-def xacro_file(tmp_path, z, extra=""):
+def xacro_file(written, z, extra=""):
     text = chain_text(2, 1).replace("<robot ", "<robot xmlns:xacro='http://ros.org/wiki/xacro' ")
     text = text.replace("0.01 0 0.02", z).replace("<link", extra + "<link", 1)
-    path = tmp_path / "arm.XACRO"
-    path.write_text(text)
-    return path
+    return written("arm.XACRO", text)
 
 
-def test_a_xacro_computes(tmp_path):
+def test_a_xacro_computes(written):
     """Properties, functions and $(eval) work as ever; the suffix is known in capitals too."""
     path = xacro_file(
-        tmp_path,
+        written,
         "${sum([0.1*k for k in [1,2]]) if False else h*2} $(eval 1+1) ${sin(pi/6)}",
         "<xacro:property name='h' value='0.25'/>",
     )
@@ -319,7 +314,7 @@ def test_a_xacro_computes(tmp_path):
         ("0 0 1", "<xacro:macro name='m'><xacro:m/></xacro:macro><xacro:m/>"),
     ],
 )
-def test_a_xacro_without_end_or_bound_is_stopped(z, extra, tmp_path, monkeypatch):
+def test_a_xacro_without_end_or_bound_is_stopped(z, extra, written, tmp_path, monkeypatch):
     """Endless powers, memory, pipes and recursion: one message in time, and nothing run."""
     monkeypatch.setattr("dh2urdf.conversions.read.apart.APART_SECONDS", 3)
     os.mkfifo(tmp_path / "pipe")
@@ -328,7 +323,7 @@ def test_a_xacro_without_end_or_bound_is_stopped(z, extra, tmp_path, monkeypatch
     for name, path in names.items():
         z, extra = z.replace(name, path), extra.replace(name, path)
     z = z.replace("'", "&quot;")
-    said = outcome(Robot.from_urdf, xacro_file(tmp_path, z, extra))
+    said = outcome(Robot.from_urdf, xacro_file(written, z, extra))
     assert isinstance(said, UrdfError)
     assert ("more than 900 MB of memory when evaluating" in str(said)) == ("10**11" in z)
     assert not pwned.exists()
@@ -358,23 +353,22 @@ MJCF = (
         ("</mujoco>", "<include file='x.xml'/></mujoco>"),
     ],
 )
-def test_a_hostile_mjcf_is_refused_in_time(old, new, tmp_path, monkeypatch):
+def test_a_hostile_mjcf_is_refused_in_time(old, new, written, tmp_path, monkeypatch):
     """MuJoCo and Pinocchio read it in a process of their own; nothing is left behind."""
     monkeypatch.chdir(tmp_path)
     seconds = 3 if "replicate" in new else 8
     monkeypatch.setattr("dh2urdf.conversions.read.apart.APART_SECONDS", seconds)
-    path = tmp_path / "x.xml"
-    path.write_text(MJCF.replace(old, new, 1))
+    path = written("x.xml", MJCF.replace(old, new, 1))
     for door in (Robot.from_urdf, extract_dh)[: 1 if "replicate" in new else 2]:
         result = outcome(door, path)
         assert isinstance(result, Dh2UrdfError) or new == "type='ball'"
     assert [p.name for p in tmp_path.iterdir()] == ["x.xml"]
 
 
-def test_limits_of_an_mjcf_beyond_the_bounds_are_none(tmp_path):
+def test_limits_of_an_mjcf_beyond_the_bounds_are_none(written):
     """A range of 1e7 degrees bounds nothing."""
-    path = tmp_path / "x.xml"
-    path.write_text(MJCF.replace("axis='0 0 1'", "axis='0 0 1' range='-1e8 1e8' limited='true'"))
+    wide = MJCF.replace("axis='0 0 1'", "axis='0 0 1' range='-1e8 1e8' limited='true'")
+    path = written("x.xml", wide)
     robot = Robot.from_urdf(path)
     assert (robot.lower[0], robot.upper[0]) == (-np.inf, np.inf)
     assert extract_dh(path).table.rows[0].lower is None
@@ -414,10 +408,9 @@ def test_nothing_of_urdfdom_reaches_stderr(tmp_path, capfd):
 
 
 @pytest.mark.parametrize("end", [5, ["l1"], b"l1", "\ud800", "\0", "", "x" * 10**5, True, 1.5])
-def test_ends_that_are_no_links_are_one_message(end, tmp_path):
+def test_ends_that_are_no_links_are_one_message(end, written):
     """Of a file, a text and a model; by base and by tip."""
-    path = tmp_path / "arm.urdf"
-    path.write_text(chain_text(4, 3))
+    path = written("arm.urdf", chain_text(4, 3))
     for source in (path, path.read_text(), pin.buildModelFromXML(chain_text(4, 3))):
         for ends in ((end, None), (None, end)):
             if end == "" and not isinstance(source, (str, Path)):

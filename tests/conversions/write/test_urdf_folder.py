@@ -13,6 +13,7 @@ import pinocchio as pin
 import pytest
 import yourdfpy
 from dh_product import dh_frames, difference
+from example_robots import configuration, placed
 
 import dh2urdf
 from dh2urdf.conversions.write.verify import random_configurations
@@ -28,17 +29,12 @@ def path_of(name):
     return str(FOLDER / f"{name}.urdf")
 
 
-def posed_model(name, seed=0):
-    """Pinocchio's model and data with all frames placed at a random q, and that q by name."""
+def posed(name, seed=0):
+    """The table, Pinocchio's model of its file, and a random q by the names of joints."""
     table = dh2urdf.load_table(name)
     q = random_configurations(table, 1, seed)[0]
-    model = pin.buildModelFromUrdf(path_of(name))
-    data = model.createData()
-    order = [model.joints[model.getJointId(joint)].idx_q for joint in table.joint_names]
-    q_model = np.empty(model.nq)
-    q_model[order] = q
-    pin.framesForwardKinematics(model, data, q_model)
-    return model, data, dict(zip(table.joint_names, q, strict=True))
+    by_name = dict(zip(table.joint_names, q, strict=True))
+    return table, pin.buildModelFromUrdf(path_of(name)), by_name
 
 
 def test_folder_is_what_the_command_writes(tmp_path, run):
@@ -59,21 +55,17 @@ def test_table_inside_is_the_shipped_one(name):
 @every_file
 def test_frames_equal_the_dh_product(name):
     """tool0 and every dh_i, placed by Pinocchio, equal the DH product to 1e-12."""
-    table = dh2urdf.load_table(name)
-    model, data, q = posed_model(name, seed=3)
+    table, model, q = posed(name, seed=3)
     names = [*(f"dh_{i}" for i in range(table.n + 1)), "tool0"]
-    body = pin.FrameType.BODY
-    found = [data.oMf[model.getFrameId(frame, body)].homogeneous for frame in names]
+    found = [T.homogeneous for T in placed(model, q, *names)]
     assert difference(found, dh_frames(table, list(q.values()))) <= 1e-12 * max(1.0, table.length)
 
 
 @every_file
 def test_pinocchio_can_move_it(name, capfd):
     """It loads in silence; joint space inertia is positive definite, ABA finite."""
-    model, data, q = posed_model(name)
-    q_model = np.empty(model.nq)
-    for joint, value in q.items():
-        q_model[model.joints[model.getJointId(joint)].idx_q] = value
+    _, model, q = posed(name)
+    data, q_model = model.createData(), configuration(model, q)
     M = pin.crba(model, data, q_model)
     M = np.triu(M) + np.triu(M, 1).T
     assert np.linalg.eigvalsh(M)[0] > 0
@@ -104,11 +96,10 @@ def test_yourdfpy_validates_it(name, caplog, capfd):
     assert (robot.validate(), robot.errors) == (True, [])
     assert caplog.records == []
     assert capfd.readouterr() == ("", "")
-    table = dh2urdf.load_table(name)
-    q = random_configurations(table, 1)[0]
-    robot.update_cfg(dict(zip(table.joint_names, q, strict=True)))
+    table, _, q = posed(name)
+    robot.update_cfg(q)
     tip = robot.get_transform("tool0", "base_link")
-    assert difference(tip, dh_frames(table, q)[-1]) <= 1e-12 * max(1.0, table.length)
+    assert difference(tip, dh_frames(table, q.values())[-1]) <= 1e-12 * max(1.0, table.length)
 
 
 @every_file
@@ -120,7 +111,7 @@ def test_mujoco_places_every_body_as_pinocchio_does(name, capfd, tmp_path, monke
     try:
         m = mujoco.MjModel.from_xml_path(path_of(name))
         d = mujoco.MjData(m)
-        model, data, q = posed_model(name)
+        _, model, q = posed(name)
         for joint, value in q.items():
             d.qpos[m.joint(joint).qposadr[0]] = value
         mujoco.mj_forward(m, d)
@@ -131,11 +122,9 @@ def test_mujoco_places_every_body_as_pinocchio_does(name, capfd, tmp_path, monke
     assert not any(warning.number for warning in d.warning)
     assert list(tmp_path.iterdir()) == []
     links = {f.name for f in model.frames if f.type == pin.FrameType.BODY}
-    bodies = {m.body(i).name for i in range(1, m.nbody)}
-    assert bodies == links - {"universe"}
-    for body in bodies:
-        pose = data.oMf[model.getFrameId(body, pin.FrameType.BODY)]
-        k = m.body(body).id
+    bodies = [m.body(i).name for i in range(1, m.nbody)]
+    assert set(bodies) == links - {"universe"}
+    for k, pose in enumerate(placed(model, q, *bodies), 1):
         assert difference(d.xpos[k], pose.translation) <= 1e-12
         assert difference(d.xmat[k].reshape(3, 3), pose.rotation) <= 1e-12
 

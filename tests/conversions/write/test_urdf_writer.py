@@ -2,33 +2,28 @@
 
 import math
 
-import numpy as np
 import pinocchio as pin
 import pytest
 from dh_product import dh_frames, difference
+from example_robots import placed
 from hypothesis import given, settings
 from lxml import etree
 from strategies import FACTORY, tables
 
 import dh2urdf
 from dh2urdf.bounds import ANGLE
+from dh2urdf.conversions.write.urdf_elements import urdf_text_and_warnings
 from dh2urdf.conversions.write.verify import random_configurations
+from dh2urdf.dh_io import parse_table
 from dh2urdf.dh_io.xml import embedded_table
-from dh2urdf.exceptions import OutputExistsError, TableError
-
-BODY = pin.FrameType.BODY
+from dh2urdf.exceptions import TableError
 
 
 def pinocchio_frames(text, table, q):
     """Frames dh_0 ... dh_n and tool0 of a URDF text, by Pinocchio, joints found by name."""
-    model = pin.buildModelFromXML(text)
-    data = model.createData()
-    q_model = np.zeros(model.nq)
-    for name, value in zip(table.joint_names, q, strict=True):
-        q_model[model.joints[model.getJointId(name)].idx_q] = value
-    pin.framesForwardKinematics(model, data, q_model)
+    by_name = dict(zip(table.joint_names, q, strict=True))
     names = [*(f"dh_{i}" for i in range(table.n + 1)), "tool0"]
-    return [data.oMf[model.getFrameId(name, BODY)].homogeneous for name in names]
+    return [T.homogeneous for T in placed(pin.buildModelFromXML(text), by_name, *names)]
 
 
 def largest_difference(table, count=2, seed=1):
@@ -66,8 +61,6 @@ def test_written_frames_equal_the_dh_product_of_many_tables(table):
 def test_embedded_table_comes_back_identical(table):
     """The table in the <dh2urdf> element equals the one written, to the last bit."""
     root = etree.fromstring(dh2urdf.urdf_text(table).encode())
-    from dh2urdf.dh_io import parse_table
-
     assert parse_table(root.findtext("dh2urdf"), "json").table == table
 
 
@@ -84,18 +77,6 @@ def test_file_is_written_whole_and_read_back(tmp_path):
     assert report.max_error < 1e-12
     assert embedded_table(report.path) == table
     assert dh2urdf.load_table(report.path) == table
-
-
-def test_foreign_file_is_not_overwritten(tmp_path):
-    """A URDF of somebody else's stays, unless force is given; our own is replaced."""
-    path = tmp_path / "robot.urdf"
-    path.write_text("<robot name='precious'/>")
-    table = dh2urdf.load_table("planar_rr")
-    with pytest.raises(OutputExistsError, match="force"):
-        dh2urdf.write_urdf(table, path)
-    assert path.read_text() == "<robot name='precious'/>"
-    dh2urdf.write_urdf(table, path, force=True)
-    dh2urdf.write_urdf(table, path)
 
 
 def test_negative_sign_turns_the_axis():
@@ -126,11 +107,8 @@ def test_missing_limits_are_named():
     table = dh2urdf.DHTable(
         (dh2urdf.DHRow(a=0.5), dh2urdf.DHRow(joint_type="prismatic", d=0.25)), "standard"
     )
-    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(
-        table, dh2urdf.UrdfOptions()
-    )
     far = "as far as the table's lengths sum to"
-    assert warnings == (
+    assert urdf_text_and_warnings(table, dh2urdf.UrdfOptions())[1] == (
         "joint_1: no limits in the table; written as +-2 pi rad",
         f"joint_2: no limits in the table; written as +-0.75 m, {far}",
     )
@@ -150,16 +128,16 @@ def test_options_are_honoured():
 
 def test_a_missing_bound_is_named():
     """A table that gives one bound of two is told which was made up."""
-    table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, upper=1.0),), "standard")
-    options = dh2urdf.UrdfOptions()
-    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(table, options)
-    assert warnings == ("joint_1 (lower): no limits in the table; written as +-2 pi rad",)
-    table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, lower=ANGLE),), "standard")
-    _, warnings = dh2urdf.conversions.write.urdf_elements.urdf_text_and_warnings(table, options)
-    assert warnings == (
-        "joint_1 (upper): no limits in the table; written as 100000 rad, beyond the one that is "
-        "given",
-    )
+    for bound, words in (
+        ({"upper": 1.0}, "(lower): no limits in the table; written as +-2 pi rad"),
+        (
+            {"lower": ANGLE},
+            "(upper): no limits in the table; written as 100000 rad, beyond the one that is given",
+        ),
+    ):
+        table = dh2urdf.DHTable((dh2urdf.DHRow(a=0.5, **bound),), "standard")
+        _, warnings = urdf_text_and_warnings(table, dh2urdf.UrdfOptions())
+        assert warnings == (f"joint_1 {words}",)
 
 
 @pytest.mark.parametrize("name", ["ur5", "gantry", "puma560"])
