@@ -25,25 +25,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-__all__ = [
-    "ArgumentError",
-    "ConfigurationError",
-    "Dh2UrdfError",
-    "MissingExtraError",
-    "NameNotFoundError",
-    "NoSolutionError",
-    "NoSolverError",
-    "OutputError",
-    "OutputExistsError",
-    "PoseError",
-    "ServerError",
-    "TableError",
-    "TableFileError",
-    "UnreachedError",
-    "UrdfError",
-    "VerificationError",
-]
-
 
 class Dh2UrdfError(Exception):
     """Base of all errors raised on purpose."""

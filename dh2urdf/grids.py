@@ -20,6 +20,13 @@ def number(value: float, *, minus: str = "\N{MINUS SIGN}") -> str:
     return text.replace("-", minus)
 
 
+def grid_matrix(rows: Grid) -> str:
+    """Columns without a header, aligned to the right and indented."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ("  ".join(map(str.rjust, row, widths)) for row in rows)
+    return "\n".join(f"  {line}" for line in lines)
+
+
 def grid_text(header: Sequence[str], rows: Grid, *, left: Collection[int] = ()) -> str:
     """Columns padded to their widest cell, a rule under the header.
 

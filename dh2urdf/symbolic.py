@@ -7,6 +7,7 @@ from dh2urdf.dh import DHConvention, DHRow, JointType
 from dh2urdf.dh.motions import dh_matrix
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.exceptions import MissingExtraError
+from dh2urdf.grids import grid_matrix
 
 __all__ = ["symbolic_product", "symbolic_text", "symbolic_transforms"]
 
@@ -85,11 +86,7 @@ def symbolic_product(table: TableLike) -> Any:
 
 def symbolic_text(matrix: Any) -> str:
     """A symbolic matrix in aligned columns, ``cos(q_1 + q_2)`` written ``c12``."""
-    cells = [[_short(matrix[r, c]) for c in range(4)] for r in range(4)]
-    widths = [max(len(row[k]) for row in cells) for k in range(4)]
-    return "\n".join(
-        "  " + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
-    )
+    return grid_matrix([[_short(matrix[r, c]) for c in range(4)] for r in range(4)])
 
 
 def _short(entry: Any) -> str:

@@ -28,8 +28,6 @@ NUMBERS = {
 }
 """Attributes that hold numbers, and how many."""
 
-NUMBER = FLOAT
-
 
 class Document:
     """Links and joints of a robot file, as far as they can be understood.
@@ -81,7 +79,7 @@ class Document:
         if element is None or text is None:
             return None
         words = text.split()
-        if len(words) != NUMBERS[(element.tag, key)] or not all(map(NUMBER.fullmatch, words)):
+        if len(words) != NUMBERS[(element.tag, key)] or not all(map(FLOAT.fullmatch, words)):
             return None
         values = [float(word) for word in words]
         return values if all(abs(value) <= LARGEST for value in values) else None

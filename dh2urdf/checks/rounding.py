@@ -65,17 +65,14 @@ def _cost(doc: Document, mended: Mapping[etree._Element, list[float]]) -> str:
     written, exact = _poses(doc, {}, q), _poses(doc, mended, q)
     if written is None or exact is None:
         return "What it costs cannot be measured in this file"
-    moved = {name: _farthest(exact[name], written[name]) for name in written}
+    ways = {name: exact[name][:, :3, 3] - written[name][:, :3, 3] for name in written}
+    moved = {name: float(np.linalg.norm(way, axis=-1).max()) for name, way in ways.items()}
     link = max(moved, key=lambda name: moved[name])
     if moved[link] > 1e-9:
         return f"That moves {link!r} by up to {_length(moved[link])} (measured)"
     turned = {name: tf.pose_error(exact[name], written[name]) for name in written}
     link = max(turned, key=lambda name: turned[name])
     return f"That turns {link!r} by up to {turned[link]:.2g} rad (measured)"
-
-
-def _farthest(T: Array, T_other: Array) -> float:
-    return float(np.linalg.norm((T - T_other)[:, :3, 3], axis=-1).max())
 
 
 def _length(metres: float) -> str:

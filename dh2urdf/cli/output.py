@@ -17,7 +17,7 @@ from dh2urdf.cli.progress import note
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Units
 from dh2urdf.exceptions import ConfigurationError, TableError
-from dh2urdf.grids import number
+from dh2urdf.grids import grid_matrix, number
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -114,8 +114,4 @@ def ten_digits(value: float) -> str:
 
 def matrix_text(T: Array) -> str:
     """A (4, 4) matrix in aligned columns."""
-    cells = [list(map(ten_digits, row)) for row in T]
-    widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
-    return "\n".join(
-        "  " + "  ".join(c.rjust(w) for c, w in zip(row, widths, strict=True)) for row in cells
-    )
+    return grid_matrix([list(map(ten_digits, row)) for row in T])

@@ -33,23 +33,3 @@ from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
 from dh2urdf.dh_io.write import table_to_text, write_table
-
-__all__ = [
-    "FORMATS",
-    "SI",
-    "Kind",
-    "NearMiss",
-    "TableFile",
-    "TableLike",
-    "Units",
-    "as_table",
-    "atomic_write",
-    "format_of",
-    "near_misses",
-    "parse_cell",
-    "parse_table",
-    "read_table",
-    "refuse_foreign",
-    "table_to_text",
-    "write_table",
-]

@@ -48,10 +48,14 @@ class RobotConfigurations:
         ----------
         rng : numpy.random.Generator or int, optional
         """
-        far = np.where(self.slides, 1.0, np.pi)
+        return generator(rng).uniform(*self.bounded(1.0, np.pi))
+
+    def bounded(self, length: float, angle: float) -> tuple[Array, Array]:
+        """Bounds of q (n,), each so far [m or rad] from the other or from zero where missing."""
+        far = np.where(self.slides, length, angle)
         low = np.where(np.isfinite(self.lower), self.lower, np.minimum(-far, self.upper - far))
         high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
-        return generator(rng).uniform(low, high)
+        return low, high
 
     @cached_property
     def slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:

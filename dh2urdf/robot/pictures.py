@@ -8,9 +8,6 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.transforms import Array
 
-DRAWN_BY = {"figure": "dh2urdf.figures", "view": "dh2urdf.viewer"}
-"""Packages above this one, by what a robot asks of them."""
-
 
 class Picture(Protocol):
     """A matplotlib figure."""
@@ -52,7 +49,7 @@ class RobotPictures:
         MissingExtraError
             matplotlib is not installed.
         """
-        picture: Picture = import_module(DRAWN_BY["figure"]).figure(self, q, **options)
+        picture: Picture = import_module("dh2urdf.figures").figure(self, q, **options)
         return picture
 
     def view(self, q: ArrayLike | None = None, **options: Any) -> ArmView:
@@ -75,5 +72,5 @@ class RobotPictures:
         MissingExtraError
             viser is not installed.
         """
-        shown: ArmView = import_module(DRAWN_BY["view"]).view(self, q, **options)
+        shown: ArmView = import_module("dh2urdf.viewer").view(self, q, **options)
         return shown

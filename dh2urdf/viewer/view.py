@@ -188,15 +188,14 @@ class ArmView:
                 self._ik.put_away()
             self._show_row(i)
             self._redraw()
-        if visitor is not None:
-            self._bring_near(visitor)
+        self._bring_near(visitor)
 
     def _bring_near(self, visitor: Any) -> None:
-        """Bring the eye of one visitor to the row that is explained, or to the whole arm."""
+        """Bring the eye of a visitor, if one asked, to the row explained or to the whole arm."""
         row = self._row_scene.picture if self._row_scene else None
-        if row is None:
+        if visitor is not None and row is None:
             look_at(visitor, *self._stage)
-        else:
+        elif visitor is not None and row is not None:
             start, end = row.T_prev[:3, 3], row.T_next[:3, 3]
             extent = float(np.linalg.norm(end - start))
             look_at(visitor, (start + end) / 2, max(CLOSE * self._arm.size, 2.2 * extent))
@@ -234,8 +233,7 @@ class ArmView:
             old = dict(zip(self.robot.joint_names, self._q.tolist(), strict=True))
             q = np.array([old.get(name, 0.0) for name in robot.joint_names])
             self._build(robot, np.clip(q, robot.lower, robot.upper))
-        if visitor is not None:
-            self._bring_near(visitor)
+        self._bring_near(visitor)
 
     def _repr_html_(self) -> str:
         return (

@@ -8,8 +8,9 @@ from collections.abc import Iterator
 from lxml import etree
 
 from dh2urdf.bounds import NUMBER as LARGEST
-from dh2urdf.checks.document import NUMBER, Document
+from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Effect, Finding, accept, complain, finding, misread, refuse
+from dh2urdf.conversions.read import FLOAT
 
 XACRO = "http://www.ros.org/wiki/xacro"
 
@@ -91,7 +92,7 @@ def _owner(element: etree._Element) -> str:
 def number(doc: Document) -> Iterator[Finding]:
     """Where a number belongs there is one."""
     for element, key, count, words in _words(doc):
-        bad = [w for w in words if not NUMBER.fullmatch(w) and not NO_NUMBER.fullmatch(w)]
+        bad = [w for w in words if not FLOAT.fullmatch(w) and not NO_NUMBER.fullmatch(w)]
         if bad:
             effects = _text_effects(doc, element, bad[0], short=len(words) < count)
             message = f'{key}="{element.get(key)}": {bad[0]!r} is no number'
@@ -123,7 +124,7 @@ def _text_effects(
 def number_count(doc: Document) -> Iterator[Finding]:
     """There are as many numbers as there should be."""
     for element, key, count, words in _words(doc):
-        if len(words) != count and all(NUMBER.fullmatch(word) for word in words):
+        if len(words) != count and all(FLOAT.fullmatch(word) for word in words):
             few, worst = len(words) < count, None
             refused = complain("urdfdom", "leave the element around it out")
             if _owner(element) == "joint":
@@ -164,7 +165,7 @@ def _infinite_effects(element: etree._Element, word: str) -> Iterator[Effect]:
 
 
 def _overflows(word: str) -> bool:
-    return bool(NUMBER.fullmatch(word)) and abs(float(word)) > LARGEST
+    return bool(FLOAT.fullmatch(word)) and abs(float(word)) > LARGEST
 
 
 def negative_zero(doc: Document) -> Iterator[Finding]:
@@ -172,7 +173,7 @@ def negative_zero(doc: Document) -> Iterator[Finding]:
     text = "programs that generate code may carry the sign along: "
     carried = accept("IKFast", f"{text}atan2(-0.0, -1) is -pi, atan2(0.0, -1) is pi")
     for element, key, _, words in _words(doc):
-        minus = [w for w in words if w.startswith("-") and NUMBER.fullmatch(w) and float(w) == 0]
+        minus = [w for w in words if w.startswith("-") and FLOAT.fullmatch(w) and float(w) == 0]
         if minus and element.tag in ("origin", "axis") and _owner(element) == "joint":
             message = f'{key}="{element.get(key)}": {minus[0]} is zero'
             yield finding(element, message, carried, mend="write 0")

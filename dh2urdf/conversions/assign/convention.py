@@ -1,11 +1,12 @@
 """Between the standard and the modified convention, without loss."""
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.write import Inertial, six_of, tensor
+from dh2urdf.conversions.write import Inertial, grouped_rows, six_of, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io import TableLike, as_table
@@ -33,21 +34,17 @@ def _tail(row: DHRow) -> Array:
     return tf.trans(row.a, 0, 0) @ tf.rot_x(row.alpha)
 
 
-def _groups(table: DHTable) -> tuple[Array, list[tuple[DHRow, Array | None]]]:
-    """Base frame, and each joint's row with the product of the fixed rows below it."""
-    groups: list[tuple[DHRow, Array | None]] = []
-    for row in table.rows:
-        if row.is_joint:
-            groups.append((row, None))
-        elif groups:
-            joint, step = groups[-1]
-            T = row.transform(0.0, table.convention)
-            groups[-1] = (joint, T if step is None else step @ T)
-    return table.base_frame, groups
+def _groups(table: DHTable) -> list[tuple[DHRow, Array | None]]:
+    """Each joint's row with the product of the fixed rows below it, None for none."""
+    steps = (
+        (joint, [row.transform(0.0, table.convention) for row in fixed])
+        for joint, fixed in grouped_rows(table)[1]
+    )
+    return [(joint, reduce(np.matmul, Ts) if Ts else None) for joint, Ts in steps]
 
 
 def _to_modified(table: DHTable) -> DHTable:
-    base, groups = _groups(table)
+    groups = _groups(table)
     rows: list[DHRow] = []
     a = alpha = 0.0
     for k, (row, step) in enumerate(groups):
@@ -63,13 +60,13 @@ def _to_modified(table: DHTable) -> DHTable:
         table,
         convention=DHConvention.MODIFIED,
         rows=tuple(rows),
-        base=table.base if table.rows[0].is_joint else Origin.from_matrix(base),
+        base=table.base if table.rows[0].is_joint else Origin.from_matrix(table.base_frame),
         tool=_compose(T_new_old, row if step is None else None, table.tool),
     )
 
 
 def _to_standard(table: DHTable) -> DHTable:
-    base, groups = _groups(table)
+    groups = _groups(table)
     first = groups[0][0]
     rows: list[DHRow] = []
     for k, (row, step) in enumerate(groups):
@@ -88,7 +85,7 @@ def _to_standard(table: DHTable) -> DHTable:
         table,
         convention=DHConvention.STANDARD,
         rows=tuple(rows),
-        base=table.base if untouched else Origin.from_matrix(base @ _tail(first)),
+        base=table.base if untouched else Origin.from_matrix(table.base_frame @ _tail(first)),
     )
 
 

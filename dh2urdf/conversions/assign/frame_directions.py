@@ -115,17 +115,14 @@ def _best_by_end(paths: Sequence[Directions]) -> list[Directions]:
     best: list[Directions] = []
     for path in paths:
         for k, other in enumerate(best):
-            if path.open == other.open and _same(path.phi, other.phi):
+            turn = wrap((path.phi or 0.0) - (other.phi or 0.0))
+            if path.open == other.open and abs(turn) < HALF_TURN:
                 if _cost(path.theta) < _cost(other.theta):
                     best[k] = path
                 break
         else:
             best.append(path)
     return best
-
-
-def _same(one: float | None, two: float | None) -> bool:
-    return abs(wrap((one or 0.0) - (two or 0.0))) < HALF_TURN
 
 
 def _cost(theta: Sequence[float], leftover: int = 0) -> Cost:

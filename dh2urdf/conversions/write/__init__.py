@@ -16,7 +16,13 @@ from dh2urdf.conversions.write.inertia import (
     why_impossible,
     without_noise,
 )
-from dh2urdf.conversions.write.table_chain import FLIP, dh_to_chain, link_frames, turned_round
+from dh2urdf.conversions.write.table_chain import (
+    FLIP,
+    dh_to_chain,
+    grouped_rows,
+    link_frames,
+    turned_round,
+)
 from dh2urdf.conversions.write.urdf_elements import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,

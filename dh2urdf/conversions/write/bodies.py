@@ -108,7 +108,7 @@ class _Artist:
                 bodies[-1].append(fixed)
                 parts.insert(0, moving)
             else:
-                parts.insert(0, standing if i == 0 and standing else _drum(path[0], r))
+                parts.insert(0, standing if i == 0 and standing else _drum(path[0], r, DRUM[1] * r))
             bodies.append(parts)
         return bodies
 
@@ -144,7 +144,7 @@ class _Artist:
         if abs(leg) > 1.5 * r:
             length = min(DRUM[1] * r, abs(leg) - height)
             centre = start + np.array([0.0, 0.0, side * (height + 0.5 * length)])
-            standing = _cylinder(centre, np.array([0.0, 0, 1]), (DRUM[0] * r, length), "joint")
+            standing = _drum(centre, r, length)
             middle = ground + 0.5 * height * side * axis
         else:
             middle = ground - 0.5 * (height + DRUM[1] * r) * side * axis
@@ -200,8 +200,8 @@ def _capsules(path: list[Array], r: float) -> Iterator[Body]:
         last = point
 
 
-def _drum(centre: Array, r: float) -> Body:
-    return _cylinder(centre, np.array([0.0, 0, 1]), (DRUM[0] * r, DRUM[1] * r), "joint")
+def _drum(centre: Array, r: float, length: float) -> Body:
+    return _cylinder(centre, np.array([0.0, 0, 1]), (DRUM[0] * r, length), "joint")
 
 
 def _cylinder(centre: Array, axis: Array, size: tuple[float, float], material: str) -> Body:

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from dh2urdf.conversions.write.inertia import tensor
+from dh2urdf.conversions.write.table_chain import grouped_rows
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.exceptions import TableError
 from dh2urdf.quoting import matlab, one_line
@@ -21,6 +22,11 @@ def rtb_python(table: DHTable) -> str:
     lines += [*(f"# {line}" for line in _head(table)), ""]  # a comment on top may name a coding
     robot = _rtb_links if all(row.is_joint for row in table.rows) else _rtb_ets
     return "\n".join([*lines, *robot(table)]) + "\n"
+
+
+def _ends(table: DHTable) -> dict[str, Origin]:
+    """Base and tool, where there are any."""
+    return {key: T for key in ("base", "tool") if not (T := getattr(table, key)).is_identity}
 
 
 def _se3(origin: Origin) -> str:
@@ -46,10 +52,7 @@ def _rtb_links(table: DHTable) -> list[str]:
         kind = str(row.joint_type).capitalize()
         lines.append(f"        rtb.{kind}{suffix}({', '.join(cells)}),")
     lines += ["    ],", f"    name={table.name!r},"]
-    for key in ("base", "tool"):
-        origin = getattr(table, key)
-        if not origin.is_identity:
-            lines.append(f"    {key}={_se3(origin)},")
+    lines += [f"    {key}={_se3(origin)}," for key, origin in _ends(table).items()]
     return [*lines, ")"]
 
 
@@ -100,11 +103,7 @@ def matlab_corke(table: DHTable) -> str:
             cells.append("'flip'")
         cells.append(f"'{table.convention}'")
         lines.append(f"L({i}) = Link({', '.join(cells)});")
-    ends = [
-        f", '{key}', SE3({_matlab(getattr(table, key).matrix)})"
-        for key in ("base", "tool")
-        if not getattr(table, key).is_identity
-    ]
+    ends = [f", '{key}', SE3({_matlab(end.matrix)})" for key, end in _ends(table).items()]
     lines.append(f"robot = SerialLink(L, 'name', {matlab(table.name)}{''.join(ends)});")
     return "\n".join(lines) + "\n"
 
@@ -116,7 +115,7 @@ def matlab_rst(table: DHTable) -> str:
     becomes a fixed body of its own; base, tool and fixed rows do too.
     """
     tree = _Tree(weighs=any(row.mass is not None for row in table.joints))
-    leading, groups = _groups(table)
+    leading, groups = grouped_rows(table)
     if not table.base.is_identity:
         tree.fixed("frame_0", table.base.matrix)
     for k, row in enumerate(leading, 1):
@@ -139,18 +138,6 @@ def matlab_rst(table: DHTable) -> str:
         tree.fixed("tool0", table.tool.matrix)
     head = [f"% {line}" for line in _head(table)]
     return "\n".join([*head, "robot = rigidBodyTree('DataFormat', 'row');", *tree.lines]) + "\n"
-
-
-def _groups(table: DHTable) -> tuple[list[DHRow], list[tuple[DHRow, list[DHRow]]]]:
-    """Fixed rows before the first joint, and each joint with the fixed rows after it."""
-    leading: list[DHRow] = []
-    groups: list[tuple[DHRow, list[DHRow]]] = []
-    for row in table.rows:
-        if row.is_joint:
-            groups.append((row, []))
-        else:
-            (groups[-1][1] if groups else leading).append(row)
-    return leading, groups
 
 
 class _Tree:

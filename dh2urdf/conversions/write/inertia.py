@@ -101,12 +101,16 @@ def six_of(inertia: Array) -> tuple[float, float, float, float, float, float]:
     return ixx, ixy, ixz, iyy, iyz, izz
 
 
+def whole_numbers(values: Iterable[float]) -> str:
+    """Numbers with every digit, whatever is rounded elsewhere."""
+    return " ".join(repr(float(v) + 0.0) for v in values)
+
+
 def inertial_element(link: etree._Element, body: Inertial) -> None:
     """Write the ``<inertial>`` of a link, with every digit."""
     inertial = etree.SubElement(link, "inertial")
-    mass, *six = (repr(v + 0.0) for v in (float(body.mass), *six_of(body.inertia)))
-    com = " ".join(repr(v + 0.0) for v in body.com.tolist())
-    etree.SubElement(inertial, "origin", xyz=com, rpy="0.0 0.0 0.0")
+    mass, *six = whole_numbers((body.mass, *six_of(body.inertia))).split()
+    etree.SubElement(inertial, "origin", xyz=whole_numbers(body.com), rpy="0.0 0.0 0.0")
     etree.SubElement(inertial, "mass", value=mass)
     etree.SubElement(inertial, "inertia", dict(zip(TENSOR, six, strict=True)))
 

@@ -30,6 +30,18 @@ def _split_row(row: DHRow, convention: DHConvention) -> tuple[Array, Array]:
     return before, after
 
 
+def grouped_rows(table: DHTable) -> tuple[list[DHRow], list[tuple[DHRow, list[DHRow]]]]:
+    """Fixed rows before the first joint, and each joint with the fixed rows after it."""
+    leading: list[DHRow] = []
+    groups: list[tuple[DHRow, list[DHRow]]] = []
+    for row in table.rows:
+        if row.is_joint:
+            groups.append((row, []))
+        else:
+            (groups[-1][1] if groups else leading).append(row)
+    return leading, groups
+
+
 @dataclass(frozen=True, eq=False)
 class LinkFrames:
     """Where the URDF puts its links.

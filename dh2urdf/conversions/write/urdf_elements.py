@@ -1,7 +1,6 @@
 """From a DH table to the text of a URDF; every rule here has a consumer that breaks without it."""
 
 import math
-from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +14,7 @@ from dh2urdf.conversions.write.inertia import (
     balanced,
     inertial_element,
     tensor,
+    whole_numbers,
     why_impossible,
     without_noise,
 )
@@ -164,7 +164,7 @@ class _Writer:
         element = etree.SubElement(link, tag)
         self._origin(element, body.pose)
         keys = {"box": ["size"], "sphere": ["radius"], "cylinder": ["radius", "length"]}[body.shape]
-        sizes = _whole(body.size).split(maxsplit=len(keys) - 1)
+        sizes = whole_numbers(body.size).split(maxsplit=len(keys) - 1)
         geometry = etree.SubElement(element, "geometry")
         etree.SubElement(geometry, body.shape, dict(zip(keys, sizes, strict=True)))
         if tag == "visual":
@@ -245,8 +245,3 @@ def _half(row: DHRow) -> str:
     if row.lower is None and row.upper is None:
         return ""
     return " (lower)" if row.lower is None else " (upper)"
-
-
-def _whole(values: Iterable[float]) -> str:
-    """Numbers with every digit, whatever is rounded elsewhere."""
-    return " ".join(repr(float(v) + 0.0) for v in values)

@@ -28,10 +28,7 @@ class JointsTab:
         self.clear()
         self.robot = robot
         self.scale = np.where(robot.slides, 1000.0, 180.0 / math.pi)
-        reach = np.where(robot.slides, max(robot.chain.size, 0.1), TURN)
-        low, high = np.minimum(-reach, robot.upper - reach), np.maximum(reach, robot.lower + reach)
-        self.low = np.where(np.isfinite(robot.lower), robot.lower, low)
-        self.high = np.where(np.isfinite(robot.upper), robot.upper, high)
+        self.low, self.high = robot.bounded(max(robot.chain.size, 0.1), TURN)
         with self.tab:
             self.readout = self.gui.add_html("")
             for k, name in enumerate(robot.joint_names):
