@@ -1,6 +1,6 @@
 """Many poses side by side: what the vectorised closed forms share.
 
-A block holds up to ``BLOCK`` poses, one a lane. Quantities are rows of one flat array,
+A block holds up to ``LANES`` poses, one a lane. Quantities are rows of one flat array,
 ``S[BLOCK * row + lane]``, and every loop over the lanes is straight code without branches, which
 the compiler turns into vector instructions. A lane where a root nearly merges, an axis nearly
 lines up, a limit is nearly touched or a residual is not at rounding is marked as dirty, and its
@@ -18,7 +18,11 @@ from dh2urdf.kernels.newton import POLISH
 from dh2urdf.kernels.numbers import arctangent, side_by_side
 from dh2urdf.kernels.rigid import dot, minus
 
-BLOCK = 32
+LANES = 32
+BLOCK = 40
+"""Poses of a block, and numbers from row to row: an odd number of cache lines, so that the rows of
+one pose do not all fall into the same places of the cache."""
+
 CLEAR = 1e-6
 """Sine of an angle from which a lane is clean."""
 

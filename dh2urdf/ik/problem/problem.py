@@ -102,8 +102,9 @@ class Problem:
             self._solve(room.Ts, within_limits, room.out)
         else:
             self._solve_held(room.Ts, within_limits, room.out)
-        found = IKSolutions(self, room.memory.copy(), room.kmax, room.count.item())
-        singular = within_limits and room.is_singular()
+        memory = room.memory.tobytes()
+        found = IKSolutions(self, memory, room.kmax, room.count.item())
+        singular = within_limits and room.is_singular(memory)
         self._rooms.append(room)
         return self._families_inside(found) if singular else found
 

@@ -60,7 +60,7 @@ class IKSolutions:
 
     __slots__ = ("_memory", "_problem", "_room", "count", "pose_change")
 
-    def __init__(self, problem: Answering, memory: Array, room: int, count: int) -> None:
+    def __init__(self, problem: Answering, memory: bytes, room: int, count: int) -> None:
         self._problem, self._memory, self._room, self.count = problem, memory, room, count
         self.pose_change = 0.0
 
@@ -68,12 +68,12 @@ class IKSolutions:
     def q(self) -> Array:
         """Configurations, shape (k, n), read-only."""
         n, count = self._problem.chain.n, self.count
-        return _read_only(self._memory[16 : 16 + n * count].reshape(count, n))
+        return np.frombuffer(self._memory, float, n * count, 8 * 16).reshape(count, n)
 
     @property
     def residual(self) -> Array:
         """Residual of each solution [m and rad], shape (k,), read-only."""
-        return _read_only(self._run(0))
+        return self._run(0)
 
     @property
     def branch(self) -> tuple[str, ...]:
@@ -88,8 +88,8 @@ class IKSolutions:
 
     @property
     def T(self) -> Array:
-        """The target pose, shape (4, 4)."""
-        return self._memory[:16].reshape(4, 4)
+        """The target pose, shape (4, 4), read-only."""
+        return np.frombuffer(self._memory, float, 16).reshape(4, 4)
 
     @property
     def codes(self) -> tuple[IntArray, IntArray]:
@@ -99,7 +99,7 @@ class IKSolutions:
     def _run(self, number: int) -> Array:
         """Numbers of each solution, after the pose and the room for configurations."""
         first = 16 + self._room * (self._problem.chain.n + number)
-        return self._memory[first : first + self.count]
+        return np.frombuffer(self._memory, float, self.count, 8 * first)
 
     def nearest(self, q: ArrayLike) -> Array:
         """The solution with the least joint motion from q, shape (n,).
@@ -159,7 +159,7 @@ class IKSolutions:
     ) -> IKSolutions:
         """Solutions of one target (4, 4) from arrays with a row for each; as :attr:`codes`."""
         numbers = target.ravel(), q.ravel(), residual, *(code.view(np.float64) for code in codes)
-        return cls(problem, np.concatenate(numbers), len(q), len(q))
+        return cls(problem, np.concatenate(numbers).tobytes(), len(q), len(q))
 
     def __repr__(self) -> str:
         if not self:
@@ -177,9 +177,3 @@ class IKSolutions:
             notes = [note for note in (branch, free and f"free joints {free}") if note]
             lines.append(f"{i}: {values}  residual {residual:.1e}  {'; '.join(notes)}".rstrip())
         return "\n".join(lines)
-
-
-def _read_only(view: Array) -> Array:
-    """The view, protected from writing."""
-    view.setflags(write=False)
-    return view

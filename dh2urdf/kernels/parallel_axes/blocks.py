@@ -15,6 +15,7 @@ from dh2urdf.kernels.blocks import (
     COS,
     DIRTY,
     HALF_TURN,
+    LANES,
     MERGED,
     NEGATED,
     OWN,
@@ -138,8 +139,8 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
     (_, joints), form, ends, slack = arm
     q, residual, count, branch, free = outputs
     m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRROR_OF)
-    for first in range(0, m, BLOCK):
-        n = min(BLOCK, m - first)
+    for first in range(0, m, LANES):
+        n = min(LANES, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
         _shoulders(form, slack, n, S)
         _planes(form, n, S)

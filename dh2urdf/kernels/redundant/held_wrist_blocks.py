@@ -25,6 +25,7 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    LANES,
     MERGED,
     MIRRORS,
     RESIDUAL,
@@ -262,8 +263,8 @@ def solve_held_blocks(
         oriented[j] = joints[moving]
     S0, S2 = frames[LINK], frames[LINK + 2]
     prepare_block(frames, which, values, S)
-    for first in range(0, m, BLOCK):
-        n = min(BLOCK, m - first)
+    for first in range(0, m, LANES):
+        n = min(LANES, m - first)
         load_block(frames, which, values, Ts, same, first, n, S)
         place_elbows(S2, form[3, 3], slack, n, S)
         place_shoulders(S0, slack, n, S)

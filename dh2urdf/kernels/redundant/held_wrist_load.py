@@ -12,7 +12,7 @@ the arm is seen from the tool. S1 and the lever are sums of ``cos v``, ``sin v``
 with factors that belong to the arm.
 """
 
-from dh2urdf.kernels.blocks import BLOCK, WORK, at, column, load_poses
+from dh2urdf.kernels.blocks import BLOCK, LANES, WORK, at, column, load_poses
 from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
 from dh2urdf.kernels.redundant.held_wrist import (
     ENDS,
@@ -47,11 +47,11 @@ def prepare_block(frames, which, values, S):
     """Rows of S that all blocks have in common as long as the held value is that of the first."""
     slides, value = which[SLIDES] != 0, values[0]
     sine, cosine = sincos(few_turns(value))
-    for i in side_by_side(BLOCK):
+    for i in side_by_side(LANES):
         S[BLOCK * HELD_COS + i] = 1.0 if slides else cosine
         S[BLOCK * HELD_SIN + i] = 0.0 if slides else sine
         S[BLOCK * HELD_SLIDE + i] = value if slides else 0.0
-    _links_and_levers(frames, BLOCK, S)
+    _links_and_levers(frames, LANES, S)
 
 
 def load_block(frames, which, values, Ts, same, first, n, S):

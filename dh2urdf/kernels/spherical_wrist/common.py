@@ -18,6 +18,7 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    LANES,
     MERGED,
     MIRRORS,
     RESIDUAL,
@@ -137,8 +138,8 @@ def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs:
     (_, joints), form, ends, slack = arm
     q, residual, count, branch, free = outputs
     m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRRORS)
-    for first in range(0, m, BLOCK):
-        n = min(BLOCK, m - first)
+    for first in range(0, m, LANES):
+        n = min(LANES, m - first)
         load_poses(ends, form[0, 3], Ts, first, n, S)
         _shoulders(form, slack, n, S)
         _elbows(form, slack, n, S)
