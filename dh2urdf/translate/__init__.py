@@ -1,13 +1,13 @@
 """The translator: kernels, which are Python, are written as C99 and compiled into the package.
 
-`entries` finds what Python calls and the types of its arguments; `source` reads a function, refuses
-what is outside the subset and decides where names are declared; `types` are those of C. One pass
-writes each function for the types that it is called with: `values` (names and known lengths),
-`expressions`, `calls`, `assignments` and `statements` stand on one another. `definitions` has what
-functions share, `c_text` the pieces of text, `c_file` the whole. `doors` are those for Python, each
-level of processor is the same C, compiled once more: `build` does that. What is C once and for all
-is in `support.h` and `doors.c`; there the best level is chosen, or that of ``DH2URDF_LEVEL``. The
-standard library and NumPy suffice: it runs before the package is installed.
+`entries` finds what Python calls, the types of its arguments, and writes its doors; `source` reads
+a function and decides where names are declared; `types` are those of C. One pass writes a function
+for the types that it is called with, and refuses what is outside the subset: `values` (names and
+known lengths), `expressions`, `calls`, `assignments` and `statements` stand on one another.
+`definitions` has what functions share, `c_file` the whole. `build` compiles it, once for each level
+of processor. What is C once and for all is in `support.h` and `doors.c`, which takes the best level
+or that of ``DH2URDF_LEVEL``. The standard library and NumPy suffice: it runs before the package is
+installed.
 
 What the author of a kernel must know, for the interpreted function is the definition:
 
@@ -28,6 +28,6 @@ What the author of a kernel must know, for the interpreted function is the defin
   its function and has no values before they are assigned. Different arguments do not overlap.
 * A tuple of numbers is a struct; one with arrays is taken apart into arguments of their own. A
   kernel that does nothing but ``return np.empty(...), ...`` makes arrays for its caller.
-* ``if`` over lengths and dimensions (``T.ndim == 1``) is decided when the kernel is translated.
+* ``T.ndim == 1``, of dimensions or known lengths, is decided when the kernel is translated.
 * ``side_by_side`` is a ``range`` whose turns do not depend on one another.
 """

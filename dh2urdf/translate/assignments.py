@@ -4,9 +4,9 @@ import ast
 from collections.abc import Iterator
 
 from dh2urdf.translate.calls import Calls
-from dh2urdf.translate.source import loaded
+from dh2urdf.translate.source import named
 from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import SIGNS, Value, sized
+from dh2urdf.translate.values import FLOORED, SIGNS, Value, sized
 
 
 class Assignments(Calls):
@@ -14,11 +14,13 @@ class Assignments(Calls):
 
     def assign(self, s: ast.Assign) -> None:
         """An assignment: all is read before anything is written."""
+        if len(s.targets) > 1:
+            self.refuse(s, "two assignments in one", "two")
         late = []
         given = list(self._pairs(s.targets[0], s.value))
         for i, (target, n, value) in enumerate(given):
             root = _root(target)
-            later = ((v.words() if v.text or v.parts else loaded(m)) for _, m, v in given[i + 1 :])
+            later = (v.words() or named(m, ast.Load) for _, m, v in given[i + 1 :])
             if not {root, self.name(root)} & set[str]().union(*later):
                 self._store(s, target, n, value)
                 continue
@@ -34,7 +36,8 @@ class Assignments(Calls):
         """The single assignments that one of tuples is made of."""
         if isinstance(target, ast.Tuple):
             items: list[tuple[ast.expr, Value | None]]
-            if isinstance(n, ast.Tuple) and not value and not _starred(n):
+            starred = any(isinstance(x, ast.Starred) for x in ast.iter_child_nodes(n))
+            if isinstance(n, ast.Tuple) and not value and not starred:
                 items = [(x, None) for x in n.elts]
             else:
                 items = [(n, part) for part in self.parts(n, value or self.value(n))]
@@ -103,13 +106,10 @@ class Assignments(Calls):
 
     def augment(self, s: ast.AugAssign) -> None:
         """An assignment with an operator."""
-        if type(s.op) not in SIGNS:
+        self.allow(s, s.op)
+        if type(s.op) in FLOORED:
             self.refuse(s, "an operator that has no such assignment", "x = x ... y")
-        name = isinstance(s.target, ast.Name) and s.target.id in self.values
-        sign, target = (
-            SIGNS[type(s.op)][0],
-            self.value(s.target) if name else self._written(s.target),
-        )
+        sign, target = SIGNS[type(s.op)][0], self._written(s.target)
         if isinstance(target.type, Array):
             self._elements(s.target, target, s.value, sign)
             return
@@ -127,9 +127,7 @@ class Assignments(Calls):
             if not isinstance(x, ast.Subscript) or _root(x) != _root(target):
                 continue
             if not isinstance(self.value(x).type, Array):
-                self.refuse(
-                    x, "an element of the array that is assigned to", "an assignment before"
-                )
+                self.refuse(x, "an element of the array it is assigned to", "an assignment before")
         indices = [self.fresh("e") for _ in t.shape]
         for e, length in zip(indices, (first, *t.shape[1:]), strict=True):
             self.out(f"for (int {e} = 0; {e} < {length}; {e}++) {{")
@@ -154,10 +152,6 @@ class Assignments(Calls):
         if not isinstance(t, Array) or t.shape[0] is None:
             self.refuse(target, "an array whose length is not known", "a loop")
         return str(t.shape[0])
-
-
-def _starred(n: ast.Tuple) -> bool:
-    return any(isinstance(x, ast.Starred) for x in n.elts)
 
 
 def _root(n: ast.AST) -> str:

@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from dh2urdf.translate.c_file import CFile
-from dh2urdf.translate.doors import doors
-from dh2urdf.translate.entries import argument_types, engine, entries
+from dh2urdf.translate.entries import argument_types, doors, entries
+from dh2urdf.translate.source import engine
 
 FLAGS = ["-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC"]
 FLAGS += ["-fno-tree-slp-vectorize"]

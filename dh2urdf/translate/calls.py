@@ -2,31 +2,25 @@
 
 import ast
 from dataclasses import replace
+from functools import reduce
 
-from dh2urdf.translate.definitions import Instance
+from dh2urdf.translate.definitions import NUMBER
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
 from dh2urdf.translate.types import Array, Tuple
 from dh2urdf.translate.values import POSTFIX, PREFIX, Value
 
-LIBRARY = {
-    "math.sqrt": ("sqrt", 1, "float"),
-    "math.copysign": ("copysign", 2, "float"),
-    "math.fmod": ("fmod", 2, "float"),
-    "np.floor": ("floor", 1, "float"),
-    "np.ceil": ("ceil", 1, "float"),
-    "np.rint": ("rint", 1, "float"),
-    "math.isinf": ("isinf", 1, "bool"),
-    "math.isnan": ("isnan", 1, "bool"),
-    "math.isfinite": ("isfinite", 1, "bool"),
-}
-"""Functions whose result is the same everywhere, how many arguments they take, what they give."""
+OF_TWO = ("math.copysign", "math.fmod")
 
-CASTS = {"float": "double", "int": "int"}
+OF_ONE = (
+    *("math.sqrt", "np.floor", "np.ceil", "np.rint", "math.isinf", "math.isnan", "math.isfinite"),
+    *("abs", "int", "float"),
+)
+"""Functions of one number whose result is the same everywhere, as C names them too."""
 
 EXTREMES = {"max": "larger", "min": "smaller"}
 
-ALLOWED = (*LIBRARY, *CASTS, *EXTREMES, "abs", "len", *MAKERS)
+ALLOWED = (*OF_ONE, *OF_TWO, *EXTREMES, "len", *MAKERS)
 
 ELEMENT_OF = {"np.float64": "float", "np.int64": "int", "np.bool_": "bool"}
 
@@ -38,6 +32,8 @@ class Calls(Expressions):
     """Writes the calls of one kernel."""
 
     def _call(self, n: ast.Call) -> Value:
+        for keyword in n.keywords:
+            self.unknown(n, keyword)
         name = ast.unparse(n.func)
         callee = self.source.kernel(name)
         if callee is not None:
@@ -52,29 +48,22 @@ class Calls(Expressions):
 
     def _number(self, n: ast.Call, name: str, values: list[Value]) -> Value:
         """A call that gives a number."""
-        if name in EXTREMES and len(values) > 1:
-            return self._extreme(n, name, values)
-        c, count, t = LIBRARY.get(name, ("fabs", 1, "float"))
-        if name in EXTREMES or len(values) != count:
-            wanted = "others" if name in EXTREMES else str(count)
+        if name in EXTREMES and len(values) > 1:  # the first of those that are equal
+            if len({x.type for x in values}) > 1:
+                self.refuse(n, f"{name} of values of two types", "float(x) of the whole numbers")
+            c = EXTREMES[name] + "_int" * (values[0].type != "float")
+            return reduce(lambda a, b: self.helper(c, a.type, a, b), values)
+        wanted = "others" if name in EXTREMES else "2" if name in OF_TWO else "1"
+        if str(len(values)) != wanted:
             self.refuse(n, f"{len(values)} arguments of {name}", wanted)
-        value = values[0]
-        if name in CASTS:
-            text = f"({CASTS[name]}){value.at(PREFIX)}"
+        value, c = values[0], name.rpartition(".")[2]
+        if name in NUMBER:
+            text = f"({NUMBER[name]}){value.at(PREFIX)}"
             return value if value.type == name else Value(name, text, PREFIX)
         if name == "abs" and value.type != "float":
             return self.helper("size_int", "int", value)
-        return self.helper(c, t, *values)
-
-    def _extreme(self, n: ast.Call, name: str, values: list[Value]) -> Value:
-        """The first of the largest or smallest, as Python has it."""
-        found, *others = values
-        if any(other.type != found.type for other in others):
-            self.refuse(n, f"{name} of values of two types", "float(x) of the whole numbers")
-        helper = EXTREMES[name] + "_int" * (found.type != "float")
-        for other in others:
-            found = self.helper(helper, found.type, found, other)
-        return found
+        t = "bool" if c.startswith("is") else "float"
+        return self.helper("fabs" if name == "abs" else c, t, *values)
 
     def _kernel(self, n: ast.Call, callee: Source) -> Value:
         given = self.spread(n.args)
@@ -85,13 +74,13 @@ class Calls(Expressions):
             self.stored(value, self.fresh(f"array_{p}") if value.maker else p)
             for p, (_, value) in pairs
         ]
-        instance = self.file.instance(callee, tuple(value.type for value in handed))
-        self.instance.asked |= {name for p, (name, _) in pairs if p in instance.asked}
-        missing = set(instance.lengths()) - set(self.instance.lengths())
+        instance = self.translate(callee, tuple(value.type for value in handed))
+        self.asked |= {name for p, (name, _) in pairs if p in instance.asked}
+        missing = set(instance.lengths()) - set(self.lengths())
         if missing:
             self.refuse(n, f"the length {missing.pop()} is not known here", "an argument with it")
         texts = [self.text(leaf) for value in handed for leaf in value.leaves()]
-        text = f"{instance.name}({', '.join([*instance.lengths(), *texts])})"
+        text = f"{instance.function}({', '.join([*instance.lengths(), *texts])})"
         return Value(instance.returned or NOTHING, text, POSTFIX)
 
     def stored(self, value: Value, name: str) -> Value:
@@ -122,7 +111,7 @@ class Calls(Expressions):
     def _made_by(self, n: ast.Call, callee: Source) -> Value:
         """The arrays that a kernel makes: C returns none, so that they are the caller's."""
         assert callee.made
-        maker = Calls(self.file, Instance(callee, self.instance.arguments))
+        maker = Calls(self.file, callee, self.arguments, self.translate)
         for p, a in zip(callee.parameters, n.args, strict=True):
             maker.values[p] = self.value(a)
             if maker.values[p].known is None:

@@ -1,39 +1,78 @@
-"""What the kernels of a C file share: names, constants, records, tuples, and small helpers."""
+"""What the kernels of a C file share, and pieces of its text: names, constants, structs, lines."""
 
 import ast
 import inspect
 import re
 import sys
-from dataclasses import dataclass, field
+import textwrap
 from functools import cache
-from itertools import pairwise
+from itertools import accumulate, pairwise
+from pathlib import Path
 from types import ModuleType
 
-from dh2urdf.translate import c_text
-from dh2urdf.translate.c_text import ELEMENT, HELPERS, NUMBER
-from dh2urdf.translate.source import Source, stored
-from dh2urdf.translate.types import Array, Record, Tuple, Type, lengths_of
+import numpy as np
+
+from dh2urdf.translate.source import Source, named
+from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
+
+WIDTH = 100
+
+_RESERVED = """
+auto bool case char const default do double enum extern false far float goto inline int long near
+register restrict short signed sizeof static struct switch true typedef union unsigned void volatile
+"""
+RESERVED = {*_RESERVED.split()}
+"""Words of C that no name is."""
+
+_LIBRARY = """
+abs acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
+fdim floor fma fmax fmin fmod free frexp gamma hypot index isfinite isinf isnan j0 j1 jn ldexp
+lgamma log log10 log1p log2 logb lrint lround memcpy memset modf nan nearbyint pow remainder rint
+round scalbn signbit sin sincos sinh sqrt tan tanh tgamma time trunc write y0 y1 yn
+"""
+LIBRARY = {*_LIBRARY.split(), "leave", "TABLE"}
+"""What C and the file define, whose names no kernel and no constant has."""
+
+NUMBER = {"float": "double", "int": "int", "bool": "bool"}
+ELEMENT = {"float": "double", "int": "int64_t", "bool": "bool"}
+
+_SUPPORT = Path(__file__).with_name("support.h").read_text().strip().split("\n\n")
+HEAD, *_FUNCTIONS = _SUPPORT
+HELPERS = {re.findall(r"\w+(?=\()", text)[0]: text for text in _FUNCTIONS}
+"""As Python defines them: the first of two that compare as equal, division towards minus
+infinity."""
 
 
-@dataclass(eq=False)
-class Instance:
-    """A kernel for one list of argument types."""
+def number(value: object) -> str:
+    """A number, or a table, that reads back as the same."""
+    text = repr(np.asarray(value).tolist())
+    for python, c in {"[": "{", "]": "}", "inf": "INFINITY", "nan": "NAN"}.items():
+        text = text.replace(python, c)
+    return text.replace("True", "true").replace("False", "false")
 
-    source: Source
-    arguments: tuple[Type, ...]
-    name: str = ""
-    returned: Type | None = None
-    parameters: list[tuple[str, Type]] = field(default_factory=list)
-    """Those of C, where tuples with arrays are taken apart."""
-    asked: set[str] = field(default_factory=set)
-    """Parameters whose first length the kernel asks for."""
-    body: str = ""
-    entered: tuple[Type, ...] = ()
-    """Types of an entry's arguments as they are declared, with all lengths."""
 
-    def lengths(self) -> list[str]:
-        """Names of the lengths that it is handed."""
-        return lengths_of(self.arguments)
+def comment(text: str) -> list[str]:
+    """A docstring as a comment, its markup taken off."""
+    text = re.sub(r":[a-z]+:`~?\.?(?:[\w.]*\.)?(\w+)`", r"\1", text)
+    lines = text.replace("``", "").replace("*/", "* /").strip().split("\n")
+    if len(lines) == 1:
+        return [f"/* {lines[0]} */"]
+    return [f"/* {lines[0]}", *(f" * {line}".rstrip() for line in lines[1:]), " */"]
+
+
+def folded(text: str, indent: int = 0) -> list[str]:
+    """A statement in lines that are not too long, broken where the fewest brackets are open."""
+    pad, out = " " * indent, list[str]()
+    if text.startswith("/*"):
+        return textwrap.wrap(text, WIDTH, initial_indent=pad, subsequent_indent=pad + " * ")
+    while len(pad) + len(text) > WIDTH:
+        depths = [*accumulate((x in "([{") - (x in ")]}") for x in text)]
+        places = (i for i in range(WIDTH // 3 + 1, WIDTH - len(pad) + 1) if text[i] == " ")
+        _, back = min((depths[i], -i) for i in places)
+        at = -back
+        out.append(pad + text[:at])
+        pad, text = " " * (indent + 4), text[at + 1 :]
+    return [*out, pad + text]
 
 
 class Definitions:
@@ -41,30 +80,22 @@ class Definitions:
 
     def __init__(self) -> None:
         self._names: dict[str, object] = {}
-        self._constants: dict[tuple[str, str], tuple[str, object, str]] = {}
+        self._constants: dict[tuple[str, str], tuple[str, list[str], str]] = {}
         self._structs: dict[Tuple | Record, tuple[str, list[str]]] = {}
 
-    def instance(self, source: Source, given: tuple[Type, ...]) -> Instance:
-        """A kernel for some types of arguments."""
-        raise NotImplementedError
-
-    def types(self) -> list[str]:
-        """Structs of records and tuples."""
-        return [
-            line
-            for name, fields in self._structs.values()
-            for line in ["", "typedef struct {", *(f"    {f};" for f in fields), f"}} {name};"]
-        ]
+    def structs(self) -> list[str]:
+        """Those of records and tuples."""
+        return [line for _, lines in self._structs.values() for line in lines]
 
     def definitions(self, text: str) -> list[str]:
         """Helpers and constants that a text names."""
         words = set(re.findall(r"\w+", re.sub(r"(?s)/\*.*?\*/", "", text)))
-        out = ["", c_text.HEAD, "", *(HELPERS[name] for name in HELPERS if name in words)]
+        out = ["", HEAD, "", *(HELPERS[name] for name in HELPERS if name in words)]
         said = ""
-        for name, value, doc in self._constants.values():
+        for name, lines, doc in self._constants.values():
             if name in words:
-                out += ["", *c_text.comment(doc)] if doc and doc != said else []
-                out.append(c_text.constant(name, value))
+                out += ["", *comment(doc)] if doc and doc != said else []
+                out += lines
                 said = doc
         return out
 
@@ -73,7 +104,7 @@ class Definitions:
         room = module.split(".")[-2:]
         more = [f"{name}_{i}" for i in range(2, 999)]
         for c in (name, f"{name}_{room[-1]}", f"{name}_{'_'.join(room)}", *more):
-            taken = c in c_text.RESERVED | c_text.LIBRARY or c in HELPERS
+            taken = c in RESERVED | LIBRARY or c in HELPERS
             if not taken and self._names.setdefault(c, key) == key:
                 return c
         raise AssertionError(name)
@@ -84,7 +115,11 @@ class Definitions:
         key = home.__name__, name
         if key not in self._constants:
             c = self.unique(name.lstrip("_").upper(), home.__name__, key)
-            self._constants[key] = c, source.stands_for(name), doc
+            values = np.asarray(source.stands_for(name))
+            kind = (ELEMENT if values.shape else NUMBER)[ELEMENTS[values.dtype.kind]]
+            sizes = "".join(f"[{d}]" for d in values.shape)
+            lines = folded(f"static const {kind} {c}{sizes} = {number(values)};")
+            self._constants[key] = c, lines, doc
         return self._constants[key][0]
 
     def declaration(self, t: Type | None, name: str, storage: bool = False) -> str:
@@ -110,7 +145,8 @@ class Definitions:
         if t not in self._structs:
             storage = isinstance(t, Record)
             fields = [self.declaration(x, key, storage) for key, x in t.fields().items()]
-            self._structs[t] = self.unique(t.name, "", t), fields
+            name, lines = self.unique(t.name, "", t), [f"    {x};" for x in fields]
+            self._structs[t] = name, ["", "typedef struct {", *lines, f"}} {name};"]
         return self._structs[t][0]
 
 
@@ -120,7 +156,7 @@ def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     for s, after in pairwise([*_tree(module).body, ast.Pass()]):
         if isinstance(s, ast.ImportFrom) and any(a.name == name for a in s.names):
             return _home(sys.modules[str(s.module)], name)
-        if isinstance(s, ast.Assign) and name in stored([s]):
+        if isinstance(s, ast.Assign) and named(s, ast.Store)[name]:
             match after:
                 case ast.Expr(value=ast.Constant(value=str(doc))):
                     return module, doc

@@ -1,14 +1,14 @@
 """Expressions as C."""
 
 import ast
-from dataclasses import replace
 
-from dh2urdf.translate.c_text import number
+from dh2urdf.translate.definitions import number
 from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, told, type_of_value, wider
 from dh2urdf.translate.values import (
     ATOM,
     CHOICE,
     COMPARISON,
+    FLOORED,
     OR,
     POSTFIX,
     PREFIX,
@@ -21,7 +21,6 @@ from dh2urdf.translate.values import (
 )
 
 SHIFTS, MASKS = (ast.LShift, ast.RShift), (ast.BitAnd, ast.BitOr, ast.BitXor)
-FLOORED: dict[type[ast.operator], str] = {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"}
 
 
 class Expressions(Names):
@@ -37,7 +36,7 @@ class Expressions(Names):
         """An expression in C."""
         write = getattr(self, f"_{type(n).__name__.lower()}", None)
         if write is None:
-            self.refuse(n, f"{type(n).__name__} is not allowed", "numbers, names, indices, calls")
+            self.unknown(n, n, "numbers, names, indices, calls")
         found: Value = write(n)
         return found
 
@@ -96,7 +95,7 @@ class Expressions(Names):
             self.refuse(n, f"{told(value.type)} where a tuple is needed", "its items by index")
         if value.binds < ATOM and not value.parts:
             value = self.temporary(value, "got")
-        return _items(value)
+        return value.items()
 
     def text(self, value: Value) -> str:
         """The text of a value that may be a tuple of numbers, written out."""
@@ -113,13 +112,15 @@ class Expressions(Names):
     def _constant(self, n: ast.expr, value: object = None) -> Value:
         value = n.value if isinstance(n, ast.Constant) else value
         t = type_of_value(value)
+        if t is None and isinstance(value, int):
+            self.refuse(n, "a whole number beyond 32 bits", "a float")
         if not isinstance(t, str):
             self.refuse(n, "a value that is no number", "numbers only")
         text, known = number(value), value if isinstance(value, int) and t == "int" else None
         return Value(t, text, PREFIX if text[0] == "-" else ATOM, known=known)
 
     def _name(self, n: ast.Name) -> Value:
-        self.instance.asked.add(n.id)
+        self.asked.add(n.id)
         return self.named(n)
 
     def _attribute(self, n: ast.Attribute) -> Value:
@@ -131,13 +132,9 @@ class Expressions(Names):
         return self._constant(n, self.source.stands_for(ast.unparse(n)))
 
     def length(self, n: ast.expr, index: Length) -> Value:
-        """A length of an array or a tuple; the first one of a parameter is asked for."""
+        """A length of an array; the first one of a parameter is asked for."""
         value = self.value(n) if index == 0 else self.base(n)
-        shape: tuple[Length, ...] = ()
-        if isinstance(value.type, Array):
-            shape = value.type.shape
-        elif isinstance(value.type, Tuple):
-            shape = (len(value.type.items),)
+        shape = value.type.shape if isinstance(value.type, Array) else ()
         found = shape[index] if isinstance(index, int) and 0 <= index < len(shape) else None
         if found is None:
             self.refuse(n, "a length that is not known", "an argument for it")
@@ -159,6 +156,7 @@ class Expressions(Names):
         return Value(value.type, text, PREFIX, known=known)
 
     def _binop(self, n: ast.BinOp) -> Value:
+        self.allow(n, n.op)
         return self.joined(n, n.op, self.number(n.left), self.number(n.right))
 
     def joined(self, n: ast.AST, op: ast.operator, left: Value, right: Value) -> Value:
@@ -167,10 +165,7 @@ class Expressions(Names):
         if kind in FLOORED and t == "float":
             self.refuse(n, "floor division of floats", "np.floor(x / y)")
         if kind in FLOORED:
-            found = self.helper(FLOORED[kind], "int", left, right)
-            return replace(found, known=known_of(op, left.known, right.known))
-        if kind not in SIGNS:
-            self.refuse(n, f"{kind.__name__} is not allowed", "+, -, *, /, //, % or bits")
+            return self.helper(FLOORED[kind], "int", left, right)
         sign, binds = SIGNS[kind]
         if kind in SHIFTS + MASKS:
             if t == "float":
@@ -194,17 +189,14 @@ class Expressions(Names):
         middle = [x for term in n.comparators[:-1] for x in ast.walk(term)]
         if any(isinstance(x, ast.Call) and self.source.kernel(ast.unparse(x.func)) for x in middle):
             self.refuse(n, "a call that would be made twice", "an assignment before")
+        self.allow(n, *n.ops)
         terms = [self.number(x) for x in (n.left, *n.comparators)]
         signs = [SIGNS[type(op)][0] for op in n.ops]
         texts = [term.at(COMPARISON + 2) for term in terms]
         tests = [f"{a} {s} {b}" for a, s, b in zip(texts[:-1], signs, texts[1:], strict=True)]
         if len(tests) > 1:
             return Value("bool", " && ".join(tests), OR + 1)
-        a, b, known = terms[0].known, terms[1].known, None
-        if isinstance(a, int) and isinstance(b, int):
-            known = {"<": a < b, "<=": a <= b, ">": a > b, ">=": a >= b, "==": a == b}.get(
-                signs[0], a != b
-            )
+        known = known_of(n.ops[0], terms[0].known, terms[1].known)
         return Value("bool", tests[0], COMPARISON, known=known)
 
     def _ifexp(self, n: ast.IfExp) -> Value:
@@ -235,7 +227,7 @@ class Expressions(Names):
                 k = self.value(n.slice).known
                 if not isinstance(k, int) or not 0 <= k < len(base.type.items):
                     self.refuse(n, "item of a tuple by a variable", "a number")
-                return _items(base)[k]
+                return base.items()[k]
             case Record():
                 fields = base.type.fields()
                 key = n.slice.value if isinstance(n.slice, ast.Constant) else ""
@@ -257,7 +249,7 @@ class Expressions(Names):
             if isinstance(index, ast.Slice):
                 if k < len(indices) - 1:
                     self.refuse(n, "a slice before the last index", "a loop")
-                return self._slice(n, text, left, index)
+                return self._view(n, text, left, index)
             value, length = self.integer(index, "an index"), left.shape[0]
             known = value.known
             beyond = isinstance(known, int) and isinstance(length, int) and known >= length
@@ -268,7 +260,7 @@ class Expressions(Names):
             return Value(left, f"&{text}", PREFIX)
         return Value(left, text, POSTFIX)
 
-    def _slice(self, n: ast.Subscript, text: str, t: Array, s: ast.Slice) -> Value:
+    def _view(self, n: ast.Subscript, text: str, t: Array, s: ast.Slice) -> Value:
         """A view from ``lower`` to ``upper``, which must not lie before it nor beyond the end."""
         if s.step is not None:
             self.refuse(n, "a slice with a step", "a loop")
@@ -277,7 +269,7 @@ class Expressions(Names):
         if s.upper:
             high = self.integer(s.upper, "a slice").known
         elif isinstance(n.value, ast.Name):
-            self.instance.asked.add(n.value.id)
+            self.asked.add(n.value.id)
         if any(isinstance(x, int) and x < 0 for x in (low, high)):
             self.refuse(n, "a slice that counts from the end", "its place from the start")
         length = high if low == 0 else None
@@ -289,9 +281,3 @@ class Expressions(Names):
         if s.lower is None:
             return Value(t.first(length), text, POSTFIX)
         return Value(t.first(length), f"{text} + {start.at(SUM)}", SUM)
-
-
-def _items(value: Value) -> tuple[Value, ...]:
-    assert isinstance(value.type, Tuple)
-    fields = value.type.fields().items()
-    return value.parts or tuple(Value(t, f"{value.at(POSTFIX)}.{f}", POSTFIX) for f, t in fields)

@@ -1,4 +1,4 @@
-"""A kernel's source: its syntax tree, what its names stand for, and what the subset allows."""
+"""A kernel's source: its syntax tree, what its names stand for, and where C declares them."""
 
 import ast
 import inspect
@@ -7,40 +7,12 @@ import sys
 import textwrap
 import tokenize
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable
 from functools import cache, cached_property
 from importlib import import_module
-from types import ModuleType
 from typing import Any, NoReturn
 
-ADVICE: dict[str, tuple[type[ast.AST], ...]] = {
-    "a loop": (ast.ListComp, ast.GeneratorExp, ast.DictComp, ast.SetComp),
-    "loops": (ast.MatMult,),
-    "np.empty, or a tuple": (ast.List,),
-    "a record, or arguments": (ast.Dict,),
-    "comparisons": (ast.Set,),
-    "comparisons with ==": (ast.In, ast.Is),
-    "comparisons with !=": (ast.NotIn, ast.IsNot),
-    "a kernel of the module": (ast.Lambda, ast.FunctionDef),
-    "a record of the module": (ast.ClassDef,),
-    "a returned status": (ast.Try, ast.Raise, ast.Assert),
-    "the statements alone": (ast.With,),
-    "into an array that is handed in": (ast.Yield, ast.YieldFrom),
-    "an argument": (ast.Global, ast.Nonlocal),
-    "a positional argument": (ast.keyword,),
-    "numbers only": (ast.JoinedStr,),
-    "the import at the head of the module": (ast.Import, ast.ImportFrom),
-    "nothing": (ast.Delete,),
-    "an assignment of its own": (ast.NamedExpr,),
-    "an assignment without a type": (ast.AnnAssign,),
-    "if and elif": (ast.Match,),
-    "products, or math.sqrt": (ast.Pow,),
-}
-"""What to write instead of syntax outside the subset."""
-
-REFUSED = {kind: advice for advice, kinds in ADVICE.items() for kind in kinds}
-
-ENGINE = "dh2urdf.kernels.numbers.engine"
+ROOM = "dh2urdf.kernels"
 
 MAKERS = ("np.empty", "np.zeros")
 
@@ -60,20 +32,22 @@ class Source:
         tree = ast.parse(text).body[0]
         if not isinstance(tree, ast.FunctionDef):
             self.refuse(tree, "no function", "def")
+        a = tree.args
+        if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults:
+            self.refuse(a, "arguments that are not plain", "positional ones")
         self.tree, self.doc = tree, ast.get_docstring(tree) or ""
         self.body = tree.body[1:] if self.doc else tree.body
-        self.parameters = [a.arg for a in tree.args.args]
-        self.names = {n.id for n in ast.walk(tree) if isinstance(n, ast.Name)}
-        times = Counter(stored(self.body))
+        self.parameters = [x.arg for x in a.args]
+        self.loops = [n for n in ast.walk(tree) if isinstance(n, ast.For | ast.While)]
+        counters = {x for s in self.loops if isinstance(s, ast.For) for x in named(s.target)}
+        times = named(tree, ast.Store)
         self.stored = {*times, *self.parameters}
-        loops = (s for s in every(self.body) if isinstance(s, ast.For))
-        counters = {x for s in loops for x in stored([s.target])}
-        self.once = {x for x in times if times[x] == 1} - counters - {*self.parameters}
+        self.variables = self.stored - counters - {*self.parameters, "_"}
+        self.once = {x for x in self.variables if times[x] == 1}
         self.changing = set(times) - self.once - counters
         tokens = tokenize.generate_tokens(io.StringIO(text).readline)
         comments = (t for t in tokens if t.type == tokenize.COMMENT)
         self.comments = {t.start[0]: t.string.lstrip("# ") for t in comments}
-        self._check()
 
     def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
         """Raise :class:`SubsetError` for a node."""
@@ -83,39 +57,18 @@ class Source:
         where = f"{self.file}:{line}: {self.name}"
         raise SubsetError(f"{where}: {found}{': ' * bool(what)}{what}{advice}")
 
-    def _check(self) -> None:
-        a = self.tree.args
-        if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults:
-            self.refuse(a, "arguments that are not plain", "positional ones")
-        keys = {id(n.slice) for n in ast.walk(self.tree) if isinstance(n, ast.Subscript)}
-        for node in (n for s in self.body for n in ast.walk(s)):
-            operators = [getattr(node, "op", None), *getattr(node, "ops", [])]
-            for kind in map(type, [node, *operators]):
-                if kind in REFUSED:
-                    self.refuse(node, f"{kind.__name__} is not allowed", REFUSED[kind])
-            text = isinstance(node, ast.Constant) and not isinstance(node.value, int | float)
-            if text and id(node) not in keys:
-                self.refuse(node, "a value that is no number", "numbers only")
-            if isinstance(node, ast.Constant) and type(node.value) is int and node.value >= 2**31:
-                self.refuse(node, "a whole number beyond 32 bits", "a float")
-            if isinstance(node, ast.Assign) and len(node.targets) > 1:
-                self.refuse(node, "two assignments in one", "two")
-            if isinstance(node, ast.For | ast.While) and node.orelse:
-                self.refuse(node, "else of a loop", "a flag, or a kernel that returns")
-
     def stands_for(self, name: str) -> Any:
         """The object that a name of the module stands for; None if there is none."""
-        base, _, attribute = name.partition(".")
-        found = getattr(self.module, base, None)
-        if attribute:
-            return getattr(found, attribute, None) if isinstance(found, ModuleType) else None
+        found: Any = self.module
+        for part in name.split("."):
+            found = getattr(found, part, None)
         return found
 
     def kernel(self, name: str) -> "Source | None":
         """The kernel that a name of the module stands for."""
         value = self.stands_for(name)
         name = getattr(value, "__name__", "").replace("__", ".")  # of a compiled entry
-        value = import_module(ENGINE).INTERPRETED.get(name, value)
+        value = engine().INTERPRETED.get(name, value)
         own = self.module.__name__.partition(".")[0]
         inside = getattr(value, "__module__", "").partition(".")[0] == own
         return source_of(value) if inside and hasattr(value, "__code__") else None
@@ -136,14 +89,18 @@ class Source:
         """Names that C declares at their assignments, and those it declares before statements."""
         at: dict[ast.stmt, set[str]] = defaultdict(set)
         before: dict[ast.stmt, set[str]] = defaultdict(set)
-        counters = stored(s.target for s in every(self.body) if isinstance(s, ast.For))
-        for name in self.stored - {*self.parameters, *counters, "_"}:
+        for name in self.variables:
             places = _assignments(name, self.body)
-            for s in places or []:
+            for s in places:
                 at[s].add(name)
             if not places:
-                before[next(s for s in self.body if uses(s)[name])].add(name)
+                before[next(s for s in self.body if named(s)[name])].add(name)
         return at, before
+
+
+def engine() -> Any:
+    """The kernels' own module of what is compiled."""
+    return import_module(f"{ROOM}.numbers.engine")
 
 
 @cache
@@ -152,47 +109,25 @@ def source_of(function: Callable[..., Any]) -> Source:
     return Source(function)
 
 
-def stored(nodes: Iterable[ast.AST]) -> list[str]:
-    """Names that are given values, once for each time."""
-    inside = (n for top in nodes for n in ast.walk(top) if isinstance(n, ast.Name))
-    return [n.id for n in inside if isinstance(n.ctx, ast.Store)]
-
-
 @cache
-def loaded(node: ast.AST) -> set[str]:
-    """Names that a node reads."""
-    return {n.id for n in ast.walk(node) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Load)}
-
-
-@cache
-def uses(node: ast.AST) -> Counter[str]:
-    """How often a node names something."""
-    return Counter(n.id for n in ast.walk(node) if isinstance(n, ast.Name))
-
-
-def blocks_of(statement: ast.stmt) -> list[list[ast.stmt]]:
-    """The blocks inside a statement."""
-    return [b for b in (getattr(statement, "body", []), getattr(statement, "orelse", [])) if b]
-
-
-def every(statements: list[ast.stmt]) -> Iterator[ast.stmt]:
-    """All statements of a block and of the blocks inside it."""
-    for statement in statements:
-        yield statement
-        for block in blocks_of(statement):
-            yield from every(block)
+def named(node: ast.AST, context: type[ast.expr_context] = ast.expr_context) -> Counter[str]:
+    """How often a node names something, to read it (ast.Load), to write it (ast.Store), or both."""
+    inside = (n for n in ast.walk(node) if isinstance(n, ast.Name))
+    return Counter(n.id for n in inside if isinstance(n.ctx, context))
 
 
 def _assignments(name: str, block: list[ast.stmt]) -> list[ast.stmt]:
     """Assignments that all uses of a name in a block follow; none if that cannot be."""
-    users = [s for s in block if uses(s)[name]]
-    first, found = users[0], list[ast.stmt]()
-    if isinstance(first, ast.Assign) and name in stored([first]) and name not in loaded(first):
+    users, found = [s for s in block if named(s)[name]], list[ast.stmt]()
+    first = users[0]
+    stores = isinstance(first, ast.Assign) and named(first, ast.Store)[name]
+    if stores and not named(first, ast.Load)[name]:
         return [first]
     for s in users:
-        inside = [b for b in blocks_of(s) if any(uses(x)[name] for x in b)]
+        blocks = [getattr(s, "body", []), getattr(s, "orelse", [])]
+        inside = [b for b in blocks if any(named(x)[name] for x in b)]
         places = [_assignments(name, b) for b in inside]
-        if not all(places) or sum(uses(x)[name] for b in inside for x in b) != uses(s)[name]:
+        if not all(places) or sum(named(x)[name] for b in inside for x in b) != named(s)[name]:
             return []
         found += [place for inner in places for place in inner]
     return found

@@ -3,9 +3,8 @@
 import ast
 
 from dh2urdf.translate.assignments import Assignments
-from dh2urdf.translate.c_text import folded
-from dh2urdf.translate.definitions import Definitions, Instance
-from dh2urdf.translate.source import every, loaded, stored, uses
+from dh2urdf.translate.definitions import folded
+from dh2urdf.translate.source import named
 from dh2urdf.translate.types import Array, Record, Tuple, Type, told
 from dh2urdf.translate.values import COMPARISON, Value
 
@@ -15,29 +14,43 @@ EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 class Body(Assignments):
     """Writes the body of one kernel; methods for statements say whether nothing comes after."""
 
-    def __init__(self, file: Definitions, instance: Instance) -> None:
-        super().__init__(file, instance)
+    def write(self) -> None:
+        """Write the body."""
         self.said = set[int]()
         """Lines of the kernel's comments that are written."""
         self.hoisted: dict[int, str] = {}
         """Names that are declared before the block that gives them a value, by their line of C."""
-        for p, t in zip(self.source.parameters, instance.arguments, strict=True):
-            self.values[p] = self._parameter(p, t, self._pattern(p))
-
-    def _pattern(self, p: str) -> ast.expr | None:
-        """How a kernel takes a parameter apart that is a tuple: C has the names from there."""
-        for s in every(self.source.body):
+        taken = dict[str, ast.expr]()
+        """How the kernel takes parameters apart that are tuples: C has the names from there."""
+        for s in ast.walk(self.source.tree):
             match s:
                 case ast.Assign(targets=[ast.Tuple() as target], value=ast.Name(id=name)):
-                    if name == p:
-                        return target
-        return None
+                    taken.setdefault(name, target)
+        for p, t in zip(self.source.parameters, self.arguments, strict=True):
+            self.values[p] = self._parameter(p, t, taken.get(p))
+        ended = self.block(self.source.body)
+        if self.returned is not None and not ended:
+            self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
+        for k, name in self.hoisted.items():
+            if self.values[name].known is None:
+                t = self.values[name].type
+                empty = "{0}" if isinstance(t, Tuple) else EMPTY.get(str(t), "NULL")
+                self.lines[k] = 1, f"{self.file.declaration(t, self.name(name))} = {empty};"
+        lines = (folded(text, 4 * depth) for depth, text in self.lines if text)
+        self.body = "\n".join("\n".join(x) for x in lines)
+        kinds = dict(zip(self.source.parameters, self.arguments, strict=True))
+        for p, t in kinds.items():
+            if p not in self.asked and isinstance(t, Array) and isinstance(t.element, str):
+                kinds[p] = t.first()
+        self.arguments = tuple(kinds.values())
+        loose = {self.values[p].text: t for p, t in kinds.items()}
+        self.parameters = [(c, loose.get(c, t)) for c, t in self.parameters]
 
     def _parameter(self, name: str, t: Type, pattern: ast.expr | None) -> Value:
         if not isinstance(t, Tuple) or t.is_struct:
             if isinstance(pattern, ast.Name) and pattern.id in self.source.once:
                 name = pattern.id
-            self.instance.parameters.append((self.name(name), t))
+            self.parameters.append((self.name(name), t))
             return Value(t, self.name(name))
         inner: list[ast.expr | None] = [None] * len(t.items)
         if isinstance(pattern, ast.Tuple) and len(pattern.elts) == len(inner):
@@ -45,18 +58,6 @@ class Body(Assignments):
         pairs = enumerate(zip(t.items, inner, strict=True))
         parts = (self._parameter(f"{name}_{k}", item, x) for k, (item, x) in pairs)
         return Value(t, parts=tuple(parts))
-
-    def body(self) -> str:
-        """The lines between the braces."""
-        ended = self.block(self.source.body)
-        if self.instance.returned is not None and not ended:
-            self.refuse(self.source.body[-1], "an end without a value", "return of the same types")
-        for k, name in self.hoisted.items():
-            if self.values[name].known is None:
-                t = self.values[name].type
-                empty = "{0}" if isinstance(t, Tuple) else EMPTY.get(str(t), "NULL")
-                self.lines[k] = 1, f"{self.file.declaration(t, self.name(name))} = {empty};"
-        return "\n".join(x for depth, text in self.lines if text for x in folded(text, 4 * depth))
 
     def block(self, statements: list[ast.stmt]) -> bool:
         """Statements one after the other, and whether nothing comes after them."""
@@ -77,6 +78,8 @@ class Body(Assignments):
         for name in sorted(self.source.declared[1][s]):
             self.hoisted[len(self.lines)] = name
             self.out("")
+        if isinstance(s, ast.For | ast.While) and s.orelse:
+            self.refuse(s, "else of a loop", "a flag, or a kernel that returns")
         match s:
             case ast.Assign():
                 self.assign(s)
@@ -95,10 +98,10 @@ class Body(Assignments):
             case ast.Break() | ast.Continue():
                 self.out(f"{type(s).__name__.lower()};")
                 return True
-            case ast.Expr(value=ast.Call()):
+            case ast.Expr(value=ast.Call() | ast.Yield()):
                 self.out(f"{self.value(s.value).text};")
             case _:
-                self.refuse(s, f"{type(s).__name__} is not allowed", "assignments, calls, loops")
+                self.unknown(s, s, "assignments, calls, loops")
         return False
 
     def _if(self, s: ast.If, before: str = "") -> bool:
@@ -131,16 +134,17 @@ class Body(Assignments):
                 low, high, *more = arguments if several else (ast.Constant(0), *arguments)
             case _:
                 self.refuse(s.iter, "a loop over something else", "for ... in range(...)")
-        body = self.source.body
-        loops = [x for x in every(body) if isinstance(x, ast.For) and uses(x.target)[counter]]
-        astray = sum(uses(x)[counter] for x in loops) != sum(uses(x)[counter] for x in body)
-        if counter != "_" and (astray or counter in stored(s.body)):
+        loops = [
+            x for x in self.source.loops if isinstance(x, ast.For) and named(x.target)[counter]
+        ]
+        astray = sum(named(x)[counter] for x in loops) != named(self.source.tree)[counter]
+        if counter != "_" and (astray or named(s, ast.Store)[counter] > 1):
             self.refuse(s.target, "a counter that is more than that", "another name")
         step = self.value(more[0]).known if more else 1
         if not isinstance(step, int) or step == 0:
             self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
         start, end = self.integer(low, "a bound").text, self.integer(high, "a bound")
-        if end.known is None and self._changes(high, s.body):
+        if end.known is None and self._changes(high, s):
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
@@ -152,12 +156,12 @@ class Body(Assignments):
         self._inner(s.body)
         self.out("}")
 
-    def _changes(self, n: ast.expr, body: list[ast.stmt]) -> bool:
+    def _changes(self, n: ast.expr, loop: ast.For) -> bool:
         """Whether the end of a loop may change in it, which Python would not see."""
-        if not loaded(n) & self.source.stored:
+        if not self.source.stored.intersection(named(n)):
             return False
         inside = any(isinstance(x, ast.Subscript) for x in ast.walk(n))
-        return inside or bool(loaded(n) & set(stored(body)))
+        return inside or not named(n).keys().isdisjoint(named(loop, ast.Store))
 
     def _return(self, s: ast.Return) -> bool:
         if s.value is None:
@@ -166,9 +170,9 @@ class Body(Assignments):
         value = self.value(s.value)
         if isinstance(value.type, Array | Record) or value.leaves() != [value]:
             self.refuse(s, "a returned array", "into an array that is handed in")
-        if self.instance.returned not in (None, value.type):
-            types = f"{told(value.type)} after {told(self.instance.returned)}"
+        if self.returned not in (None, value.type):
+            types = f"{told(value.type)} after {told(self.returned)}"
             self.refuse(s, f"returned values of other types, {types}", "the same types")
-        self.instance.returned = value.type
+        self.returned = value.type
         self.out(f"return {self.text(value)};")
         return True

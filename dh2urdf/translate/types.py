@@ -5,7 +5,7 @@ first: it may be a number, the name of a length that is known when the kernel ru
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias, Union
 
@@ -101,25 +101,24 @@ def told(t: Type | None) -> str:
 
 def type_of_value(value: object) -> Type | None:
     """Type of a constant of a module; None where a kernel cannot use it."""
-    if isinstance(value, bool | np.bool_):
-        return "bool"
-    if isinstance(value, int | np.integer):
-        return "int" if abs(int(value)) < 2**31 else None
-    if isinstance(value, float | np.floating):
-        return "float"
-    if isinstance(value, tuple) and {type(v) for v in value} in ({int}, {float}):
-        value = np.array(value)
-    if isinstance(value, np.ndarray) and value.dtype.kind in ELEMENTS:
-        return Array(ELEMENTS[value.dtype.kind], value.shape, constant=True)
-    return None
+    if isinstance(value, tuple) and {type(v) for v in value} not in ({int}, {float}):
+        return None
+    table = np.asarray(value)
+    element = ELEMENTS.get(table.dtype.kind)
+    if element and table.shape:
+        return Array(element, table.shape, constant=True)
+    return None if element == "int" and abs(int(table)) >= 2**31 else element
+
+
+def inside(name: str, t: Type) -> Iterator[tuple[str, Type]]:
+    """A type, and after it those of a tuple's items; with their names."""
+    yield name, t
+    for i, item in enumerate(t.items if isinstance(t, Tuple) else ()):
+        yield from inside(f"{name}[{i}]", item)
 
 
 def lengths_of(types: Iterable[Type]) -> list[str]:
     """Names of the lengths in some types."""
-    found: set[str] = set()
-    for t in types:
-        if isinstance(t, Tuple):
-            found.update(lengths_of(t.items))
-        elif isinstance(t, Array):
-            found.update(*(re.findall(r"[a-z]\w*", d) for d in t.shape if isinstance(d, str)))
-    return sorted(found)
+    arrays = (x for t in types for _, x in inside("", t) if isinstance(x, Array))
+    named = (d for array in arrays for d in array.shape if isinstance(d, str))
+    return sorted({name for d in named for name in re.findall(r"[a-z]\w*", d)})

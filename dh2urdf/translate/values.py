@@ -2,12 +2,13 @@
 
 import ast
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import NoReturn, TypeAlias
 
-from dh2urdf.translate.c_text import RESERVED
-from dh2urdf.translate.definitions import Definitions, Instance
-from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, type_of_value
+from dh2urdf.translate.definitions import RESERVED, Definitions
+from dh2urdf.translate.source import Source, named
+from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, lengths_of, type_of_value
 
 ATOM, POSTFIX, PREFIX, SUM, COMPARISON, OR, CHOICE = 16, 15, 14, 12, 9, 4, 3
 """How tightly the operators of C bind."""
@@ -27,6 +28,30 @@ LEVELS: dict[int, dict[type[ast.AST], str]] = {
 }
 SIGNS = {kind: (sign, level) for level, signs in LEVELS.items() for kind, sign in signs.items()}
 """C's signs for operators, and how tightly they bind."""
+
+FLOORED: dict[type[ast.AST], str] = {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"}
+
+_ADVICE = {
+    "ListComp GeneratorExp DictComp SetComp MatMult": "a loop",
+    "List": "np.empty, or a tuple",
+    "Dict ClassDef": "a record of the module, or arguments",
+    "Set In NotIn Is IsNot": "comparisons with == or !=",
+    "Lambda FunctionDef": "a kernel of the module",
+    "Try Raise Assert": "a returned status",
+    "With": "the statements alone",
+    "Yield YieldFrom": "into an array that is handed in",
+    "Global Nonlocal": "an argument",
+    "keyword": "a positional argument",
+    "JoinedStr": "numbers only",
+    "Import ImportFrom": "the import at the head of the module",
+    "Delete": "nothing",
+    "NamedExpr": "an assignment of its own",
+    "AnnAssign": "an assignment without a type",
+    "Match": "if and elif",
+    "Pow": "products, or math.sqrt",
+}
+ADVICE = {kind: advice for kinds, advice in _ADVICE.items() for kind in kinds.split()}
+"""What to write instead of syntax outside the subset."""
 
 
 @dataclass(frozen=True)
@@ -52,6 +77,12 @@ class Value:
         inside = set[str]().union(*(part.words() for part in self.parts))
         return inside | set(re.findall(r"\w+", self.text))
 
+    def items(self) -> tuple["Value", ...]:
+        """The items of a tuple."""
+        assert isinstance(self.type, Tuple)
+        fields = self.type.fields().items()
+        return self.parts or tuple(Value(t, f"{self.at(POSTFIX)}.{f}", POSTFIX) for f, t in fields)
+
     def leaves(self) -> list["Value"]:
         """What goes from kernel to kernel: itself, or its parts one by one."""
         if isinstance(self.type, Tuple) and not self.type.is_struct:
@@ -65,32 +96,61 @@ def sized(length: Length) -> Value:
     return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM, known=length)
 
 
-def known_of(op: ast.operator, a: Length, b: Length) -> Length:
+def known_of(op: ast.AST, a: Length, b: Length) -> Length:
     """What is known of two lengths with an operator between them."""
-    sign = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.FloorDiv: "//"}.get(type(op))
-    if sign is None or a is None or b is None:
-        return None
+    sign, _ = SIGNS.get(type(op), ("//", 0))
     if isinstance(a, int) and isinstance(b, int):
-        return {"+": a + b, "-": a - b, "*": a * b, "//": a // b if b else None}[sign]
-    return None if sign == "//" else f"({a} {sign} {b})"
+        return {"+": a + b, "-": a - b, "*": a * b, "==": a == b}.get(sign)
+    return f"({a} {sign} {b})" if sign in "+-*" and a and b else None
+
+
+Translate: TypeAlias = Callable[[Source, tuple[Type, ...]], "Names"]
+"""Gives a kernel for some types of arguments."""
 
 
 class Names:
-    """The names of one kernel, and the whole numbers that are known before it runs."""
+    """A kernel for one list of argument types: what its names stand for, and what C is told."""
 
-    def __init__(self, file: Definitions, instance: Instance) -> None:
-        self.file, self.instance, self.source = file, instance, instance.source
+    def __init__(
+        self, file: Definitions, source: Source, arguments: tuple[Type, ...], translate: Translate
+    ) -> None:
+        self.file, self.source, self.translate = file, source, translate
+        self.arguments, self.entered = arguments, arguments
+        """Types of the arguments, without the lengths that it does not ask for, and with all."""
+        self.function, self.body = "", ""
+        """Its name in C, and what is between the braces there."""
+        self.returned: Type | None = None
+        self.parameters: list[tuple[str, Type]] = []
+        """Those of C, where tuples with arrays are taken apart."""
+        self.asked = set[str]()
+        """Parameters whose first length the kernel asks for."""
         self.values: dict[str, Value] = {}
         """What names stand for that have been given a value so far."""
         self.lines: list[tuple[int, str]] = []
         self.depth = 1
-        outside = {x.lstrip("_") for x in self.source.names - self.source.stored}
-        self.reserved = RESERVED | outside | set(instance.lengths())
-        self.taken = self.source.names | self.reserved
+        names = set(named(self.source.tree))
+        outside = {x.lstrip("_") for x in names - self.source.stored}
+        self.reserved = RESERVED | outside | set(self.lengths())
+        self.taken = names | self.reserved
+
+    def lengths(self) -> list[str]:
+        """Names of the lengths that it is handed."""
+        return lengths_of(self.arguments)
 
     def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
         """Refuse a node of the body."""
         self.source.refuse(node, found, instead)
+
+    def unknown(self, node: ast.AST, kind: ast.AST, instead: str = "") -> NoReturn:
+        """Refuse syntax that the subset has not got."""
+        name = type(kind).__name__
+        self.refuse(node, f"{name} is not allowed", ADVICE.get(name, instead))
+
+    def allow(self, node: ast.AST, *operators: ast.AST) -> None:
+        """Refuse operators that the subset has not got."""
+        for op in operators:
+            if type(op) not in {*SIGNS, *FLOORED}:
+                self.unknown(node, op)
 
     def out(self, text: str) -> None:
         """A line of C."""

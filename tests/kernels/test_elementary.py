@@ -132,7 +132,7 @@ def compiled(request, tmp_path_factory):
         made[name] = file.add_entry(function, ["float"] * function.__code__.co_argcount)
     text = file.kernels() + HARNESS
     for name, entry in made.items():
-        text = text.replace(f"{name}_(", f"{entry.name}(")
+        text = text.replace(f"{name}_(", f"{entry.function}(")
     folder.joinpath("kernels.h").write_text(file.header())
     folder.joinpath("some.c").write_text(text)
     words = [*engines.own(), *FLAGS, *request.param.split(), "-DTABLE=entries_here"]

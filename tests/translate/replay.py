@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from dh2urdf.translate.c_file import CFile
-from dh2urdf.translate.definitions import Instance
 from dh2urdf.translate.entries import argument_types, entries
+from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import Array, Tuple, Type
 from tests.translate.record import Call, interpreted, leaves
 
@@ -117,13 +117,13 @@ def text() -> str:
     return files()["kernels.c"]
 
 
-def _replay(file: CFile, e: Instance, k: int) -> str:
+def _replay(file: CFile, e: Body, k: int) -> str:
     """A function that makes one call of an entry."""
     lines = [f"static void replay_{k}(const Entries *table)", "{"]
     lines += [f"    const int {x} = (int)whole();" for x in e.lengths()]
     after: list[str] = []
     handed = [_taken(file, t, f"a{i}", lines, after) for i, t in enumerate(e.arguments)]
-    call = f"table->{e.name}({', '.join([*e.lengths(), *handed])});"
+    call = f"table->{e.function}({', '.join([*e.lengths(), *handed])});"
     if e.returned is None:
         return "\n".join([*lines, f"    {call}", *after, "}", ""])
     lines.append(f"    const {file.declaration(e.returned, 'found')} = {call}")

@@ -47,7 +47,7 @@ def asks(x, y=1.0):
 
 REFUSED = {
     "comprehension": ("y = [x for _ in range(3)]", "ListComp", "a loop"),
-    "generator": ("y = sum(x for _ in range(3))", "GeneratorExp", "a loop"),
+    "generator": ("y = abs(x for _ in range(3))", "GeneratorExp", "a loop"),
     "list": ("y = [x, x]", "List", "np.empty, or a tuple"),
     "dictionary": ("y = {1: x}", "Dict", "a record"),
     "set": ("y = {x}", "Set", "comparisons"),
@@ -70,7 +70,7 @@ REFUSED = {
     "match": ("match n:\n    case 1: x = 1.0", "Match", "if and elif"),
     "power": ("y = x ** 2", "Pow", "products, or math.sqrt"),
     "augmented power": ("x **= 2", "Pow", "products, or math.sqrt"),
-    "matrix product": ("y = m @ a", "MatMult", "loops"),
+    "matrix product": ("y = m @ a", "MatMult", "a loop"),
     "membership": ("y = n in (1, 2)", "In", "comparisons with =="),
     "identity": ("y = x is x", "Is", "=="),
     "keyword": ("y = identity(x=x)", "keyword", "a positional argument"),

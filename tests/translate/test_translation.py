@@ -145,6 +145,6 @@ def test_a_kernel_is_written_once_for_each_list_of_types():
     file = CFile()
     file.add_entry(sample_kernels.groups, argument_types(sample_kernels.groups))
     file.add_entry(sample_kernels.views, argument_types(sample_kernels.views))
-    names = [instance.name for instance in file.order]
+    names = [kernel.function for kernel in file.order]
     assert names == ["fill", "groups", "total", "total_sample_kernels", *names[4:]]
     assert len(set(names)) == len(names)
