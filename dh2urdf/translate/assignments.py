@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from dh2urdf.translate.calls import Calls
 from dh2urdf.translate.source import named
-from dh2urdf.translate.types import NUMBERS, Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import FLOORED, SIGNS, Value, sized
+from dh2urdf.translate.types import Array, Record, Tuple, Type, told, wider
+from dh2urdf.translate.values import SIGNS, Binds, Value, sized
 
 
 class Assignments(Calls):
@@ -61,7 +61,7 @@ class Assignments(Calls):
             return
         written = self._written(target)
         if isinstance(written.type, Array):
-            self._elements(target, written, n, "")
+            self._elements(target, written.type, n, "")
         else:
             self._fits(target, written.type, value.type)
             self.out(f"{written.text} = {value.text};")
@@ -75,10 +75,9 @@ class Assignments(Calls):
 
     def _fits(self, target: ast.expr, kept: Type, given: Type) -> None:
         """Refuse what an element of an array does not hold."""
-        if not (isinstance(kept, str) and isinstance(given, str)):
-            self.refuse(target, f"{told(given)} for {told(kept)}", "element by element")
-        if NUMBERS.index(given) > NUMBERS.index(kept):
-            self.refuse(target, f"{given} for an element of {kept}", "int(x), or a comparison")
+        if not isinstance(kept, str) or wider(kept, given) != kept:
+            found = f"{told(given)} for an element of {told(kept)}"
+            self.refuse(target, found, "int(x), or a comparison")
 
     def _bind(self, s: ast.Assign, target: ast.Name, value: Value) -> None:
         name, c, t = target.id, self.name(target.id), value.type
@@ -107,11 +106,11 @@ class Assignments(Calls):
     def augment(self, s: ast.AugAssign) -> None:
         """An assignment with an operator."""
         self.allow(s, s.op)
-        if type(s.op) in FLOORED:
+        (sign, binds), target = SIGNS[type(s.op)], self._written(s.target)
+        if binds == Binds.POSTFIX:
             self.refuse(s, "an operator that has no such assignment", "x = x ... y")
-        sign, target = SIGNS[type(s.op)][0], self._written(s.target)
         if isinstance(target.type, Array):
-            self._elements(s.target, target, s.value, sign)
+            self._elements(s.target, target.type, s.value, sign)
             return
         value = self.number(s.value)
         after = self.joined(s, s.op, target, value).type
@@ -119,10 +118,16 @@ class Assignments(Calls):
             self.refuse(s, f"{told(after)} for {told(target.type)}", "another name, or float(x)")
         self.out(f"{target.text} {sign}= {value.text};")
 
-    def _elements(self, target: ast.expr, written: Value, n: ast.expr, sign: str) -> None:
+    def _elements(self, target: ast.expr, t: Array, n: ast.expr, sign: str) -> None:
         """All elements of an array, one after the other."""
-        t, first = written.type, self._count(target, written.type)
-        assert isinstance(t, Array)
+        first = t.shape[0]
+        match target:
+            case ast.Subscript(slice=ast.Slice(lower=None, upper=ast.expr() as upper)):
+                first = self.value(upper).text
+            case ast.Subscript(slice=ast.Slice(lower=ast.expr())):
+                self.refuse(target, "an assignment to elements from the middle", "a loop")
+        if first is None:
+            self.refuse(target, "an array whose length is not known", "a loop")
         for x in ast.walk(n):
             if not isinstance(x, ast.Subscript) or _root(x) != _root(target):
                 continue
@@ -141,17 +146,6 @@ class Assignments(Calls):
             self.depth -= 1
             self.out("}")
         self.taken -= {*indices}
-
-    def _count(self, target: ast.expr, t: Type) -> str:
-        """How many elements, or rows, are assigned to."""
-        match target:
-            case ast.Subscript(slice=ast.Slice(lower=None, upper=ast.expr() as upper)):
-                return self.value(upper).text
-            case ast.Subscript(slice=ast.Slice(lower=ast.expr())):
-                self.refuse(target, "an assignment to elements from the middle", "a loop")
-        if not isinstance(t, Array) or t.shape[0] is None:
-            self.refuse(target, "an array whose length is not known", "a loop")
-        return str(t.shape[0])
 
 
 def _root(n: ast.AST) -> str:

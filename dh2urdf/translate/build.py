@@ -10,6 +10,7 @@ import subprocess
 import sys
 import sysconfig
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -68,25 +69,20 @@ def build(target: Path = PLACE) -> None:
         for level in LEVELS:
             table = f"-DTABLE=entries_{level}"
             jobs.append([*_processor(level, cc), table, "kernels.c", "-o", f"{level}.o"])
+        run = partial(subprocess.run, cwd=folder, check=True)
         with ThreadPoolExecutor() as pool:
-            list(pool.map(lambda job: _run([*cc, *FLAGS, "-c", *job], folder), jobs))
+            list(pool.map(run, [[*cc, *FLAGS, "-c", *job] for job in jobs]))
         objects = [job[-1] for job in jobs]
-        _run([*cc, "-shared", "-s", *objects, "-o", "built.so", "-lm"], folder)
-        partial = target.with_suffix(".partial")
-        shutil.copy(Path(folder, "built.so"), partial)
-        partial.replace(target)
+        run([*cc, "-shared", "-s", *objects, "-o", "built.so", "-lm"])
+        whole = target.with_suffix(".partial")
+        shutil.copy(Path(folder, "built.so"), whole)
+        whole.replace(target)
 
 
 def _processor(level: str, cc: list[str]) -> list[str]:
     """A compiler's option for a level, if it has one; zig spells them its own way."""
     name = LEVELS[level].replace("-", "_" if "ziglang" in cc else "-")
     return [f"-march={name}"] if name else []
-
-
-def _run(words: list[str], folder: str) -> None:
-    done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(words)}\n{done.stderr}")
 
 
 if __name__ == "__main__":

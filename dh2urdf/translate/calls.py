@@ -8,7 +8,7 @@ from dh2urdf.translate.definitions import NUMBER
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
 from dh2urdf.translate.types import Array, Tuple
-from dh2urdf.translate.values import POSTFIX, PREFIX, Value
+from dh2urdf.translate.values import Binds, Value
 
 OF_TWO = ("math.copysign", "math.fmod")
 
@@ -58,8 +58,8 @@ class Calls(Expressions):
             self.refuse(n, f"{len(values)} arguments of {name}", wanted)
         value, c = values[0], name.rpartition(".")[2]
         if name in NUMBER:
-            text = f"({NUMBER[name]}){value.at(PREFIX)}"
-            return value if value.type == name else Value(name, text, PREFIX)
+            text = f"({NUMBER[name]}){value.at(Binds.PREFIX)}"
+            return value if value.type == name else Value(name, text, Binds.PREFIX)
         if name == "abs" and value.type != "float":
             return self.helper("size_int", "int", value)
         t = "bool" if c.startswith("is") else "float"
@@ -81,7 +81,7 @@ class Calls(Expressions):
             self.refuse(n, f"the length {missing.pop()} is not known here", "an argument with it")
         texts = [self.text(leaf) for value in handed for leaf in value.leaves()]
         text = f"{instance.function}({', '.join([*instance.lengths(), *texts])})"
-        return Value(instance.returned or NOTHING, text, POSTFIX)
+        return Value(instance.returned or NOTHING, text, Binds.POSTFIX)
 
     def stored(self, value: Value, name: str) -> Value:
         """A value whose arrays have names: what a maker makes is declared."""

@@ -36,11 +36,9 @@ LIBRARY = {*_LIBRARY.split(), "leave", "TABLE"}
 NUMBER = {"float": "double", "int": "int", "bool": "bool"}
 ELEMENT = {"float": "double", "int": "int64_t", "bool": "bool"}
 
-_SUPPORT = Path(__file__).with_name("support.h").read_text().strip().split("\n\n")
-HEAD, *_FUNCTIONS = _SUPPORT
+HEAD, *_FUNCTIONS = Path(__file__).with_name("support.h").read_text().strip().split("\n\n")
 HELPERS = {re.findall(r"\w+(?=\()", text)[0]: text for text in _FUNCTIONS}
-"""As Python defines them: the first of two that compare as equal, division towards minus
-infinity."""
+"""As Python has them: the first of two that are equal, division towards minus infinity."""
 
 
 def number(value: object) -> str:
@@ -132,10 +130,8 @@ class Definitions:
                 if storage:
                     return f"{base} {name}[{t.shape[0]}]{inner}"
                 return f"{base} (*{name}){inner}" if inner else f"{base} *{name}"
-            case Record():
-                return f"{self.struct(t)} *{name}"
-            case Tuple():
-                return f"{self.struct(t)} {name}"
+            case Record() | Tuple():
+                return f"{self.struct(t)} {'*' * isinstance(t, Record)}{name}"
             case None:
                 return f"void {name}"
         return f"{(ELEMENT if storage else NUMBER)[t]} {name}"
@@ -150,10 +146,13 @@ class Definitions:
         return self._structs[t][0]
 
 
+_parsed = cache(ast.parse)
+
+
 @cache
 def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     """The module that defines a constant, and what it says of it there."""
-    for s, after in pairwise([*_tree(module).body, ast.Pass()]):
+    for s, after in pairwise([*_parsed(inspect.getsource(module)).body, ast.Pass()]):
         if isinstance(s, ast.ImportFrom) and any(a.name == name for a in s.names):
             return _home(sys.modules[str(s.module)], name)
         if isinstance(s, ast.Assign) and named(s, ast.Store)[name]:
@@ -161,8 +160,3 @@ def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
                 case ast.Expr(value=ast.Constant(value=str(doc))):
                     return module, doc
     return module, ""
-
-
-@cache
-def _tree(module: ModuleType) -> ast.Module:
-    return ast.parse(inspect.getsource(module))

@@ -16,17 +16,7 @@ from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.definitions import folded
 from dh2urdf.translate.source import ROOM, engine, source_of
 from dh2urdf.translate.statements import Body
-from dh2urdf.translate.types import (
-    ELEMENTS,
-    Array,
-    Length,
-    Record,
-    Tuple,
-    Type,
-    inside,
-    lengths_of,
-    told,
-)
+from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type, inside, lengths_of, told
 from dh2urdf.translate.values import Value
 
 MEMBERS = {"float": "real", "int": "whole", "bool": "whole"}
@@ -36,8 +26,6 @@ KINDS = {"float": "NPY_DOUBLE, 8", "int": "NPY_INT64, 8", "bool": "NPY_BOOL, 1"}
 
 ANSWERS = {"float": "d", "int": "i", "bool": "N"}
 """Python's letters for what is found."""
-
-ELEMENTS_OF: dict[Any, Type] = {float: "float", int: "int", bool: "bool"}
 
 
 def entries() -> dict[str, Callable[..., Any]]:
@@ -57,13 +45,14 @@ def argument_types(function: Callable[..., Any]) -> list[Type]:
         source = source_of(function)
         source.refuse(source.tree.args, f"no type for {', '.join(missing)}", "its kind and shape")
     lengths = engine().LENGTHS.get(f"{function.__module__}.{function.__name__}", {})
+    lengths = lengths | {f"{name} + 1": length + 1 for name, length in lengths.items()}
     return [_type_of(hints[name], lengths) for name in names]
 
 
 def _type_of(hint: Any, lengths: dict[str, int]) -> Type:
     """The type that an annotation gives, with numbers in the place of some lengths."""
-    if hint in ELEMENTS_OF:
-        return ELEMENTS_OF[hint]
+    if hint in (float, int, bool):
+        return str(hint.__name__)
     if isinstance(hint, type) and issubclass(hint, tuple):
         fields = get_type_hints(hint, include_extras=True)
         return Tuple(tuple(_type_of(field, lengths) for field in fields.values()))
@@ -74,12 +63,7 @@ def _type_of(hint: Any, lengths: dict[str, int]) -> Type:
         element: str | Record = Record(str(name), dtype)
     else:
         element = ELEMENTS[np.dtype(get_args(get_args(array)[1])[0]).kind]
-    return Array(element, tuple(_known(d, lengths) for d in shape))
-
-
-def _known(d: Length, lengths: dict[str, int]) -> Length:
-    name, _, more = str(d).partition(" + ")
-    return lengths[name] + int(more or 0) if name in lengths else d
+    return Array(element, tuple(lengths.get(d, d) for d in shape))
 
 
 def doors(file: CFile) -> str:
@@ -114,15 +98,12 @@ def _expected(name: str, t: Type, names: list[str]) -> str:
     if not isinstance(t, Array):
         return f"{text}\", '{told(t)[0]}'"
     record = isinstance(t.element, Record) and f"NPY_VOID, {t.element.dtype.itemsize}"
-    lengths = ", ".join(_length(d, names) for d in t.shape)
+    lengths = []
+    for d in t.shape:  # the place of a name, the first of which is zero's, and a number more
+        name, more = ("0", d) if isinstance(d, int) else str(d).partition(" + ")[::2]
+        lengths.append(f"{{{names.index(name)}, {more or 0}}}")
     kind = record or KINDS[str(t.element)]
-    return f'{text} in C order", 0, {len(t.shape)}, {kind}, {{{lengths}}}'
-
-
-def _length(d: Length, names: list[str]) -> str:
-    """A length by the place of its name, the first of which is zero's, and a number more."""
-    name, _, more = str(d).partition(" + ")
-    return f"{{0, {d}}}" if isinstance(d, int) else f"{{{names.index(name)}, {more or 0}}}"
+    return f'{text} in C order", 0, {len(t.shape)}, {kind}, {{{", ".join(lengths)}}}'
 
 
 def _answer(t: Type | None) -> str:

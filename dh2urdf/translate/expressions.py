@@ -1,26 +1,13 @@
 """Expressions as C."""
 
 import ast
+import math
+from dataclasses import replace
+from itertools import pairwise
 
 from dh2urdf.translate.definitions import number
 from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, told, type_of_value, wider
-from dh2urdf.translate.values import (
-    ATOM,
-    CHOICE,
-    COMPARISON,
-    FLOORED,
-    OR,
-    POSTFIX,
-    PREFIX,
-    SIGNS,
-    SUM,
-    Names,
-    Value,
-    known_of,
-    sized,
-)
-
-SHIFTS, MASKS = (ast.LShift, ast.RShift), (ast.BitAnd, ast.BitOr, ast.BitXor)
+from dh2urdf.translate.values import SIGNS, Binds, Names, Value, known_of, sized
 
 
 class Expressions(Names):
@@ -51,8 +38,8 @@ class Expressions(Names):
         if isinstance(t, Array) and self.whole:
             like, indices = self.whole
             if len(t.shape) == len(like.shape):
-                text = value.at(POSTFIX) + "".join(f"[{e}]" for e in indices)
-                return Value(t.at(len(indices)), text, POSTFIX)
+                text = value.at(Binds.POSTFIX) + "".join(f"[{e}]" for e in indices)
+                return Value(t.at(len(indices)), text, Binds.POSTFIX)
             needed = told(like)
         if not isinstance(t, str):
             self.refuse(n, f"{told(t)} where {needed} is needed", "a loop")
@@ -93,7 +80,7 @@ class Expressions(Names):
         """The items of a tuple."""
         if not isinstance(value.type, Tuple):
             self.refuse(n, f"{told(value.type)} where a tuple is needed", "its items by index")
-        if value.binds < ATOM and not value.parts:
+        if value.binds < Binds.ATOM and not value.parts:
             value = self.temporary(value, "got")
         return value.items()
 
@@ -107,7 +94,7 @@ class Expressions(Names):
     def helper(self, name: str, t: Type, *values: Value) -> Value:
         """A call of a small function of the file or of C."""
         arguments = ", ".join(value.text for value in values)
-        return Value(t, f"{name}({arguments})", POSTFIX)
+        return Value(t, f"{name}({arguments})", Binds.POSTFIX)
 
     def _constant(self, n: ast.expr, value: object = None) -> Value:
         value = n.value if isinstance(n, ast.Constant) else value
@@ -117,7 +104,7 @@ class Expressions(Names):
         if not isinstance(t, str):
             self.refuse(n, "a value that is no number", "numbers only")
         text, known = number(value), value if isinstance(value, int) and t == "int" else None
-        return Value(t, text, PREFIX if text[0] == "-" else ATOM, known=known)
+        return Value(t, text, Binds.PREFIX if text[0] == "-" else Binds.ATOM, known=known)
 
     def _name(self, n: ast.Name) -> Value:
         self.asked.add(n.id)
@@ -146,14 +133,13 @@ class Expressions(Names):
 
     def _unaryop(self, n: ast.UnaryOp) -> Value:
         if isinstance(n.op, ast.Not):
-            return Value("bool", f"!{self.test(n.operand).at(PREFIX)}", PREFIX)
+            return Value("bool", f"!{self.test(n.operand).at(Binds.PREFIX)}", Binds.PREFIX)
         value = self.number(n.operand)
         if value.type == "bool":
             self.refuse(n, "a sign before true or false", "not")
-        text, known = SIGNS[type(n.op)][0] + value.at(POSTFIX), None
-        if isinstance(n.op, ast.USub) and isinstance(value.known, int):
-            known = -value.known
-        return Value(value.type, text, PREFIX, known=known)
+        text = SIGNS[type(n.op)][0] + value.at(Binds.POSTFIX)
+        known = known_of(ast.Sub(), 0, value.known) if isinstance(n.op, ast.USub) else None
+        return Value(value.type, text, Binds.PREFIX, known=known)
 
     def _binop(self, n: ast.BinOp) -> Value:
         self.allow(n, n.op)
@@ -161,29 +147,26 @@ class Expressions(Names):
 
     def joined(self, n: ast.AST, op: ast.operator, left: Value, right: Value) -> Value:
         """Two numbers and an operator between them."""
-        kind, t = type(op), wider(left.type, right.type)
-        if kind in FLOORED and t == "float":
-            self.refuse(n, "floor division of floats", "np.floor(x / y)")
-        if kind in FLOORED:
-            return self.helper(FLOORED[kind], "int", left, right)
-        sign, binds = SIGNS[kind]
-        if kind in SHIFTS + MASKS:
-            if t == "float":
-                self.refuse(n, "bits of a float", "int(x)")
-            text = f"{left.at(PREFIX)} {sign} {right.at(PREFIX)}"
-            return Value(t if t and kind in MASKS else "int", text, binds)
-        if kind is ast.Div and t != "float":
-            left, t = Value("float", f"(double){left.at(PREFIX)}", PREFIX), "float"
-        text, known = f"{left.at(binds)} {sign} {right.at(binds + 1)}", None
-        if t != "float":
-            known = known_of(op, left.known, right.known)
+        (sign, binds), t = SIGNS[type(op)], wider(left.type, right.type)
+        floors, bits = binds == Binds.POSTFIX, binds < Binds.SUM
+        if t == "float" and (floors or bits):
+            self.refuse(n, "bits or floor division of floats", "int(x), or np.floor(x / y)")
+        if floors:
+            return self.helper(sign, "int", left, right)
+        if bits:
+            text = f"{left.at(Binds.PREFIX)} {sign} {right.at(Binds.PREFIX)}"
+            return Value(t if t and binds < Binds.COMPARISON else "int", text, binds)
+        if isinstance(op, ast.Div) and t != "float":
+            left, t = Value("float", f"(double){left.at(Binds.PREFIX)}", Binds.PREFIX), "float"
+        text = f"{left.at(binds)} {sign} {right.at(binds + 1)}"
+        known = known_of(op, left.known, right.known)
         return Value("float" if t == "float" else "int", text, binds, known=known)
 
     def _boolop(self, n: ast.BoolOp) -> Value:
         sign, binds = SIGNS[type(n.op)]
         first, *rest = n.values
         tests = [self.test(first), *(self.test(x, alone=True) for x in rest)]
-        return Value("bool", f" {sign} ".join(t.at(OR + 2) for t in tests), binds)
+        return Value("bool", f" {sign} ".join(t.at(Binds.OR + 2) for t in tests), binds)
 
     def _compare(self, n: ast.Compare) -> Value:
         middle = [x for term in n.comparators[:-1] for x in ast.walk(term)]
@@ -191,13 +174,12 @@ class Expressions(Names):
             self.refuse(n, "a call that would be made twice", "an assignment before")
         self.allow(n, *n.ops)
         terms = [self.number(x) for x in (n.left, *n.comparators)]
-        signs = [SIGNS[type(op)][0] for op in n.ops]
-        texts = [term.at(COMPARISON + 2) for term in terms]
-        tests = [f"{a} {s} {b}" for a, s, b in zip(texts[:-1], signs, texts[1:], strict=True)]
+        texts = pairwise(term.at(Binds.COMPARISON + 2) for term in terms)
+        tests = [f"{a} {SIGNS[type(op)][0]} {b}" for op, (a, b) in zip(n.ops, texts, strict=True)]
         if len(tests) > 1:
-            return Value("bool", " && ".join(tests), OR + 1)
+            return Value("bool", " && ".join(tests), Binds.OR + 1)
         known = known_of(n.ops[0], terms[0].known, terms[1].known)
-        return Value("bool", tests[0], COMPARISON, known=known)
+        return Value("bool", tests[0], Binds.COMPARISON, known=known)
 
     def _ifexp(self, n: ast.IfExp) -> Value:
         test = self.test(n.test)
@@ -207,7 +189,7 @@ class Expressions(Names):
 
     def _chosen(self, n: ast.IfExp, test: Value, a: Value, b: Value) -> Value:
         if a.parts or b.parts:
-            if test.binds < ATOM:
+            if test.binds < Binds.ATOM:
                 test = self.temporary(test, "chosen")
             pairs = zip(self.parts(n.body, a), self.parts(n.orelse, b), strict=True)
             parts = tuple(self._chosen(n, test, x, y) for x, y in pairs)
@@ -215,8 +197,8 @@ class Expressions(Names):
         t = wider(a.type, b.type)
         if t is None:
             self.refuse(n, f"{told(a.type)} or {told(b.type)}", "if and else")
-        text = f"{test.at(CHOICE + 1)} ? {a.at(CHOICE + 1)} : {b.at(CHOICE)}"
-        return Value(t, text, CHOICE)
+        text = f"{test.at(Binds.CHOICE + 1)} ? {a.at(Binds.CHOICE + 1)} : {b.at(Binds.CHOICE)}"
+        return Value(t, text, Binds.CHOICE)
 
     def _subscript(self, n: ast.Subscript) -> Value:
         if isinstance(n.value, ast.Attribute) and n.value.attr == "shape":
@@ -233,7 +215,7 @@ class Expressions(Names):
                 key = n.slice.value if isinstance(n.slice, ast.Constant) else ""
                 if key not in fields:
                     self.refuse(n, "no field of the record", ", ".join(fields))
-                return Value(fields[str(key)], f"{base.at(POSTFIX)}->{key}", POSTFIX)
+                return Value(fields[str(key)], f"{base.at(Binds.POSTFIX)}->{key}", Binds.POSTFIX)
             case Array():
                 return self._element(n, base, base.type)
         self.refuse(n, f"an index into {told(base.type)}", "an array or a tuple")
@@ -243,22 +225,20 @@ class Expressions(Names):
         indices = n.slice.elts if isinstance(n.slice, ast.Tuple) else [n.slice]
         if len(indices) > len(t.shape):
             self.refuse(n, f"too many indices into {told(t)}", "fewer")
-        text, left = base.at(POSTFIX), t.at(0)
-        for k, index in enumerate(indices):
-            assert isinstance(left, Array)
+        text, left = base.at(Binds.POSTFIX), t.at(len(indices))
+        for k, (index, length) in enumerate(zip(indices, t.shape, strict=False)):
             if isinstance(index, ast.Slice):
                 if k < len(indices) - 1:
                     self.refuse(n, "a slice before the last index", "a loop")
-                return self._view(n, text, left, index)
-            value, length = self.integer(index, "an index"), left.shape[0]
-            known = value.known
-            beyond = isinstance(known, int) and isinstance(length, int) and known >= length
-            if isinstance(known, int) and (known < 0 or beyond):
+                return self._view(n, text, replace(t, shape=t.shape[k:]), index)
+            value = self.integer(index, "an index")
+            known, end = value.known, length if isinstance(length, int) else math.inf
+            if isinstance(known, int) and not 0 <= known < end:
                 self.refuse(n, "an index outside the array", "one from 0 to its length less 1")
-            text, left = f"{text}[{value.text}]", left.at(1)
+            text = f"{text}[{value.text}]"
         if isinstance(left, Record):
-            return Value(left, f"&{text}", PREFIX)
-        return Value(left, text, POSTFIX)
+            return Value(left, f"&{text}", Binds.PREFIX)
+        return Value(left, text, Binds.POSTFIX)
 
     def _view(self, n: ast.Subscript, text: str, t: Array, s: ast.Slice) -> Value:
         """A view from ``lower`` to ``upper``, which must not lie before it nor beyond the end."""
@@ -279,5 +259,5 @@ class Expressions(Names):
             case ast.BinOp(op=ast.Add()) if s.lower and ast.dump(s.upper.left) == ast.dump(s.lower):
                 length = self.value(s.upper.right).known
         if s.lower is None:
-            return Value(t.first(length), text, POSTFIX)
-        return Value(t.first(length), f"{text} + {start.at(SUM)}", SUM)
+            return Value(t.first(length), text, Binds.POSTFIX)
+        return Value(t.first(length), f"{text} + {start.at(Binds.SUM)}", Binds.SUM)

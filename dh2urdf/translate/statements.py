@@ -6,7 +6,7 @@ from dh2urdf.translate.assignments import Assignments
 from dh2urdf.translate.definitions import folded
 from dh2urdf.translate.source import named
 from dh2urdf.translate.types import Array, Record, Tuple, Type, told
-from dh2urdf.translate.values import COMPARISON, Value
+from dh2urdf.translate.values import Binds, Value
 
 EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
 
@@ -16,8 +16,8 @@ class Body(Assignments):
 
     def write(self) -> None:
         """Write the body."""
-        self.said = set[int]()
-        """Lines of the kernel's comments that are written."""
+        self.comments = dict(self.source.comments)
+        """Those that are not yet written, by their lines."""
         self.hoisted: dict[int, str] = {}
         """Names that are declared before the block that gives them a value, by their line of C."""
         taken = dict[str, ast.expr]()
@@ -52,9 +52,9 @@ class Body(Assignments):
                 name = pattern.id
             self.parameters.append((self.name(name), t))
             return Value(t, self.name(name))
-        inner: list[ast.expr | None] = [None] * len(t.items)
-        if isinstance(pattern, ast.Tuple) and len(pattern.elts) == len(inner):
-            inner = list(pattern.elts)
+        inner = getattr(pattern, "elts", [])
+        if len(inner) != len(t.items):
+            inner = [None] * len(t.items)
         pairs = enumerate(zip(t.items, inner, strict=True))
         parts = (self._parameter(f"{name}_{k}", item, x) for k, (item, x) in pairs)
         return Value(t, parts=tuple(parts))
@@ -71,10 +71,8 @@ class Body(Assignments):
 
     def _statement(self, s: ast.stmt) -> bool:
         """A statement, the comments above it, and names that have their values inside it."""
-        for line, text in self.source.comments.items():
-            if line <= s.lineno and line not in self.said:
-                self.said.add(line)
-                self.out(f"/* {text} */")
+        for line in [x for x in self.comments if x <= s.lineno]:
+            self.out(f"/* {self.comments.pop(line)} */")
         for name in sorted(self.source.declared[1][s]):
             self.hoisted[len(self.lines)] = name
             self.out("")
@@ -93,9 +91,10 @@ class Body(Assignments):
                 self.out("}")
             case ast.If():
                 return self._if(s)
-            case ast.Return():
-                return self._return(s)
-            case ast.Break() | ast.Continue():
+            case ast.Return(value=ast.expr() as value):
+                self._return(s, self.value(value))
+                return True
+            case ast.Return() | ast.Break() | ast.Continue():
                 self.out(f"{type(s).__name__.lower()};")
                 return True
             case ast.Expr(value=ast.Call() | ast.Yield()):
@@ -108,21 +107,20 @@ class Body(Assignments):
         test = self.test(s.test, alone=bool(before))
         taken = test.known
         if taken is not None:
-            left = s.orelse if taken else s.body
-            self.said.update(k for x in left for k in range(x.lineno, (x.end_lineno or 0) + 1))
+            for x in s.orelse if taken else s.body:
+                for line in range(x.lineno, (x.end_lineno or 0) + 1):
+                    self.comments.pop(line, None)
             return self.block(s.body if taken else s.orelse)
         self.out(f"{before}if ({test.text}) {{")
         ended = self._inner(s.body)
         match s.orelse:
             case [ast.If() as other] if self.test(other.test).known is None:
                 return self._if(other, "} else ") and ended
-            case [_, *_]:
-                self.out("} else {")
-                ended = self._inner(s.orelse) and ended
-            case _:
-                ended = False
+        if s.orelse:
+            self.out("} else {")
+            ended = self._inner(s.orelse) and ended
         self.out("}")
-        return ended
+        return ended and bool(s.orelse)
 
     def _for(self, s: ast.For) -> None:
         match s:
@@ -144,7 +142,9 @@ class Body(Assignments):
         if not isinstance(step, int) or step == 0:
             self.refuse(s.iter, "a step that is not known before the kernel runs", "a number")
         start, end = self.integer(low, "a bound").text, self.integer(high, "a bound")
-        if end.known is None and self._changes(high, s):
+        reads = named(high).keys() & self.source.stored
+        items = reads and any(isinstance(x, ast.Subscript) for x in ast.walk(high))
+        if end.known is None and (items or reads & named(s, ast.Store).keys()):  # it may change
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
@@ -152,22 +152,11 @@ class Body(Assignments):
         self.values[counter] = Value("int", i)
         if kind == "side_by_side":
             self.out("SIDE_BY_SIDE")
-        self.out(f"for (int {i} = {start}; {i} {sign} {end.at(COMPARISON + 1)}; {move}) {{")
+        self.out(f"for (int {i} = {start}; {i} {sign} {end.at(Binds.COMPARISON + 1)}; {move}) {{")
         self._inner(s.body)
         self.out("}")
 
-    def _changes(self, n: ast.expr, loop: ast.For) -> bool:
-        """Whether the end of a loop may change in it, which Python would not see."""
-        if not self.source.stored.intersection(named(n)):
-            return False
-        inside = any(isinstance(x, ast.Subscript) for x in ast.walk(n))
-        return inside or not named(n).keys().isdisjoint(named(loop, ast.Store))
-
-    def _return(self, s: ast.Return) -> bool:
-        if s.value is None:
-            self.out("return;")
-            return True
-        value = self.value(s.value)
+    def _return(self, s: ast.Return, value: Value) -> None:
         if isinstance(value.type, Array | Record) or value.leaves() != [value]:
             self.refuse(s, "a returned array", "into an array that is handed in")
         if self.returned not in (None, value.type):
@@ -175,4 +164,3 @@ class Body(Assignments):
             self.refuse(s, f"returned values of other types, {types}", "the same types")
         self.returned = value.type
         self.out(f"return {self.text(value)};")
-        return True

@@ -10,26 +10,29 @@ from dh2urdf.translate.definitions import RESERVED, Definitions
 from dh2urdf.translate.source import Source, named
 from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, lengths_of, type_of_value
 
-ATOM, POSTFIX, PREFIX, SUM, COMPARISON, OR, CHOICE = 16, 15, 14, 12, 9, 4, 3
-"""How tightly the operators of C bind."""
+
+class Binds:
+    """How tightly the operators of C bind."""
+
+    ATOM, POSTFIX, PREFIX, SUM, COMPARISON, OR, CHOICE = 16, 15, 14, 12, 9, 4, 3
+
 
 LEVELS: dict[int, dict[type[ast.AST], str]] = {
-    PREFIX: {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"},
+    Binds.POSTFIX: {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"},
+    Binds.PREFIX: {ast.USub: "-", ast.UAdd: "+", ast.Invert: "~"},
     13: {ast.Mult: "*", ast.Div: "/"},
-    SUM: {ast.Add: "+", ast.Sub: "-"},
+    Binds.SUM: {ast.Add: "+", ast.Sub: "-"},
     11: {ast.LShift: "<<", ast.RShift: ">>"},
-    COMPARISON + 1: {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
-    COMPARISON: {ast.Eq: "==", ast.NotEq: "!="},
+    Binds.COMPARISON + 1: {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="},
+    Binds.COMPARISON: {ast.Eq: "==", ast.NotEq: "!="},
     8: {ast.BitAnd: "&"},
     7: {ast.BitXor: "^"},
     6: {ast.BitOr: "|"},
-    OR + 1: {ast.And: "&&"},
-    OR: {ast.Or: "||"},
+    Binds.OR + 1: {ast.And: "&&"},
+    Binds.OR: {ast.Or: "||"},
 }
 SIGNS = {kind: (sign, level) for level, signs in LEVELS.items() for kind, sign in signs.items()}
-"""C's signs for operators, and how tightly they bind."""
-
-FLOORED: dict[type[ast.AST], str] = {ast.FloorDiv: "floor_div", ast.Mod: "floor_mod"}
+"""C's signs for operators, or functions, and how tightly they bind."""
 
 _ADVICE = {
     "ListComp GeneratorExp DictComp SetComp MatMult": "a loop",
@@ -60,7 +63,7 @@ class Value:
 
     type: Type
     text: str = ""
-    binds: int = ATOM
+    binds: int = Binds.ATOM
     parts: tuple["Value", ...] = ()
     """Of a tuple that is written out."""
     maker: str = ""
@@ -81,7 +84,9 @@ class Value:
         """The items of a tuple."""
         assert isinstance(self.type, Tuple)
         fields = self.type.fields().items()
-        return self.parts or tuple(Value(t, f"{self.at(POSTFIX)}.{f}", POSTFIX) for f, t in fields)
+        return self.parts or tuple(
+            Value(t, f"{self.at(Binds.POSTFIX)}.{f}", Binds.POSTFIX) for f, t in fields
+        )
 
     def leaves(self) -> list["Value"]:
         """What goes from kernel to kernel: itself, or its parts one by one."""
@@ -93,12 +98,14 @@ class Value:
 def sized(length: Length) -> Value:
     """A length as a value."""
     text = str(length)
-    return Value("int", text, ATOM if re.fullmatch(r"\w+|\(.*\)", text) else SUM, known=length)
+    return Value(
+        "int", text, Binds.ATOM if re.fullmatch(r"\w+|\(.*\)", text) else Binds.SUM, known=length
+    )
 
 
 def known_of(op: ast.AST, a: Length, b: Length) -> Length:
     """What is known of two lengths with an operator between them."""
-    sign, _ = SIGNS.get(type(op), ("//", 0))
+    sign, _ = SIGNS[type(op)]
     if isinstance(a, int) and isinstance(b, int):
         return {"+": a + b, "-": a - b, "*": a * b, "==": a == b}.get(sign)
     return f"({a} {sign} {b})" if sign in "+-*" and a and b else None
@@ -115,6 +122,7 @@ class Names:
         self, file: Definitions, source: Source, arguments: tuple[Type, ...], translate: Translate
     ) -> None:
         self.file, self.source, self.translate = file, source, translate
+        self.refuse = source.refuse
         self.arguments, self.entered = arguments, arguments
         """Types of the arguments, without the lengths that it does not ask for, and with all."""
         self.function, self.body = "", ""
@@ -137,10 +145,6 @@ class Names:
         """Names of the lengths that it is handed."""
         return lengths_of(self.arguments)
 
-    def refuse(self, node: ast.AST, found: str, instead: str = "") -> NoReturn:
-        """Refuse a node of the body."""
-        self.source.refuse(node, found, instead)
-
     def unknown(self, node: ast.AST, kind: ast.AST, instead: str = "") -> NoReturn:
         """Refuse syntax that the subset has not got."""
         name = type(kind).__name__
@@ -149,7 +153,7 @@ class Names:
     def allow(self, node: ast.AST, *operators: ast.AST) -> None:
         """Refuse operators that the subset has not got."""
         for op in operators:
-            if type(op) not in {*SIGNS, *FLOORED}:
+            if type(op) not in SIGNS:
                 self.unknown(node, op)
 
     def out(self, text: str) -> None:

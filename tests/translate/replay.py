@@ -13,7 +13,7 @@ import numpy as np
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, entries
 from dh2urdf.translate.statements import Body
-from dh2urdf.translate.types import Array, Tuple, Type
+from dh2urdf.translate.types import Array, Tuple, Type, inside
 from tests.translate.record import Call, interpreted, leaves
 
 HEAD = r"""
@@ -155,19 +155,16 @@ def written(calls: list[Call], path: Path) -> None:
         for call in calls:
             k = order.index(call.entry)
             e, given, lengths = translated().entries[k], leaves(call.given), dict[str, int]()
-            for t, value in zip(_flat(e.arguments), given, strict=True):
+            types = [t for _, t in inside("", Tuple(e.arguments)) if not isinstance(t, Tuple)]
+            for t, value in zip(types, given, strict=True):
                 shape = zip(t.shape, value.shape, strict=True) if isinstance(t, Array) else ()
                 lengths |= {d: n for d, n in shape if isinstance(d, str) and d.isidentifier()}
             out.write(np.array([k, *(lengths[x] for x in e.lengths())], np.int64).tobytes())
-            for t, value in zip(_flat(e.arguments), given, strict=True):
+            for t, value in zip(types, given, strict=True):
                 if isinstance(t, Array):
                     out.write(np.int64(value.nbytes).tobytes() + value.tobytes())
                 else:
                     out.write(np.array(value, np.float64 if t == "float" else np.int64).tobytes())
-
-
-def _flat(types: tuple[Type, ...]) -> list[Type]:
-    return [x for t in types for x in (_flat(t.items) if isinstance(t, Tuple) else [t])]
 
 
 def answers(calls: list[Call], path: Path) -> list[list[np.ndarray]]:
@@ -191,12 +188,12 @@ def built(folder: Path, words: list[str], out: str, *more: str) -> Path:
     """What a compiler makes of the program, and with ``kernels.c`` among ``more`` of all."""
     for name, text in files().items():
         folder.joinpath(name).write_text(text)
-    return compiled(folder, [*words, "replay.c", *more], out)
+    return compiled(folder, [*words, "-w", "replay.c", *more], out)
 
 
 def compiled(folder: Path, words: list[str], out: str) -> Path:
     """What a compiler makes of C in a folder."""
-    some = [*words, "-w", "-o", out, "-lm"]
+    some = [*words, "-o", out, "-lm"]
     done = subprocess.run(some, cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return folder / out

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from dh2urdf.kernels.numbers.engine import INTERPRETED
-from dh2urdf.translate.build import LEVELS, PLACE
+from dh2urdf.translate.build import LEVELS, PLACE, compiler
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, recorded
 
@@ -92,7 +92,7 @@ def test_interpreted_kernels_agree():
 
 def by_level(level, some, folder):
     """What a level of the extension leaves behind calls."""
-    program = ctypes.CDLL(str(replay.built(folder, engines.own(), "replay.so", "-shared", "-fPIC")))
+    program = ctypes.CDLL(str(replay.built(folder, compiler(), "replay.so", "-shared", "-fPIC")))
     extension = ctypes.CDLL(str(PLACE))
     if not getattr(extension, f"has_{level}")():
         pytest.skip("the processor has not got it")
@@ -112,20 +112,14 @@ def test_levels_of_the_extension_agree(level, tmp_path):
 @pytest.mark.parametrize("name", USUAL)
 def test_compilers_agree(name, tmp_path):
     """Programs of other compilers, of other processors, and with sanitizers."""
-    engine = engines.Engine(name)
-    if engine.missing:
-        pytest.skip(engine.missing)
-    check(calls(), engine.replayed(calls(), tmp_path))
+    check(calls(), engines.replayed(name, calls(), tmp_path))
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("name", engines.TABLE)
 def test_compilers_agree_on_all_arms(name, tmp_path):
     """The same for every compiler, many calls of all arms."""
-    engine = engines.Engine(name)
-    if engine.missing:
-        pytest.skip(engine.missing)
-    check(calls(True), engine.replayed(calls(True), tmp_path))
+    check(calls(True), engines.replayed(name, calls(True), tmp_path))
 
 
 @pytest.mark.exhaustive
@@ -156,7 +150,4 @@ def batch(arm):
 @pytest.mark.parametrize("arm", FAMILIES.split())
 def test_nothing_undefined_in_many_poses(arm, name, tmp_path):
     """Sanitizers find nothing, and memory that nobody wrote decides nothing."""
-    engine = engines.Engine(name)
-    if engine.missing:
-        pytest.skip(engine.missing)
-    check(batch(arm), engine.replayed(batch(arm), tmp_path))
+    check(batch(arm), engines.replayed(name, batch(arm), tmp_path))
