@@ -141,7 +141,7 @@ class Assignments(Calls):
         element, value = self.number(target), self.number(n)
         self._fits(target, element.type, value.type)
         self.out(f"{element.text} {sign}= {value.text};")
-        self.whole = None
+        del self.whole
         for _ in indices:
             self.depth -= 1
             self.out("}")

@@ -51,7 +51,8 @@ class CFile(Definitions):
 
     def header(self) -> str:
         """Types, and the table of the entries."""
-        lines = [*INCLUDES, *self.structs(), "", "typedef struct {", "    void (*leave)(void);"]
+        structs = (line for _, lines in self.structs.values() for line in lines)
+        lines = [*INCLUDES, *structs, "", "typedef struct {", "    void (*leave)(void);"]
         for e in self.entries:
             lines += folded(self._head(e, f"(*{e.function})") + ";", 4)
         return "\n".join([*lines, "} Entries;", ""])

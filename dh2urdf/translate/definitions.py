@@ -79,11 +79,7 @@ class Definitions:
     def __init__(self) -> None:
         self._names: dict[str, object] = {}
         self._constants: dict[tuple[str, str], tuple[str, list[str], str]] = {}
-        self._structs: dict[Tuple | Record, tuple[str, list[str]]] = {}
-
-    def structs(self) -> list[str]:
-        """Those of records and tuples."""
-        return [line for _, lines in self._structs.values() for line in lines]
+        self.structs: dict[Tuple | Record, tuple[str, list[str]]] = {}
 
     def definitions(self, text: str) -> list[str]:
         """Helpers and constants that a text names."""
@@ -138,12 +134,12 @@ class Definitions:
 
     def struct(self, t: Tuple | Record) -> str:
         """Name of the struct for a tuple of numbers, or for a record."""
-        if t not in self._structs:
+        if t not in self.structs:
             storage = isinstance(t, Record)
             fields = [self.declaration(x, key, storage) for key, x in t.fields().items()]
             name, lines = self.unique(t.name, "", t), [f"    {x};" for x in fields]
-            self._structs[t] = name, ["", "typedef struct {", *lines, f"}} {name};"]
-        return self._structs[t][0]
+            self.structs[t] = name, ["", "typedef struct {", *lines, f"}} {name};"]
+        return self.structs[t][0]
 
 
 _parsed = cache(ast.parse)

@@ -16,7 +16,7 @@ class Expressions(Names):
     A method that has the name of a kind of nodes, as `_name`, writes them.
     """
 
-    whole: tuple[Array, list[str]] | None = None
+    whole: tuple[Type, list[str]] = "a number", []
     """Where arrays stand for one element of them: what they have to be like, and its indices."""
 
     def value(self, n: ast.expr) -> Value:
@@ -33,16 +33,13 @@ class Expressions(Names):
 
     def number(self, n: ast.expr) -> Value:
         """An expression that has to be a number."""
-        value = self.base(n)
-        t, needed = value.type, "a number"
-        if isinstance(t, Array) and self.whole:
-            like, indices = self.whole
-            if len(t.shape) == len(like.shape):
-                text = value.at(Binds.POSTFIX) + "".join(f"[{e}]" for e in indices)
-                return Value(t.at(len(indices)), text, Binds.POSTFIX)
-            needed = told(like)
+        value, (like, indices) = self.base(n), self.whole
+        t = value.type
+        if isinstance(t, Array) and len(t.shape) == len(indices):
+            text = value.at(Binds.POSTFIX) + "".join(f"[{e}]" for e in indices)
+            return Value(t.at(len(indices)), text, Binds.POSTFIX)
         if not isinstance(t, str):
-            self.refuse(n, f"{told(t)} where {needed} is needed", "a loop")
+            self.refuse(n, f"{told(t)} where {told(like)} is needed", "a loop")
         return value
 
     def integer(self, n: ast.expr, where: str) -> Value:

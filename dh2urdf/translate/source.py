@@ -39,12 +39,16 @@ class Source:
         self.body = tree.body[1:] if self.doc else tree.body
         self.parameters = [x.arg for x in a.args]
         self.loops = [n for n in ast.walk(tree) if isinstance(n, ast.For | ast.While)]
-        counters = {x for s in self.loops if isinstance(s, ast.For) for x in named(s.target)}
+        loops = [s for s in self.loops if isinstance(s, ast.For)]
+        counters = {x for s in loops for x in named(s.target)}
         times = named(tree, ast.Store)
         self.stored = {*times, *self.parameters}
         self.variables = self.stored - counters - {*self.parameters, "_"}
         self.once = {x for x in self.variables if times[x] == 1}
         self.changing = set(times) - self.once - counters
+        turns = {x: sum(named(s)[x] for s in loops if named(s.target)[x]) for x in counters}
+        self.astray = {x for x in counters if turns[x] != named(tree)[x]} - {"_"}
+        """Counters that are used beside their loops."""
         tokens = tokenize.generate_tokens(io.StringIO(text).readline)
         comments = (t for t in tokens if t.type == tokenize.COMMENT)
         self.comments = {t.start[0]: t.string.lstrip("# ") for t in comments}

@@ -132,11 +132,8 @@ class Body(Assignments):
                 low, high, *more = arguments if several else (ast.Constant(0), *arguments)
             case _:
                 self.refuse(s.iter, "a loop over something else", "for ... in range(...)")
-        loops = [
-            x for x in self.source.loops if isinstance(x, ast.For) and named(x.target)[counter]
-        ]
-        astray = sum(named(x)[counter] for x in loops) != named(self.source.tree)[counter]
-        if counter != "_" and (astray or named(s, ast.Store)[counter] > 1):
+        again = counter != "_" and named(s, ast.Store)[counter] > 1
+        if again or counter in self.source.astray:
             self.refuse(s.target, "a counter that is more than that", "another name")
         step = self.value(more[0]).known if more else 1
         if not isinstance(step, int) or step == 0:

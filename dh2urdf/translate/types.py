@@ -11,9 +11,6 @@ from typing import Any, TypeAlias, Union
 
 import numpy as np
 
-NUMBERS = ("bool", "int", "float")
-"""Each is contained in the next."""
-
 ELEMENTS = {"f": "float", "i": "int", "b": "bool"}
 """By NumPy's letter of the kind."""
 
@@ -83,7 +80,7 @@ Type: TypeAlias = str | Array | Record | Tuple
 def wider(a: Type, b: Type) -> Type | None:
     """The type of what is one or the other; None where there is none."""
     if isinstance(a, str) and isinstance(b, str):
-        return max(a, b, key=NUMBERS.index)
+        return max(a, b, key=("bool", "int", "float").index)
     if isinstance(a, Array) and isinstance(b, Array) and a.first() == b.first():
         return a if a == b else a.first()
     return a if a == b else None
