@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 import dh2urdf
 from dh2urdf.cli import VERBS, main
 
+POSE = ["--xyz=0,0,0", "--rpy=0,0,0"]
 FEW = ["--points", "5", "--orientations", "2"]
 
 
@@ -99,14 +100,8 @@ BEYOND = [
         ["1e308 0 0", "0 nan 0", "0 0", "-inf 0 0", "90deg 0 0"],
     ),
     (["ik", "ur5", "--xyz=0,0,0", "--rpy"], ["1e308 0 0", "0 nan 0", "0 0", "1m 0 0"]),
-    (
-        ["ik", "ur5", "--xyz=0,0,0", "--rpy=0,0,0", "--seed"],
-        ["", "1", "1e300 0 0 0 0 0", "nan " * 6],
-    ),
-    (
-        ["ik", "ur5", "--xyz=0,0,0", "--rpy=0,0,0", "--locked"],
-        ["0", "0=", "0=nan", "0=1e300", "9=1"],
-    ),
+    (["ik", "ur5", *POSE, "--seed"], ["", "1", "1e300 0 0 0 0 0", "nan " * 6]),
+    (["ik", "ur5", *POSE, "--locked"], ["0", "0=", "0=nan", "0=1e300", "9=1"]),
     (["fk", "ur5", "--q"], ["1", "inf 0 0 0 0 0", "1e300 0 0 0 0 0", "0 0 0 0 0 400mm"]),
     (["show", "ur5", "--q"], ["1", "nan 0 0 0 0 0"]),
 ]

@@ -55,17 +55,12 @@ def test_matrix_and_units_name_the_same_pose(run):
 
 
 @pytest.mark.parametrize(
-    "rpy",
-    [
-        ["0", "-90deg", "0"],
-        ["0", "-pi/2", "0"],
-        ["0,-pi/2,0"],
-        ["-(pi-pi)", "-1.570796326794897", "0"],
-    ],
+    "rpy", ["0 -90deg 0", "0 -pi/2 0", "0,-pi/2,0", "-(pi-pi) -1.570796326794897 0"]
 )
 def test_values_may_begin_with_a_minus(run, rpy):
     """A minus before a number with a unit, pi or a bracket is no option."""
-    status, out = run("ik", "puma560", "--xyz", "0.5", "-100mm", "0.2", "--rpy", *rpy, "--json")[:2]
+    argv = ["--xyz", "0.5", "-100mm", "0.2", "--rpy", *rpy.split(), "--json"]
+    status, out, _ = run("ik", "puma560", *argv)
     assert status == 0
     T = np.array(json.loads(out)["T_base_tip"])
     expected = [[0, 0, -1, 0.5], [0, 1, 0, -0.1], [1, 0, 0, 0.2], [0, 0, 0, 1]]
@@ -94,14 +89,12 @@ def test_out_of_reach_is_status_1_with_a_reason(run):
 
 def test_outside_the_limits_is_status_1_and_shown(run):
     """All solutions outside: they are printed, marked, and the least excess is named."""
-    status, out, err = run("ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg")
+    argv = ["ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg"]
+    status, out, err = run(*argv)
     assert status == 1
     assert out.count("outside limits") == 8
     assert "all 8 solutions are outside the joint limits, the nearest by 0.17" in err
-    status, out, _ = run(
-        "ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg", "--within-limits"
-    )
-    assert (status, out) == (1, "")
+    assert run(*argv, "--within-limits")[:2] == (1, "")
 
 
 def test_csv_of_many_poses(run, tmp_path):

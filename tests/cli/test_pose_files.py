@@ -31,9 +31,7 @@ def read(path, text, *, deg=False):
 
 def matrix(xyz, rpy):
     """The pose by Pinocchio."""
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = pin.rpy.rpyToMatrix(*rpy), xyz
-    return T
+    return pin.SE3(pin.rpy.rpyToMatrix(*rpy), np.array(xyz, float)).homogeneous
 
 
 @st.composite
@@ -107,10 +105,7 @@ FAULTS = {
     "twice": ("x,x,y,z,roll,pitch,yaw\n1,1,2,3,0,0,0", "1: a second column 'x'"),
     "both": ("x,y,z,roll,pitch,yaw,qx,qy,qz,qw\n" + "0," * 9 + "1", "1: columns .* are needed"),
     "kind": ("x [deg],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'deg' for x; allowed: m"),
-    "unnamed": (
-        "x,,y,z,roll,pitch,yaw,\n1,,2,3,0,0,0,\n1,5,2,3,0,0,0,6",
-        "3: columns 2 and 8 have",
-    ),
+    "gap": ("x,,y,z,roll,pitch,yaw,\n1,,2,3,0,0,0,\n1,5,2,3,0,0,0,6", "3: columns 2 and 8 have"),
     "unit": ("x [ell],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'ell' for x"),
     "nameless": ("0,0,0,0,0,0,1", "1: 6 or 12 or 16 .* name the columns of a quaternion"),
     "comma": ("x;y;z;roll;pitch;yaw\n0,4;1;2;0;0;0", "2: x: '0,4': .* a decimal point: 0.4"),

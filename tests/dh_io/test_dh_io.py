@@ -1,6 +1,7 @@
 """Table files mean what they say, in every format."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +18,9 @@ RPR = (
     DHRow(0.0, 2.0, 0.0, HALF, JointType.PRISMATIC),
     DHRow(HALF, 0.0, 1.5, 0.0),
 )
+
+
+SLIDE = DHRow(0, 0, 1, 0, JointType.PRISMATIC)
 
 
 def yaml_rows(*rows: str, units: str = "{length: mm, angle: deg}", more: str = "") -> DHTable:
@@ -112,30 +116,19 @@ More prose.
         ("theta: -theta1, sign: -1", DHRow(0, 0, 1, 0, sign=-1)),
         ("theta: 0, type: R", DHRow(0, 0, 1, 0)),
         ("type: Revolute", DHRow(0, 0, 1, 0)),
+        ("type: prismatic", SLIDE),
+        ("type: P, d: 3", replace(SLIDE, d=3)),
+        ("d: d1", SLIDE),
+        ("d: d1 + 3", replace(SLIDE, d=3)),
+        ("d: 3 - q1", replace(SLIDE, d=3, sign=-1)),
+        ("d: l1*, type: sliding", SLIDE),
     ],
 )
-def test_variable_and_sign_of_a_revolute_row(cells: str, row: DHRow) -> None:
-    """The row read equals the row expected, offset and sign included."""
-    text = "{" + cells + ", d: 0, a: 1, alpha: 0}"
+def test_variable_and_sign_of_a_row(cells: str, row: DHRow) -> None:
+    """The row read equals the row expected; a variable in d makes it prismatic."""
+    constant = "theta" if row.joint_type is JointType.PRISMATIC else "d"
+    text = "{" + f"{cells}, {constant}: 0, a: 1, alpha: 0" + "}"
     assert yaml_rows(text, units="{length: m, angle: deg}").rows == (row,)
-
-
-@pytest.mark.parametrize(
-    ("cells", "offset", "sign"),
-    [
-        ("type: prismatic", 0.0, 1),
-        ("type: P, d: 3", 3.0, 1),
-        ("d: d1", 0.0, 1),
-        ("d: d1 + 3", 3.0, 1),
-        ("d: 3 - q1", 3.0, -1),
-        ("d: l1*, type: sliding", 0.0, 1),
-    ],
-)
-def test_variable_and_sign_of_a_prismatic_row(cells: str, offset: float, sign: int) -> None:
-    """A variable in d makes the row prismatic, with or without a type."""
-    text = "{" + cells + ", theta: 0, a: 1, alpha: 0}"
-    (row,) = yaml_rows(text, units="{length: m, angle: deg}").rows
-    assert row == DHRow(0, offset, 1, 0, JointType.PRISMATIC, sign=sign)
 
 
 def test_variables_count_joints_not_rows() -> None:

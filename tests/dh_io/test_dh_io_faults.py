@@ -465,14 +465,10 @@ def test_a_refusal_of_the_system_is_told(tmp_path: Path, monkeypatch: pytest.Mon
         read_table(tmp_path / "arm.yaml")
 
 
-def test_a_device_is_not_read() -> None:
-    """A device is told as one, and not read."""
+def test_a_device_and_an_unknown_format_are_refused() -> None:
+    """A device is told as one, and not read; the other message lists the formats."""
     with pytest.raises(TableFileError, match="this is a pipe or a device"):
         read_table("/dev/zero", format="yaml")
-
-
-def test_an_unknown_format_is_refused() -> None:
-    """The message lists the formats."""
     with pytest.raises(TableFileError, match="format: expected 'yaml' or 'toml' or"):
         parse_table("a", "xml")
 

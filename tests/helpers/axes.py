@@ -4,10 +4,13 @@ import math
 
 import numpy as np
 import pinocchio as pin
+import pytest
 from hypothesis import strategies as st
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.dh import JointType
+from dh2urdf.dh import DHConvention, JointType
+
+BOTH = pytest.mark.parametrize("convention", list(DHConvention))
 
 SMALL_ANGLES = st.sampled_from([10.0**-k for k in range(3, 13)])
 LENGTHS = st.one_of(st.just(0.0), st.floats(-1, 1), st.sampled_from([0.425, 1e-9, -0.09]))
@@ -18,10 +21,8 @@ ANGLES = st.one_of(
 
 def pose(axis, angle, xyz):
     """A rigid pose: rotation about any axis, then a translation."""
-    T = np.eye(4)
-    T[:3, :3] = pin.AngleAxis(angle, np.asarray(axis, float) / np.linalg.norm(axis)).matrix()
-    T[:3, 3] = xyz
-    return T
+    turn = pin.AngleAxis(angle, np.asarray(axis, float) / np.linalg.norm(axis))
+    return pin.SE3(turn.matrix(), np.array(xyz, float)).homogeneous
 
 
 @st.composite

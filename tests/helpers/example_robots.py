@@ -12,6 +12,11 @@ TIAGO = ROBOTS / "tiago_description/robots/tiago.urdf"
 ANYMAL = ROBOTS / "anymal_b_simple_description/robots/anymal.urdf"
 
 
+def example(name):
+    """Path of the URDF of some name."""
+    return str(next(ROBOTS.rglob(name)))
+
+
 def configuration(model, q):
     """A configuration of a model: values by the names of joints, the other joints neutral."""
     config = pin.neutral(model)

@@ -1,14 +1,12 @@
 """Robots over Pinocchio models: FK, frames, Jacobians, limits, trees, odd joints."""
 
 import pickle
-from importlib.metadata import files
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
 from dh_product import dh_frames, difference
-from example_robots import fk_between
+from example_robots import example, fk_between
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import tables
@@ -16,12 +14,6 @@ from strategies import tables
 import dh2urdf
 from dh2urdf import Robot
 from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, UrdfError
-
-
-def example(name):
-    """Path of a URDF of example-robot-data."""
-    paths = [f for f in files("example-robot-data") if f.name == name]
-    return str(Path(paths[0].locate()).resolve())
 
 
 def reference(robot, path, q_by_name):

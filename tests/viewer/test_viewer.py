@@ -202,13 +202,8 @@ def test_row_edit_rebuilds_the_arm(view):
     choose(view, 2)
     cells = view._table.cells
     cells["joint_type"].value = "prismatic"
-    for key, text in {
-        "d": "100mm",
-        "a": "0",
-        "alpha": "pi/2",
-        "lower": "0",
-        "upper": "0.5",
-    }.items():
+    typed = {"d": "100mm", "a": "0", "alpha": "pi/2", "lower": "0", "upper": "0.5"}
+    for key, text in typed.items():
         cells[key].value = text
     view._table._try(view._table._with_row_cells)
     row = view.robot.table.joints[1]
@@ -289,42 +284,40 @@ def test_explained_row_makes_the_arm_translucent(view):
     assert not view._scene.translucent
 
 
-def test_target_moves_arm_and_ghosts():
+@pytest.fixture
+def aimed():
+    """A view of an arm of six with its target switched on, stopped after the test."""
+    q = np.radians([20.0, -105, 83, -51, -71, 22])
+    with Robot.from_dh("ur5e").view(q, port=0) as shown:
+        shown._ik.active.value = True
+        yield shown
+
+
+def test_target_moves_arm_and_ghosts(aimed):
     """A solved target: the arm goes to the nearest solution, the others are ghosts, all exact."""
-    robot = Robot.from_dh("ur5e")
-    q = np.radians([20.0, -105, 83, -51, -71, 22])
-    with robot.view(q, port=0) as shown:
-        shown._ik.active.value = True
-        T = robot.fk(q)
-        T[:3, 3] += [0.02, -0.01, 0.015]
-        shown._ik.solve(T, follow=True)
-        np.testing.assert_allclose(robot.fk(shown.q), T, atol=1e-9)
-        assert np.abs(shown.q - q).max() < 0.2
-        found = shown._ik.answer
-        assert len(found.q) == 8
-        scales = shown._ik.ghosts.handles[0].batched_scales
-        assert np.count_nonzero(scales) == 7
-        assert scales[found.current] == 0
-        drawn = shown._ik.ghosts
-        poses = drawn.drawing.poses(found.q[3])
-        last = drawn.moving.index(len(poses) - 1)
-        np.testing.assert_allclose(
-            drawn.handles[last].batched_positions[3], poses[-1, :3, 3], atol=1e-6
-        )
+    q, T, drawn = aimed.q, aimed.robot.fk(aimed.q), aimed._ik.ghosts
+    T[:3, 3] += [0.02, -0.01, 0.015]
+    aimed._ik.solve(T, follow=True)
+    np.testing.assert_allclose(aimed.robot.fk(aimed.q), T, atol=1e-9)
+    assert np.abs(aimed.q - q).max() < 0.2
+    found = aimed._ik.answer
+    assert len(found.q) == 8
+    scales = drawn.handles[0].batched_scales
+    assert np.count_nonzero(scales) == 7
+    assert scales[found.current] == 0
+    poses = drawn.drawing.poses(found.q[3])
+    last = drawn.handles[drawn.moving.index(len(poses) - 1)]
+    np.testing.assert_allclose(last.batched_positions[3], poses[-1, :3, 3], atol=1e-6)
 
 
-def test_target_out_of_reach_is_said_and_the_arm_stays():
+def test_target_out_of_reach_is_said_and_the_arm_stays(aimed):
     """No solution: an alert, no ghosts, the configuration unchanged."""
-    robot = Robot.from_dh("ur5e")
-    q = np.radians([20.0, -105, 83, -51, -71, 22])
-    with robot.view(q, port=0) as shown:
-        shown._ik.active.value = True
-        T = robot.fk(q)
-        T[:3, 3] = [3.0, 0.0, 0.0]
-        shown._ik.solve(T, follow=True)
-        assert "Out of reach" in shown._ik.status.content
-        assert shown._ik.ghosts.handles[0].batched_scales.sum() == 0
-        np.testing.assert_array_equal(shown.q, q)
+    q, T = aimed.q, aimed.robot.fk(aimed.q)
+    T[:3, 3] = [3.0, 0.0, 0.0]
+    aimed._ik.solve(T, follow=True)
+    assert "Out of reach" in aimed._ik.status.content
+    assert aimed._ik.ghosts.handles[0].batched_scales.sum() == 0
+    np.testing.assert_array_equal(aimed.q, q)
 
 
 def test_answer_blames_the_limits_where_they_stand_in_the_way():

@@ -8,6 +8,7 @@ import pytest
 from dh2urdf import DHRow, DHTable, Robot
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures import workspace_figure
+from dh2urdf.transforms import pose
 from dh2urdf.workspace import (
     branch_counts,
     dexterity,
@@ -172,8 +173,7 @@ def test_seven_joints_are_mapped_with_the_spare_one_held():
     for v, u in ((4, 6), (6, 6), (0, 0)):
         hits = 0
         for R in turns:
-            T = np.eye(4)
-            T[:3, :3], T[:3, 3] = R, grid.points[v, u]
+            T = pose(R, grid.points[v, u])
             hits += any(len(robot.ik(T, locked={joint: float(x)})) > 0 for x in values)
         assert share[v, u] == pytest.approx(hits / 12)
     assert share.max() > 0.5

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from axes import chains, line_distance, pose, screw_fk
+from axes import BOTH, chains, line_distance, pose, screw_fk
 from dh_product import dh_frames, difference, rows
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -21,15 +21,13 @@ from dh2urdf.dh import DHConvention, JointType
 
 ALLOWED = 1e-10
 EYE = np.eye(4)
-CONVENTIONS = list(DHConvention)
-both = pytest.mark.parametrize("convention", CONVENTIONS)
 
 
 def configurations(n, count=4):
     return np.random.default_rng(7).uniform(-math.pi, math.pi, (count, n))
 
 
-@both
+@BOTH
 @settings(max_examples=250)
 @given(chain=chains())
 def test_the_table_is_the_same_arm(convention, chain):
@@ -39,7 +37,7 @@ def test_the_table_is_the_same_arm(convention, chain):
         assert difference(dh_frames(table, q)[-1], screw_fk(chain, q)) <= ALLOWED
 
 
-@both
+@BOTH
 @settings(max_examples=80)
 @given(chain=chains(revolute_only=True))
 def test_every_z_lies_on_its_joint(convention, chain):
@@ -60,7 +58,7 @@ def test_every_z_lies_on_its_joint(convention, chain):
         assert axis @ frame[:3, 2] > 0
 
 
-@both
+@BOTH
 @settings(max_examples=80)
 @given(chain=chains())
 def test_compact_tables_stay_at_the_arm(convention, chain):
@@ -71,7 +69,7 @@ def test_compact_tables_stay_at_the_arm(convention, chain):
     assert max(lengths) <= 4 * FAR * reach
 
 
-@both
+@BOTH
 @settings(max_examples=80)
 @given(chain=chains(), data=st.data())
 def test_turned_z_axes_keep_q(convention, chain, data):
@@ -83,7 +81,7 @@ def test_turned_z_axes_keep_q(convention, chain, data):
     assert difference(dh_frames(table, q)[-1], screw_fk(chain, q)) <= ALLOWED
 
 
-@both
+@BOTH
 @settings(max_examples=80)
 @given(chain=chains())
 def test_x_away_keeps_lengths_positive(convention, chain):
@@ -94,7 +92,7 @@ def test_x_away_keeps_lengths_positive(convention, chain):
     assert difference(dh_frames(found.table, q)[-1], screw_fk(chain, q)) <= ALLOWED
 
 
-@both
+@BOTH
 @settings(max_examples=80)
 @given(table=tables())
 def test_any_table_goes_round(convention, table):
@@ -126,7 +124,7 @@ CASES = {
 }
 
 
-@both
+@BOTH
 @pytest.mark.parametrize("name", CASES)
 def test_each_case_by_its_rule(convention, name):
     """Each case of two axes is told apart and gets the length and twist that it has."""
@@ -138,7 +136,7 @@ def test_each_case_by_its_rule(convention, name):
     assert abs(row.alpha) == pytest.approx(alpha, abs=1e-15)
 
 
-@both
+@BOTH
 def test_skew_axes_take_the_only_common_normal(convention):
     """x lies along the shortest segment between skew axes and points from the first on."""
     chain = two_axes(pose((1, 1, 0), 1.1, (0.2, 0.5, 0.3)))
@@ -152,7 +150,7 @@ def test_skew_axes_take_the_only_common_normal(convention):
     assert found.assignment.normals[0].a == pytest.approx(np.linalg.norm(way), abs=1e-14)
 
 
-@both
+@BOTH
 def test_parallel_axes_take_d_zero(convention):
     """Of the common normals of parallel axes, the one with d = 0 is taken."""
     first, second = pose((1, 0, 0), math.pi / 2, (0, 0, 0.4)), pose((1, 0, 0), 0.0, (0.3, 0, 0.7))
@@ -179,7 +177,7 @@ def test_a_tool_in_reach_of_four_motions_is_frame_n():
     assert table.tool.is_identity
 
 
-@both
+@BOTH
 def test_the_modified_base_takes_a_twist_into_its_row(convention):
     """Modified rows begin with a and alpha: a turn about the base's x needs no base transform."""
     base = pose((1, 0, 0), -math.pi / 2, (0.1, 0, 0))
@@ -209,7 +207,7 @@ def calibrated():
     return screws
 
 
-@both
+@BOTH
 def test_calibrated_arms_are_compact_and_exact(convention):
     """A milliradian between parallel axes makes a fixed row, and no length beyond the arm."""
     found = extract_dh(
@@ -222,7 +220,7 @@ def test_calibrated_arms_are_compact_and_exact(convention):
     assert any("from parallel" in step.text for step in found.steps)
 
 
-@both
+@BOTH
 def test_four_parameters_are_kept_on_request(convention):
     """Without compacting the same arm has four parameters a row and lengths of many metres."""
     tool = pose((0, 0, 1), 0.0, (0.8, 0.2, 0))
@@ -232,7 +230,7 @@ def test_four_parameters_are_kept_on_request(convention):
     assert found.max_error <= 1e-11
 
 
-@both
+@BOTH
 def test_factory_calibrations_come_home(convention):
     """From joint origins 439 m away to a table without a length above the arm's two metres."""
     text = urdf_text(FACTORY, UrdfOptions(embed_table=False))

@@ -7,12 +7,12 @@ import re
 
 import numpy as np
 import pytest
-from axes import chains
+from axes import BOTH, chains
 from dh_product import dh_frames, difference, shift, turn
 from example_robots import UR5
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_extract_sources import BOTH, BROKEN, URDF
+from test_extract_sources import BROKEN, URDF
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.conversions.assign.assigned_table import chain_to_dh

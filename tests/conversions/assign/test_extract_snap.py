@@ -6,14 +6,13 @@ import re
 import numpy as np
 import pinocchio as pin
 import pytest
-from axes import chains, pose, screw_fk
+from axes import BOTH, chains, pose, screw_fk
 from dh_product import dh_frames, difference
 from example_robots import ROBOTS, fk_between
 from hypothesis import given, settings
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.conversions.write.table_chain import dh_to_chain
-from dh2urdf.dh import DHConvention
 from dh2urdf.transforms import pose_error
 
 TIAGO = ROBOTS / "tiago_description/robots/tiago_no_hand.urdf"
@@ -32,7 +31,6 @@ FOUR_DIGITS = """<robot name="rough">
     <origin xyz="0.3 0 0" rpy="1.5708 0 0"/></joint>
 </robot>
 """
-BOTH = pytest.mark.parametrize("convention", list(DHConvention))
 
 
 def truth(q):

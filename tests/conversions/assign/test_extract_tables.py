@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from axes import pose
+from axes import BOTH, pose
 from dh_product import dh_frames, difference, rows
 from example_robots import PANDA, ROBOTS
 from hypothesis import given, settings
@@ -12,7 +12,6 @@ from strategies import tables
 
 from dh2urdf import extract_dh, list_tables, load_table, urdf_text
 from dh2urdf.conversions.write.urdf_elements import UrdfOptions
-from dh2urdf.dh import DHConvention
 
 HALF = math.pi / 2
 STRIPPED = UrdfOptions(embed_table=False, balance_inertia=False)
@@ -35,6 +34,13 @@ PUBLISHED = {name: rows(text) for name, text in PUBLISHED.items()}
 
 def parameters(table):
     return [(row.theta, row.d, row.a, row.alpha) for row in table.joints]
+
+
+def assert_published(found, name, error):
+    """The table is the published one, and nothing is left for base and tool."""
+    table = found.table
+    assert np.array(parameters(table)) == pytest.approx(np.array(PUBLISHED[name]), abs=error)
+    assert (table.base.is_identity, table.tool.is_identity) == (True, True)
 
 
 def axes_of(text):
@@ -64,22 +70,16 @@ SCARA_AXES = axes_of("0 0 1 0 0 .2; 0 0 1 .375 0 .2; 0 0 1 .6 .1 .2; 0 0 1 .65 0
 )
 def test_published_tables_from_axes_typed_by_hand(name, axes, types, tool):
     """Axes drawn from the geometry of a textbook arm give the published table, sign for sign."""
-    found = extract_dh(axes, joint_types=types, tool=tool)
-    assert found.table.base.is_identity
-    assert found.table.tool.is_identity
-    assert np.array(parameters(found.table)) == pytest.approx(np.array(PUBLISHED[name]), abs=1e-15)
+    assert_published(extract_dh(axes, joint_types=types, tool=tool), name, 1e-15)
 
 
 @pytest.mark.parametrize("name", ["ur5", "ur10"])
 def test_universal_robots_tables_come_back(name):
     """The makers' table comes back, signs and zeros included, from base to tool0."""
     path = ROBOTS / f"ur_description/urdf/{name}_robot.urdf"
-    found = extract_dh(path, "base", "tool0", snap=1e-10)
-    assert np.array(parameters(found.table)) == pytest.approx(np.array(PUBLISHED[name]), abs=1e-15)
-    assert found.table.base.is_identity
-    assert found.table.tool.is_identity
-    exact = extract_dh(path, "base", "tool0")
-    assert np.array(parameters(exact.table)) == pytest.approx(np.array(PUBLISHED[name]), abs=1e-11)
+    assert_published(extract_dh(path, "base", "tool0", snap=1e-10), name, 1e-15)
+    exact = extract_dh(path, "base", "tool0").table
+    assert np.array(parameters(exact)) == pytest.approx(np.array(PUBLISHED[name]), abs=1e-11)
 
 
 def test_the_panda_table_comes_back():
@@ -130,7 +130,7 @@ def test_shipped_tables_come_back(name):
     assert same == (name not in OTHER_CHOICES)
 
 
-@pytest.mark.parametrize("convention", list(DHConvention))
+@BOTH
 @settings(max_examples=60)
 @given(table=tables(max_joints=7))
 def test_table_to_urdf_to_table(convention, table):

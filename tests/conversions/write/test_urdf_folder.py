@@ -134,8 +134,7 @@ def test_mujoco_places_every_body_as_pinocchio_does(name, capfd, tmp_path, monke
 def test_pybullet_loads_it(name, capfd):
     """Its only notice is that of base_link, massless for KDL; tool0 stands where it should."""
     pybullet = pytest.importorskip("pybullet")
-    table = dh2urdf.load_table(name)
-    q = random_configurations(table, 1)[0]
+    table, _, q = posed(name)
     client = pybullet.connect(pybullet.DIRECT)
     try:
         capfd.readouterr()
@@ -145,7 +144,7 @@ def test_pybullet_loads_it(name, capfd):
         infos = [pybullet.getJointInfo(arm, i) for i in range(pybullet.getNumJoints(arm))]
         joints = {info[1].decode(): info[0] for info in infos}
         links = {info[12].decode(): info[0] for info in infos}
-        for joint, value in zip(table.joint_names, q, strict=True):
+        for joint, value in q.items():
             pybullet.resetJointState(arm, joints[joint], value)
         state = pybullet.getLinkState(arm, links["tool0"], computeForwardKinematics=True)
     finally:
@@ -155,7 +154,7 @@ def test_pybullet_loads_it(name, capfd):
     assert (out + err).rstrip().endswith("base_link")
     assert "b3Error" not in out + err
     reach = max(1.0, table.length)
-    assert difference(state[4], dh_frames(table, q)[-1][:3, 3]) <= 1e-6 * reach
+    assert difference(state[4], dh_frames(table, q.values())[-1][:3, 3]) <= 1e-6 * reach
 
 
 @pytest.mark.exhaustive
@@ -174,14 +173,14 @@ def test_drake_loads_it(name, caplog, capfd):
     plant.Finalize()
     assert caplog.records == []
     assert capfd.readouterr() == ("", "")
-    table = dh2urdf.load_table(name)
-    q = random_configurations(table, 1)[0]
+    table, _, q = posed(name)
     context = plant.CreateDefaultContext()
     q_plant = np.empty(plant.num_positions())
-    q_plant[[plant.GetJointByName(joint, arm).position_start() for joint in table.joint_names]] = q
+    for joint, value in q.items():
+        q_plant[plant.GetJointByName(joint, arm).position_start()] = value
     plant.SetPositions(context, q_plant)
     tip = plant.GetFrameByName("tool0").CalcPoseInWorld(context).GetAsMatrix4()
-    assert difference(tip, dh_frames(table, q)[-1]) <= 1e-12 * max(1.0, table.length)
+    assert difference(tip, dh_frames(table, q.values())[-1]) <= 1e-12 * max(1.0, table.length)
 
 
 @pytest.mark.exhaustive
