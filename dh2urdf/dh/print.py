@@ -13,8 +13,17 @@ from dh2urdf.quoting import latex, markdown, one_line
 ROUNDING = 4e-16
 """Relative difference of two conversions from degrees, each rounded once."""
 
-KEYS = ("i", "name", "theta", "d", "a", "alpha", "limits", "step")
-HEADER = ("i", "joint", "θ [deg]", "d [m]", "a [m]", "α [deg]", "limits of q", "fixed step")
+COLUMNS = {
+    "i": ("i", "$i$"),
+    "name": ("joint", "joint"),
+    "theta": ("θ [deg]", r"$\theta_i$ [deg]"),
+    "d": ("d [m]", r"$d_i$ [m]"),
+    "a": ("a [m]", r"$a_i$ [m]"),
+    "alpha": ("α [deg]", r"$\alpha_i$ [deg]"),
+    "limits": ("limits of q", "limits of $q_i$"),
+    "step": ("fixed step", "fixed step"),
+}
+"""Heads of the columns by key, in plain text and in LaTeX."""
 
 
 class _Table(Protocol):
@@ -63,8 +72,9 @@ def table_grid(table: _Table) -> tuple[list[str], list[str], list[list[str]]]:
         joint += row.is_joint
         name = one_line(table.joint_names[joint - 1]) if row.is_joint else ""
         rows.append(_cells(row, joint, name))
-    kept = [k for k, key in enumerate(KEYS) if key in KEYS[:6] or any(r[k] for r in rows)]
-    keys, header, *cells = ([r[k] for k in kept] for r in (KEYS, HEADER, *rows))
+    own, head = [*COLUMNS], [plain for plain, _ in COLUMNS.values()]
+    kept = [k for k, key in enumerate(own) if key in own[:6] or any(r[k] for r in rows)]
+    keys, header, *cells = ([r[k] for k in kept] for r in (own, head, *rows))
     return keys, header, cells
 
 
@@ -131,23 +141,11 @@ def table_csv(table: _Table) -> str:
     return grids.grid_csv(header, rows)
 
 
-LATEX = {
-    "i": "$i$",
-    "name": "joint",
-    "theta": r"$\theta_i$ [deg]",
-    "d": r"$d_i$ [m]",
-    "a": r"$a_i$ [m]",
-    "alpha": r"$\alpha_i$ [deg]",
-    "limits": "limits of $q_i$",
-    "step": "fixed step",
-}
-
-
 def table_latex(table: _Table) -> str:
     """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
     keys, _, rows = table_grid(table)
     cells = [[_latex_cell(key, text) for key, text in zip(keys, row, strict=True)] for row in rows]
-    return grids.grid_latex([LATEX[key] for key in keys], cells)
+    return grids.grid_latex([COLUMNS[key][1] for key in keys], cells)
 
 
 def _latex_cell(key: str, text: str) -> str:

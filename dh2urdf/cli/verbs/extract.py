@@ -82,10 +82,7 @@ def extract_(
     if json:
         emit_json(
             "extract",
-            base=found.base,
-            tip=found.tip,
-            max_error=found.max_error,
-            configurations=found.configurations,
+            **{key: getattr(found, key) for key in ("base", "tip", "max_error", "configurations")},
             table=loads(table_to_text(found.table, "json")),
             steps=[asdict(step) for step in found.steps],
             changes=[asdict(change) for change in found.changes],

@@ -136,18 +136,8 @@ class FrameAssigner:
         if base is None:
             base = links[0] @ slide_turn(theta[0], d[0])
             theta[0] = d[0] = 0.0
-        return Assignment(
-            self.convention,
-            start,
-            end,
-            base,
-            tuple(theta),
-            tuple(d),
-            tuple(pairs),
-            path.normals,
-            tuple(slid),
-            self.ref.size,
-        )
+        parts = tuple(theta), tuple(d), tuple(pairs), path.normals, tuple(slid)
+        return Assignment(self.convention, start, end, base, *parts, self.ref.size)
 
     def lengths(self, links: Array) -> tuple[float, ...]:
         """Every length of the table, base and tool, by which tables are called simple."""

@@ -211,8 +211,10 @@ class _Writer:
         """Say which limits were made up, the same ones together."""
         made_up: dict[str, list[str]] = {}
         for name, row in zip(self.table.joint_names, self.table.joints, strict=True):
-            if row.lower is None or row.upper is None:
-                made_up.setdefault(self._made_up(row), []).append(name + _half(row))
+            missing = [key for key in ("lower", "upper") if getattr(row, key) is None]
+            if missing:
+                half = f" ({missing[0]})" if len(missing) == 1 else ""
+                made_up.setdefault(self._made_up(row), []).append(name + half)
         self.warnings += [
             f"{', '.join(names)}: no limits in the table; written as {written}"
             for written, names in made_up.items()
@@ -238,10 +240,3 @@ class _Writer:
         if self.options.digits is not None:
             number = round(number, self.options.digits)
         return repr(number + 0.0)
-
-
-def _half(row: DHRow) -> str:
-    """Which bound is missing, where the other is given."""
-    if row.lower is None and row.upper is None:
-        return ""
-    return " (lower)" if row.lower is None else " (upper)"

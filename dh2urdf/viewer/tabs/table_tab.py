@@ -19,6 +19,7 @@ UNITS = Units("m", "deg")
 """Units of the cells: bare lengths are metres, bare angles degrees."""
 
 KINDS = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
+SHOWN = {Kind.LENGTH: number, Kind.ANGLE: degrees}
 SIGNS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
 
 
@@ -103,13 +104,10 @@ class TableTab:
         if not self.row:
             return
         row = self.table.joints[self.row - 1]
-        bound = number if row.joint_type is JointType.PRISMATIC else degrees
+        bound = SHOWN[Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE]
         shown = {
             "joint_type": str(row.joint_type),
-            "theta": degrees(row.theta),
-            "d": number(row.d),
-            "a": number(row.a),
-            "alpha": degrees(row.alpha),
+            **{key: SHOWN[kind](getattr(row, key)) for key, kind in KINDS.items()},
             "sign": f"{row.sign:+d}",
             "lower": "" if row.lower is None else bound(row.lower),
             "upper": "" if row.upper is None else bound(row.upper),
