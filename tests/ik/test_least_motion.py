@@ -1,11 +1,11 @@
 """Paths of arms with seven joints: the least joint motion, against a search on a dense grid."""
 
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from example_robots import example
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from path_referee import least_motion, length_of
@@ -13,10 +13,7 @@ from path_referee import least_motion, length_of
 import dh2urdf
 
 ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
-TIAGO = (
-    Path(pin.__file__).parents[4]
-    / "share/example-robot-data/robots/tiago_description/robots/tiago_no_hand.urdf"
-)
+TIAGO = example("tiago_no_hand.urdf")
 PANDA = np.array([0.3, -0.5, 0.2, -2.0, 0.1, 1.6, 0.7])
 MARGIN = 1.002
 """Motion that a path may have, per motion of the dense search: a fifth of what is promised."""

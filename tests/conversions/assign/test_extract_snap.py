@@ -8,14 +8,14 @@ import pinocchio as pin
 import pytest
 from axes import BOTH, chains, pose, screw_fk
 from dh_product import dh_frames, difference
-from example_robots import ROBOTS, fk_between
+from example_robots import example, fk_between
 from hypothesis import given, settings
 
 from dh2urdf import extract_dh, load_table, urdf_text
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.transforms import pose_error
 
-TIAGO = ROBOTS / "tiago_description/robots/tiago_no_hand.urdf"
+TIAGO = example("tiago_no_hand.urdf")
 FOUR_DIGITS = """<robot name="rough">
   <link name="base"/><link name="one"/><link name="two"/><link name="three"/><link name="tool"/>
   <joint name="a" type="revolute"><parent link="base"/><child link="one"/>

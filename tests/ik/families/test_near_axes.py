@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pinocchio as pin
 import pytest
+from example_robots import fk_between, placed
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from margins import assert_margin
@@ -32,16 +33,9 @@ def arm_text(joints):
 
 
 def pinocchio_fk(text, joints, q, tip):
-    model = pin.buildModelFromXML(text)
-    data, config = model.createData(), pin.neutral(model)
-    for i, value in enumerate(q):
-        joint = model.joints[model.getJointId(f"j{i}")]
-        circle = joint.nq == 2
-        config[joint.idx_q : joint.idx_q + joint.nq] = (
-            [math.cos(value), math.sin(value)] if circle else value
-        )
-    pin.framesForwardKinematics(model, data, config)
-    return data.oMf[model.getFrameId(tip, pin.FrameType.BODY)].homogeneous
+    by_name = {f"j{i}": value for i, value in enumerate(q)}
+    (T_base_tip,) = placed(pin.buildModelFromXML(text), by_name, tip)
+    return T_base_tip.homogeneous
 
 
 def turn(axis, angle):
@@ -133,22 +127,13 @@ SAME = """<robot name="r"><link name="a"/><link name="b"/><link name="c"/><link 
 @pytest.mark.parametrize(
     ("base", "tip"), [(None, None), ("a", "c"), ("b", "d"), ("c", "a"), ("b", "c"), (None, "b")]
 )
-def test_a_joint_and_a_link_may_have_one_name(base, tip, tmp_path):
+def test_a_joint_and_a_link_may_have_one_name(base, tip, written):
     """Base and tip are links, whatever joints are called."""
-    path = tmp_path / "same.urdf"
-    path.write_text(SAME)
+    path = written("same.urdf", SAME)
     robot = Robot.from_urdf(path, base, tip)
-    model = pin.buildModelFromXML(SAME)
-    data = model.createData()
     q = np.linspace(0.2, 0.9, robot.n)
-    config = pin.neutral(model)
-    for name, value in zip(robot.joint_names, q, strict=True):
-        config[model.joints[model.getJointId(name)].idx_q] = value
-    pin.framesForwardKinematics(model, data, config)
-    M_base, M_tip = (
-        data.oMf[model.getFrameId(name, pin.FrameType.BODY)] for name in (base or "a", tip or "d")
-    )
-    expected = (M_base.inverse() * M_tip).homogeneous
+    by_name = dict(zip(robot.joint_names, q, strict=True))
+    expected = fk_between(pin.buildModelFromXML(SAME), base or "a", tip or "d", by_name)
     assert_margin(np.abs(robot.fk(q) - expected), 1e-14)
     assert_margin(np.abs(robot.fk(q[None])[0] - expected), 1e-14)
     assert_margin(extract_dh(path, base, tip).max_error, 1e-14)
