@@ -65,12 +65,10 @@ def grid_csv(header: Sequence[str], rows: Grid) -> str:
 
 def grid_latex(header: Sequence[str], rows: Grid) -> str:
     """A ``tabular`` with ``booktabs`` rules; cells are LaTeX already."""
-    lines = [r"\begin{tabular}{" + "r" * len(header) + "}", r"\toprule"]
-    lines.append(" & ".join(header) + r" \\")
-    lines.append(r"\midrule")
-    lines += [" & ".join(r) + r" \\" for r in rows]
-    lines += [r"\bottomrule", r"\end{tabular}"]
-    return "\n".join(lines)
+    head, *body = (" & ".join(row) + r" \\" for row in (header, *rows))
+    begin = r"\begin{tabular}{" + "r" * len(header) + "}"
+    ends = r"\bottomrule", r"\end{tabular}"
+    return "\n".join([begin, r"\toprule", head, r"\midrule", *body, *ends])
 
 
 def grid_html(header: Sequence[str], rows: Grid, *, keys: Sequence[str], caption: str) -> str:

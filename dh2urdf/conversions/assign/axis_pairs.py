@@ -179,8 +179,7 @@ def compose(n: Normal) -> Array:
     """The transform that a factorisation in the standard order stands for, shape (4, 4)."""
     first = tf.rot_z(n.phi1) @ tf.trans(0, 0, n.s1)
     second = tf.rot_z(n.phi2) @ tf.trans(0, 0, n.s2)
-    T: Array = first @ (tf.trans(n.a, 0, 0) @ tf.rot_x(n.alpha) @ tf.rot_y(n.beta)) @ second
-    return T
+    return first @ (tf.trans(n.a, 0, 0) @ tf.rot_x(n.alpha) @ tf.rot_y(n.beta)) @ second
 
 
 def _with_turn(

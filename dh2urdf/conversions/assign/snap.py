@@ -72,8 +72,7 @@ def chain_poses(chain: SerialChain, qs: Array) -> Array:
     T = np.broadcast_to(chain.links[0], (len(qs), 4, 4))
     for q, slides, link in zip(qs.T, chain.prismatic, chain.links[1:], strict=True):
         T = T @ turn_slide(0 * q if slides else q, q if slides else 0 * q) @ link
-    poses: Array = T
-    return poses
+    return T
 
 
 def snap_chain(chain: SerialChain, tolerance: float, qs: Array) -> tuple[SerialChain, list[Change]]:

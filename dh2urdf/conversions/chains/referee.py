@@ -112,5 +112,4 @@ def table_poses(table: DHTable, qs: Array) -> Array:
         motion = turn_slide(theta, d)
         X = tf.trans(row.a, 0, 0) @ tf.rot_x(row.alpha)
         T = T @ (motion @ X if table.convention is DHConvention.STANDARD else X @ motion)
-    poses: Array = T @ table.tool.matrix
-    return poses
+    return T @ table.tool.matrix

@@ -113,8 +113,7 @@ class _Bodies:
         low, high = (v if limited and abs(v) <= far else None for v in m.jnt_range[j].tolist())
         ends = parent, child
         self.joints.append(TreeJoint(name, kind, *ends, origin, axis, where, low, high, drive))
-        out: Array = rest @ tf.inverse(anchor)
-        return out
+        return rest @ tf.inverse(anchor)
 
     def link(self, name: str, inertial: Inertial | None) -> str:
         self.links[name] = TreeLink(name, f'{self.where}: <body name="{name}">', inertial)
