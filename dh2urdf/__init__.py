@@ -10,8 +10,6 @@ Importing this package loads nothing else; NumPy comes with the first name that 
 Pinocchio with the first model.
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 
 from dh2urdf import exceptions

@@ -10,12 +10,10 @@ product equals the DH product factor by factor, so nothing is lost to rounding; 
 points of the screws at q = 0 follow from it.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -143,7 +141,7 @@ class SerialChain:
             last = foot
         return total + math.dist(self.tool[:3, 3], last)
 
-    def in_unit(self, unit: float) -> SerialChain:
+    def in_unit(self, unit: float) -> Self:
         """The same chain with lengths in a unit of its own, a power of two [m]: nothing rounds."""
         links, scale = self.links.copy(), np.where(self.prismatic, unit / self.unit, 1.0)
         links[:, :3, 3] /= unit / self.unit
@@ -159,7 +157,7 @@ class SerialChain:
             T = product(T, Z, link)
         return T
 
-    def reversed(self) -> SerialChain:
+    def reversed(self) -> Self:
         """The chain from tool to base: ``T_tool_base`` with the joints in reverse order.
 
         ``Z(q)^-1 = Z(-q) = S Z(q) S`` with ``S = Rot_x(pi)`` keeps the joint values.

@@ -1,13 +1,13 @@
 """From a robot description back to its DH table: the entry point."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from dh2urdf.conversions.assign import (
+    Change,
+    FrameStep,
     XRule,
     chain_to_dh,
     explain_frames,
@@ -23,10 +23,6 @@ from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import pose_error
-
-if TYPE_CHECKING:
-    from dh2urdf.conversions.assign import Change, FrameStep
-
 
 SIGNATURE = "extracted by dh2urdf"
 """Begins the source of every extracted table; a file that says so may be written over."""

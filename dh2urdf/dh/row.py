@@ -1,11 +1,9 @@
 """One row of a DH table: frozen, plain floats, in metres and radians, checked when it is made."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -49,7 +47,7 @@ class Origin:
         return not (any(self.xyz) or any(self.rpy))
 
     @classmethod
-    def from_matrix(cls, T: ArrayLike) -> Origin:
+    def from_matrix(cls, T: ArrayLike) -> Self:
         """The step of a rigid (4, 4) matrix."""
         m = tf.check_pose(T)
         x, y, z = (float(v) + 0.0 for v in m[:3, 3])

@@ -5,12 +5,10 @@ A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joi
 :mod:`dh2urdf.dh.motions`.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -105,7 +103,7 @@ class DHTable:
         columns: str = PARAMETERS,
         joint_types: str | None = None,
         name: str = "robot",
-    ) -> DHTable:
+    ) -> Self:
         """A table from an array, a row a joint, in [rad] and [m].
 
         Parameters

@@ -1,9 +1,7 @@
 """Triangles of the drawn bodies, and what moves with what."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +29,7 @@ class Surface:
     colour: tuple[int, int, int]
     solids: tuple[int, ...] = ()
 
-    def shrunk(self, share: float) -> Surface:
+    def shrunk(self, share: float) -> Self:
         """The same with every solid shrunk about its own middle."""
         ends = self.solids or (len(self.vertices),)
         parts = np.split(self.vertices, ends[:-1])

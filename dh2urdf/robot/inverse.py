@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.exceptions import NoSolverError
@@ -12,8 +13,6 @@ from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from dh2urdf.ik.arm import HeldSolver, Solver, Task
     from dh2urdf.ik.families import NumericProblem, NumericSolutions
     from dh2urdf.ik.problem import IKBatch, IKPath, IKSolutions, Progress

@@ -1,16 +1,11 @@
 """YAML 1.2 to a document, event by event: no objects, no tags, no aliases, bounded in size."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.exceptions import TableFileError
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
 
 _NULLS = ("~", "null", "Null", "NULL")
 _NUMBER = re.compile(r"[-+]?(\.inf|\.nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGNORECASE | re.ASCII)

@@ -1,9 +1,8 @@
 """What inverse kinematics answered, in words and as a table with the ghosts' colours."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from html import escape
+from typing import Self
 
 import numpy as np
 
@@ -41,7 +40,7 @@ class Answer:
     current: int
     nearest: Array | None
 
-    def at(self, q: Array) -> Answer:
+    def at(self, q: Array) -> Self:
         """The same answer with the arm at another configuration."""
         return replace(self, current=_standing(self.q, q, self.free))
 
