@@ -38,7 +38,7 @@ from dh2urdf.ik.problem import (
     find_path,
     held_values,
 )
-from dh2urdf.ik.redundant import SweptJoint, select_held
+from dh2urdf.ik.redundant import SweptJoint, at_any_value, select_held
 from dh2urdf.transforms import Array
 
 ON_BAD = ("raise", "skip")
@@ -176,7 +176,7 @@ class InverseKinematics:
             raise ConfigurationError("locked: all joints are held, none is left to move")
         solver: Solver | HeldSolver
         if joints:
-            solver = select_held(self.own, joints, task)
+            solver = at_any_value(select_held(self.own, joints, task), task)
         else:
             solver = self.problem(task).solver if samples else select_solver(self.own, task)
         if isinstance(solver, SweptJoint):

@@ -37,6 +37,7 @@ from dh2urdf.ik.arm.solver_table import select_solver
 from dh2urdf.ik.arm.task import (
     TRIALS,
     Task,
+    moving_joints,
     random_configurations,
     scaled_jacobian,
     spare_joints,
@@ -59,4 +60,5 @@ from dh2urdf.ik.arm.tolerances import (
     SLACK_OF_NEAR,
     SLACK_OF_NOISE,
     SNAP,
+    SPARE_RANK,
 )

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.tolerances import NO_RANK, SPARE_RANK, WEAK_RANK
+from dh2urdf.ik.arm.tolerances import FAMILY_RANK, NO_RANK, SPARE_RANK, WEAK_RANK
 from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 from dh2urdf.transforms import Array, dot, product
 
@@ -101,3 +101,16 @@ def hardly_moves(chain: SerialChain, task: Task) -> bool:
     sigma = _singular_values(chain, task)
     least = (sigma / sigma[:, :1]).max(axis=0)
     return bool(((least > NO_RANK) & (least < WEAK_RANK)).any())
+
+
+def moving_joints(chain: SerialChain, task: Task, q: Array) -> NDArray[np.int64]:
+    """Bits of the joints that move in the null space of the task at q (k, n)."""
+    J = task_jacobian(chain, task, q)
+    _, sigma, Vt = np.linalg.svd(J, full_matrices=True)
+    full = np.zeros((len(q), chain.n))
+    full[:, : sigma.shape[1]] = sigma
+    null = full <= FAMILY_RANK * full[:, :1]
+    motion = np.sqrt(((Vt * null[:, :, None]) ** 2).sum(axis=1))
+    bits = (motion > FAMILY_RANK).astype(np.int64) << np.arange(chain.n)
+    mask: NDArray[np.int64] = bits.sum(axis=1)
+    return mask

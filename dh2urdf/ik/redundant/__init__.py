@@ -1,11 +1,12 @@
 """Joints to spare: held at a value, swept, or free; arms that hardly move in some direction.
 
-`held_values` picks the solver with joints held (`held_wrist` is the fastest one), `swept` solves at
-many values of one joint, `self_motion` moves between them, `redundancy` holds idle joints,
-`searched` helps arms with weak directions.
+`held_values` picks the solver with joints held (`held_wrist` is the fastest one), `special_values`
+are those at which it is another, `swept` solves at many values of one joint, `self_motion` moves
+between them, `redundancy` holds idle joints, `searched` helps arms with weak directions.
 """
 
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals, sample_values
+from dh2urdf.ik.redundant.special_values import at_any_value
 from dh2urdf.ik.redundant.swept import SweptJoint

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf.exceptions import ConfigurationError, NoSolverError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Outputs,
@@ -18,6 +18,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.families import General6R
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
+from dh2urdf.ik.redundant.searched import Search
 from dh2urdf.kernels.chain import held_poses, insert_held_batch
 from dh2urdf.transforms import Array
 
@@ -123,6 +124,18 @@ class HeldOneByOne(HeldSolver):
             self._kept.pop(oldest, None)
         return solver
 
+    def _in_batch(self, values: tuple[float, ...], alone: bool) -> Solver:
+        """The solver for some held values; where there is none, a search, unless all are these."""
+        try:
+            return self.at(values)
+        except NoSolverError:
+            if alone:
+                raise
+            held = dict(zip(self.held, values, strict=True))
+            return HeldJoints(
+                self.chain, held, self.task, Search(hold(self.chain, held), self.task)
+            )
+
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve the poses of one set of values after the other."""
         order = np.lexsort(values.T)
@@ -130,8 +143,8 @@ class HeldOneByOne(HeldSolver):
         for rows in np.split(order, breaks):
             if not len(rows):
                 continue
-            solver = self.at(tuple(values[rows[0]].tolist()))
-            found = Outputs.of(len(rows), self.kmax, self.chain.n)
+            solver = self._in_batch(tuple(values[rows[0]].tolist()), alone=not len(breaks))
+            found = Outputs.of(len(rows), out.q.shape[1], self.chain.n)
             solver.solve_batch(np.ascontiguousarray(Ts[rows]), within_limits, found)
             for whole, part in zip(out, found, strict=True):
                 whole[rows] = part

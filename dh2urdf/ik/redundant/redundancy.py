@@ -14,20 +14,18 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
-    FAMILY_RANK,
     NOMINAL,
     TRIALS,
-    IntArray,
     Others,
     Outputs,
     SolverBase,
     Task,
     hold,
+    moving_joints,
     near_ranges,
     random_configurations,
     scaled_jacobian,
     spare_joints,
-    task_jacobian,
 )
 from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held_values import HeldOneByOne
@@ -47,15 +45,19 @@ rounding by one of the searches."""
 MOST = 16
 """Solutions of a pose with the joints held; another solver may cover the chain at each value."""
 
-VALUES = (1, 24, 7)
-"""Values at which each of 0, 1, 2 joints is held: a turn in steps of 15 degrees, of 51 for two."""
+VALUES = (1, 24, 7, 4)
+"""Values at which each of 0 to 3 joints is held: a turn in steps of 15 degrees, of 51 for two, of a
+right angle for three."""
+
+HELD_FOR_POSE, HELD_OTHERWISE = 3, 2
+"""Most joints that are held for a full pose, as of an arm folded onto itself, and for less."""
 
 
 class RedundantChain(SolverBase):
     """A chain with joints to spare: some are held, a family through every solution."""
 
     name = "joints to spare"
-    needs = "one or two joints that can move while the task stays satisfied; they are held"
+    needs = "one to three joints that can move while the task stays satisfied; they are held"
 
     idle: int
     """Bits of the joints that take part in the motion to spare."""
@@ -63,7 +65,7 @@ class RedundantChain(SolverBase):
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.held = _joints_to_hold(chain, task)
-        anywhere = _moving_joints(chain, task, random_configurations(chain, TRIALS))
+        anywhere = moving_joints(chain, task, random_configurations(chain, TRIALS))
         self.idle = int(np.bitwise_or.reduce(anywhere))
         self.alone = self.idle == sum(1 << i for i in self.held)
         rows = [_values(chain, i, len(self.held))[: 1 if self.alone else None] for i in self.held]
@@ -81,7 +83,7 @@ class RedundantChain(SolverBase):
             return "no joint can move while the tool stays"
         if spare == chain.n:
             return f"no joint moves what task {task.value} asks for"
-        if spare >= len(VALUES):
+        if spare > (HELD_FOR_POSE if task is Task.POSE else HELD_OTHERWISE):
             return f"{spare} joints to spare; hold some with locked="
         return None
 
@@ -125,7 +127,7 @@ class RedundantChain(SolverBase):
             out.q[i, :k], out.residual[i, :k] = some.q, some.residual
         used = np.arange(self.kmax) < out.counts[:, None]
         out.free[:] = 0
-        out.free[used] = self.idle | _moving_joints(self.chain, self.task, out.q[used])
+        out.free[used] = self.idle | moving_joints(self.chain, self.task, out.q[used])
         out.branch[:] = -1
 
 
@@ -147,16 +149,3 @@ def _values(chain: SerialChain, joint: int, held: int) -> list[float]:
     count = VALUES[held]
     grid = low + (high - low) * (np.arange(count) + 0.5) / count
     return [rest, *sorted(grid.tolist(), key=lambda v: abs(v - rest))]
-
-
-def _moving_joints(chain: SerialChain, task: Task, q: Array) -> IntArray:
-    """Bits of the joints that move in the null space of the task at q (k, n)."""
-    J = task_jacobian(chain, task, q)
-    _, sigma, Vt = np.linalg.svd(J, full_matrices=True)
-    full = np.zeros((len(q), chain.n))
-    full[:, : sigma.shape[1]] = sigma
-    null = full <= FAMILY_RANK * full[:, :1]
-    motion = np.sqrt(((Vt * null[:, :, None]) ** 2).sum(axis=1))
-    bits = (motion > FAMILY_RANK).astype(np.int64) << np.arange(chain.n)
-    mask: IntArray = bits.sum(axis=1)
-    return mask

@@ -7,7 +7,21 @@ other lose what it says to rounding.
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import SLACK, Outputs, Solver, Task, branch_words_of, task_error, task_jacobian
+from dh2urdf.ik.arm import (
+    ACCEPT,
+    SLACK,
+    Outputs,
+    Solver,
+    SolverBase,
+    Task,
+    branch_words_of,
+    inside,
+    middle,
+    moving_joints,
+    task_error,
+    task_jacobian,
+    turned_to,
+)
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.transforms import Array
@@ -17,6 +31,30 @@ STEPS = 60
 
 LESS = 0.05
 """Damping after a good step; in a valley it has to fall below the square of its slope."""
+
+
+class Search(SolverBase):
+    """Some solutions of any chain, by search alone: where a held value leaves no other solver."""
+
+    name = "search"
+    kmax = STARTS
+
+    def details(self) -> str:
+        """Say what is done."""
+        return f"damped least squares from {STARTS} starts; there may be more solutions"
+
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Search for solutions of poses Ts (m, 4, 4), one after the other."""
+        for i in range(len(Ts)):
+            q, error = nearly_reaching(self.chain, Ts[i], self.task)
+            fits = np.abs(error).max(axis=1) <= ACCEPT
+            q, off = turned_to(self.chain, q[fits], middle(self.chain)), np.abs(error[fits])
+            free = moving_joints(self.chain, self.task, q)
+            kept = np.flatnonzero((free != 0) | inside(self.chain, q) | (not within_limits))
+            kept = kept[: out.q.shape[1]]
+            k = out.counts[i] = len(kept)
+            out.q[i, :k], out.residual[i, :k] = q[kept], off[kept].max(axis=1)
+            out.branch[i, :k], out.free[i, :k] = -1, free[kept]
 
 
 class SearchedSolver:

@@ -3,11 +3,15 @@
 import numpy as np
 import pytest
 from dh_product import rows
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from ik_checks import away_but_free
 from ik_referee import by_pinocchio, exists, misses, rows_of
 from margins import assert_margin
 
 from dh2urdf import Robot
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.exceptions import NoSolverError
 
 
 @pytest.mark.parametrize(
@@ -75,3 +79,91 @@ def test_a_joint_held_at_either_end_of_a_spherical_arm(rows, place, kind):
         for T, q in zip(Ts, Q, strict=True)
     ]
     assert_margin(np.abs(np.concatenate(alone) - found), 1e-9)
+
+
+SPECIAL = [("kuka_iiwa7", j, v) for j in (1, 3, 5) for v in (0.0, np.pi)] + [("franka_fer", 3, 0.0)]
+"""Joints and values at which two axes line up, or a shoulder meets a wrist."""
+
+
+def lost(robot, found, Q):
+    """Distances (m,) of configurations from the solutions of their poses, free joints left out."""
+    rows = [slice(count) for count in found.count]
+    some = [(found.q[i, k], found.free_mask[i, k]) for i, k in enumerate(rows)]
+    away = [away_but_free(robot.chain, *pair, q) for pair, q in zip(some, Q, strict=True)]
+    return np.array(away)
+
+
+@pytest.mark.parametrize(("name", "joint", "value"), SPECIAL)
+def test_a_held_value_that_lines_axes_up_loses_no_configuration(name, joint, value):
+    """What is left has a joint to spare: each solution names the joints of its family.
+
+    The configuration that made the pose is a member, and as a seed it comes first.
+    """
+    robot = Robot.from_dh(name)
+    Q = np.random.default_rng(joint).uniform(-np.pi, np.pi, (20, 7))
+    Q[:, joint] = value
+    Ts = robot.fk(Q)
+    found = robot.ik_batch(Ts, locked={joint: value}, within_limits=False)
+    assert (found.count > 0).all()
+    assert (found.free_mask[exists(found)] != 0).all()
+    assert not (found.free_mask >> joint & 1).any()
+    assert_margin(lost(robot, found, Q), 1e-6)
+    for T, q in zip(Ts[:5], Q, strict=False):
+        near = robot.ik(T, seed=q, locked={joint: value}, within_limits=False)
+        assert_margin(np.abs(near.q[0] - q).max(), 1e-6)
+
+
+@pytest.mark.parametrize(("name", "joint", "value"), SPECIAL)
+def test_a_special_value_does_not_end_a_batch(name, joint, value):
+    """Poses at other values have what they have without it, and it has what it has alone."""
+    robot = Robot.from_dh(name)
+    Q = np.random.default_rng(9).uniform(-np.pi, np.pi, (12, 7))
+    Q[::3, joint] = value
+    Ts = robot.fk(Q)
+    batch = robot.ik_batch(Ts, locked={joint: Q[:, joint]}, within_limits=False)
+    for i, (T, q) in enumerate(zip(Ts, Q, strict=True)):
+        alone = robot.ik(T, locked={joint: q[joint]}, within_limits=False)
+        assert np.array_equal(batch[i].q, alone.q)
+        assert batch[i].free_joints == alone.free_joints
+
+
+@pytest.mark.parametrize("gap", [1e-7, 1e-8, 1e-9, 6e-10, 3e-10, 2e-10, 1e-10, 1e-11, 1e-13])
+def test_beside_a_special_value_no_configuration_is_lost(gap):
+    """A little away from it, what tells joints 1 and 3 apart is known to rounding over the gap."""
+    robot = Robot.from_dh("kuka_iiwa7")
+    Q = np.random.default_rng(7).uniform(-np.pi, np.pi, (40, 7))
+    Q[:, 1] = gap
+    found = robot.ik_batch(robot.fk(Q), locked={1: gap}, within_limits=False)
+    rounding = 1e-14 / gap if gap > 4e-10 else 1e-4
+    assert np.quantile(lost(robot, found, Q), 0.9) < rounding
+
+
+RIGHT_ANGLES = st.sampled_from([0.0, 0.5 * np.pi, -0.5 * np.pi, np.pi])
+SQUARE_ROWS = st.tuples(RIGHT_ANGLES, *(st.sampled_from([0.0, 0.2, 0.3]),) * 2, RIGHT_ANGLES)
+
+
+@settings(max_examples=20)
+@given(st.lists(SQUARE_ROWS, min_size=7, max_size=7), st.integers(0, 6), RIGHT_ANGLES)
+def test_right_angles_held_in_square_arms_lose_no_configuration(rows, joint, value):
+    """Any joint of seven with twists of 90 degrees may be held at any multiple of them."""
+    robot = Robot.from_dh(DHTable.from_array(rows, "standard", "theta d a alpha"))
+    Q = np.random.default_rng(1).uniform(-np.pi, np.pi, (3, 7))
+    Q[:, joint] = value
+    try:
+        found = robot.ik_batch(robot.fk(Q), locked={joint: value}, within_limits=False)
+    except NoSolverError as error:  # nearly all axes are one
+        assume("joints to spare; hold some" not in str(error))
+        raise
+    assert_margin(lost(robot, found, Q), 1e-6, 1)
+
+
+def test_a_value_that_no_solver_covers_is_searched_in_a_batch():
+    """Four joints to spare at one value: an error alone, families that are found in a batch."""
+    rows = [(0, 0.3, 0, 0.5 * np.pi), (0, 0, 0, 0.5 * np.pi), *[(0, 0.2, 0, 0)] * 4]
+    robot = Robot.from_dh(DHTable.from_array(rows, "standard", "theta d a alpha"))
+    Q = np.random.default_rng(2).uniform(-np.pi, np.pi, (3, 6))
+    Q[1, 1] = np.pi
+    with pytest.raises(NoSolverError):
+        robot.ik(robot.fk(Q[1]), locked={1: np.pi}, within_limits=False)
+    found = robot.ik_batch(robot.fk(Q), locked={1: Q[:, 1]}, within_limits=False)
+    assert_margin(lost(robot, found, Q), 1e-6)

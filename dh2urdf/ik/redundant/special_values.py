@@ -1,0 +1,134 @@
+"""Held values at which what is left of an arm has a joint to spare: there two axes line up.
+
+The solver of a held joint is chosen for any of its values. At a special one, as 0 of a shoulder
+whose axes 1 and 3 then are one line, the other joints move along families, and a solver is made
+for that value alone.
+"""
+
+from functools import cached_property
+
+import numpy as np
+
+from dh2urdf.ik.arm import (
+    SPARE_RANK,
+    TRIALS,
+    HeldSolver,
+    IntArray,
+    Outputs,
+    Task,
+    near_ranges,
+    random_configurations,
+    scaled_jacobian,
+)
+from dh2urdf.ik.redundant.held_values import HeldEnd, HeldOneByOne
+from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE
+from dh2urdf.transforms import Array
+
+GRID = 48
+"""Values at which the rank is looked at first: a turn in steps of 7.5 degrees."""
+
+CLOSER, ROUNDS = 9, 8
+"""Values between the neighbours of a dip, and how often: each round comes four times as near."""
+
+BESIDE = 1e-4
+"""Distance [rad or m] of a special value within which the rank decides; dips are to less."""
+
+LINED_UP = 1e-10
+"""Relative singular value that is none: half a turn moves the tool by less than ``ACCEPT``. Above
+it the usual solver's answers are right to 1e-6 and better."""
+
+DIP = 1e-3
+"""Relative singular value above which a dip is none that a special value makes."""
+
+
+class HeldAtAnyValue(HeldSolver):
+    """A solver of one held joint, and another at the values at which the rest has one to spare."""
+
+    def __init__(self, inner: HeldSolver, task: Task) -> None:
+        super().__init__(inner.chain, inner.held)
+        self.inner, self.task = inner, task
+        self.name, self.kmax = inner.name, inner.kmax
+
+    def details(self) -> str:
+        """Say how the joints that move are solved for."""
+        return self.inner.details()
+
+    def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4), each with its held value (m, 1)."""
+        self.inner.solve_held(Ts, values, within_limits, out)
+        rows = self._special(values[:, 0])
+        if len(rows):
+            found = Outputs.of(len(rows), self.kmax, self.chain.n)
+            poses = np.ascontiguousarray(Ts[rows])
+            self.one_by_one.solve_held(poses, values[rows], within_limits, found)
+            for whole, part in zip(out, found, strict=True):
+                whole[rows] = part
+
+    def _special(self, values: Array) -> IntArray:
+        """Rows of the values (m,) at which the rest has a joint to spare."""
+        near = np.zeros(len(values), np.bool_)
+        for special in self.values:
+            near |= self._gap(values - special) <= BESIDE
+        rows = np.flatnonzero(near)
+        if len(rows):
+            different, which = np.unique(values[rows], return_inverse=True)
+            rows = rows[(self._rank_gap(different) <= LINED_UP)[which]]
+        return rows
+
+    def _gap(self, ways: Array) -> Array:
+        """Distances of values that are ways (m,) apart, up to full turns."""
+        if self.chain.prismatic[self.held[0]]:
+            return np.abs(ways)
+        return 2.0 * np.abs(np.sin(0.5 * ways))
+
+    @cached_property
+    def one_by_one(self) -> HeldOneByOne:
+        """The solver made anew for each special value."""
+        return HeldOneByOne(self.chain, self.held, self.task, (float(self.values[0]),))
+
+    def _singular_values(self, values: Array) -> Array:
+        """Relative singular values (m, k) of the rest's Jacobian at values (m,), generic ones."""
+        joint, n = self.held[0], self.chain.n
+        q = np.repeat(random_configurations(self.chain, TRIALS)[None], len(values), axis=0)
+        q[:, :, joint] = values[:, None]
+        J = scaled_jacobian(self.chain, self.task, q.reshape(-1, n))
+        sigma = np.linalg.svd(np.delete(J, joint, axis=2), compute_uv=False)
+        sigma = sigma.reshape(len(values), TRIALS, -1)
+        largest: Array = (sigma / sigma[:, :, :1]).max(axis=1)
+        return largest
+
+    @cached_property
+    def _rank(self) -> int:
+        """Rank of the rest's Jacobian at nearly all values."""
+        return int((self._singular_values(np.array([TRIAL_VALUE])) > SPARE_RANK).sum())
+
+    def _rank_gap(self, values: Array) -> Array:
+        """The singular value, at values (m,), that vanishes where the rest loses rank, (m,)."""
+        gap: Array = self._singular_values(values)[:, self._rank - 1]
+        return gap
+
+    @cached_property
+    def values(self) -> Array:
+        """Special values, to within ``BESIDE``, shape (k,)."""
+        joint, count = self.held[0], GRID
+        low, high = -np.pi, np.pi
+        if self.chain.prismatic[joint]:
+            (low, high), count = (float(end[joint]) for end in near_ranges(self.chain)), GRID + 1
+        grid = low + (high - low) * np.arange(count) / GRID
+        gaps, step = self._rank_gap(grid), (high - low) / GRID
+        around = np.concatenate([[np.inf], gaps, [np.inf]])
+        dips = grid[(gaps <= around[:-2]) & (gaps <= around[2:])]
+        least = np.full(len(dips), np.inf)
+        for _ in range(ROUNDS if len(dips) else 0):
+            trial = dips[:, None] + step * np.linspace(-1.0, 1.0, CLOSER)
+            gaps = self._rank_gap(trial.ravel()).reshape(trial.shape)
+            best = gaps.argmin(axis=1)
+            dips, least = trial[np.arange(len(dips)), best], gaps.min(axis=1)
+            step *= 2.0 / (CLOSER - 1)
+        return dips[least <= DIP]
+
+
+def at_any_value(solver: HeldSolver, task: Task) -> HeldSolver:
+    """The solver with special ones at the values of its joint at which it has none."""
+    ready = len(solver.held) > 1 or type(solver) in (HeldEnd, HeldOneByOne)
+    return solver if ready else HeldAtAnyValue(solver, task)
