@@ -32,17 +32,7 @@ from dh2urdf.kernels.newton import (
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
-from dh2urdf.kernels.shapes import (
-    Chain,
-    ClosedForm,
-    Counts,
-    Floats,
-    Integers,
-    Outputs,
-    Poses,
-    Solutions,
-    Three,
-)
+from dh2urdf.kernels.shapes import Chain, ClosedForm, Floats, Integers, Outputs, Poses, Three
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
@@ -130,15 +120,15 @@ def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outpu
 @entry()
 def add_candidates(
     rows: Annotated[Integers, "rows"],
-    q: Solutions,
-    count: Counts,
+    outputs: Outputs,
     wide: Annotated[Floats, "rows", "wide", "n"],
     wide_count: Annotated[Integers, "rows"],
 ):
-    """Append the candidates of the poses in doubt, rows (d,) of q (m, kmax, n), to wide (d, k, n).
+    """Append the candidates of the poses in doubt, rows (d,) of ``outputs``, to wide (d, k, n).
 
     The count of a pose in doubt is -1 minus that of its candidates.
     """
+    q, _, count, _, _ = outputs
     for d in range(rows.shape[0]):
         i = rows[d]
         for r in range(-1 - count[i]):
@@ -188,20 +178,19 @@ def _converges(chain, T, q, A, step, damped):
 
 
 @entry(n=6)
-def search_beside(chain: Chain, Ts: Poses, q: Solutions, count: Counts):
+def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
-    _, joints = chain
-    start, trial, work = np.empty(6), np.empty(6), work_array(6)
-    A, step, damped = np.empty((6, 7)), np.empty(6), make_damped(6)
+    (_, joints), (q, _, count, _, _) = chain, outputs
+    A, step, trial = np.empty((6, 7)), np.empty(6), np.empty(6)
+    work, damped = work_array(6), make_damped(6)
     for i in range(Ts.shape[0]):
         for k in range(count[i]):
             normal_equations(chain, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
-            for j in range(6):
-                start[j] = work[j, 6]
             for w in range(len(WAYS)):
-                trial[:] = q[i, k] + WAYS[w] * start
+                for j in range(6):
+                    trial[j] = q[i, k, j] + WAYS[w] * work[j, 6]
                 if not _converges(chain, Ts[i], trial, A, step, damped):
                     continue
                 if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):

@@ -81,12 +81,8 @@ def invert_poses(Ts: Poses, out: Poses):
 
 def applied(A, v):
     """The point ``A v``."""
-    x, y, z = v
-    return (
-        A[0, 0] * x + A[0, 1] * y + A[0, 2] * z + A[0, 3],
-        A[1, 0] * x + A[1, 1] * y + A[1, 2] * z + A[1, 3],
-        A[2, 0] * x + A[2, 1] * y + A[2, 2] * z + A[2, 3],
-    )
+    x, y, z = turned(A, v)
+    return x + A[0, 3], y + A[1, 3], z + A[2, 3]
 
 
 def applied_inverse(A, v):

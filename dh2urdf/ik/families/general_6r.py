@@ -137,11 +137,6 @@ def _short_links(links: Array) -> Array:
     return short
 
 
-def _flat(transforms: Array) -> Array:
-    """Rows (12,) of transforms (k, 4, 4)."""
-    return np.ascontiguousarray(transforms[:, :3, :]).reshape(-1, 12)
-
-
 def _random_poses(links: Array) -> Array:
     """Reachable poses (POSES, 4, 4), the same ones each time."""
     rng = np.random.default_rng(0)
@@ -183,11 +178,11 @@ def _place(arm: Arm, links: Array) -> None:
     """Set the links (7, 4, 4) of an arm."""
     short = _short_links(links)
     size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
-    arm["links"], arm["size"], arm["ends"] = _flat(links), size, inverse(short[[0, 6]])
+    arm["links"], arm["size"], arm["ends"] = links[:, :3], size, inverse(short[[0, 6]])
     sines, cosines = zip(*(sincos(x) for x in TURN.tolist()), strict=True)
     arm["turns"] = cosines, sines, TURN
-    arm["chain"][0, :5] = _flat(short[1:6])
-    arm["chain"][0, :5, 3::4] /= size
+    arm["chain"][0, :5] = short[1:6, :3]
+    arm["chain"][0, :5, :, 3] /= size
 
 
 def plan_general_6r(links: Array) -> Arm:

@@ -107,9 +107,9 @@ class NearFamily(SolverBase):
             found = Outputs.of(len(rows), self.kmax, 6)
             self.general.solve_unfinished(Ts, found)
             wide.q[:, : self.kmax], wide.counts[:] = found.q, found.counts
-            add_candidates(rows, out.q, out.counts, wide.q, wide.counts)
+            add_candidates(rows, out, wide.q, wide.counts)
             finish_batch(self.chain.tables, Ts, False, wide)
-            search_beside(self.chain.tables, Ts, wide.q, wide.counts)
+            search_beside(self.chain.tables, Ts, wide)
             finish_batch(self.chain.tables, Ts, within_limits, wide)
         return wide
 

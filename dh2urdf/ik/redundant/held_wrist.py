@@ -159,11 +159,10 @@ class HeldWrist(HeldSolver):
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
-        chain, m = self.chain, len(values)
-        q, count = np.empty((m, self.kmax, chain.n)), np.zeros(m, np.int64)
+        chain, out = self.chain, Outputs.of(len(values), self.kmax, self.chain.n)
         arm = self.frames, self.which, self.rows, self.joints, MISS
-        points_on_curves(arm, chain.tables, (POSE, T, chain.size), values, q, count)
-        points: Array = q[np.arange(self.kmax) < count[:, None]]
+        points_on_curves(arm, chain.tables, (POSE, T, chain.size), values, out)
+        points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
         return points
 
 

@@ -212,6 +212,9 @@ def merge_families(chain, T, rows, count, trial, work):
 
 def finish_all(chain, T, within_limits, rows, count, trial, work):
     """Certify candidates, merge what is one, and find the free joints; how many are left."""
+    _, residual, branch, free = rows
+    for k in range(count):
+        residual[k], branch[k], free[k] = -1.0, -1, 0
     count = finish_pose(chain, T, False, *rows, count, work)
     count = merge_families(chain, T, rows, count, trial, work)
     return turn_inside(chain, T, True, *rows, count) if within_limits else count
@@ -234,8 +237,6 @@ def finish_batch(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs)
     n = q.shape[2]
     work, trial = work_array(n), np.empty((2, n))
     for i in range(Ts.shape[0]):
-        for k in range(count[i]):
-            residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         rows = q[i], residual[i], branch[i], free[i]
         count[i] = finish_all(chain, Ts[i], within_limits, rows, count[i], trial, work)
 

@@ -20,16 +20,16 @@ _INTEGERS = {
 
 _ARM = {
     "size": (),  # longest of the short links [m]
-    "links": (7, 12),  # T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]
+    "links": (7, 3, 4),  # T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]
     "ends": (2, 4, 4),  # inverses of the first and the last of the short links
     "turns": (3, 6),  # cosines and sines of the joints' zeros inside the solver, and the zeros
-    "chain": (6, 12),  # short links in between, in parts of the size; then the target
+    "chain": (6, 3, 4),  # short links in between, in parts of the size; then the target
     "lefts": (MOST + 1, 14, 27),  # left sides
 }
 
 _WORK = {
-    "target": 12,
-    "loop": (6, 12),  # closed loop
+    "target": (3, 4),
+    "loop": (6, 3, 4),  # closed loop
     "samples": (14, 9),  # of the right side's fourteen functions
     "right": (9, 14),  # right side and its reflectors
     "basis": (14, 14),  # its orthogonal basis

@@ -17,6 +17,9 @@ import math
 
 import numpy as np
 
+from dh2urdf.kernels.general_6r.arm import OWN
+from dh2urdf.kernels.rigid import applied, applied_inverse, dot, turned, turned_back
+
 HALF_SQRT3 = math.sqrt(0.75)
 INV_SQRT3 = math.sqrt(1.0 / 3.0)
 SQRT2 = math.sqrt(2.0)
@@ -24,11 +27,11 @@ RIGHT_ORDER = np.array([4, 5, 7, 8, 3, 6, 1, 2, 0])
 """Rows c1c2, c1s2, s1c2, s1s2, c1, s1, c2, s2, 1 of the right side among (1, c1, s1)(1, c2, s2)."""
 
 
-def close_loop(chain, shift, reverse, loop):
+def _close_loop(chain, shift, reverse, loop):
     """Write the transforms after each label of the loop ``Z_1 C_1 ... C_5 Z_6 = target``.
 
     Label i is joint ``(shift + i) % 6``; reversed, joint ``(5 - shift - i) % 6`` with the opposite
-    angle. ``chain`` (6, 12) has C_1 ... C_5 and the target.
+    angle. ``chain`` (6, 3, 4) has C_1 ... C_5 and the target.
     """
     for i in range(6):
         joint = (shift + i) % 6 if reverse == 0 else (10 - shift - i) % 6
@@ -38,19 +41,18 @@ def close_loop(chain, shift, reverse, loop):
             loop[i] = chain[joint]
 
 
-def _invert(a, out):
-    """Inverse of a rigid transform (12,)."""
+def _invert(A, out):
+    """Inverse of a rigid transform (3, 4)."""
     for i in range(3):
         for j in range(3):
-            out[4 * i + j] = a[4 * j + i]
-        out[4 * i + 3] = -(a[i] * a[3] + a[4 + i] * a[7] + a[8 + i] * a[11])
+            out[i, j] = A[j, i]
+        out[i, 3] = -(A[0, i] * A[0, 3] + A[1, i] * A[1, 3] + A[2, i] * A[2, 3])
 
 
 def line_functions(line, out, column):
-    """The fourteen functions of the line through p along l, to a column of out (14, m)."""
-    lx, ly, lz, px, py, pz = line
-    pp = px * px + py * py + pz * pz
-    pl2 = 2.0 * (px * lx + py * ly + pz * lz)
+    """The fourteen functions of a line (its direction, a point on it), to a column of out."""
+    (lx, ly, lz), (px, py, pz) = line
+    pp, pl2 = dot(line[1], line[1]), 2.0 * dot(line[1], line[0])
     out[0, column], out[1, column], out[2, column] = px, py, pz
     out[3, column], out[4, column], out[5, column] = lx, ly, lz
     out[6, column], out[7, column] = pp, 0.5 * pl2
@@ -62,55 +64,39 @@ def line_functions(line, out, column):
     out[13, column] = pp * lz - pl2 * pz
 
 
-def _move_line(a, line):
-    """``a (l, p)`` of a line held as six scalars, a (12,)."""
-    lx, ly, lz, px, py, pz = line
-    return (
-        a[0] * lx + a[1] * ly + a[2] * lz,
-        a[4] * lx + a[5] * ly + a[6] * lz,
-        a[8] * lx + a[9] * ly + a[10] * lz,
-        a[0] * px + a[1] * py + a[2] * pz + a[3],
-        a[4] * px + a[5] * py + a[6] * pz + a[7],
-        a[8] * px + a[9] * py + a[10] * pz + a[11],
-    )
+def _moved(A, line):
+    """``A (l, p)`` of a line."""
+    return turned(A, line[0]), applied(A, line[1])
 
 
-def move_line_back(a, line):
-    """``a^-1 (l, p)`` of a line held as six scalars, a (12,)."""
-    lx, ly, lz, px, py, pz = line
-    px, py, pz = px - a[3], py - a[7], pz - a[11]
-    return (
-        a[0] * lx + a[4] * ly + a[8] * lz,
-        a[1] * lx + a[5] * ly + a[9] * lz,
-        a[2] * lx + a[6] * ly + a[10] * lz,
-        a[0] * px + a[4] * py + a[8] * pz,
-        a[1] * px + a[5] * py + a[9] * pz,
-        a[2] * px + a[6] * py + a[10] * pz,
-    )
+def moved_back(A, line):
+    """``A^-1 (l, p)`` of a line."""
+    return turned_back(A, line[0]), applied_inverse(A, line[1])
 
 
-def _turn_line(sample, line):
+def _turned_line(sample, line):
     """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
-    lx, ly, lz, px, py, pz = line
+    (lx, ly, lz), (px, py, pz) = line
     c = 1.0 if sample == 0 else -0.5
     s = 0.0 if sample == 0 else HALF_SQRT3 if sample == 1 else -HALF_SQRT3
-    return c * lx - s * ly, s * lx + c * ly, lz, c * px - s * py, s * px + c * py, pz
+    return (c * lx - s * ly, s * lx + c * ly, lz), (c * px - s * py, s * px + c * py, pz)
 
 
-def left_coefficients(loop, left):
+def _left_coefficients(loop, left):
     """Coefficients of the left side's fourteen functions, to left (14, 27).
 
     Joint 3, the hidden one, stays as (1, cos, sin). Joints 4 and 5 are written in (1, x, x^2) and
     (1, sqrt2 y, y^2) with x, y the tangents of half the angles, after a multiplication by
     ``(1 + x^2)(1 + y^2)``: column ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
     """
-    start = (loop[4, 2], loop[4, 6], loop[4, 10], loop[4, 3], loop[4, 7], loop[4, 11])
+    C = loop[4]
+    start = (C[0, 2], C[1, 2], C[2, 2]), (C[0, 3], C[1, 3], C[2, 3])
     for c in range(3):
-        line5 = _move_line(loop[3], _turn_line(c, start))
+        line5 = _moved(loop[3], _turned_line(c, start))
         for b in range(3):
-            line4 = _move_line(loop[2], _turn_line(b, line5))
+            line4 = _moved(loop[2], _turned_line(b, line5))
             for a in range(3):
-                line_functions(_turn_line(a, line4), left, 9 * a + 3 * b + c)
+                line_functions(_turned_line(a, line4), left, 9 * a + 3 * b + c)
     for f in range(14):
         for i in range(9):
             _series_of_samples(left[f], i, 9)
@@ -136,13 +122,13 @@ def _powers_of_samples(row, i, stride, scale):
     row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
-def right_coefficients(loop, samples, right):
+def _right_coefficients(loop, samples, right):
     """Coefficients of the right side's fourteen functions of joints 1 and 2, to right (9, 14)."""
-    start = move_line_back(loop[5], (0.0, 0.0, 1.0, 0.0, 0.0, 0.0))
+    start = moved_back(loop[5], ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0)))
     for a in range(3):
-        line1 = move_line_back(loop[0], _turn_line((3 - a) % 3, start))
+        line1 = moved_back(loop[0], _turned_line((3 - a) % 3, start))
         for b in range(3):
-            line2 = move_line_back(loop[1], _turn_line((3 - b) % 3, line1))
+            line2 = moved_back(loop[1], _turned_line((3 - b) % 3, line1))
             line_functions(line2, samples, 3 * a + b)
     for f in range(14):
         for a in range(3):
@@ -153,7 +139,7 @@ def right_coefficients(loop, samples, right):
             right[r, f] = samples[f, RIGHT_ORDER[r]]
 
 
-def reduce_right(right, beta, basis):
+def _reduce_right(right, beta, basis):
     """Householder QR of the eight non-constant columns of the right side, its rows (9, 14).
 
     Row j of ``right`` becomes reflector j from its diagonal entry on, and R before it; ``beta``
@@ -189,7 +175,7 @@ def reduce_right(right, beta, basis):
                     basis[r, i] += d * right[j, i]
 
 
-def six_equations(right, basis, lefts, e, equations):
+def _six_equations(right, basis, lefts, e, equations):
     """Project left side e on the null space: ``equations`` (6, 27), columns as in left.
 
     The constant of the right side is brought over, times ``(1 + x^2)(1 + y^2)``.
@@ -204,3 +190,25 @@ def six_equations(right, basis, lefts, e, equations):
         for m in range(0, 9, 6):
             equations[r, m] -= constant
             equations[r, m + 2] -= constant
+
+
+def prepare(arm):
+    """The left sides of the eliminations, as far as they do not depend on the pose."""
+    choices = arm["choices"]
+    for e in range(arm["trials"]):
+        _close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
+        _left_coefficients(arm["loop"], arm["lefts"][e])
+
+
+def eliminate(e, arm):
+    """The six equations of elimination e."""
+    loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
+    right, basis = arm["right"], arm["basis"]
+    _close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
+    _right_coefficients(loop, samples, right)
+    _reduce_right(right, arm["factors"], basis)
+    left = e
+    if 2 <= (5 - choices[e, 0]) % 6 <= 4:
+        left = OWN
+        _left_coefficients(loop, lefts[left])
+    _six_equations(right, basis, lefts, left, arm["equations"])

@@ -13,8 +13,9 @@ looked at again, first with new samples where the polynomial is small, then with
 from typing import Annotated, Any, TypeAlias
 
 from dh2urdf.kernels.general_6r.arm import ARM_6R
+from dh2urdf.kernels.general_6r.elimination import eliminate, prepare
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
-from dh2urdf.kernels.general_6r.roots import eliminate, find_roots, nudge, place_target, prepare
+from dh2urdf.kernels.general_6r.roots import find_roots, nudge, place_target
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.shapes import Counts, Poses, Solutions, Values
 
@@ -48,7 +49,7 @@ def _solve_pose(T, out_q, out_residual, arm):
             break
         e = trial % trials
         if e == 0 and trial > 0:
-            nudge(arm["chain"], trial // trials)
+            nudge(arm["chain"][5], trial // trials)
         eliminate(e, arm)
         before, retried, seeded = found, 0, 0.0
         count = find_roots(arm)

@@ -20,9 +20,10 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, move_line_back
-from dh2urdf.kernels.newton import chain_frames, twelve
+from dh2urdf.kernels.general_6r.elimination import SQRT2, line_functions, moved_back
+from dh2urdf.kernels.newton import chain_frames
 from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side
+from dh2urdf.kernels.rigid import turned_back
 
 HALF = 3 * LANES
 LEFT = 3 * 12 * LANES
@@ -139,12 +140,11 @@ def split_pairs(b, second, n):
 
 def _functions(loop, frames, n, out):
     """The fourteen functions of axis 6's line, to out (14, LANES)."""
-    second = twelve(loop[1])
     for k in side_by_side(n):
         f = LEFT + k
-        lx, ly, lz = frames[f + 2 * LANES], frames[f + 6 * LANES], frames[f + 10 * LANES]
-        px, py, pz = frames[f + 3 * LANES], frames[f + 7 * LANES], frames[f + 11 * LANES]
-        line_functions(move_line_back(second, (lx, ly, lz, px, py, pz)), out, k)
+        z6 = frames[f + 2 * LANES], frames[f + 6 * LANES], frames[f + 10 * LANES]
+        p6 = frames[f + 3 * LANES], frames[f + 7 * LANES], frames[f + 11 * LANES]
+        line_functions(moved_back(loop[1], (z6, p6)), out, k)
 
 
 def _project(basis, row, constant, functions, n, out):
@@ -165,7 +165,7 @@ def _project(basis, row, constant, functions, n, out):
 def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions, y):
     """Joints 1, 2 and 6 of n lanes.
 
-    ``right``, ``beta`` and ``basis`` as `reduce_right` leaves them; frames (7 * 144,), functions
+    ``right``, ``beta`` and ``basis`` as the elimination leaves them; frames (7 * 144,), functions
     (14, 24) and y (96,) scratch.
     """
     chain_frames(loop[1:5], cosines[2 * LANES :], sines[2 * LANES :], n, frames)
@@ -189,12 +189,10 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
 
 def _last_joint(loop, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
-    x0, y0, z0 = loop[5, 0], loop[5, 1], loop[5, 2]
-    first = twelve(loop[0])
+    x0, y0, z0 = loop[5, 0, 0], loop[5, 0, 1], loop[5, 0, 2]
     for k in side_by_side(n):
         c1, s1, c2, s2 = cosines[k], sines[k], cosines[LANES + k], sines[LANES + k]
-        row = (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0, 0.0, 0.0, 0.0)
-        x, y, z, _, _, _ = move_line_back(first, row)
+        x, y, z = turned_back(loop[0], (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0))
         x, y = x * c2 + y * s2, y * c2 - x * s2
         f = LEFT + k
         c = x * frames[f] + y * frames[f + 4 * LANES] + z * frames[f + 8 * LANES]

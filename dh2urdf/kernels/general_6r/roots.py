@@ -1,4 +1,4 @@
-"""The hidden joint's values at one pose: close the loop, eliminate, find the roots.
+"""The hidden joint's values at one pose: place the target, find the roots.
 
 Everything works on the record `ARM_6R`.
 """
@@ -13,14 +13,6 @@ from dh2urdf.kernels.general_6r.arc_samples import (
     circle_arcs,
     window_arc,
     window_nodes,
-)
-from dh2urdf.kernels.general_6r.arm import OWN
-from dh2urdf.kernels.general_6r.elimination import (
-    close_loop,
-    left_coefficients,
-    reduce_right,
-    right_coefficients,
-    six_equations,
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
 from dh2urdf.kernels.numbers import LANES, sincos
@@ -47,17 +39,16 @@ NUDGE = 1e-3
 
 def place_target(T, arm):
     """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
-    ends, chain, target, size = arm["ends"], arm["chain"], arm["target"], arm["size"]
+    ends, C, target, size = arm["ends"], arm["chain"][5], arm["target"], arm["size"]
+    target[:] = T[:3]
     r = times_link(times_link(load_pose(ends[0]), T), ends[1])
-    for e in range(12):
-        target[e] = T[e // 4, e % 4]
-    chain[5, 0], chain[5, 1], chain[5, 2], chain[5, 3] = r[0], r[1], r[2], r[3] / size
-    chain[5, 4], chain[5, 5], chain[5, 6], chain[5, 7] = r[4], r[5], r[6], r[7] / size
-    chain[5, 8], chain[5, 9], chain[5, 10], chain[5, 11] = r[8], r[9], r[10], r[11] / size
+    C[0, 0], C[0, 1], C[0, 2], C[0, 3] = r[0], r[1], r[2], r[3] / size
+    C[1, 0], C[1, 1], C[1, 2], C[1, 3] = r[4], r[5], r[6], r[7] / size
+    C[2, 0], C[2, 1], C[2, 2], C[2, 3] = r[8], r[9], r[10], r[11] / size
 
 
-def nudge(chain, attempt):
-    """Move the target of the eliminations a little, another way at each attempt.
+def nudge(target, attempt):
+    """Move the ``target`` of the eliminations (3, 4) a little, another way at each attempt.
 
     At a symmetric pose every determinant may vanish identically; solutions of a pose nearby are
     as good as seeds. Where solutions crowd, each attempt takes it further. A turn by
@@ -67,36 +58,14 @@ def nudge(chain, attempt):
     x, y, z = 0.36 * t, -0.80 * t, 0.48 * t
     f = 2.0 / (1.0 + t * t)
     for j in range(4):
-        a, b, c = chain[5, j], chain[5, 4 + j], chain[5, 8 + j]
+        a, b, c = target[0, j], target[1, j], target[2, j]
         u, v, w = a + y * c - z * b, b + z * a - x * c, c + x * b - y * a
-        chain[5, j] = a + f * (y * w - z * v)
-        chain[5, 4 + j] = b + f * (z * u - x * w)
-        chain[5, 8 + j] = c + f * (x * v - y * u)
-    chain[5, 3] += 0.64 * t
-    chain[5, 7] += 0.48 * t
-    chain[5, 11] -= 0.60 * t
-
-
-def prepare(arm):
-    """The left sides of the eliminations, as far as they do not depend on the pose."""
-    choices = arm["choices"]
-    for e in range(arm["trials"]):
-        close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
-        left_coefficients(arm["loop"], arm["lefts"][e])
-
-
-def eliminate(e, arm):
-    """The six equations of elimination e."""
-    loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
-    right, basis = arm["right"], arm["basis"]
-    close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
-    right_coefficients(loop, samples, right)
-    reduce_right(right, arm["factors"], basis)
-    left = e
-    if 2 <= (5 - choices[e, 0]) % 6 <= 4:
-        left = OWN
-        left_coefficients(loop, lefts[left])
-    six_equations(right, basis, lefts, left, arm["equations"])
+        target[0, j] = a + f * (y * w - z * v)
+        target[1, j] = b + f * (z * u - x * w)
+        target[2, j] = c + f * (x * v - y * u)
+    target[0, 3] += 0.64 * t
+    target[1, 3] += 0.48 * t
+    target[2, 3] -= 0.60 * t
 
 
 def _sample(k, arm):

@@ -12,7 +12,7 @@ from dh2urdf.kernels.newton.damped import (
     restore,
     solve_damped,
 )
-from dh2urdf.kernels.newton.lanes import chain_frames, newton_step, pose_error, twelve
+from dh2urdf.kernels.newton.lanes import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.newton.steps import (
     MAX_TURN,
     POLISH,

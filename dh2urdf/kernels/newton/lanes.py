@@ -7,29 +7,25 @@ turned by the tangent of the step, so that no trigonometric function is called.
 import math
 
 from dh2urdf.kernels.numbers import COLUMN, LANES, reduce_columns, side_by_side, solve_upper
+from dh2urdf.kernels.rigid import load_pose
 
 FRAME = 12 * LANES
 LARGEST_STEP = 0.5
 """A Newton step [rad] is shortened to this."""
 
 
-def twelve(a):
-    """Entries of a transform (12,) as scalars."""
-    return a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], a[9], a[10], a[11]
-
-
 def chain_frames(steps, cosines, sines, n, frames):
     """``F_0 = steps[0]``, ``F_i = F_(i-1) Z_i steps[i]`` for n lanes, to seven runs of twelve.
 
-    steps (7, 12); cosines, sines six runs of LANES.
+    steps (7, 3, 4); cosines, sines six runs of LANES.
     """
     for e in range(12):
-        value = steps[0, e]
+        value = steps[0, e // 4, e % 4]
         f = e * LANES
         for k in side_by_side(n):
             frames[f + k] = value
     for i in range(len(steps) - 1):
-        a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = twelve(steps[i + 1])
+        a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = load_pose(steps[i + 1])
         q = i * LANES
         for row in range(3):
             f = i * FRAME + 4 * row * LANES
@@ -46,12 +42,12 @@ def chain_frames(steps, cosines, sines, n, frames):
 
 
 def pose_error(target, frames, n, error, position, angle):
-    """Twist from the last frame to the target (12,), in base axes.
+    """Twist from the last frame to the target (3, 4), in base axes.
 
     ``error`` (6 runs of LANES): linear, angular. ``position`` [length] and ``angle`` [rad] are its
     sizes; an angle beyond 90 degrees is reported as 3.
     """
-    t00, t01, t02, t03, t10, t11, t12, t13, t20, t21, t22, t23 = twelve(target)
+    t00, t01, t02, t03, t10, t11, t12, t13, t20, t21, t22, t23 = load_pose(target)
     f = 6 * FRAME
     for k in side_by_side(n):
         r00, r01, r02 = frames[f + k], frames[f + 24 + k], frames[f + 48 + k]

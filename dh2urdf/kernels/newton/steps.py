@@ -1,7 +1,6 @@
 """Newton's method on the exact chain, and the residual that it works on.
 
-A target T is a pose
-(4, 4), or a point (3,) for the tool's origin: then only the position counts.
+A target T is a pose (4, 4), or a point (3,) for the tool's origin: then only the position counts.
 """
 
 import math

@@ -13,7 +13,7 @@ from dh2urdf.kernels.numbers.dual_quaternions import (
     dual_product,
     dual_times_joint,
 )
-from dh2urdf.kernels.numbers.elementary import acos, asin, atan2, few_turns, hypot, sincos
+from dh2urdf.kernels.numbers.elementary import asin, atan2, few_turns, hypot, sincos
 from dh2urdf.kernels.numbers.engine import entry, side_by_side
 from dh2urdf.kernels.numbers.lanes import COLUMN, LANES, null_vectors, reduce_columns, solve_upper
 from dh2urdf.kernels.numbers.poses import copy_pose, first_bad_pose, is_pose, pad_solutions

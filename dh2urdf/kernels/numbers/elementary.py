@@ -3,7 +3,7 @@
 What a library's ``sin`` rounds differs between processors and versions; these are straight-line
 code whose order of operations is the definition, interpreted or compiled without contraction.
 Errors in units of the last place, against 200-bit arithmetic: sine and cosine 0.66 (up to 4e5
-rad), arctangent 0.67, arc cosine and sine 0.69, hypotenuse 0.5001; 0.75 near the least numbers. NaN
+rad), arctangent 0.67, arc sine 0.69, hypotenuse 0.5001; 0.75 near the least numbers. NaN
 passes; infinities give NaN.
 
 Arguments are reduced with constants in two or three parts whose products are exact; heads of
@@ -137,41 +137,23 @@ def atan2(y: float, x: float) -> float:
     return math.copysign(h + (((base - h) + u) + (base_rest + sign * s)), y)
 
 
-def _arc(ax):
-    """For |x|: the root or the number itself, and the rest of the arc sine of that."""
+def asin(x):
+    """Arc sine [rad]; NaN beyond 1."""
+    ax = abs(x)
     far = ax > 0.5
     half = 0.5 * (1.0 - ax)
-    z = half if far else ax * ax
     root = math.sqrt(abs(half))
     g = root * SPLIT
     head = g - (g - root)
-    inverse = 0.5 / (root + SPECK)
-    error = ((half - head * head) - (root + head) * (root - head)) * inverse
-    s = root if far else ax
+    error = ((half - head * head) - (root + head) * (root - head)) * (0.5 / (root + SPECK))
+    # The number or the root, and the rest of its arc sine.
+    s, z = (root, half) if far else (ax, ax * ax)
     z2 = z * z
     z4 = z2 * z2
     p = ((A3 + z * A5) + z2 * (A7 + z * A9)) + z4 * ((A11 + z * A13) + z2 * (A15 + z * A17))
     p = p + (z4 * z4) * (((A19 + z * A21) + z2 * (A23 + z * A25)) + z4 * A27)
-    return s, (error if far else 0.0) + (s * z) * p
-
-
-def acos(x):
-    """Arc cosine [rad]; NaN beyond 1."""
-    ax = abs(x)
-    s, rest = _arc(ax)
-    side = math.copysign(1.0, x)
-    quarters, sign = (1.0 - side, 2.0 * side) if ax > 0.5 else (1.0, -side)
-    base, u = quarters * QUARTER, sign * s
-    h = base + u
-    angle = h + (((base - h) + u) + (quarters * QUARTER_REST + sign * rest))
-    return math.nan if ax > 1.0 else angle
-
-
-def asin(x):
-    """Arc sine [rad]; NaN beyond 1."""
-    ax = abs(x)
-    s, rest = _arc(ax)
-    quarters, sign = (1.0, -2.0) if ax > 0.5 else (0.0, 1.0)
+    rest = (error if far else 0.0) + (s * z) * p
+    quarters, sign = (1.0, -2.0) if far else (0.0, 1.0)
     base, u = quarters * QUARTER, sign * s
     h = base + u
     angle = h + (((base - h) + u) + (quarters * QUARTER_REST + sign * rest))

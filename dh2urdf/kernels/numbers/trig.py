@@ -66,13 +66,8 @@ def linear_trig(a, b, d, slack):
         side = math.copysign(1.0, d) / amplitude
         return 1, side * a, side * b, side * a, side * b
     root *= math.sqrt(amplitude + abs(d))
-    return (
-        2,
-        (a * d - b * root) / square,
-        (b * d + a * root) / square,
-        (a * d + b * root) / square,
-        (b * d - a * root) / square,
-    )
+    c1, s1 = (a * d - b * root) / square, (b * d + a * root) / square
+    return 2, c1, s1, (a * d + b * root) / square, (b * d - a * root) / square
 
 
 def elbow_angle(upper, fore, square, slack):

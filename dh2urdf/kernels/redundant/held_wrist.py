@@ -27,26 +27,8 @@ from dh2urdf.kernels.certificate import ACCEPT, finish_pose, reverse_joints
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
 from dh2urdf.kernels.newton import make_damped, restore
 from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
-from dh2urdf.kernels.rigid import (
-    applied,
-    applied_inverse,
-    invert_pose,
-    joint_times_link,
-    load_pose,
-    store_pose,
-    turned_back,
-)
-from dh2urdf.kernels.shapes import (
-    Chain,
-    Counts,
-    Floats,
-    Goal,
-    Held,
-    Integers,
-    Outputs,
-    Poses,
-    Solutions,
-)
+from dh2urdf.kernels.rigid import applied, applied_inverse, invert_pose, turned_back
+from dh2urdf.kernels.shapes import Chain, Floats, Goal, Held, Integers, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
@@ -57,7 +39,7 @@ from dh2urdf.kernels.spherical_wrist import (
 )
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
-ORIENTED_LINKS, LINK, BEFORE, AFTER, ENDS, SIDES, FACTORS = 8, 16, 19, 20, 21, 24, 26
+ORIENTED_LINKS, LINK, AROUND, ENDS, SIDES, FACTORS = 8, 16, 19, 21, 24, 26
 
 
 def make_scratch():
@@ -87,10 +69,9 @@ def oriented_pose(frames, which, value, T, scratch):
     tool_to_wrist(frames[ENDS:], target, D)
     for i in range(3):
         if i == which[VARIES]:
-            r = joint_times_link(load_pose(frames[BEFORE]), slides, value, frames[AFTER])
-            store_pose(r, S[i])
+            held_links(frames[AROUND : AROUND + 2], slides, 0, value, S[i : i + 1])
         else:
-            store_pose(load_pose(frames[LINK + i]), S[i])
+            S[i] = frames[LINK + i]
 
 
 def _place_wrist(form, D, S, slack, scratch):
@@ -198,20 +179,18 @@ def solve_held_wrist(arm: HeldForm, values: Held, Ts: Poses, within_limits: bool
 
 
 @entry(n=7, solutions=8)
-def points_on_curves(
-    arm: HeldForm, chain: Chain, goal: Goal, values: Held, q: Solutions, count: Counts
-):
-    """Solutions of one pose on its curves near the held values (m,); q (m, 8, 7).
+def points_on_curves(arm: HeldForm, chain: Chain, goal: Goal, values: Held, outputs: Outputs):
+    """Solutions of one pose on its curves near the held values (m,): q (m, 8, 7) and counts.
 
     With a large slack also a value that just misses a curve gives a candidate. All seven joints of
     the chain take part in putting it on the curve, so that a loop between two values is found.
     """
+    q, residual, count, branch, free = outputs
     scratch, damped, work = make_scratch(), make_damped(7), np.empty(7)
-    rest = scratch[7], np.empty(8), np.empty(8, np.int64), np.empty(8, np.int64)
-    held, T = arm[1][HELD], goal[1]
     for i in range(values.shape[0]):
-        found = held_candidates(arm, values[i], T, rest, scratch)
-        insert_held(held, values[i], rest[0], q[i], rest[3], found)
+        rest = scratch[7], residual[i], branch[i], free[i]
+        found = held_candidates(arm, values[i], goal[1], rest, scratch)
+        insert_held(arm[1][HELD], values[i], scratch[7], q[i], free[i], found)
         kept = 0
         for k in range(found):
             q[i, kept] = q[i, k]

@@ -265,7 +265,7 @@ def solve_held_blocks(
     prepare_block(frames, which, values, S)
     for first in range(0, m, LANES):
         n = min(LANES, m - first)
-        load_block(frames, which, values, Ts, same, first, n, S)
+        load_block(frames, which, values, Ts, same, seen_from_tool, first, n, S)
         place_elbows(S2, form[3, 3], slack, n, S)
         place_shoulders(S0, slack, n, S)
         for k in range(4):

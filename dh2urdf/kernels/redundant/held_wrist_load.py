@@ -14,15 +14,7 @@ with factors that belong to the arm.
 
 from dh2urdf.kernels.blocks import BLOCK, LANES, WORK, at, column, load_poses
 from dh2urdf.kernels.numbers import few_turns, side_by_side, sincos
-from dh2urdf.kernels.redundant.held_wrist import (
-    ENDS,
-    FACTORS,
-    ORIENTED,
-    REVERSED,
-    SIDES,
-    SLIDES,
-    VARIES,
-)
+from dh2urdf.kernels.redundant.held_wrist import ENDS, FACTORS, ORIENTED, SIDES, SLIDES, VARIES
 from dh2urdf.kernels.rigid import dot
 
 UPPER, LEVER = WORK, WORK + 12
@@ -54,12 +46,12 @@ def prepare_block(frames, which, values, S):
     _links_and_levers(frames, LANES, S)
 
 
-def load_block(frames, which, values, Ts, same, first, n, S):
+def load_block(frames, which, values, Ts, same, seen_from_tool, first, n, S):
     """Target, S1 and lever of each pose, one a lane; ``same``: all have the first one's value."""
     if not same:
         _held_joint(which[SLIDES] != 0, values, first, n, S)
         _links_and_levers(frames, n, S)
-    seen_from_tool, last = which[REVERSED] != 0, which[ORIENTED] == 6
+    last = which[ORIENTED] == 6
     load_poses(frames[SIDES:], 0.0, Ts, first, n, S)
     if seen_from_tool != last:
         _invert(n, S)

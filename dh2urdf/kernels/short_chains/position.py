@@ -242,7 +242,5 @@ def solve_short_positions(arm: PositionArm, Ts: Poses, within_limits: bool, outp
     for i in range(Ts.shape[0]):
         p[0], p[1], p[2] = Ts[i, 0, 3], Ts[i, 1, 3], Ts[i, 2, 3]
         found = _candidates(slides, frames, point, p, rest, unit, roots, pairs, many[0])
-        for k in range(found):
-            many[1][k], many[2][k], many[3][k] = -1.0, -1, 0
         found = finish_all(chain, p, within_limits, many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))
