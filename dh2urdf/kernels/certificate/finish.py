@@ -1,8 +1,4 @@
-"""From candidates to solutions: double roots, families, limits, and back from the reversed chain.
-
-Solutions that cannot be told apart at the accuracy of a residual become one. Singular families
-are found by which joints can move while the tool stays.
-"""
+"""From candidates to solutions: double roots, families, limits, and the reversed chain."""
 
 import math
 

@@ -1,8 +1,8 @@
 """Any arm of six turning joints: elimination, roots on arcs of the circle, Newton, a count.
 
-`poses` is the solver (after Raghavan and Roth 1993), `arm` what it knows of an arm; `elimination`
-and `resultant` make a polynomial in the hidden joint, `roots` finds its real roots by `arc_samples`
-and `arc_roots`; `follow` leads from a root to solutions.
+`poses` is the solver (after Raghavan and Roth 1993), `arm` the record on which everything works;
+`elimination` and `resultant` make a polynomial in the hidden joint, `roots` finds its real roots
+by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions.
 """
 
 from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST

@@ -1,9 +1,8 @@
-"""Real roots of a trigonometric polynomial of degree 8 that is known by samples.
+"""Real roots of a trigonometric polynomial of degree 8, by its Bernstein coefficients on arcs.
 
-On an arc around q_0, ``(1 + t^2)^8 f`` with ``t = tan((q - q_0) / 2)`` is a polynomial of degree
-16. Its Bernstein coefficients change sign at least as often as it has roots there, and by an even
-number more (Descartes): none means no root, one means one. Arcs with more changes are halved
-until they are decided, so no root is overlooked.
+These change sign at least as often as it has roots there, and by an even number more (Descartes):
+none means no root, one means one. Arcs with more changes are halved until they are decided, so no
+root is overlooked.
 """
 
 import math

@@ -1,7 +1,4 @@
-"""From roots to solutions: seeds for all joints, Newton on the exact chain, a list without doubles.
-
-Everything works on the record `ARM_6R`.
-"""
+"""From roots to solutions: seeds, Newton on the exact chain, a list without doubles."""
 
 import math
 

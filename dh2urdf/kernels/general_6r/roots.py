@@ -1,7 +1,4 @@
-"""The hidden joint's values at one pose: place the target, find the roots.
-
-Everything works on the record `ARM_6R`.
-"""
+"""The hidden joint's values at one pose: place the target, find the roots."""
 
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arc
 from dh2urdf.kernels.general_6r.arc_samples import (

@@ -45,12 +45,8 @@ def _one_by_one(M, N, d, slack, out):
     ratio = 0.0
     if largest > 0.0:
         ratio = (N[keep, 0] * N[drop, 0] + N[keep, 1] * N[drop, 1]) / largest
-    count, c1, s1, c2, s2 = linear_trig(
-        M[drop, 0] - ratio * M[keep, 0],
-        M[drop, 1] - ratio * M[keep, 1],
-        d[drop] - ratio * d[keep],
-        slack,
-    )
+    a, b = M[drop, 0] - ratio * M[keep, 0], M[drop, 1] - ratio * M[keep, 1]
+    count, c1, s1, c2, s2 = linear_trig(a, b, d[drop] - ratio * d[keep], slack)
     if count < 0:
         return -1
     rows = 0

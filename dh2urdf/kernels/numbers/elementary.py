@@ -175,9 +175,8 @@ def hypot(x: float, y: float) -> float:
     small_head = g - (g - small)
     g = h * SPLIT
     h_head = g - (g - h)
-    tails = (large + large_head) * (large - large_head) + (small + small_head) * (
-        small - small_head
-    )
+    tails = (large + large_head) * (large - large_head)
+    tails += (small + small_head) * (small - small_head)
     heads = (large_head * large_head - h_head * h_head) + small_head * small_head
     error = (heads + (tails - (h + h_head) * (h - h_head))) * (0.5 / (h + SPECK))
     return (h + error) * back

@@ -49,7 +49,7 @@ def pairs_of_meeting(form, D, slack, pair):
     count, c1, s1, c2, s2 = linear_trig(-sa1 * py, sa1 * px, offset, slack)
     free = px * px + py * py <= FREE * FREE and abs(offset) <= FREE
     if free:
-        count, c1, s1 = 1, sincos(form[0, 4])[1], sincos(form[0, 4])[0]
+        count, (s1, c1) = 1, sincos(form[0, 4])
     for k in range(count):
         pair[k, 0], pair[k, 1] = (c1, s1) if k == 0 else (c2, s2)
         pair[k, 2], pair[k, 3] = 1.0, 0.0
@@ -124,9 +124,9 @@ def _pairs_in_line(form, D, offset, c5, pair, pairs):
         r = (-b + (root if k == 0 else -root)) / a
         x, y = ((N * r - F) / M, r) if abs(M) >= abs(N) else (r, (F + M * r) / N)
         x, y = _settle_in_line(start, sa1, px, py, F, B, N, x, y)
-        cx, sx = sincos(x)[1], sincos(x)[0]
+        (sx, cx), (sy, cy) = sincos(x), sincos(y)
         pair[pairs, 0], pair[pairs, 1] = c1 * cx - s1 * sx, s1 * cx + c1 * sx
-        pair[pairs, 2], pair[pairs, 3] = c5 * sincos(y)[1], c5 * sincos(y)[0]
+        pair[pairs, 2], pair[pairs, 3] = c5 * cy, c5 * sy
         pairs += 1
     return pairs
 
@@ -137,11 +137,12 @@ def _settle_in_line(start, sa1, px, py, F, B, N, x, y):
     for _ in range(NEWTON_STEPS):
         sx, h = sincos(x)[0], sincos(0.5 * x)[0]
         dc, ds = -s1 * sx - 2.0 * c1 * h * h, c1 * sx - 2.0 * s1 * h * h
-        ux, uy, sy, g = vx + sa1 * ds, vy - sa1 * dc, sincos(y)[0], sincos(0.5 * y)[0]
+        (sy, cy), g = sincos(y), sincos(0.5 * y)[0]
+        ux, uy = vx + sa1 * ds, vy - sa1 * dc
         f1 = 0.5 * (ux * ux + uy * uy + vz * vz) - 2.0 * B * g * g
         f2 = F + sa1 * (px * ds - py * dc) - N * sy
         f1x, f1y = sa1 * (ux * (c1 + dc) + uy * (s1 + ds)), -B * sy
-        f2x, f2y = sa1 * (px * (c1 + dc) + py * (s1 + ds)), -N * sincos(y)[1]
+        f2x, f2y = sa1 * (px * (c1 + dc) + py * (s1 + ds)), -N * cy
         det = f1x * f2y - f1y * f2x
         if det == 0.0:
             break

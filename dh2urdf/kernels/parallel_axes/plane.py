@@ -91,7 +91,7 @@ def last_joint(form, first, D, cs):
     c6, s6 = x * rx + y * ry, y * rx - x * ry
     r = hypot(c6, s6)
     if in_line <= NICE or r == 0.0:
-        cs[5, 0], cs[5, 1] = sincos(form[5, 4])[1], sincos(form[5, 4])[0]
+        cs[5, 1], cs[5, 0] = sincos(form[5, 4])
     else:
         cs[5, 0], cs[5, 1] = c6 / r, s6 / r
     return in_line
@@ -119,8 +119,9 @@ def _common_direction(form, c4, e):
     return k * sincos(e)[0], -2.0 * k * form[3, 1] * half * half
 
 
-def _offset(form, rise, slope, c4, nominal, c5, s5):
+def _offset(lean, c5, s5):
     """The e that goes with t5, and whether height and slope are those of the pose to rounding."""
+    form, _, _, rise, slope, c4, nominal = lean
     k, e = form[2, 2] * c4, nominal
     a, b = form[4, 0] * k * c5 - rise[2] * c4, form[4, 2] * k * s5
     square = a * a + b * b
@@ -135,8 +136,9 @@ def _offset(form, rise, slope, c4, nominal, c5, s5):
     return e, abs(high) <= eta and abs(steep) <= eta
 
 
-def _beyond(form, D, cs, c4, e, c5, s5):
+def _beyond(lean, e, c5, s5):
     """Set t4 and t5 in cs; how far the planar arm is from reaching, not positive if it does."""
+    form, D, cs, _, _, c4, _ = lean
     s4 = sincos(e)[0]
     cs[3, 0], cs[3, 1] = c4 * math.sqrt((1.0 - s4) * (1.0 + s4)), c4 * s4
     cs[4, 0], cs[4, 1] = c5, s5
@@ -155,33 +157,32 @@ def _keep(cs, pairs, count):
     return count
 
 
-def _try(form, D, cs, rise, slope, c4, nominal, t5):
+def _try(lean, t5):
     """Set t4 and t5 in cs; how far the planar arm is from reaching, infinite if t4 does not fit."""
-    c5, s5 = sincos(t5)[1], sincos(t5)[0]
-    e, fits = _offset(form, rise, slope, c4, nominal, c5, s5)
-    beyond = _beyond(form, D, cs, c4, e, c5, s5)
+    s5, c5 = sincos(t5)
+    e, fits = _offset(lean, c5, s5)
+    beyond = _beyond(lean, e, c5, s5)
     return beyond if fits else math.inf
 
 
-def _dip(form, D, cs, rise, slope, c4, nominal, t5):
+def _dip(lean, t5):
     """Where between the neighbours of a trial t5 the planar arm is nearest to reaching."""
     low, high = t5 - TWO_PI / TRIALS, t5 + TWO_PI / TRIALS
     for _ in range(HALVINGS):
         third = (high - low) / 3.0
-        first = _try(form, D, cs, rise, slope, c4, nominal, low + third)
-        if first <= _try(form, D, cs, rise, slope, c4, nominal, high - third):
+        first = _try(lean, low + third)
+        if first <= _try(lean, high - third):
             high -= third
         else:
             low += third
     return 0.5 * (low + high)
 
 
-def _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs):
+def _wide_arcs(lean, beyond, pairs):
     """The middle of every arc of t5 that is found by trying; how many. ``beyond`` (TRIALS,)."""
     start = 0
     for j in range(TRIALS):
-        t5 = TWO_PI * (j + 0.5) / TRIALS
-        beyond[j] = _try(form, D, cs, rise, slope, c4, nominal, t5)
+        beyond[j] = _try(lean, TWO_PI * (j + 0.5) / TRIALS)
         if not beyond[j] <= 0.0:
             start = j + 1
     count, run = 0, 0
@@ -192,21 +193,19 @@ def _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs):
             continue
         if run > 0:
             middle = j - run // 2 - 1
-            t5 = TWO_PI * (middle + 0.5) / TRIALS
-            _try(form, D, cs, rise, slope, c4, nominal, t5)
-            count = _keep(cs, pairs, count)
+            _try(lean, TWO_PI * (middle + 0.5) / TRIALS)
+            count = _keep(lean[2], pairs, count)
         run = 0
         around = min(beyond[(j - 1) % TRIALS], beyond[(j + 1) % TRIALS])
-        if j < start + TRIALS and 0.0 < here <= around and here < math.inf:
-            t5 = TWO_PI * (j + 0.5) / TRIALS
-            t5 = _dip(form, D, cs, rise, slope, c4, nominal, t5)
-            if _try(form, D, cs, rise, slope, c4, nominal, t5) <= 0.0:
-                count = _keep(cs, pairs, count)
+        lowest = j < start + TRIALS and 0.0 < here <= around and here < math.inf
+        if lowest and _try(lean, _dip(lean, TWO_PI * (j + 0.5) / TRIALS)) <= 0.0:
+            count = _keep(lean[2], pairs, count)
     return count
 
 
-def _fifth(form, rise, slope, c4, e, side):
+def _fifth(lean, e, side):
     """Cosine and sine of the t5 that goes with e, on either side; (0, 0) if there is none."""
+    form, _, _, rise, slope, c4, _ = lean
     fx, fy = _common_direction(form, c4, e)
     f = math.copysign(hypot(fx, fy), fx)
     if f == 0.0:
@@ -226,8 +225,9 @@ def _fifth(form, rise, slope, c4, e, side):
     return (c * fx - s * fy) / f, (s * fx + c * fy) / f
 
 
-def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
+def _narrow_arcs(lean, beyond, pairs, count):
     """Append arcs between the trials, met by trying e near its root; the new count."""
+    form, _, cs, rise, slope, c4, nominal = lean
     row = rise if form[4, 0] == 0.0 else slope
     steep = abs(row[2] * c4 - row[1] * c4 * nominal)
     width = min(ETA / max(steep, 1e-300), abs(nominal)) / STEPS
@@ -237,10 +237,10 @@ def _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count):
         for j in range(2 * STEPS + 1):
             step = width * ((j + 1) // 2)
             e = sign * (nominal + (step if j & 1 else -step))
-            c5, s5 = _fifth(form, rise, slope, c4, e, side)
+            c5, s5 = _fifth(lean, e, side)
             if c5 == 0.0 and s5 == 0.0:
                 continue
-            if _beyond(form, D, cs, c4, e, c5, s5) <= 0.0:
+            if _beyond(lean, e, c5, s5) <= 0.0:
                 turn = atan2(s5, c5) / TWO_PI - 0.5 / TRIALS
                 below = int((turn - np.floor(turn)) * TRIALS) % TRIALS
                 if not beyond[below] <= 0.0 and not beyond[(below + 1) % TRIALS] <= 0.0:
@@ -259,15 +259,13 @@ def pairs_of_leaning(form, D, cs, c4, s4, pairs):
     rise, slope, beyond = np.empty(3), np.empty(3), np.empty(TRIALS)
     levels(form, D, rise, slope)
     nominal = asin(s4) if c4 > 0.0 else asin(-s4)
-    c4 = 1.0 if c4 > 0.0 else -1.0
-    count = _wide_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs)
-    count = _narrow_arcs(form, D, cs, rise, slope, c4, nominal, beyond, pairs, count)
+    lean = form, D, cs, rise, slope, 1.0 if c4 > 0.0 else -1.0, nominal
+    count = _wide_arcs(lean, beyond, pairs)
+    count = _narrow_arcs(lean, beyond, pairs, count)
     if count > 0:
         return count
     best = 0
     for j in range(TRIALS):
         best = j if beyond[j] < beyond[best] else best
-    t5 = TWO_PI * (best + 0.5) / TRIALS
-    t5 = _dip(form, D, cs, rise, slope, c4, nominal, t5)
-    _try(form, D, cs, rise, slope, c4, nominal, t5)
+    _try(lean, _dip(lean, TWO_PI * (best + 0.5) / TRIALS))
     return _keep(cs, pairs, 0)

@@ -6,8 +6,7 @@ of the other joints: a subproblem 6, or 4 twice where axes 5 and 6 meet. Then ax
 subproblem 1, and the three are a planar RR arm with a wrist (Elias and Wen; EAIK).
 
 In Denavit-Hartenberg form (:mod:`dh2urdf.kernels.spherical_wrist.position_arm`) the parallel axes
-have alpha = 0 between them. ``pair`` (8, 5) holds cosine and sine of the first unknown, of t5, and
-whether t5 is free.
+have alpha = 0 between them.
 """
 
 import math

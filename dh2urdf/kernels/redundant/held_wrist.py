@@ -118,7 +118,7 @@ def _orientation_left(D, S, values, R):
     for j in range(3):
         x, y, z = D[0, j], D[1, j], D[2, j]
         for i in range(3):
-            c, s = sincos(values[i])[1], sincos(values[i])[0]
+            s, c = sincos(values[i])
             x, y, z = turned_back(S[i], (c * x + s * y, c * y - s * x, z))
         R[0, j], R[1, j], R[2, j] = x, y, z
 

@@ -136,7 +136,7 @@ def _hold(basis, nullity, shape, place, slides, value, unit):
 
     ``place`` is 0, 1, 3 or 4: joint a, b, c or d.
     """
-    u, v = sincos(0.5 * value)[1], sincos(0.5 * value)[0]
+    v, u = sincos(0.5 * value)
     if slides:
         u, v = 1.0, 0.5 * value / unit
     at = 0 if place < 2 else 4

@@ -1,9 +1,7 @@
 """All configurations of a chain of one to five joints that reach a pose.
 
 Candidates come from the closed loop (:mod:`dh2urdf.kernels.short_chains.loop`), solutions from the
-exact chain (:mod:`dh2urdf.kernels.certificate.certify`). Where a solution lies on a singular
-family, the joints that move along it are found by walking a little, and one representative stays:
-the one whose first free joint is at rest.
+exact chain; of a singular family the one stays whose first free joint is at rest.
 """
 
 from typing import Annotated, NamedTuple
@@ -87,14 +85,13 @@ def _candidates(loop, cut, scratch, order, roots, q, count):
     doubt = vanishes(series, ZERO)
     if doubt:
         y = 2.0 * atan2(0.5 * rest[x] / unit, 1.0) if joints[x, 0] != 0.0 else rest[x]
-        roots[1, 0], roots[2, 0] = sincos(y)[1], sincos(y)[0]
+        roots[2, 0], roots[1, 0] = sincos(y)
         found = 1
     else:
         found = trig_roots(series, 2, roots[1], roots[2])
     for k in range(found):
-        half = 0.5 * atan2(roots[2, k], roots[1, k])
-        here = (sincos(half)[1], sincos(half)[0])
-        count, nullity = _from_matrix(columns, cut, here, scratch, order, q, count)
+        v, u = sincos(0.5 * atan2(roots[2, k], roots[1, k]))
+        count, nullity = _from_matrix(columns, cut, (u, v), scratch, order, q, count)
         doubt = doubt or nullity > shape[7]
     return count, doubt
 

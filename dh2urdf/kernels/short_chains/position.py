@@ -65,11 +65,8 @@ def _condition(slides, A, p, v):
         first = dot(p, p) - a * a - dot(v, v)
         second = p[2] - c * v[2]
         both = 2.0 * a * s
-        return (
-            s * s * first * first
-            + 4.0 * a * a * second * second
-            - both * both * (v[0] * v[0] + v[1] * v[1])
-        )
+        sides = s * s * first * first + 4.0 * a * a * second * second
+        return sides - both * both * (v[0] * v[0] + v[1] * v[1])
     if slides[0] and slides[1]:
         w = applied(A, v)
         return A[0, 2] * (p[1] - w[1]) - A[1, 2] * (p[0] - w[0])
@@ -123,7 +120,7 @@ def _two_turns(A, p, v, rest, unit, out):
             continue
         real, imaginary = v[0] * x + v[1] * y, v[0] * y - v[1] * x
         q2 = rest[1] if radius2 < TINY * TINY * scale else atan2(imaginary, real)
-        c2, s2 = sincos(q2)[1], sincos(q2)[0]
+        s2, c2 = sincos(q2)
         w = applied(A, (v[0] * c2 - v[1] * s2, v[0] * s2 + v[1] * c2, v[2]))
         out[rows, 0], out[rows, 1] = _turn(w, p, rest[0]), q2
         rows += 1
@@ -166,11 +163,10 @@ def _third_joint(slides, frames, tip, p, rest, unit, roots):
     series = roots[0]
     series[:] = 0.0
     for k in range(SAMPLES):
-        half = 0.5 * SAMPLE_ANGLE[k]
-        c, s, weight = sincos(SAMPLE_ANGLE[k])[1], sincos(SAMPLE_ANGLE[k])[0], 1.0
+        (s, c), weight = sincos(SAMPLE_ANGLE[k]), 1.0
         if slides[2]:
-            c, s = sincos(half)[1], unit * sincos(half)[0]
-            weight = c * c * c * c
+            s, c = sincos(0.5 * SAMPLE_ANGLE[k])
+            s, weight = unit * s, c * c * c * c
         v = _third(slides[2], frames[2], tip, c, s)
         add_sample(series, weight * _condition(slides, frames[1], p, v), k)
     if vanishes(series, 0.0):
@@ -180,8 +176,8 @@ def _third_joint(slides, frames, tip, p, rest, unit, roots):
     count = trig_roots(series, 2, roots[1], roots[2])
     if slides[2]:
         for k in range(count):
-            half = 0.5 * atan2(roots[2, k], roots[1, k])
-            roots[1, k], roots[2, k] = sincos(half)[1], unit * sincos(half)[0]
+            s, c = sincos(0.5 * atan2(roots[2, k], roots[1, k]))
+            roots[1, k], roots[2, k] = c, unit * s
     return count
 
 

@@ -81,12 +81,10 @@ def _candidates(chain, T, q, turning, scratch, damped):
         q[0, turning[0]], q[0, turning[1]] = _outer(scratch[4:8], B)
     else:
         first, second = scratch[4:8], scratch[8:12]
-        found, c1, s1, c2, s2 = linear_trig(
-            first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2],
-            first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2],
-            B[2, 2] - first[2, 2] * second[2, 2],
-            SLACK,
-        )
+        a = first[2, 0] * second[0, 2] + first[2, 1] * second[1, 2]
+        b = first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2]
+        d = B[2, 2] - first[2, 2] * second[2, 2]
+        found, c1, s1, c2, s2 = linear_trig(a, b, d, SLACK)
         for k in range(found):
             c, s = (c1, s1) if k == 0 else (c2, s2)
             q[k, turning[1]] = atan2(s, c)

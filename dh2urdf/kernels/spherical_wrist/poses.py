@@ -75,7 +75,7 @@ def add_wrist(form, D, values, R, slack, q, residual, branch, free, count):
         R[i, 0], R[i, 1], R[i, 2] = D[i, 0], D[i, 1], D[i, 2]
     for i in range(3):
         angle = form[i, 4] if form[i, 5] != 0.0 else values[i]
-        c, s, ca, sa = sincos(angle)[1], sincos(angle)[0], form[i, 1], form[i, 2]
+        (s, c), ca, sa = sincos(angle), form[i, 1], form[i, 2]
         for j in range(3):
             x, y, z = R[0, j], R[1, j], R[2, j]
             x, y = c * x + s * y, c * y - s * x
@@ -96,7 +96,7 @@ def append_wrist(form, values, R, slack, q, residual, branch, free, count):
     for wrist in range(wrists):
         a, b = s5 * sa5, -(c5 * sa5 * ca4 + sa4 * ca5)
         if in_line <= NICE:
-            c4, s4 = sincos(form[3, 4])[1], sincos(form[3, 4])[0]
+            s4, c4 = sincos(form[3, 4])
         else:
             c4, s4 = a * wx + b * wy, a * wy - b * wx
             r = hypot(c4, s4)

@@ -63,7 +63,7 @@ def _from_base(form, px, py, pz):
     """The columns of y."""
     a, ca, sa, d = form[0, 0], form[0, 1], form[0, 2], form[0, 3]
     if form[0, 5] != 0.0:
-        c, s = sincos(form[0, 4])[1], sincos(form[0, 4])[0]
+        s, c = sincos(form[0, 4])
         x, y = c * px + s * py, c * py - s * px
         return (x - a, ca * y + sa * pz, ca * pz - sa * y), (0.0, -sa, -ca), (0.0, 0.0, 0.0)
     z = pz - d
@@ -75,10 +75,10 @@ def _along_arm(form):
     a, ca, sa, lift = form[1, 0], form[1, 1], form[1, 2], form[1, 3]
     c, s = 1.0, 0.0
     if form[1, 5] != 0.0:
-        c, s, lift = sincos(form[1, 4])[1], sincos(form[1, 4])[0], 0.0
+        (s, c), lift = sincos(form[1, 4]), 0.0
     x, y, z = form[2, 0], -form[2, 2] * form[3, 3], form[2, 1] * form[3, 3]
     if form[2, 5] != 0.0:
-        e, f = sincos(form[2, 4])[1], sincos(form[2, 4])[0]
+        f, e = sincos(form[2, 4])
         k, C, S = (e * x - f * y, f * x + e * y, z), (0.0, 0.0, 1.0), (0.0, 0.0, 0.0)
     else:
         k, C, S = (0.0, 0.0, z + form[2, 3]), (x, y, 0.0), (-y, x, 0.0)
@@ -148,7 +148,7 @@ def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
     if oblique:
         rise, steep, fall = rise / slope, steep / slope, fall / slope
     if free:
-        count, cosines[0], sines[0] = 1, sincos(nice)[1], sincos(nice)[0]
+        count, (sines[0], cosines[0]) = 1, sincos(nice)
     elif oblique:
         series[0] = length + 2.0 * along * rise
         series[1], series[2] = 2.0 * (along * steep - dot(k, C)), 2.0 * (along * fall - dot(k, S))
@@ -219,7 +219,7 @@ def _nearest(columns, slides, c, s):
     if slides:
         c += move
     else:
-        e, f = sincos(move)[1], sincos(move)[0]
+        f, e = sincos(move)
         c, s = c * e - s * f, s * e + c * f
     x, y, _ = _at(columns, c, s)
     return c, s, hypot(x, y)
@@ -261,6 +261,6 @@ def elbow_on_axis(N, d, nice, slack, pairs):
         i = 0 if first >= second else 1
         count, c1, s1, c2, s2 = linear_trig(N[i, 0], N[i, 1], d[i], slack)
     for k in range(count):
-        pairs[k, 0], pairs[k, 1] = sincos(nice)[1], sincos(nice)[0]
+        pairs[k, 1], pairs[k, 0] = sincos(nice)
         pairs[k, 2], pairs[k, 3] = (c1, s1) if k == 0 else (c2, s2)
     return count
