@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from dh2urdf.kernels.numbers import elementary
-from dh2urdf.translate.build import FLAGS, compiler
+from dh2urdf.translate.build import FLAGS
 from dh2urdf.translate.c_file import CFile
 from tests.translate import replay
 
@@ -134,7 +134,7 @@ def compiled(request, tmp_path_factory):
         text = text.replace(f"{name}_(", f"{entry.function}(")
     folder.joinpath("kernels.h").write_text(file.header())
     folder.joinpath("some.c").write_text(text)
-    words = [*compiler(), *FLAGS, *request.param.split(), "-DTABLE=entries_here", "-w"]
+    words = [*replay.cc(), *FLAGS, *request.param.split(), "-DTABLE=entries_here", "-w"]
     replay.compiled(folder, [*words, "-shared", "some.c"], "some.so")
     return ctypes.CDLL(str(folder / "some.so"))
 

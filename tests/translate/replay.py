@@ -9,7 +9,9 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import pytest
 
+from dh2urdf.translate.build import compiler
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, entries
 from dh2urdf.translate.statements import Body
@@ -189,6 +191,14 @@ def built(folder: Path, words: list[str], out: str, *more: str) -> Path:
     for name, text in files().items():
         folder.joinpath(name).write_text(text)
     return compiled(folder, [*words, "-w", "replay.c", *more], out)
+
+
+def cc() -> list[str]:
+    """The compiler of the build; tests are skipped where an installation has none."""
+    try:
+        return compiler()
+    except RuntimeError as none:
+        pytest.skip(str(none))
 
 
 def compiled(folder: Path, words: list[str], out: str) -> Path:

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from dh2urdf.kernels.numbers.engine import INTERPRETED
-from dh2urdf.translate.build import LEVELS, PLACE, compiler
+from dh2urdf.translate.build import LEVELS, PLACE
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, recorded
 
@@ -93,7 +93,7 @@ def test_interpreted_kernels_agree():
 
 def by_level(level, some, folder):
     """What a level of the extension leaves behind calls."""
-    program = ctypes.CDLL(str(replay.built(folder, compiler(), "replay.so", "-shared", "-fPIC")))
+    program = ctypes.CDLL(str(replay.built(folder, replay.cc(), "replay.so", "-shared", "-fPIC")))
     extension = ctypes.CDLL(str(PLACE))
     if not getattr(extension, f"has_{level}")():
         pytest.skip("the processor has not got it")

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from dh2urdf.translate.build import FLAGS, compiler
+from dh2urdf.translate.build import FLAGS
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types
 from dh2urdf.translate.types import Array
@@ -38,7 +38,7 @@ def compiled(tmp_path_factory):
     instances = {name: file.add_entry(f, argument_types(f)) for name, f in KERNELS.items()}
     (folder / "kernels.h").write_text(file.header())
     (folder / "kernels.c").write_text(file.kernels())
-    words = [*compiler(), *FLAGS, *WARNINGS, "-DTABLE=entries_here", "-shared", "kernels.c"]
+    words = [*replay.cc(), *FLAGS, *WARNINGS, "-DTABLE=entries_here", "-shared", "kernels.c"]
     library = ctypes.CDLL(str(replay.compiled(folder, words, "sample.so")))
     _, *table = (ctypes.c_void_p * (len(instances) + 1)).in_dll(library, "entries_here")
     return dict(zip(instances, table, strict=True)), instances
