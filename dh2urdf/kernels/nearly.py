@@ -11,39 +11,18 @@ arm, or roots of a polynomial, lead to some of them only. From one of them the o
 direction in which the pose hardly changes.
 """
 
-import math
 from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, finish_pose, is_known, null_direction, principal
-from dh2urdf.kernels.newton import (
-    MAX_TURN,
-    POLISH,
-    POSE,
-    error_and_jacobian,
-    make_damped,
-    normal_equations,
-    polish,
-    pose_residual,
-    solve_damped,
-    work_array,
-)
+from dh2urdf.kernels.certificate import ACCEPT, finish_pose
+from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish, solve_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
-from dh2urdf.kernels.shapes import Chain, ClosedForm, Floats, Integers, Outputs, Poses, Three
+from dh2urdf.kernels.shapes import ClosedForm, Floats, Integers, Outputs, Poses, Three
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
-
-SINGULAR = 1e-11
-"""Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
-
-WAYS = (-1e-3, 1e-3, -1e-2, 1e-2, -0.1, 0.1, -0.3, 0.3)
-"""How far along that direction Newton's method starts [rad], either way."""
-
-STEPS = 15
-"""Newton steps; where they have not converged, there is nothing."""
 
 
 def _settle(chain, T, trust, doubt, rows, found, start, work, damped):
@@ -134,65 +113,3 @@ def add_candidates(
         for r in range(-1 - count[i]):
             wide[d, wide_count[d]] = q[i, r]
             wide_count[d] += 1
-
-
-def _solve(A, step):
-    """Solve six equations, the rows of A (6, 7), by elimination with pivots; the longest entry.
-
-    Not by the normal equations, which lose directions in which the pose changes by 1e-9 or less.
-    """
-    for c in range(6):
-        best = c
-        for r in range(c + 1, 6):
-            best = r if abs(A[r, c]) > abs(A[best, c]) else best
-        for k in range(c, 7):
-            A[c, k], A[best, k] = A[best, k], A[c, k]
-        if A[c, c] == 0.0:
-            return math.inf
-        for r in range(6):
-            factor = A[r, c] / A[c, c] if r != c else 0.0
-            A[r] -= factor * A[c]
-    longest = 0.0
-    for c in range(6):
-        step[c] = A[c, 6] / A[c, c]
-        longest = max(longest, abs(step[c]))
-    return longest
-
-
-def _converges(chain, T, q, A, step, damped):
-    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
-    for _ in range(STEPS):
-        error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
-        for r in range(6):
-            A[r, 6] = damped[1][r, 6]
-            for j in range(6):
-                A[r, j] = damped[0][j, r]
-        longest = _solve(A, step)
-        if not longest < math.inf:
-            return False
-        scale = min(1.0, MAX_TURN / max(longest, MAX_TURN))
-        q += step * scale
-    for j in range(6):
-        q[j] = principal(q[j])
-    return pose_residual(chain, T, q) <= POLISH
-
-
-@entry(n=6)
-def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
-    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
-    (_, joints), (q, _, count, _, _) = chain, outputs
-    A, step, trial = np.empty((6, 7)), np.empty(6), np.empty(6)
-    work, damped = work_array(6), make_damped(6)
-    for i in range(Ts.shape[0]):
-        for k in range(count[i]):
-            normal_equations(chain, Ts[i], q[i, k], work)
-            if null_direction(work) > SINGULAR:
-                continue
-            for w in range(len(WAYS)):
-                for j in range(6):
-                    trial[j] = q[i, k, j] + WAYS[w] * work[j, 6]
-                if not _converges(chain, Ts[i], trial, A, step, damped):
-                    continue
-                if count[i] < q.shape[1] and not is_known(joints, q[i], count[i], trial):
-                    q[i, count[i]] = trial
-                    count[i] += 1

@@ -112,6 +112,12 @@ class Outputs(NamedTuple):
             np.empty((m, kmax, n)), np.empty((m, kmax)), np.zeros(m, np.int64), codes[0], codes[1]
         )
 
+    def put(self, index: Integers, other: "Outputs") -> None:
+        """Put those of other arrays, with as many rows a pose or more, in place of some poses."""
+        k = self.q.shape[1]
+        for whole, part in zip(self, other, strict=True):
+            whole[index] = part[:, :k] if part.ndim > 1 else np.minimum(part, k)
+
     def rows(self, index: slice | Integers) -> "Outputs":
         """Those of some poses: views by a slice, copies by indices."""
         return Outputs._make(array[index] for array in self)

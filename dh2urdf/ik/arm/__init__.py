@@ -3,12 +3,13 @@
 `tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
 chain moves in it; `solver` what a solver is, `solver_table` picks one; `geometry` looks at axes,
 `singular_families` at joints that move freely; `chains` makes chains of a chain, `limits` full
-turns; `given` checks what callers give.
+turns; `in_doubt` searches poses that a solver is not sure of; `given` checks what callers give.
 """
 
 from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
 from dh2urdf.ik.arm.geometry import AxisLines, DHForm, pose_along, row_motion
 from dh2urdf.ik.arm.given import as_configuration, many_poses, one_pose
+from dh2urdf.ik.arm.in_doubt import search_in_doubt
 from dh2urdf.ik.arm.limits import (
     TWO_PI,
     all_turns,

@@ -21,6 +21,9 @@ from dh2urdf.transforms import Array, length
 SAME = 1e-6
 """Joint distance [rad or m] at which two members are one, as two solutions are."""
 
+ARRIVED = 1e-5
+"""Joint distance [rad or m] at which a walk has arrived: its points are on the family to 1e-9."""
+
 MOST_STEPS = 200
 """Steps each way of a walk along a family."""
 
@@ -60,12 +63,51 @@ class Family:
         error = task_error(self.chain.fk(seed)[None], self.T, self.task)[0]
         if max(np.linalg.norm(error[:3]), np.linalg.norm(error[3:])) > ACCEPT:
             return False
-        gap = np.abs(limits.turned_to(self.chain, self.q, seed) - seed)
-        gap = np.where(
-            self.chain.prismatic, gap, np.abs(np.remainder(gap + np.pi, limits.TWO_PI) - np.pi)
-        )
+        return self._apart(self.q, seed) <= SAME
+
+    def contains(self, others: Array) -> NDArray[np.bool_]:
+        """Which configurations (k, n) of the same free joints a walk along the family arrives at.
+
+        Straight towards each of them, and from the point of a walk both ways that is nearest.
+        """
+        found = np.zeros(len(others), np.bool_)
+        walked = np.empty((0, len(self.free)))
+        for k, other in enumerate(others):
+            found[k] = self._arrives(self.q, other)
+            if found[k] or self._apart(self.q, other) > SAME:
+                continue
+            if not len(walked):
+                walked = self._walk(self.q)
+            way = _principal(self.moving, other[self.free] - walked)
+            nearest = walked[int(np.abs(way).max(axis=1).argmin())] if len(walked) else None
+            if nearest is not None:
+                start = self.q.copy()
+                start[self.free] = nearest
+                found[k] = self._arrives(start, other)
+        return found
+
+    def _arrives(self, start: Array, goal: Array) -> bool:
+        """Whether going nearer to a goal (n,) along the family, from a member, ends there."""
+        if self._apart(start, goal) > SAME:
+            return False
+        seed = start.copy()
+        way = _principal(self.moving, goal[self.free] - start[self.free])
+        seed[self.free] += way
+        ended = self._slide(start[self.free][None], seed, within_limits=False)[0]
+        return bool(np.abs(ended - seed[self.free]).max() <= ARRIVED)
+
+    def _apart(self, q: Array, other: Array) -> float:
+        """Largest difference of joints that are not free."""
+        gap = np.abs(_principal(self.chain, other - q))
         gap[self.free] = 0.0
-        return bool(gap.max() <= SAME)
+        return float(gap.max())
+
+    def _walk(self, start: Array) -> Array:
+        """Members (k, f) on a walk both ways from a member (n,)."""
+        walk = np.empty((2, MOST_STEPS, len(self.free)))
+        counts = np.empty(2, np.int64)
+        walk_family(self.moving.tables, self._goal, FAMILY_STEP, start[self.free], walk, counts)
+        return np.concatenate([way[:count] for way, count in zip(walk, counts, strict=True)])
 
     def _inside(self, start: Array, members: Array) -> NDArray[np.bool_]:
         """Which members (k, f), with the other joints as in start (n,), keep all limits."""
@@ -82,11 +124,7 @@ class Family:
 
     def _inside_members(self, start: Array, seed: Array) -> Array:
         """Members (k, f) inside the limits that are nearest to the seed, found by a walk."""
-        walk = np.empty((2, MOST_STEPS, len(self.free)))
-        counts = np.empty(2, np.int64)
-        walk_family(self.moving.tables, self._goal, FAMILY_STEP, start[self.free], walk, counts)
-        found = np.concatenate([way[:count] for way, count in zip(walk, counts, strict=True)])
-        found = limits.turned_to(self.moving, found, seed[self.free])
+        found = limits.turned_to(self.moving, self._walk(start), seed[self.free])
         found = found[self._inside(start, found)]
         order = np.argsort(np.linalg.norm(found - seed[self.free], axis=1), kind="stable")
         return self._slide(found[order[:STARTS]], seed, within_limits=True)
@@ -95,6 +133,13 @@ class Family:
     def _goal(self) -> tuple[int, Array, float]:
         """Task, target and size of the arm, as kernels take them."""
         return self.task.number, np.array(self.T), self.chain.size
+
+
+def _principal(chain: SerialChain, gap: Array) -> Array:
+    """Joint differences (..., n), angles in [-pi, pi)."""
+    turned = np.remainder(gap + np.pi, limits.TWO_PI) - np.pi
+    principal: Array = np.where(chain.prismatic, gap, turned)
+    return principal
 
 
 def slide_to_seed(

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import AxisLines, Others, Outputs, SolverBase, Task
+from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, solve_general_6r
@@ -89,14 +89,16 @@ class General6R(SolverBase):
         """Say what keeps the elimination from covering the chain; None if nothing does."""
         return not_six_revolute(chain)
 
-    def solve_unfinished(self, Ts: Array, out: Outputs) -> None:
-        """Candidates of poses Ts (m, 4, 4), limits or not: q and counts."""
+    def solve_unfinished(self, Ts: Array, out: Outputs) -> IntArray:
+        """Candidates of poses Ts (m, 4, 4), limits or not: q and counts; the poses in doubt."""
+        doubt = np.zeros(len(Ts), np.int64)
         try:  # a copy of the plan that no other thread has
             arm = self._idle.pop()
         except IndexError:
             arm = self.plan.copy()
-        self._kernel(arm, Ts, out.q, out.residual, out.counts)
+        self._kernel(arm, Ts, out.q, out.residual, out.counts, doubt)
         self._idle.append(arm)
+        return np.flatnonzero(doubt)
 
     def details(self) -> str:
         """Name the axes and the method."""
@@ -106,9 +108,12 @@ class General6R(SolverBase):
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) in two calls."""
-        self.solve_unfinished(Ts, out)
+        """Solve poses Ts (m, 4, 4) in two calls; those in doubt are searched, too."""
+        doubt = self.solve_unfinished(Ts, out)
+        rows = np.arange(len(doubt))
+        searched = search_in_doubt(self.chain, Ts[doubt], out.rows(doubt), rows, within_limits)
         self._finish(self.chain.tables, Ts, within_limits, out)
+        out.put(doubt, searched)
 
 
 def _z(angle: float, offset: float) -> Array:
@@ -152,7 +157,7 @@ def _random_poses(links: Array) -> Array:
 def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
     """The eliminations to keep, best first: by solutions found, then by precision."""
     eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
-    outputs = np.empty((1, 16, 6)), np.empty((1, 16)), np.zeros(1, np.int64)
+    outputs = np.empty((1, 16, 6)), np.empty((1, 16)), *np.zeros((2, 1), np.int64)
     found, digits = np.zeros(12), np.zeros(12)
     for k, elimination in enumerate(eliminations):
         _choose(arm, [elimination])
@@ -169,9 +174,8 @@ def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
     """Prepare some eliminations."""
     arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
     arm["ready"] = 0
-    solve_general_6r(
-        arm, np.empty((0, 4, 4)), np.empty((0, 16, 6)), np.empty((0, 16)), np.empty(0, np.int64)
-    )
+    none = np.empty((0, 4, 4)), np.empty((0, 16, 6)), np.empty((0, 16))
+    solve_general_6r(arm, *none, *np.empty((2, 0), np.int64))
 
 
 def _place(arm: Arm, links: Array) -> None:

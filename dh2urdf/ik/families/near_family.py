@@ -18,24 +18,16 @@ from dh2urdf.ik.arm import (
     Outputs,
     SolverBase,
     Task,
+    search_in_doubt,
 )
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.kernels.certificate import finish_batch
-from dh2urdf.kernels.nearly import (
-    add_candidates,
-    search_beside,
-    solve_near_parallel,
-    solve_near_wrist,
-)
+from dh2urdf.kernels.nearly import add_candidates, solve_near_parallel, solve_near_wrist
 from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array
-
-WIDTH = 48
-"""Most candidates of a pose in doubt: general solver, nominal arm, and what lies beside them."""
-
 
 _Family = type[SphericalWrist | ThreeParallel]
 
@@ -97,21 +89,16 @@ class NearFamily(SolverBase):
         wide = self._in_doubt(rows, Ts[rows], out, within_limits)
         out.counts[rows] = 0
         finish_batch(self.chain.tables, Ts, within_limits, out)
-        for whole, part in zip(out, wide, strict=True):
-            whole[rows] = part[:, : self.kmax] if part.ndim > 1 else np.minimum(part, self.kmax)
+        out.put(rows, wide)
 
     def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
         """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
-        wide = Outputs.of(len(rows), WIDTH, 6)
-        if len(rows):
-            found = Outputs.of(len(rows), self.kmax, 6)
-            self.general.solve_unfinished(Ts, found)
-            wide.q[:, : self.kmax], wide.counts[:] = found.q, found.counts
-            add_candidates(rows, out, wide.q, wide.counts)
-            finish_batch(self.chain.tables, Ts, False, wide)
-            search_beside(self.chain.tables, Ts, wide)
-            finish_batch(self.chain.tables, Ts, within_limits, wide)
-        return wide
+        found = Outputs.of(len(rows), 2 * self.kmax, 6)
+        first = Outputs.of(len(rows), self.kmax, 6)
+        deep = self.general.solve_unfinished(Ts, first)
+        found.q[:, : self.kmax], found.counts[:] = first.q, first.counts
+        add_candidates(rows, out, found.q, found.counts)
+        return search_in_doubt(self.chain, Ts, found, deep, within_limits)
 
 
 @lru_cache(maxsize=4)

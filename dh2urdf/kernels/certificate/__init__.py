@@ -10,6 +10,7 @@ from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_
 from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,
+    NO_JOINT,
     ROUNDING,
     TWO_PI,
     copy_rows,

@@ -46,6 +46,9 @@ STEADY, STEADY_STEPS = 1e-6, 6
 """Damping and number of the first steps back to the family: across it and not along, for beside a
 family the Jacobian has its rank, and a plain step may go anywhere."""
 
+PARTS = 4
+"""Parts in which the way back from it is looked at."""
+
 MOVES = 1e-5
 """Motion [rad or m] of a joint over the walk that makes it free."""
 
@@ -79,12 +82,21 @@ def null_direction(work):
     return 1.0 / (size * trace)
 
 
+def _steady(chain, T, trial, work):
+    """Bring a configuration (n,) back to the family beside it, across it and not along."""
+    for _ in range(STEADY_STEPS):
+        normal_equations(chain, T, trial, work)
+        damped_step(work, STEADY)
+        for i in range(trial.shape[0]):
+            trial[i] += work[i, 7]
+
+
 def free_joints(chain, T, q, trial, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 
     Where the Jacobian loses rank, a step is taken along its null direction and polished on the
-    exact chain. At a double root Newton comes back to q; on a family it stays away. ``trial`` (n,)
-    is scratch.
+    exact chain. At a double root Newton comes back to q; on a family it stays away, and all of the
+    way between is accepted. ``trial`` (n,) is scratch.
     """
     n = q.shape[0]
     normal_equations(chain, T, q, work)
@@ -92,11 +104,7 @@ def free_joints(chain, T, q, trial, work):
         return 0
     for i in range(n):
         trial[i] = q[i] + WALK * work[i, 6]
-    for _ in range(STEADY_STEPS):
-        normal_equations(chain, T, trial, work)
-        damped_step(work, STEADY)
-        for i in range(n):
-            trial[i] += work[i, 7]
+    _steady(chain, T, trial, work)
     if not polish(chain, T, trial, work) <= ACCEPT:
         return 0
     away = 0.0
@@ -106,7 +114,16 @@ def free_joints(chain, T, q, trial, work):
         away += gap * gap
         if gap > MOVES:
             mask |= 1 << i
-    return mask if away > 0.25 * WALK * WALK else 0
+    if not away > 0.25 * WALK * WALK:
+        return 0
+    # on a family, and not between two solutions, the way back is accepted too
+    for part in range(1, PARTS):
+        for i in range(n):
+            trial[i] += (q[i] - trial[i]) / (PARTS + 1 - part)
+        _steady(chain, T, trial, work)
+        if not pose_residual(chain, T, trial) <= ACCEPT:
+            return 0
+    return mask
 
 
 def one_of_each_family(joints, rest, q, residual, branch, free, count):

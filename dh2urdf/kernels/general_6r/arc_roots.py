@@ -22,6 +22,12 @@ NARROWEST = 2e-4
 NEAR_DOUBLE = 0.02
 """Imaginary part [rad] below which a complex pair of roots is reported as a double one."""
 
+MEETING = 30.0
+"""An extremum of f at which it is below this many times the noise is where roots meet."""
+
+CURVED = 1e4
+"""An arc that is bent by less than this many times the noise may be flat: more than two meet."""
+
 SHALLOW = 0.03
 """An arc whose smallest coefficient is below this part of its largest may hold such a pair."""
 
@@ -150,8 +156,8 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
     f that may be zero. ``spans[0, 0]`` spans of doubt are widened or appended, each from
     ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f is so small, or a root so uncertain, that it
     should be sampled anew. ``roots`` and ``slopes`` (24,), of which ``count`` are there already,
-    get angles [rad] and |f'|; the slope is 0 where two roots (nearly) fall together or a complex
-    pair is close to the real axis.
+    get angles [rad] and |f'|; the slope is 0 where a complex pair is close to the real axis,
+    -1 where two roots meet within the noise, -2 where more of them do.
     """
     stack[0, 17], stack[0, 18] = -half_tan, half_tan
     top = 0
@@ -181,12 +187,14 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
                     decided = True
                 elif changes == 0 or length < NARROWEST:
                     if 2.0 * abs(f) < near * near * abs(ddf) + noise:
-                        count = _add(roots, slopes, count, _angle(centre, row, x), 0.0)
+                        slope = -1.0 if abs(f) < MEETING * noise else 0.0
+                        slope = -2.0 if abs(ddf) < CURVED * noise else slope
+                        count = _add(roots, slopes, count, _angle(centre, row, x), slope)
                     decided = True
         if doubt:
             _doubt(spans, row, centre)
         if not decided and (length < 1e-12 or top + 2 > STACK):
-            count = _add(roots, slopes, count, _angle(centre, row, 0.5), 0.0)
+            count = _add(roots, slopes, count, _angle(centre, row, 0.5), -2.0)
             decided = True
         if decided:
             top -= 1

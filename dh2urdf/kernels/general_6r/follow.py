@@ -208,7 +208,7 @@ def accounted(e, count, found, out_q, arm):
         for f in range(found):
             if _at_root(e, roots[r], out_q[f], arm):
                 there += 1
-        if there < here and (there > 0 or slopes[r] > 0.0):
+        if there < here and (there > 0 or slopes[r] != 0.0):
             return False
     return True
 

@@ -36,11 +36,16 @@ CROWDED_ATTEMPTS = 7
 """The same where solutions are close together yet apart: each round may lead to others."""
 
 
+DEEP = 5
+"""Spans of doubt from which on roots may meet that look apart: on random poses one in a thousand
+has so many."""
+
+
 def _solve_pose(T, out_q, out_residual, arm):
-    """All solutions of one pose; their number."""
+    """All solutions of one pose; their number, and 1 where doubt is left that all are found."""
     spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
     place_target(T, arm)
-    found = 0
+    found, doubt, meeting = 0, 1, False
     first[0] = 1.0
     for trial in range(CROWDED_ATTEMPTS * trials):
         if trial == ATTEMPTS * trials and (
@@ -55,32 +60,39 @@ def _solve_pose(T, out_q, out_residual, arm):
         count = find_roots(arm)
         if count < 0:
             continue
-        # a double root has a slope of 0
+        meeting = meeting or how_many_below(arm["slopes"], count, -1.0) > 0
+        meeting = meeting or spans[0, 0] >= DEEP
+        exact = how_many_below(arm["slopes"], count, 0.0)
+        # a double root has no slope
         simple = count - how_many_below(arm["slopes"], count, 1e-300)
         if count > 0:
             found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
             if trial == 0:
                 first[0], first[1] = seeded, spans[0, 0]
-        whole = retried == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
+        whole = retried + exact == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
         apart = before > 0 and trial >= trials and how_many_below(kept, found, CROWDED) == 0
         clear = spans[1, 0] == 0.0 and (whole or apart)
         sure = seeded < COARSE if before == 0 else found == before
         fits = found % 2 == 0 and found >= simple and found + trial > 0
         if clear and sure and fits and how_many_below(kept, found, SINGULAR) == 0:
+            doubt = 1 if trial >= trials or meeting else 0
             break
-    return found
+    return found, doubt
 
 
 @entry(n=6, solutions=16)
-def solve_general_6r(arms: Arms, Ts: Poses, q: Solutions, residual: Values, count: Counts):
+def solve_general_6r(
+    arms: Arms, Ts: Poses, q: Solutions, residual: Values, count: Counts, doubt: Counts
+):
     """All solutions of poses Ts (m, 4, 4), by the record ``arms`` (1,) of an arm.
 
     Angles in (-pi, pi] go to q (m, 16, 6), the larger of position error [m] and orientation error
-    [rad] to ``residual``. The record is not to be shared between threads.
+    [rad] to ``residual``; ``doubt`` (m,) is 1 where there may be more. The record is not to be
+    shared between threads.
     """
     arm = arms[0]
     if arm["ready"] == 0:
         prepare(arm)
         arm["ready"] = 1
     for m in range(Ts.shape[0]):
-        count[m] = _solve_pose(Ts[m], q[m], residual[m], arm)
+        count[m], doubt[m] = _solve_pose(Ts[m], q[m], residual[m], arm)

@@ -24,7 +24,8 @@ def solve_poses(rows, poses):
     m = len(poses)
     q, residual = np.zeros((m, 16, 6)), np.zeros((m, 16))
     count = np.zeros(m, dtype=np.int64)
-    solve_general_6r(plan_general_6r(links_of(rows)), poses, q, residual, count)
+    plan, doubt = plan_general_6r(links_of(rows)), np.zeros(m, dtype=np.int64)
+    solve_general_6r(plan, poses, q, residual, count, doubt)
     return q, residual, count
 
 
@@ -166,7 +167,7 @@ def test_what_was_solved_before_does_not_matter():
     q, residual, count = solve_poses(rows, poses)
     for m in reversed(range(20)):
         one_q, one_residual, found = np.zeros((1, 16, 6)), np.zeros((1, 16)), np.zeros(1, np.int64)
-        solve_general_6r(arm, poses[m : m + 1], one_q, one_residual, found)
+        solve_general_6r(arm, poses[m : m + 1], one_q, one_residual, found, found.copy())
         k = found[0]
         assert k == count[m]
         np.testing.assert_array_equal(one_q[0, :k], q[m, :k])
@@ -185,7 +186,7 @@ def test_an_arm_with_other_links_keeps_its_eliminations():
     results = []
     for plan in plans:
         q, residual, count = np.zeros((20, 16, 6)), np.zeros((20, 16)), np.zeros(20, np.int64)
-        solve_general_6r(plan, poses, q, residual, count)
+        solve_general_6r(plan, poses, q, residual, count, count.copy())
         results.append((q, count))
     for q, count in results[1:]:
         np.testing.assert_array_equal(count, results[0][1])

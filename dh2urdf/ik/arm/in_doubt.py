@@ -1,0 +1,71 @@
+"""Poses of six turning joints in doubt: what many starts find, and a member of each family."""
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.singular_families import Family
+from dh2urdf.ik.arm.solver import IntArray, Outputs
+from dh2urdf.ik.arm.task import Task
+from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.kernels.in_doubt import search_beside, search_from
+from dh2urdf.transforms import Array
+
+STARTS = 64
+"""Starts of the search, the same ones for every pose; every other one on a grid of 45 degrees,
+where arms of right angles have their singular poses."""
+
+WIDTH = 128
+"""Most candidates of a pose."""
+
+
+def _starts() -> Array:
+    """Configurations (``STARTS``, 6)."""
+    rng = np.random.default_rng(4)
+    starts: Array = rng.uniform(-np.pi, np.pi, (STARTS, 6))
+    grid = np.pi / 4.0
+    starts[::2] = grid * np.round(starts[::2] / grid) + 0.02 * rng.standard_normal((STARTS // 2, 6))
+    return starts
+
+
+def search_in_doubt(
+    chain: SerialChain, Ts: Array, found: Outputs, deep: IntArray, within_limits: bool
+) -> Outputs:
+    """Solve poses Ts (d, 4, 4) from candidates, q and counts of ``found``: wider outputs.
+
+    What lies beside is looked for at all of them, many starts are for the ``deep`` ones.
+    """
+    wide = Outputs.of(len(Ts), WIDTH, chain.n)
+    if not len(Ts):
+        return wide
+    wide.q[:, : found.q.shape[1]], wide.counts[:] = found.q, found.counts
+    some = wide.rows(deep)
+    search_from(chain.tables, _starts(), chain.size, Ts[deep], some)
+    wide.put(deep, some)
+    finish_batch(chain.tables, Ts, False, wide)
+    search_beside(chain.tables, Ts, wide)
+    finish_batch(chain.tables, Ts, False, wide)
+    named = (wide.free != 0) & (np.arange(WIDTH) < wide.counts[:, None])
+    for i in np.flatnonzero(named.sum(axis=1) > 1).tolist():
+        _one_of_each(chain, Ts[i], wide.rows(slice(i, i + 1)))
+    if within_limits:
+        finish_batch(chain.tables, Ts, True, wide)
+    return wide
+
+
+def _one_of_each(chain: SerialChain, T: Array, out: Outputs) -> None:
+    """Keep one member of each family of a pose T (4, 4), isolated solutions first, in place."""
+    k = int(out.counts[0])
+    q, free = out.q[0, :k], out.free[0, :k]
+    kept = np.flatnonzero(free == 0).tolist()
+    members = np.flatnonzero(free).tolist()
+    while members:
+        first = members.pop(0)
+        kept.append(first)
+        joints = tuple(np.flatnonzero(free[first] >> np.arange(chain.n) & 1).tolist())
+        family = Family(chain, Task.POSE, np.array(T), joints, q[first].copy())
+        alike = [m for m in members if free[m] == free[first]]
+        same = {m for m, on in zip(alike, family.contains(q[alike]), strict=True) if on}
+        members = [m for m in members if m not in same]
+    out.counts[0] = len(kept)
+    for array in (out.q, out.residual, out.branch, out.free):
+        array[0, : len(kept)] = array[0, kept]

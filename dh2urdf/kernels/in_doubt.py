@@ -1,0 +1,194 @@
+"""Poses in doubt: Newton's method on the exact chain from many starts, and beside what is found.
+
+Where solutions meet or move freely, a polynomial says little of them, and seeds from it lead to
+some of them only. There Levenberg's steps go to what is near, and plain steps along valleys: those
+are solved by elimination with pivots, which keeps directions in which the pose hardly changes.
+"""
+
+import math
+from typing import Annotated
+
+import numpy as np
+
+from dh2urdf.kernels.certificate import CLUSTER, NO_JOINT, null_direction, principal, same
+from dh2urdf.kernels.newton import (
+    MAX_TURN,
+    POLISH,
+    POSE,
+    add_transposed,
+    error_and_jacobian,
+    make_damped,
+    normal_equations,
+    pose_residual,
+    solve_damped,
+    work_array,
+)
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
+
+SINGULAR = 1e-11
+"""Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
+
+WAYS = (-1e-3, 1e-3, -1e-2, 1e-2, -0.1, 0.1, -0.3, 0.3)
+"""How far along that direction Newton's method starts [rad], either way."""
+
+STEPS = 15
+"""Newton steps; where they have not converged, there is nothing."""
+
+DAMPED = 50
+"""Levenberg's steps from a start; most that lead anywhere take ten to twenty."""
+
+STUCK = 12
+"""Such steps without a better residual after which a start is given up."""
+
+SETTLED = 2
+"""The same where the residual is that of a solution: at a double root it falls on, by halves."""
+
+DONE = 1e-15
+"""Residual [m and rad] at which nothing is left to gain."""
+
+SHARP, BESIDE = 4e-15, 100.0
+"""Residual [m and rad] above which a solution may be beside a double one, and how far beside
+[rad], in square roots of it."""
+
+DAMPING = 0.5
+"""Their damping, in squares of the error; where there is a solution it vanishes."""
+
+LONGEST = 0.6
+"""The longest of them [rad]."""
+
+ALMOST = 1e-10
+"""Residual [m and rad] at which no plain steps are needed."""
+
+FEW = 24
+"""Starts after which a pose is given up that none of them came near to."""
+
+NEAR = 0.05
+"""Residual [m and rad] from which on plain steps are tried."""
+
+
+def _solve(A, step):
+    """Solve six equations, the rows of A (6, 7), by elimination with pivots; the longest entry.
+
+    Not by the normal equations, which lose directions in which the pose changes by 1e-9 or less.
+    """
+    for c in range(6):
+        best = c
+        for r in range(c + 1, 6):
+            best = r if abs(A[r, c]) > abs(A[best, c]) else best
+        for k in range(c, 7):
+            A[c, k], A[best, k] = A[best, k], A[c, k]
+        if A[c, c] == 0.0:
+            return math.inf
+        for r in range(6):
+            factor = A[r, c] / A[c, c] if r != c else 0.0
+            A[r] -= factor * A[c]
+    longest = 0.0
+    for c in range(6):
+        step[c] = A[c, 6] / A[c, c]
+        longest = max(longest, abs(step[c]))
+    return longest
+
+
+def _converges(chain, T, q, A, step, damped):
+    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
+    for _ in range(STEPS):
+        error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
+        for r in range(6):
+            A[r, 6] = damped[1][r, 6]
+            for j in range(6):
+                A[r, j] = damped[0][j, r]
+        longest = _solve(A, step)
+        if not longest < math.inf:
+            return False
+        scale = min(1.0, MAX_TURN / max(longest, MAX_TURN))
+        q += step * scale
+    for j in range(6):
+        q[j] = principal(q[j])
+    return pose_residual(chain, T, q) <= POLISH
+
+
+def _is_new(chain, T, q, count, p):
+    """Whether p (6,) is none of the first rows of q (kmax, 6), at the accuracy of its residual."""
+    _, joints = chain
+    residual = pose_residual(chain, T, p)
+    reach = CLUSTER if residual <= SHARP else max(CLUSTER, BESIDE * math.sqrt(residual))
+    for k in range(count):
+        if same(joints, q[k], p, reach, NO_JOINT):
+            return False
+    return True
+
+
+@entry(n=6)
+def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
+    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
+    q, _, count, _, _ = outputs
+    A, step, trial = np.empty((6, 7)), np.empty(6), np.empty(6)
+    work, damped = work_array(6), make_damped(6)
+    for i in range(Ts.shape[0]):
+        for k in range(count[i]):
+            normal_equations(chain, Ts[i], q[i, k], work)
+            if null_direction(work) > SINGULAR:
+                continue
+            for w in range(len(WAYS)):
+                for j in range(6):
+                    trial[j] = q[i, k, j] + WAYS[w] * work[j, 6]
+                if not _converges(chain, Ts[i], trial, A, step, damped):
+                    continue
+                if count[i] < q.shape[1] and _is_new(chain, Ts[i], q[i], count[i], trial):
+                    q[i, count[i]] = trial
+                    count[i] += 1
+
+
+def _approach(chain, goal, q, best, dq, damped):
+    """Levenberg's steps from q (6,); the residual of the best configuration, which is left in q."""
+    least, since = math.inf, 0
+    for _ in range(DAMPED):
+        residual = error_and_jacobian(chain, goal, q, damped)
+        if residual < least:
+            since = since if residual > 0.9 * least else 0
+            least = residual
+            best[:] = q
+        since += 1
+        if residual <= DONE or since > (SETTLED if least <= POLISH else STUCK):
+            break
+        square = 0.0
+        for a in range(6):
+            square += damped[1][a, 6] * damped[1][a, 6]
+        solve_damped(damped, DAMPING * square)
+        dq[:] = 0.0
+        add_transposed(damped, 1.0, dq)
+        longest = LONGEST
+        for j in range(6):
+            longest = max(longest, abs(dq[j]))
+        q += dq * (LONGEST / longest)
+    for j in range(6):
+        q[j] = principal(best[j])
+    return least
+
+
+@entry(n=6)
+def search_from(
+    chain: Chain, starts: Annotated[Floats, "starts", 6], unit: float, Ts: Poses, outputs: Outputs
+):
+    """Append to q (m, kmax, 6) what Newton's method finds of poses Ts (m, 4, 4) from starts (s, 6).
+
+    ``unit`` is the size of the arm [m].
+    """
+    q, _, count, _, _ = outputs
+    trial, best, dq, step = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
+    A, damped = np.empty((6, 7)), make_damped(6)
+    for i in range(Ts.shape[0]):
+        goal, least = (POSE, Ts[i], unit), math.inf
+        for s in range(starts.shape[0]):
+            if s == FEW and least > NEAR and count[i] == 0:
+                break
+            trial[:] = starts[s]
+            residual = _approach(chain, goal, trial, best, dq, damped)
+            least = min(least, residual)
+            found = residual <= ALMOST
+            if not found and residual <= NEAR:
+                found = _converges(chain, Ts[i], trial, A, step, damped)
+            if found and count[i] < q.shape[1] and _is_new(chain, Ts[i], q[i], count[i], trial):
+                q[i, count[i]] = trial
+                count[i] += 1
