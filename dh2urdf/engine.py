@@ -28,7 +28,7 @@ INTERPRETED: dict[str, Callable[..., Any]] = {}
 LENGTHS: dict[str, dict[str, int]] = {}
 """Lengths of their arrays that are known before they run."""
 
-PACKAGE = Path(__file__).parents[2]
+PACKAGE = Path(__file__).parent
 
 ADVICE = "python -m dh2urdf.translate.build compiles them, as does an installation"
 
@@ -63,7 +63,7 @@ def _edited(built: Any) -> bool:
 
 def sources() -> list[Path]:
     """Files that decide what the extension is: the kernels and their translator."""
-    patterns = ("kernels/**/*.py", "translate/*.py", "translate/*.[ch]")
+    patterns = ("engine.py", "kernels/**/*.py", "translate/*.py", "translate/*.[ch]")
     return sorted(path for pattern in patterns for path in PACKAGE.glob(pattern))
 
 

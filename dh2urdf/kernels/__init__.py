@@ -1,6 +1,6 @@
 """Functions on floats and arrays in a part of Python; they import NumPy and one another only.
 
-`numbers.engine` decides whether they run compiled; CONTRIBUTING.md says which part it is.
+`dh2urdf.engine` decides whether they run compiled; CONTRIBUTING.md says which part it is.
 
 `shapes` says what entries take; `numbers`, `rigid`, `chain`, `newton` and `certificate` serve all,
 `blocks` those that work on many poses side by side; then the families: `spherical_wrist`,

@@ -17,9 +17,9 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from dh2urdf import engine
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.entries import argument_types, doors, entries
-from dh2urdf.translate.source import engine
 
 FLAGS = ["-std=c99", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math", "-fPIC"]
 FLAGS += ["-fno-tree-slp-vectorize"]
@@ -70,7 +70,7 @@ def build(target: Path = PLACE) -> None:
     with TemporaryDirectory() as folder:
         for name, text in texts().items():
             Path(folder, name).write_text(text)
-        sources = f'-DSOURCES="{engine().fingerprint()}"'
+        sources = f'-DSOURCES="{engine.fingerprint()}"'
         doors_c = str(Path(__file__).with_name("doors.c"))
         jobs = [[*_processor("any", cc), sources, "-I.", *include, doors_c, "-o", "doors.o"]]
         for level in LEVELS:

@@ -12,9 +12,10 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 
+from dh2urdf import engine
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.definitions import folded
-from dh2urdf.translate.source import ROOM, engine, source_of
+from dh2urdf.translate.source import ROOM, source_of
 from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type, inside, lengths_of, told
 from dh2urdf.translate.values import Value
@@ -34,7 +35,7 @@ def entries() -> dict[str, Callable[..., Any]]:
     for path in sorted(top.rglob("*.py")):
         parts = path.relative_to(top).with_suffix("").parts
         import_module(".".join([ROOM, *(p for p in parts if p != "__init__")]))
-    return dict(sorted(engine().INTERPRETED.items()))
+    return dict(sorted(engine.INTERPRETED.items()))
 
 
 def argument_types(function: Callable[..., Any]) -> list[Type]:
@@ -44,7 +45,7 @@ def argument_types(function: Callable[..., Any]) -> list[Type]:
     if missing := [name for name in names if name not in hints]:
         source = source_of(function)
         source.refuse(source.tree.args, f"no type for {', '.join(missing)}", "its kind and shape")
-    lengths = engine().LENGTHS.get(f"{function.__module__}.{function.__name__}", {})
+    lengths = engine.LENGTHS.get(f"{function.__module__}.{function.__name__}", {})
     lengths = lengths | {f"{name} + 1": length + 1 for name, length in lengths.items()}
     return [_type_of(hints[name], lengths) for name in names]
 

@@ -9,8 +9,9 @@ import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Callable
 from functools import cache, cached_property
-from importlib import import_module
 from typing import Any, NoReturn
+
+from dh2urdf import engine
 
 ROOM = "dh2urdf.kernels"
 
@@ -72,7 +73,7 @@ class Source:
         """The kernel that a name of the module stands for."""
         value = self.stands_for(name)
         name = getattr(value, "__name__", "").replace("__", ".")  # of a compiled entry
-        value = engine().INTERPRETED.get(name, value)
+        value = engine.INTERPRETED.get(name, value)
         own = self.module.__name__.partition(".")[0]
         inside = getattr(value, "__module__", "").partition(".")[0] == own
         return source_of(value) if inside and hasattr(value, "__code__") else None
@@ -100,11 +101,6 @@ class Source:
             if not places:
                 before[next(s for s in self.body if named(s)[name])].add(name)
         return at, before
-
-
-def engine() -> Any:
-    """The kernels' own module of what is compiled."""
-    return import_module(f"{ROOM}.numbers.engine")
 
 
 @cache

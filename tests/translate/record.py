@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.kernels.numbers.engine import INTERPRETED
+from dh2urdf.engine import INTERPRETED
 from dh2urdf.translate.entries import entries
 
 

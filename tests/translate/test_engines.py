@@ -6,7 +6,7 @@ from functools import cache
 
 import pytest
 
-from dh2urdf.kernels.numbers.engine import INTERPRETED
+from dh2urdf.engine import INTERPRETED
 from dh2urdf.translate.build import LEVELS, PLACE
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, recorded

@@ -6,6 +6,7 @@ equations in two angles), `dual_quaternions`, `lanes` (QR of many 6 x 6 systems 
 `poses` (checks of many poses).
 """
 
+from dh2urdf.engine import entry, side_by_side
 from dh2urdf.kernels.numbers.circles import circle_pair
 from dh2urdf.kernels.numbers.dual_quaternions import (
     dual_conjugate,
@@ -14,7 +15,6 @@ from dh2urdf.kernels.numbers.dual_quaternions import (
     dual_times_joint,
 )
 from dh2urdf.kernels.numbers.elementary import asin, atan2, few_turns, hypot, sincos
-from dh2urdf.kernels.numbers.engine import entry, side_by_side
 from dh2urdf.kernels.numbers.lanes import COLUMN, LANES, null_vectors, reduce_columns, solve_upper
 from dh2urdf.kernels.numbers.poses import copy_pose, first_bad_pose, is_pose, pad_solutions
 from dh2urdf.kernels.numbers.trig import (

@@ -8,7 +8,7 @@ geometry", 2013). Scalar part first.
 import math
 from typing import Annotated
 
-from dh2urdf.kernels.numbers.engine import entry
+from dh2urdf.engine import entry
 from dh2urdf.kernels.shapes import Floats, Pose
 
 

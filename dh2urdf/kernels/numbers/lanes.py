@@ -9,7 +9,7 @@ little more than three. Householder reflections need no pivots, hence no branche
 
 import math
 
-from dh2urdf.kernels.numbers.engine import side_by_side
+from dh2urdf.engine import side_by_side
 
 LANES = 24
 COLUMN = 6 * LANES

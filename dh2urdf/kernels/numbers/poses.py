@@ -1,6 +1,6 @@
 """Check of target poses, cheap enough for every call."""
 
-from dh2urdf.kernels.numbers.engine import entry
+from dh2urdf.engine import entry
 from dh2urdf.kernels.shapes import Outputs, Pose, Poses
 
 ORTHONORMAL = 1e-6

@@ -8,8 +8,8 @@ residual of the chain decides later whether the merged root is a solution.
 import math
 from typing import Annotated, TypeAlias
 
+from dh2urdf.engine import entry
 from dh2urdf.kernels.numbers.elementary import hypot, sincos
-from dh2urdf.kernels.numbers.engine import entry
 from dh2urdf.kernels.shapes import Floats
 
 TINY = 1e-13
