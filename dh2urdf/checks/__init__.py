@@ -4,7 +4,7 @@
 :func:`ask_all` loads the file in every consumer that is installed.
 """
 
-from dh2urdf.checks.consumers import Testimony, ask, ask_all, installed, why_not_asked
+from dh2urdf.checks.ask_consumers import Testimony, ask, ask_all, installed, why_not_asked
 from dh2urdf.checks.findings import Consumer, Effect, Finding, Severity, Verdict
 from dh2urdf.checks.mesh_files import locate
 from dh2urdf.checks.rules import RULES, check_urdf

@@ -16,7 +16,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.ik.arm import Outputs
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.families.general_6r import General6R
 
 HALF = math.pi / 2

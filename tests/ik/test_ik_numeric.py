@@ -8,7 +8,7 @@ from ik_referee import random_robot
 
 import dh2urdf
 from dh2urdf.exceptions import ConfigurationError, NoSolverError, PoseError
-from dh2urdf.ik.arm.solver_table import SOLVERS, imported
+from dh2urdf.ik.arm.solver_order import SOLVERS, imported
 
 MIMIC = """<robot name="paired"><link name="base"/><link name="a"/><link name="b"/><link name="c"/>
 <link name="tip"/>

@@ -25,5 +25,5 @@ from dh2urdf.conversions.read.kinematic_tree import (
     no_such,
     rigid_part,
 )
-from dh2urdf.conversions.read.mended_elements import FLOAT
+from dh2urdf.conversions.read.urdf_elements import FLOAT
 from dh2urdf.conversions.read.urdf_tree import count_elements

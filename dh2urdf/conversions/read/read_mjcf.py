@@ -11,7 +11,7 @@ from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, LENGTH, LINKS
 from dh2urdf.conversions.read.apart import read_apart
 from dh2urdf.conversions.read.kinematic_tree import Actuation, KinematicTree, TreeJoint, TreeLink
-from dh2urdf.conversions.read.mended_elements import as_pinocchio_takes
+from dh2urdf.conversions.read.urdf_elements import as_pinocchio_takes
 from dh2urdf.conversions.write import Inertial
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError

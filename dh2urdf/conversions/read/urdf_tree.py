@@ -14,7 +14,7 @@ from dh2urdf.conversions.read.kinematic_tree import (
     TreeLink,
     listed,
 )
-from dh2urdf.conversions.read.mended_elements import UrdfReader
+from dh2urdf.conversions.read.urdf_elements import UrdfReader
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 

@@ -20,32 +20,7 @@ from dh2urdf.ik.arm.limits import (
     turn_counts,
     turned_to,
 )
-from dh2urdf.ik.arm.singular_families import Family, slide_to_seed
-from dh2urdf.ik.arm.solver import (
-    BRANCH_WORDS,
-    BatchKernel,
-    BranchWords,
-    HeldSolver,
-    IntArray,
-    Others,
-    Outputs,
-    Room,
-    Solver,
-    SolverBase,
-    branch_words_of,
-)
-from dh2urdf.ik.arm.solver_table import select_solver
-from dh2urdf.ik.arm.task import (
-    TRIALS,
-    Task,
-    moving_joints,
-    random_configurations,
-    scaled_jacobian,
-    spare_joints,
-    task_error,
-    task_jacobian,
-)
-from dh2urdf.ik.arm.tolerances import (
+from dh2urdf.ik.arm.shared_tolerances import (
     ACCEPT,
     FAMILY_RANK,
     INTERVAL_END,
@@ -62,4 +37,29 @@ from dh2urdf.ik.arm.tolerances import (
     SLACK_OF_NOISE,
     SNAP,
     SPARE_RANK,
+)
+from dh2urdf.ik.arm.singular_families import Family, slide_to_seed
+from dh2urdf.ik.arm.solver import (
+    BRANCH_WORDS,
+    BatchKernel,
+    BranchWords,
+    HeldSolver,
+    IntArray,
+    Others,
+    Outputs,
+    Room,
+    Solver,
+    SolverBase,
+    branch_words_of,
+)
+from dh2urdf.ik.arm.solver_order import select_solver
+from dh2urdf.ik.arm.task import (
+    TRIALS,
+    Task,
+    moving_joints,
+    random_configurations,
+    scaled_jacobian,
+    spare_joints,
+    task_error,
+    task_jacobian,
 )

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.tolerances import EXACT, FORM_ERROR, SNAP
+from dh2urdf.ik.arm.shared_tolerances import EXACT, FORM_ERROR, SNAP
 from dh2urdf.kernels.numbers import atan2, hypot, sincos
 from dh2urdf.transforms import Array, dot, inverse, length, pose_error, product
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.tolerances import LIMIT_SLACK
+from dh2urdf.ik.arm.shared_tolerances import LIMIT_SLACK
 from dh2urdf.kernels.certificate import turn_to
 from dh2urdf.transforms import Array
 

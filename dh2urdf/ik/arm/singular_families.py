@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
+from dh2urdf.ik.arm.shared_tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.ik.arm.task import Task, task_error
-from dh2urdf.ik.arm.tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.kernels.redundant import nearest_members, walk_family
 from dh2urdf.transforms import Array, length
 

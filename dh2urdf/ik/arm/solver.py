@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain, settled_state
+from dh2urdf.ik.arm.shared_tolerances import NOMINAL
 from dh2urdf.ik.arm.task import Task, spare_joints
-from dh2urdf.ik.arm.tolerances import NOMINAL
 from dh2urdf.kernels.shapes import Outputs
 from dh2urdf.transforms import Array
 

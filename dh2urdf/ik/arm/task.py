@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.tolerances import FAMILY_RANK, NO_RANK, SPARE_RANK, WEAK_RANK
+from dh2urdf.ik.arm.shared_tolerances import FAMILY_RANK, NO_RANK, SPARE_RANK, WEAK_RANK
 from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 from dh2urdf.transforms import Array, dot, product
 

@@ -5,7 +5,7 @@ says why there is none, `path` goes through many poses; `swept_problem` is the s
 spare, `scaled_problem` with another unit of length; `locked` reads ``locked``.
 """
 
-from dh2urdf.ik.problem.batch import IKBatch
+from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.locked import Locked, held_values
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import ForwardKinematics, Problem, Progress

@@ -30,7 +30,7 @@ from dh2urdf.ik.arm import (
     task_error,
     turn_counts,
 )
-from dh2urdf.ik.problem.batch import IKBatch
+from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to

@@ -12,7 +12,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import HeldSolver, lengths_in
-from dh2urdf.ik.problem.batch import IKBatch
+from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.path import IKPath, PathFinder
 from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.ik.problem.solutions import IKSolutions

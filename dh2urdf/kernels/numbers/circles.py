@@ -2,7 +2,8 @@
 
 import math
 
-from dh2urdf.kernels.numbers.trig import TINY, linear_trig, trig_roots
+from dh2urdf.kernels.numbers.double_roots import linear_trig
+from dh2urdf.kernels.numbers.trig import TINY, trig_roots
 
 
 def circle_pair(M, N, d, slack, scratch, out):

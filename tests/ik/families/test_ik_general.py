@@ -28,7 +28,7 @@ from margins import assert_apart, assert_margin
 
 import dh2urdf
 from dh2urdf.ik.arm import Task
-from dh2urdf.ik.arm.solver_table import SOLVERS, imported, select_solver
+from dh2urdf.ik.arm.solver_order import SOLVERS, imported, select_solver
 from dh2urdf.ik.families.general_6r import General6R
 
 NON_PIEPER = ["fanuc_crx10ia", "fanuc_crx10ia_l", "kinova_jaco2", "xarm6", "abb_gofa5"]

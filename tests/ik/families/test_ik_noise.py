@@ -11,7 +11,7 @@ from ik_referee import draw, exists, forward, gaps, misses, regularity, rows_of,
 
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.transforms import inverse, matrix_to_rpy
 

@@ -13,7 +13,7 @@ from test_short_chains import HALF, chain_of
 
 import dh2urdf
 from dh2urdf.ik.arm import Task, spare_joints, task_error
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 
 STEPS = {
     "any axes": ((0.2, 0.3, 0.7), (-0.1, 0.4, -1.1), (0.3, 0.2, 0.4)),

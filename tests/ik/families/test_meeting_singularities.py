@@ -10,7 +10,7 @@ from dh_product import rows
 from ik_referee import HALF
 
 import dh2urdf
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.solve import InverseKinematics
 
 QUARTERS = np.array([0.0, math.pi / 2, -math.pi / 2, math.pi])

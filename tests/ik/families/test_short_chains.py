@@ -17,7 +17,7 @@ from margins import assert_margin
 from dh2urdf.chain import SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.ik.arm import Task, spare_joints
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.families.short import ShortChain
 
 HALF = math.pi / 2

@@ -11,7 +11,7 @@ from ik_referee import HALF, RESIDUAL
 from margins import assert_margin
 
 import dh2urdf
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 
 NAMES = """

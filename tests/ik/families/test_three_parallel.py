@@ -11,7 +11,7 @@ from ik_referee import GAP, HALF, RESIDUAL
 from margins import assert_margin
 
 from dh2urdf.ik.arm import Task
-from dh2urdf.ik.arm.solver_table import select_solver
+from dh2urdf.ik.arm.solver_order import select_solver
 from dh2urdf.ik.families.three_parallel import ThreeParallel
 
 DEG = math.pi / 180

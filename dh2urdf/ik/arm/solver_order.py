@@ -18,7 +18,7 @@ SOLVERS = (
     "dh2urdf.ik.families.near_family:NearFamily",
     "dh2urdf.ik.families.general_6r:General6R",
     "dh2urdf.ik.redundant.swept:SweptJoint",
-    "dh2urdf.ik.redundant.redundancy:RedundantChain",
+    "dh2urdf.ik.redundant.held_at_rest:RedundantChain",
 )
 """Modules and classes of the families, best first, imported when wanted; each class says what it
 needs, and a chain gets the first that has no obstacle."""

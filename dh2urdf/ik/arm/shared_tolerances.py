@@ -1,4 +1,4 @@
-"""Every threshold of the solvers, each with its unit and its reason."""
+"""Thresholds that solvers share, with unit and reason; others stand at the top of their file."""
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a solution; the same number as in ``kernels/certificate/certify.py``."""
