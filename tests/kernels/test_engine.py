@@ -10,7 +10,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 ANSWER = """
-from dh2urdf.kernels.numbers import engine
+from dh2urdf import engine
 from tests.translate import golden
 assert list(golden.lines("planar_rr", 3)) == golden.kept()["planar_rr"][:3]
 print(engine._COMPILED and engine._COMPILED.LEVEL)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from dh2urdf import engine
 from dh2urdf.kernels.certificate import measure_all
-from dh2urdf.kernels.numbers import engine
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist
 from dh2urdf.translate.entries import argument_types
 from dh2urdf.translate.types import Array, Tuple
