@@ -11,7 +11,6 @@ import pytest
 from urdf_faults import BODY, FAULTS, SOUND, arm, joint
 
 import dh2urdf
-from dh2urdf.checks import consumers
 
 
 @pytest.fixture(autouse=True)

@@ -14,7 +14,7 @@ from lxml import etree
 from urdf_faults import BODY, FAULTS, KEEP, SOUND, TOOL, arm, box, fixed, joint, mesh, write_meshes
 
 import dh2urdf
-from dh2urdf.checks import RULES, Consumer, Severity, Verdict, ask, check_urdf, consumers
+from dh2urdf.checks import RULES, Consumer, Severity, Verdict, ask, ask_consumers, check_urdf
 from dh2urdf.checks.probe import probe
 from dh2urdf.checks.rounding import meant_angle
 from dh2urdf.exceptions import UrdfError
@@ -122,7 +122,7 @@ def test_predictions_hold_for_real_robots(path, consumer):
 @every_case
 def test_other_consumers_do_as_predicted(rule, text, consumer, urdf, monkeypatch):
     """The same of PyBullet, Drake and ikpy, each in a process of its own."""
-    pytest.importorskip(consumers.MODULES[consumer])
+    pytest.importorskip(ask_consumers.MODULES[consumer])
     if rule == "joins-itself":
         monkeypatch.setattr(consumers, "PATIENCE", 10.0)
     path = urdf(text)

@@ -2,7 +2,7 @@
 
 `kinematic_tree` is the result. `description` takes any format (`apart` runs foreign readers in a
 process of their own) and hands the tree to Pinocchio; `urdf_tree` reads a URDF,
-`mended_elements` its elements one by one, with what is obvious mended, `read_mjcf` an MJCF.
+`urdf_elements` its elements one by one, with what is obvious mended, `read_mjcf` an MJCF.
 """
 
 from dh2urdf.conversions.read.description import (

@@ -1,7 +1,7 @@
 """What is known of an arm before any pose: its axes, its limits, the solver that it gets.
 
-`tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
-chain moves in it; `solver` what a solver is, `solver_table` picks one; `geometry` looks at axes,
+`shared_tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
+chain moves in it; `solver` what a solver is, `solver_order` picks one; `geometry` looks at axes,
 `singular_families` at joints that move freely; `chains` makes chains of a chain, `limits` full
 turns; `in_doubt` searches poses that a solver is not sure of; `given` checks what callers give.
 """

@@ -2,7 +2,7 @@
 
 `held_values` picks the solver with joints held (`held_wrist` is the fastest one), `special_values`
 are those at which it is another, `swept` solves at many values of one joint, `self_motion` moves
-between them, `redundancy` holds idle joints, `searched` helps arms with weak directions.
+between them, `held_at_rest` holds idle joints, `searched` helps arms with weak directions.
 """
 
 from dh2urdf.ik.redundant.held_values import select_held
