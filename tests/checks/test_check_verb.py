@@ -65,7 +65,7 @@ def test_no_program_is_asked_about_very_many_joints(run, tmp_path):
 
 def test_a_program_that_hangs_is_left_in_time(run, tmp_path, monkeypatch):
     """A joint from a link to itself, on which check_urdf does not come back, ends all the same."""
-    monkeypatch.setattr(consumers, "PATIENCE", 3.0)
+    monkeypatch.setattr(ask_consumers, "PATIENCE", 3.0)
     (tmp_path / "loop.urdf").write_text(FAULTS["joins-itself"][0])
     status, out, _ = run("check", "loop.urdf")
     assert status == 1

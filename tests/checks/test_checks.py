@@ -104,7 +104,7 @@ def test_own_files_have_no_findings(name, written):
 def test_consumers_do_as_predicted(rule, text, consumer, urdf, capfd, caplog, monkeypatch):
     """Each consumer refuses, complains or accepts exactly as the findings say."""
     if rule == "joins-itself":
-        monkeypatch.setattr(consumers, "PATIENCE", 3.0)
+        monkeypatch.setattr(ask_consumers, "PATIENCE", 3.0)
     path = urdf(text)
     assert verdict_here(consumer, path, capfd, caplog) == predicted(check_urdf(path), consumer)
 
@@ -124,7 +124,7 @@ def test_other_consumers_do_as_predicted(rule, text, consumer, urdf, monkeypatch
     """The same of PyBullet, Drake and ikpy, each in a process of its own."""
     pytest.importorskip(ask_consumers.MODULES[consumer])
     if rule == "joins-itself":
-        monkeypatch.setattr(consumers, "PATIENCE", 10.0)
+        monkeypatch.setattr(ask_consumers, "PATIENCE", 10.0)
     path = urdf(text)
     assert ask(consumer, path).verdict == predicted(check_urdf(path), consumer)
 

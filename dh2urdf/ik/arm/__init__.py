@@ -1,6 +1,6 @@
 """What is known of an arm before any pose: its axes, its limits, the solver that it gets.
 
-`shared_tolerances` has the thresholds that rooms share; `task` says what of a pose is asked, and how a
+`shared_tolerances` has thresholds that rooms share; `task` says what of a pose is asked, and how a
 chain moves in it; `solver` what a solver is, `solver_order` picks one; `geometry` looks at axes,
 `singular_families` at joints that move freely; `chains` makes chains of a chain, `limits` full
 turns; `in_doubt` searches poses that a solver is not sure of; `given` checks what callers give.
