@@ -11,6 +11,7 @@ import pytest
 from urdf_faults import BODY, FAULTS, SOUND, arm, joint
 
 import dh2urdf
+from dh2urdf.checks import ask_consumers
 
 
 @pytest.fixture(autouse=True)

@@ -1,8 +1,8 @@
 """One problem: poses in, solutions, batches and paths out.
 
-`problem` joins a chain, a task and a solver; `solutions` and `batch_solutions` are its answers, `shortfall`
-says why there is none, `path` goes through many poses; `swept_problem` is the same with a joint to
-spare, `scaled_problem` with another unit of length; `locked` reads ``locked``.
+`problem` joins a chain, a task and a solver; `solutions` and `batch_solutions` are its answers,
+`shortfall` says why there is none, `path` goes through many poses; `swept_problem` is the same with
+a joint to spare, `scaled_problem` with another unit of length; `locked` reads ``locked``.
 """
 
 from dh2urdf.ik.problem.batch_solutions import IKBatch
