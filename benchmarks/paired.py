@@ -27,7 +27,7 @@ ARMS = {
     "puma560": "spherical wrist",
     "stanford": "spherical wrist",
     "ur5": "three parallel axes",
-    "fanuc_crx10ia": "general 6R",
+    "fanuc_crx10ia": "two parallel axes",
     "franka_fer": "seven joints, one held",
     "kuka_iiwa14": "seven joints, swept",
     "planar_rr": "planar",

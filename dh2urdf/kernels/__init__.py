@@ -4,5 +4,5 @@
 
 `shapes` says what entries take; `numbers`, `rigid`, `chain`, `newton` and `certificate` serve all,
 `blocks` those that work on many poses side by side; then the families: `spherical_wrist`,
-`parallel_axes`, `general_6r`, `short_chains`, `nearly`, `redundant`.
+`parallel_axes`, `general_6r`, `two_parallel`, `short_chains`, `nearly`, `redundant`.
 """

@@ -7,7 +7,7 @@ from dh2urdf.ik.arm.task import Task, hardly_moves
 
 SOLVERS = (
     "dh2urdf.ik.families.spherical_wrist:SphericalWrist",
-    "dh2urdf.ik.families.three_parallel:ThreeParallel",
+    "dh2urdf.ik.families.closed_form:ThreeParallel",
     "dh2urdf.ik.families.reversed_chain:SphericalShoulder",
     "dh2urdf.ik.families.reversed_chain:ThreeParallelReversed",
     "dh2urdf.ik.families.planar:PlanarArm",
@@ -16,6 +16,7 @@ SOLVERS = (
     "dh2urdf.ik.families.short_position:ShortPosition",
     "dh2urdf.ik.families.tool_axis:ToolAxis",
     "dh2urdf.ik.families.near_family:NearFamily",
+    "dh2urdf.ik.families.two_parallel:TwoParallel",
     "dh2urdf.ik.families.general_6r:General6R",
     "dh2urdf.ik.redundant.swept:SweptJoint",
     "dh2urdf.ik.redundant.held_at_rest:RedundantChain",

@@ -1,8 +1,8 @@
 """Families of arms, a module each: when it covers a chain, its constants, its kernel.
 
-`spherical_wrist`, `three_parallel`, `reversed_chain` (these two, turned round so that the tool is
-the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
-`general_6r`; and `numeric`, for any chain and some solutions.
+`spherical_wrist`, `closed_form` (three parallel axes), `reversed_chain` (these two, turned round so
+that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
+`two_parallel`, `general_6r`; and `numeric`, for any chain and some solutions.
 """
 
 from dh2urdf.ik.families.general_6r import General6R

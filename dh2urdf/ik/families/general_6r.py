@@ -189,13 +189,19 @@ def _place(arm: Arm, links: Array) -> None:
     arm["chain"][0, :5, :, 3] /= size
 
 
+def blank_general_6r(links: Array) -> Arm:
+    """The record (1,) of an arm with these links (7, 4, 4), no eliminations chosen."""
+    arm = np.zeros(1, ARM_6R)
+    _place(arm, links)
+    return arm
+
+
 def plan_general_6r(links: Array) -> Arm:
     """The record (1,) by which the kernel solves an arm with these links (7, 4, 4).
 
     ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
     """
-    arm = np.zeros(1, ARM_6R)
-    _place(arm, links)
+    arm = blank_general_6r(links)
     _choose(arm, _rank(arm, _random_poses(links)))
     return arm
 

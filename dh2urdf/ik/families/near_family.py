@@ -20,10 +20,9 @@ from dh2urdf.ik.arm import (
     Task,
     search_in_doubt,
 )
-from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
+from dh2urdf.ik.families.closed_form import STUCK, ThreeParallel, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
-from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.nearly import add_candidates, solve_near_parallel, solve_near_wrist
 from dh2urdf.kernels.rigid import invert_poses
@@ -32,13 +31,33 @@ from dh2urdf.transforms import Array
 _Family = type[SphericalWrist | ThreeParallel]
 
 
-class NearFamily(SolverBase):
+class Refereed(SolverBase):
+    """Six revolute joints, and the general solver for poses that are left in doubt."""
+
+    kmax = 16
+    if_spare = STUCK
+
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
+        super().__init__(chain, task, others)
+        self.general = General6R(chain)
+
+    def in_doubt(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[IntArray, Outputs]:
+        """Solve what is in doubt of poses Ts (m, 4, 4); the rows, which have no solutions now."""
+        rows = np.flatnonzero(out.counts < 0)
+        Ts, found = Ts[rows], Outputs.of(len(rows), 2 * self.kmax, 6)
+        first = Outputs.of(len(rows), self.kmax, 6)
+        deep = self.general.solve_unfinished(Ts, first)
+        found.q[:, : self.kmax], found.counts[:] = first.q, first.counts
+        add_candidates(rows, out, found.q, found.counts)
+        out.counts[rows] = 0
+        return rows, search_in_doubt(self.chain, Ts, found, deep, within_limits)
+
+
+class NearFamily(Refereed):
     """The nominal arm's solutions as seeds, Newton on the exact chain, general solver in doubt."""
 
     name = "nearly a family"
     needs = "six revolute joints, rounded or calibrated: nearly one of the first four rows"
-    kmax = 16
-    if_spare = STUCK
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
@@ -48,7 +67,6 @@ class NearFamily(SolverBase):
         seen = chain.reversed() if self.reversed else chain
         self.nominal = family(seen, tolerance=tolerance)
         self.name = f"nearly {self.nominal.name}{', from the tool' if self.reversed else ''}"
-        self.general = General6R(chain)
         self.distance = float(f"{self.nominal.form.error:.3g}")
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
         self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance, noise), 0.3)
@@ -85,20 +103,9 @@ class NearFamily(SolverBase):
         solve(arm, self.trust, poses, out)
         if self.reversed:
             out.q[:] = out.q[:, :, ::-1].copy()
-        rows = np.flatnonzero(out.counts < 0)
-        wide = self._in_doubt(rows, Ts[rows], out, within_limits)
-        out.counts[rows] = 0
+        rows, wide = self.in_doubt(Ts, within_limits, out)
         finish_batch(self.chain.tables, Ts, within_limits, out)
         out.put(rows, wide)
-
-    def _in_doubt(self, rows: IntArray, Ts: Array, out: Outputs, within_limits: bool) -> Outputs:
-        """Solve poses in doubt, Ts (d, 4, 4), from these rows of the outputs: wider ones."""
-        found = Outputs.of(len(rows), 2 * self.kmax, 6)
-        first = Outputs.of(len(rows), self.kmax, 6)
-        deep = self.general.solve_unfinished(Ts, first)
-        found.q[:, : self.kmax], found.counts[:] = first.q, first.counts
-        add_candidates(rows, out, found.q, found.counts)
-        return search_in_doubt(self.chain, Ts, found, deep, within_limits)
 
 
 @lru_cache(maxsize=4)

@@ -10,8 +10,8 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import NOMINAL, Others, Outputs, SolverBase, Task
+from dh2urdf.ik.families.closed_form import ThreeParallel
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
-from dh2urdf.ik.families.three_parallel import ThreeParallel
 from dh2urdf.kernels.certificate import turn_back
 from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array

@@ -7,7 +7,7 @@ root is overlooked.
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import TERMS
+from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL, TERMS
 from dh2urdf.kernels.numbers import LANES, atan2
 
 STACK = 40
@@ -31,11 +31,17 @@ CURVED = 1e4
 SHALLOW = 0.03
 """An arc whose smallest coefficient is below this part of its largest may hold such a pair."""
 
+STEEP = 1.5
+"""Growth from the first coefficient to the second where f has its roots beyond the end."""
+
 FLAT = 1e4
 """An arc on which f is below this many times the noise is in doubt."""
 
 CLEAR = 1e3
 """An arc without a root on which f comes below this many times the noise is in doubt."""
+
+BLIND = 30.0
+"""An arc with an end where f is below this many times the noise is in doubt."""
 
 UNSURE = 1e-6
 """A root whose place is uncertain by more than this [rad] is in doubt."""
@@ -57,11 +63,31 @@ def _evaluate(row, x, scratch):
     return y * p + x * q, 16.0 * (q - p), 240.0 * (a - 2.0 * b + c)
 
 
-def _bracketed_root(row, low, high, x, rising, tolerance, scratch):
+def _value_and_slope(row, x):
+    """f and f' at x in [0, 1] of a row of Bernstein coefficients, by Horner's rule.
+
+    In ``t = x / (1 - x)``, or its inverse in the other half: ``f = (1 - x)^16 p(t)``.
+    """
+    left = x <= 0.5
+    y = 1.0 - x if left else x
+    t = (1.0 - y) / y
+    value, slope = row[TERMS - 1] if left else row[0], 0.0
+    for i in range(1, TERMS):
+        k = TERMS - 1 - i if left else i
+        slope = slope * t + value
+        value = value * t + BINOMIAL[k] * row[k]
+    y2 = y * y
+    y4 = y2 * y2
+    y14 = y4 * y4 * y4 * y2
+    slope = y14 * (slope - 16.0 * y * value)
+    return y14 * y2 * value, slope if left else -slope
+
+
+def _bracketed_root(row, low, high, x, rising, tolerance):
     """The root between low and high, Newton from x kept in the bracket, and f' there."""
     df = 0.0
     for _ in range(60):
-        f, df, _ = _evaluate(row, x, scratch)
+        f, df = _value_and_slope(row, x)
         if (f > 0.0) == rising:
             high = x
         else:
@@ -106,6 +132,20 @@ def _shape(row):
     return changes, crossing, place / (TERMS - 1), smallest, largest
 
 
+def _may_hold_pair(row, changes, place, shallow, sure, length):
+    """Whether to look for a pair of roots at an extremum.
+
+    Not where it is sure that f falls towards an end: its roots are beyond.
+    """
+    if changes != 0:
+        return changes == 2 and length < NARROW
+    if sure and place == 0.0 and abs(row[1]) > STEEP * abs(row[0]):
+        return False
+    if sure and place == 1.0 and abs(row[TERMS - 2]) > STEEP * abs(row[TERMS - 1]):
+        return False
+    return shallow
+
+
 def _halve(stack, top):
     """De Casteljau at the middle: row ``top`` keeps the right half, ``top + 1`` gets the left."""
     for i in range(TERMS):
@@ -133,12 +173,12 @@ def _doubt(spans, row, centre):
         spans[0, 0], spans[0, n], spans[1, n] = n, low, high
 
 
-def _pair(row, x, f, ddf, rising, length, scratch):
+def _pair(row, x, f, ddf, rising, length):
     """The two roots beside an extremum at x that lies across the axis, with f' there."""
     h = math.sqrt(abs(2.0 * f / ddf))
     fine = 1e-8 / length
-    a, da = _bracketed_root(row, 0.0, x, max(x - h, 0.0), rising, fine, scratch)
-    b, db = _bracketed_root(row, x, 1.0, min(x + h, 1.0), not rising, fine, scratch)
+    a, da = _bracketed_root(row, 0.0, x, max(x - h, 0.0), rising, fine)
+    b, db = _bracketed_root(row, x, 1.0, min(x + h, 1.0), not rising, fine)
     return a, da, b, db
 
 
@@ -165,21 +205,25 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
         row = stack[top]
         changes, crossing, place, smallest, largest = _shape(row)
         length = 2.0 * (row[18] - row[17])
-        doubt = largest < FLAT * noise or (changes == 0 and smallest < CLEAR * noise)
+        end = min(abs(row[0]), abs(row[TERMS - 1]))
+        doubt = largest < FLAT * noise or end < BLIND * noise
+        doubt = doubt or (changes == 0 and smallest < CLEAR * noise)
         decided = changes < 2
         if changes == 1:
             fine = 1e-8 / length
-            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, fine, scratch)
+            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, fine)
             slope = abs(df) / length + 1e-300
             count = _add(roots, slopes, count, _angle(centre, row, x), slope)
             doubt = doubt or slope * UNSURE < noise
-        elif (changes == 0 and smallest < SHALLOW * largest) or (changes == 2 and length < NARROW):
+        elif _may_hold_pair(
+            row, changes, place, smallest < SHALLOW * largest, smallest > CLEAR * noise, length
+        ):
             x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
             positive = row[0] > 0.0
             if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
                 near = NEAR_DOUBLE / length
                 if (f > 0.0) != positive:
-                    a, da, b, db = _pair(row, x, f, ddf, not positive, length, scratch)
+                    a, da, b, db = _pair(row, x, f, ddf, not positive, length)
                     da, db = abs(da) / length, abs(db) / length
                     count = _add(roots, slopes, count, _angle(centre, row, a), da + 1e-300)
                     count = _add(roots, slopes, count, _angle(centre, row, b), db + 1e-300)

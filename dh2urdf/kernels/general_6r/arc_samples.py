@@ -18,6 +18,8 @@ HARMONICS = 23
 ARC = 2.0 * math.pi / LANES
 ARC_TAN = sincos(0.25 * ARC)[0] / sincos(0.25 * ARC)[1]
 
+BINOMIAL = np.array([float(math.comb(2 * DEGREE, i)) for i in range(TERMS)])
+
 CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
 CIRCLE_SIN, CIRCLE_COS = np.array([sincos(x) for x in CIRCLE_ANGLE.tolist()]).T.copy()
 NODE = np.array([sincos(math.pi * (k + 0.5) / LANES)[1] for k in range(LANES)])
@@ -37,7 +39,6 @@ def _arc_table():
 
     From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
     """
-    binomial = np.array([math.comb(2 * DEGREE, i) for i in range(TERMS)])
     columns = []
     for m in range(DEGREE + 1):
         real, imaginary = np.ones(1), np.zeros(1)
@@ -45,7 +46,7 @@ def _arc_table():
             t = ARC_TAN if factor < DEGREE + m else -ARC_TAN
             (a, b), (c, d) = _beside(real), _beside(imaginary)
             real, imaginary = a + b + t * (c - d), c + d - t * (a - b)
-        columns += [real / binomial] if m == 0 else [real / binomial, imaginary / binomial]
+        columns += [real / BINOMIAL] if m == 0 else [real / BINOMIAL, imaginary / BINOMIAL]
     return np.ascontiguousarray(np.array(columns).T)
 
 

@@ -75,8 +75,10 @@ def _seeds(e, roots, count, copies, arm):
     return lanes
 
 
-def _polish(lanes, damped, arm):
+def polish_lanes(lanes, damped, converged, arm):
     """Newton on the exact chain until every lane has converged or has ceased to.
+
+    Converged: to an error of that size, relative to the arm's.
 
     Leaves the errors of the seeds, lengths in parts of the arm's size, in ``seeded``, and the
     determinant of the Jacobian, in parts of the size cubed, in ``determinant``.
@@ -86,7 +88,7 @@ def _polish(lanes, damped, arm):
     links, size, scale, seeded = arm["links"], arm["size"], arm["determinant"], arm["seeded"]
     error, position, angle, before = arm["error"], arm["position"], arm["angle"], arm["before"]
     n = (lanes + 7) // 8 * 8
-    goal = CONVERGED * max(size, 1.0)
+    goal = converged * max(size, 1.0)
     weight = 1.0 / size
     before[:lanes] = math.inf
     for step in range(MOST_STEPS + 1):
@@ -113,7 +115,7 @@ def _polish(lanes, damped, arm):
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
 
 
-def _place(k, found, out_q, out_residual, arm):
+def keep_lane(k, found, out_q, out_residual, arm):
     """Store lane k unless it missed the target or is known.
 
     Of a family of solutions only some members are kept, to leave room for the isolated ones.
@@ -175,10 +177,10 @@ def follow(e, count, found, out_q, out_residual, arm):
     again, worst = 0, 0.0
     for copies in range(1, 3):
         lanes = _seeds(e, roots if copies == 1 else doubles, count, copies, arm)
-        _polish(lanes, copies - 1, arm)
+        polish_lanes(lanes, copies - 1, CONVERGED, arm)
         seen[:] = 0.0
         for lane in range(lanes):
-            found, place = _place(lane, found, out_q, out_residual, arm)
+            found, place = keep_lane(lane, found, out_q, out_residual, arm)
             led = place >= 0 and seen[place] == 0.0 and slopes[lane] > 0.0
             if copies == 2 or (led and _at_root(e, roots[lane], out_q[place], arm)):
                 worst = max(worst, arm["seeded"][lane])

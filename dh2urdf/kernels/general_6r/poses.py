@@ -29,6 +29,9 @@ CROWDED = 1e-3
 """Determinant of a solution's Jacobian below which roots of several may run together: none is
 taken for the last before every root is accounted for."""
 
+NUDGE = 1e-3
+"""Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
+
 ATTEMPTS = 3
 """Rounds of all eliminations, from the second one on for a pose nearby."""
 
@@ -54,7 +57,8 @@ def _solve_pose(T, out_q, out_residual, arm):
             break
         e = trial % trials
         if e == 0 and trial > 0:
-            nudge(arm["chain"][5], trial // trials)
+            # where solutions crowd, each attempt takes it further
+            nudge(arm["chain"][5], NUDGE if trial == trials else -1.7 * NUDGE)
         eliminate(e, arm)
         before, retried, seeded = found, 0, 0.0
         count = find_roots(arm)

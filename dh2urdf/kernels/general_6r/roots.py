@@ -12,7 +12,7 @@ from dh2urdf.kernels.general_6r.arc_samples import (
     window_nodes,
 )
 from dh2urdf.kernels.general_6r.resultant import resultants
-from dh2urdf.kernels.numbers import LANES, sincos
+from dh2urdf.kernels.numbers import LANES, side_by_side, sincos
 from dh2urdf.kernels.rigid import load_pose, times_link
 
 HOPELESS = 1e-2
@@ -30,9 +30,6 @@ NARROWER = 2.4
 EDGE = 1e-7
 """Angle [rad] by which a root may lie outside its span."""
 
-NUDGE = 1e-3
-"""Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
-
 
 def place_target(T, arm):
     """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
@@ -44,50 +41,56 @@ def place_target(T, arm):
     C[2, 0], C[2, 1], C[2, 2], C[2, 3] = r[8], r[9], r[10], r[11] / size
 
 
-def nudge(target, attempt):
-    """Move the ``target`` of the eliminations (3, 4) a little, another way at each attempt.
+def nudge(pose, t):
+    """Move a pose (3, 4), lengths in sizes of the arm, a little, by t.
 
     At a symmetric pose every determinant may vanish identically; solutions of a pose nearby are
-    as good as seeds. Where solutions crowd, each attempt takes it further. A turn by
-    ``2 atan(NUDGE)`` about one skew axis and a shift along another.
+    as good as seeds. A turn by ``2 atan(t)`` about one skew axis and a shift along another.
     """
-    t = NUDGE if attempt == 1 else -1.7 * NUDGE
     x, y, z = 0.36 * t, -0.80 * t, 0.48 * t
     f = 2.0 / (1.0 + t * t)
     for j in range(4):
-        a, b, c = target[0, j], target[1, j], target[2, j]
+        a, b, c = pose[0, j], pose[1, j], pose[2, j]
         u, v, w = a + y * c - z * b, b + z * a - x * c, c + x * b - y * a
-        target[0, j] = a + f * (y * w - z * v)
-        target[1, j] = b + f * (z * u - x * w)
-        target[2, j] = c + f * (x * v - y * u)
-    target[0, 3] += 0.64 * t
-    target[1, 3] += 0.48 * t
-    target[2, 3] -= 0.60 * t
+        pose[0, j] = a + f * (y * w - z * v)
+        pose[1, j] = b + f * (z * u - x * w)
+        pose[2, j] = c + f * (x * v - y * u)
+    pose[0, 3] += 0.64 * t
+    pose[1, 3] += 0.48 * t
+    pose[2, 3] -= 0.60 * t
 
 
-def _sample(k, arm):
-    """Bernstein coefficients from new samples, one arc a column of ``arcs``.
+def place_samples(k, start, arm):
+    """Cosines and sines of the hidden joint to sample at, to ``hidden``.
 
-    The whole circle if k is 0, else span of doubt k. Returns how many arcs, none where the
-    polynomial says nothing; middle of the first [rad], tangent of a quarter of their length, noise.
+    On the whole circle from ``start`` [rad] on if k is 0, else on span of doubt k. Returns the
+    middle of the first arc [rad] and the tangent of a quarter of its length.
+    """
+    spans, hidden = arm["spans"], arm["hidden"]
+    if k == 0:
+        spans[0, 0], spans[1, 0] = 0.0, 0.0
+        sine, cosine = sincos(start)
+        for i in side_by_side(LANES):
+            hidden[0, i] = CIRCLE_COS[i] * cosine - CIRCLE_SIN[i] * sine
+            hidden[1, i] = CIRCLE_SIN[i] * cosine + CIRCLE_COS[i] * sine
+        return start, ARC_TAN
+    middle = 0.5 * (spans[0, k] + spans[1, k])
+    sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
+    window_nodes(middle, sine / cosine, hidden)
+    return middle, sine / cosine
+
+
+def _arcs(k, half_tan, arm):
+    """Bernstein coefficients of the samples, one arc a column of ``arcs``.
+
+    Returns how many arcs, none where the polynomial says nothing, and the noise.
     """
     determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
-    spans, hidden, beta = arm["spans"], arm["hidden"], arm["beta"]
-    middle, half_tan = 0.0, ARC_TAN
-    if k == 0:
-        hidden[0], hidden[1] = CIRCLE_COS, CIRCLE_SIN
-    else:
-        middle = 0.5 * (spans[0, k] + spans[1, k])
-        sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
-        half_tan = sine / cosine
-        window_nodes(middle, half_tan, hidden)
-    lanes = hidden.shape[1]
-    resultants(arm["equations"], hidden, lanes, arm["A"], arm["W"], determinant, arm["V"], beta)
     if k > 0:
-        return 1, middle, half_tan, window_arc(determinant, half_tan, series, arcs)
+        return 1, window_arc(determinant, half_tan, series, arcs)
     noise, largest = circle_arcs(determinant, series, arm["turned"], arcs)
-    spans[1, 0] = 1.0 if noise > QUIET * largest else 0.0
-    return (LANES if noise < HOPELESS * largest else 0), middle, half_tan, noise
+    arm["spans"][1, 0] = 1.0 if noise > QUIET * largest else 0.0
+    return (LANES if noise < HOPELESS * largest else 0), noise
 
 
 def _keep(roots, slopes, first, count, low, high, inside):
@@ -100,41 +103,58 @@ def _keep(roots, slopes, first, count, low, high, inside):
     return kept
 
 
-def find_roots(arm):
-    """Roots of the polynomial and its slopes there, to ``roots`` and ``slopes``.
+def add_roots(k, middle, half_tan, count, arm):
+    """Roots of the polynomial and its slopes there, to ``roots`` and ``slopes``; their number.
 
-    First on the whole circle. Spans of doubt that this leaves are sampled each on its own, and so
-    are spans still in doubt within one that are much narrower; the roots there are replaced.
-    ``spans[1, 0]`` is set to 1 if doubt remains. Returns the number of roots; -1 where the
-    polynomial says nothing.
+    From samples placed by `place_samples` in turn, first on the whole circle. Spans of doubt that
+    this leaves, ``spans[0, 0]`` of them, are to be sampled each on its own, and so are spans still
+    in doubt within one that are much narrower; the roots there are replaced. ``spans[1, 0]`` is
+    set to 1 if doubt remains. -1 where the polynomial says nothing.
     """
     arcs, stack, roots, slopes = arm["arcs"], arm["stack"], arm["roots"], arm["slopes"]
     spans, fresh, casteljau = arm["spans"], arm["fresh"], arm["casteljau"]
+    number, noise = _arcs(k, half_tan, arm)
+    if number == 0:
+        return -1
+    first = count
+    fresh[0, 0] = 0.0
+    for arc in range(number):
+        for i in range(TERMS):
+            stack[0, i] = arcs[i, arc]
+        count = roots_on_arc(
+            stack, middle + arc * ARC, half_tan, noise, casteljau, fresh, count, roots, slopes
+        )
+    if k > 0:
+        count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], True)
+    last = int(spans[0, 0])
+    for n in range(1, int(fresh[0, 0]) + 1):
+        low, high = fresh[0, n], fresh[1, n]
+        if last < SPANS and (k == 0 or high - low < NARROWER * half_tan):
+            count = _keep(roots, slopes, first, count, low, high, False)
+            last += 1
+            spans[0, last], spans[1, last] = low, high
+        else:
+            spans[1, 0] = 1.0
+    spans[0, 0] = last
+    return count
+
+
+def find_roots(arm):
+    """Roots of the six equations' resultant, as by `add_roots`."""
     count, k = 0, 0
-    spans[0, 0] = 0.0
-    while k <= spans[0, 0]:
-        number, middle, half_tan, noise = _sample(k, arm)
-        if number == 0:
-            return -1
-        first = count
-        fresh[0, 0] = 0.0
-        for arc in range(number):
-            for i in range(TERMS):
-                stack[0, i] = arcs[i, arc]
-            count = roots_on_arc(
-                stack, middle + arc * ARC, half_tan, noise, casteljau, fresh, count, roots, slopes
-            )
-        if k > 0:
-            count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], True)
-        last = int(spans[0, 0])
-        for n in range(1, int(fresh[0, 0]) + 1):
-            low, high = fresh[0, n], fresh[1, n]
-            if last < SPANS and (k == 0 or high - low < NARROWER * half_tan):
-                count = _keep(roots, slopes, first, count, low, high, False)
-                last += 1
-                spans[0, last], spans[1, last] = low, high
-            else:
-                spans[1, 0] = 1.0
-        spans[0, 0] = last
+    while count >= 0 and (k == 0 or k <= arm["spans"][0, 0]):
+        middle, half_tan = place_samples(k, 0.0, arm)
+        lanes = arm["hidden"].shape[1]
+        resultants(
+            arm["equations"],
+            arm["hidden"],
+            lanes,
+            arm["A"],
+            arm["W"],
+            arm["determinant"],
+            arm["V"],
+            arm["beta"],
+        )
+        count = add_roots(k, middle, half_tan, count, arm)
         k += 1
     return count

@@ -72,7 +72,8 @@ def check_sweep(chain, m, seed):
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_generating_configuration_is_found(name):
     """Of 500 random poses each has its own configuration among distinct, certified solutions."""
-    assert select_solver(CHAINS[name]).name == "general 6R"
+    family = "two parallel axes" if name in NON_PIEPER else "general 6R"
+    assert select_solver(CHAINS[name]).name == family
     check_sweep(CHAINS[name], 500, seed=2)
 
 
@@ -199,9 +200,9 @@ def test_no_joint_of_a_regular_solution_is_free():
 
 def test_the_solver_explains_itself():
     """The explanation names the method, and each better class with what kept it away."""
-    robot = dh2urdf.Robot.from_dh("fanuc_crx10ia")
-    assert str(robot.solver) == "general 6R"
-    text = robot.solver.explain()
+    solver = select_solver(CHAINS["generic0"])
+    assert str(solver) == "general 6R"
+    text = solver.explain()
     assert "Raghavan" in text
     before = [imported(where).name for where in SOLVERS]
     for name in before[: before.index("general 6R")]:

@@ -12,7 +12,7 @@ from margins import assert_margin
 
 from dh2urdf.ik.arm import Task
 from dh2urdf.ik.arm.solver_order import select_solver
-from dh2urdf.ik.families.three_parallel import ThreeParallel
+from dh2urdf.ik.families.closed_form import ThreeParallel
 
 DEG = math.pi / 180
 SHIPPED = ["techman_tm5_700", "unitree_z1", "ur10", "ur10e", "ur16e", "ur20", "ur3", "ur30"]

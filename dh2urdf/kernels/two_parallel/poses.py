@@ -1,0 +1,184 @@
+"""Solutions of poses of arms with two parallel axes and two that meet."""
+
+import numpy as np
+
+from dh2urdf.kernels.certificate import turn_inside
+from dh2urdf.kernels.general_6r import (
+    ARC,
+    SINGULAR,
+    Arms,
+    add_roots,
+    how_many_below,
+    keep_lane,
+    nudge,
+    place_samples,
+    polish_lanes,
+)
+from dh2urdf.kernels.newton import pose_residual
+from dh2urdf.kernels.numbers import LANES, atan2, entry, sincos
+from dh2urdf.kernels.rigid import (
+    applied,
+    dot,
+    inverse_pose,
+    load_pose,
+    store_pose,
+    times_link,
+    turned,
+)
+from dh2urdf.kernels.shapes import Chain, Outputs, Poses
+from dh2urdf.kernels.two_parallel.branches import MOST, add_branches
+from dh2urdf.kernels.two_parallel.polynomial import TwoParallel, cross, sample, vector
+
+CONVERGED = 1e-14
+"""Error at which a lane is not polished further, relative to the arm's size."""
+
+CAREFUL = 2e-15
+"""The same where solutions meet, and are united by what their residuals leave open."""
+
+TOUCHING = 1e-12
+"""Value of the polynomial, in parts of the largest, that may be zero."""
+
+CROWDED = 1e-3
+"""Determinant of a solution's Jacobian below which poses nearby are asked too."""
+
+NUDGES = np.array([0.0, 1e-3, -1e-3, 1e-4, -1e-4, 1e-2, -1e-2])
+"""How far the poses are moved from whose solutions the seeds are taken."""
+
+
+def _rows(h1, v, seen, row):
+    """Constant, cosine and sine of ``R1^T v``."""
+    f, (x, y, z) = dot(h1, v), cross(v, h1)
+    a, b, c = f * h1[0], f * h1[1], f * h1[2]
+    seen[row, 0], seen[row, 1], seen[row, 2] = a, b, c
+    seen[row + 1, 0], seen[row + 1, 1], seen[row + 1, 2] = v[0] - a, v[1] - b, v[2] - c
+    seen[row + 2, 0], seen[row + 2, 1], seen[row + 2, 2] = x, y, z
+
+
+def see(form, T, nudged, D, seen):
+    """What ``seen`` (9, 3) has of the target T (4, 4): u, l and a normal of axis 6."""
+    ends, axes, steps, _, _, mirrored = form
+    store_pose(times_link(times_link(load_pose(ends[0]), T), ends[1]), D)
+    if mirrored == 1:
+        store_pose(inverse_pose(D), D)
+    if nudged != 0.0:
+        nudge(D, nudged)
+    x, y, z = 0.0, 0.0, 0.0
+    for i in range(6):
+        x, y, z = x + steps[i, 0], y + steps[i, 1], z + steps[i, 2]
+    h1 = vector(axes[0])
+    _rows(h1, applied(D, (x, y, z)), seen, 0)
+    _rows(h1, turned(D, vector(axes[5])), seen, 3)
+    _rows(h1, turned(D, vector(axes[6])), seen, 6)
+    for j in range(3):
+        seen[0, j] -= steps[1, j]
+
+
+def _find_roots(form, seen, arm):
+    """Values of joint 1, as by `add_roots`: their number, and the largest sample.
+
+    Where axis 6 is parallel to 2 and 3, opposite places, F says nothing: midway between samples.
+    """
+    start = atan2(seen[5, 2], seen[4, 2]) + 0.5 * ARC
+    count, k, largest = 0, 0, 0.0
+    while count >= 0 and (k == 0 or k <= arm["spans"][0, 0]):
+        middle, half_tan = place_samples(k, start, arm)
+        sample(form, seen, arm["hidden"], LANES, arm["determinant"])
+        for i in range(LANES):
+            largest = max(largest, abs(arm["determinant"][i]))
+        count = add_roots(k, middle, half_tan, count, arm)
+        k += 1
+    return count, largest
+
+
+def _touches(form, seen, count, largest, arm):
+    """Whether F may be zero where it only comes near zero, without a change of its sign."""
+    roots, slopes, hidden, values = arm["roots"], arm["slopes"], arm["hidden"], arm["determinant"]
+    if how_many_below(slopes, count, 1e-300) == 0:
+        return False
+    for k in range(count):
+        hidden[1, k], hidden[0, k] = sincos(roots[k])
+    sample(form, seen, hidden, count, values)
+    for k in range(count):
+        if slopes[k] <= 0.0 and abs(values[k]) < TOUCHING * largest:
+            return True
+    return False
+
+
+def _follow(form, seen, count, wide, converged, found, out_q, out_residual, arm):
+    """Append the solutions that roots, and where ``wide`` spans of doubt, lead to; their number."""
+    roots, spans, lane = arm["roots"], arm["spans"], 0
+    places = count + (int(spans[0, 0]) if wide else 0)
+    for r in range(places):
+        value = 0.0
+        if r < count:
+            value = roots[r]
+        else:
+            value = 0.5 * (spans[0, r - count + 1] + spans[1, r - count + 1])
+        s, c = sincos(value)
+        lane = add_branches(form, seen, (c, s), wide, lane, arm)
+        if lane > LANES - (MOST if wide else 4) or r == places - 1:
+            if lane > 0:
+                polish_lanes(lane, 0, converged, arm)
+            for k in range(lane):
+                found, _ = keep_lane(k, found, out_q, out_residual, arm)
+            lane = 0
+    return found
+
+
+def _solve_pose(form, T, out_q, out_residual, arm, D, seen):
+    """All solutions of one pose; their number, or -1 minus it where in doubt."""
+    kept, spans, slopes, target = arm["kept"], arm["spans"], arm["slopes"], arm["target"]
+    target[:] = T[:3]
+    found, agreed = 0, 0
+    for attempt in range(len(NUDGES)):
+        see(form, T, NUDGES[attempt], D, seen)
+        count, largest = _find_roots(form, seen, arm)
+        if count < 0:
+            agreed = 0
+            continue
+        converged = CONVERGED if attempt == 0 else CAREFUL
+        simple = count - how_many_below(slopes, count, 1e-300)
+        found = _follow(form, seen, count, False, converged, found, out_q, out_residual, arm)
+        clear = spans[1, 0] == 0.0 and simple == found
+        clear = clear and not _touches(form, seen, count, largest, arm)
+        clear = clear and how_many_below(kept, found, SINGULAR) == 0
+        if attempt == 0:
+            if clear and how_many_below(kept, found, CROWDED) == 0:
+                return found
+            if not clear:
+                found = _follow(form, seen, count, True, CAREFUL, found, out_q, out_residual, arm)
+        else:
+            agreed = agreed + 1 if clear else 0
+            if agreed == 2:
+                return found
+    return -1 - found
+
+
+@entry(n=6, solutions=16)
+def solve_two_parallel(
+    chain: Chain,
+    form: TwoParallel,
+    arms: Arms,
+    exact: bool,
+    Ts: Poses,
+    within_limits: bool,
+    outputs: Outputs,
+):
+    """Poses Ts (m, 4, 4), by the lines of an arm and its record ``arms`` (1,).
+
+    A count is -1 minus that of the candidates where there may be other solutions, as everywhere if
+    the lines are not exactly the chain's.
+    """
+    q, residual, count, branch, free = outputs
+    arm, D, seen = arms[0], np.empty((4, 4)), np.empty((9, 3))
+    for i in range(Ts.shape[0]):
+        found = _solve_pose(form, Ts[i], q[i], residual[i], arm, D, seen)
+        for k in range(found):
+            residual[i, k] = pose_residual(chain, Ts[i], q[i, k])
+            branch[i, k], free[i, k] = -1, 0
+        if not exact:
+            found = -1 - max(found, -1 - found)
+        if found > 0:
+            rows = q[i], residual[i], branch[i], free[i]
+            found = turn_inside(chain, Ts[i], within_limits, *rows, found)
+        count[i] = found
