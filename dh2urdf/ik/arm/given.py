@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.bounds import ANGLE, LENGTH
-from dh2urdf.doors import finite_array, flag, real_array
+from dh2urdf.doors import FLOAT, finite_array, flag, real_array
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm.task import Task
 from dh2urdf.kernels.numbers import first_bad_pose, is_pose
@@ -20,14 +20,19 @@ def one_pose(T: ArrayLike, task: Task, nearest: bool) -> tuple[Array, float]:
 
     A point (3,) will do for a position.
     """
-    given = T if type(T) is np.ndarray else getattr(T, "homogeneous", T)
-    m = real_array(given, "pose", POSE, PoseError)
+    if type(T) is np.ndarray and T.dtype is FLOAT and T.shape == (4, 4) and nearest is False:
+        try:
+            if is_pose(T):
+                return T, 0.0
+        except TypeError:
+            pass  # not in C order
+    m = real_array(getattr(T, "homogeneous", T), "pose", POSE, PoseError)
     if m.shape != (4, 4):
         if m.shape == (3,) and task is Task.POSITION:
             point, m = m, np.eye(4)
             m[:3, 3] = point
         elif m.shape != (1, 4, 4):
-            shape = check_pose(given).shape
+            shape = check_pose(m).shape
             raise PoseError(f"pose: expected shape (4, 4), got {shape}; ik_batch takes many")
         m = m.reshape(4, 4)
     change, rounded = 0.0, nearest is not False and flag(nearest, "nearest")
