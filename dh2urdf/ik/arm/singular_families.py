@@ -15,6 +15,7 @@ from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.shared_tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.ik.arm.task import Task, task_error
+from dh2urdf.kernels.certificate import find_solutions
 from dh2urdf.kernels.redundant import nearest_members, walk_family
 from dh2urdf.transforms import Array, length
 
@@ -133,6 +134,25 @@ class Family:
     def _goal(self) -> tuple[int, Array, float]:
         """Task, target and size of the arm, as kernels take them."""
         return self.task.number, np.array(self.T), self.chain.size
+
+
+def beside_seed(
+    chain: SerialChain, task: Task, T: Array, seed: Array, within_limits: bool
+) -> Array:
+    """The solution (1, n) of a pose that Newton's method leads to from a seed, or none (0, n).
+
+    A curve of solutions that is short, or close to another one, may have none of the values at
+    which joints are held.
+    """
+    bounds = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
+    if not within_limits:
+        bounds[:, 1:] = -np.inf, np.inf
+    start = np.clip(seed[None], bounds[:, 1], bounds[:, 2])
+    found, residual = np.empty((1, chain.n)), np.empty(1)
+    arm = chain.tables, np.eye(chain.n), np.zeros(chain.n), bounds
+    goal = task.number, np.array(T), chain.size
+    count, _ = find_solutions(arm, goal, start, found, residual)
+    return found[:count]
 
 
 def _principal(chain: SerialChain, gap: Array) -> Array:

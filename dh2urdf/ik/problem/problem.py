@@ -33,9 +33,10 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
+from dh2urdf.ik.redundant import RedundantChain
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
 from dh2urdf.kernels.numbers import copy_pose, pad_solutions
-from dh2urdf.transforms import Array
+from dh2urdf.transforms import Array, length
 
 ForwardKinematics = Callable[[Array], Array]
 """Configurations (k, n) to poses ``T_base_tool`` (k, 4, 4)."""
@@ -47,6 +48,9 @@ CHUNK = 4096
 """Most poses of one call into a kernel: a few ms, so that progress and Ctrl-C are prompt."""
 
 ALL = slice(None)
+
+NEARER = 1e-5
+"""Joint distance [rad or m] by which a solution is nearer to a seed than those that are known."""
 
 SMALL = 256
 """Poses below which a thread costs more than it saves."""
@@ -179,7 +183,27 @@ class Problem:
         arrays = q[keep], residual[keep], branch[keep], free[keep]
         room = np.empty(len(arrays[0]))
         measure_and_sort(self.chain.tables, self.task.number, found.T, seed, arrays, room)
-        return self._accepted(IKSolutions.of(self, found.T, *arrays))
+        arranged = self._accepted(IKSolutions.of(self, found.T, *arrays))
+        return self._with_nearer(arranged, seed, within_limits)
+
+    def _with_nearer(self, found: IKSolutions, seed: Array, within_limits: bool) -> IKSolutions:
+        """With a nearer solution of an arm with joints to spare, on a curve of its own or not."""
+        if not isinstance(self.solver, RedundantChain):
+            return found
+        for q, mask in zip(*self.solver.beside_seed(found.T, seed, within_limits), strict=True):
+            family = Family(self.chain, self.task, found.T, joints_of_mask(int(mask)), q)
+            member = family.nearest(seed, within_limits)
+            gaps = np.linalg.norm(found.q - seed, axis=1)
+            if member is None or length(member - seed) > gaps.min(initial=np.inf) - NEARER:
+                continue
+            others = found.select(~family.contains(found.q))
+            more = np.zeros(1), np.array([-1]), np.array([mask])
+            rows = zip(
+                (member[None], *more), (others.q, others.residual, *others.codes), strict=True
+            )
+            found = IKSolutions.of(self, found.T, *(np.concatenate(both) for both in rows))
+            found = self._accepted(self._at(found, found.q))
+        return found
 
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
         """Each solution in every turn that the limits allow, sorted by distance from a seed.

@@ -5,6 +5,7 @@ are those at which it is another, `swept` solves at many values of one joint, `s
 between them, `held_at_rest` holds idle joints, `searched` helps arms with weak directions.
 """
 
+from dh2urdf.ik.redundant.held_at_rest import RedundantChain
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.searched import nearly_reaching
 from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals, sample_values

@@ -4,7 +4,8 @@ Where a joint can move in every configuration while the task stays satisfied, th
 one-parameter family through every solution. Joints are then held so that the rest determine the
 task, at rest or at the first of a row of values at which the pose is reached; at rest only, where
 the joints that are held are the only ones to move along the family. Where the pose is reached at
-none of the values, as on the rim of the workspace, a numeric search looks for one member.
+none of the values, as on the rim of the workspace, a numeric search looks for one member. A pose
+may have several curves of solutions, and the values meet some of them; a seed finds its own.
 """
 
 import itertools
@@ -16,10 +17,12 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     NOMINAL,
     TRIALS,
+    IntArray,
     Others,
     Outputs,
     SolverBase,
     Task,
+    beside_seed,
     hold,
     moving_joints,
     near_ranges,
@@ -90,7 +93,18 @@ class RedundantChain(SolverBase):
     def details(self) -> str:
         """Name the held joints and the solver of the others."""
         names = ", ".join(self.chain.names[i] for i in self.held)
-        return f"{names} held at rest or where the pose is reached; {self.one_by_one}"
+        return (
+            f"{names} held at rest or where the pose is reached, for a member of each curve of "
+            f"solutions that these values meet; a seed finds its own; {self.one_by_one}"
+        )
+
+    def beside_seed(self, T: Array, seed: Array, within_limits: bool) -> tuple[Array, IntArray]:
+        """The solution that a seed (n,) leads to, (1, n) or (0, n), and its free joints.
+
+        A pose may have several curves of solutions, and held values a member of some.
+        """
+        q = beside_seed(self.chain, self.task, T, seed, within_limits)
+        return q, self.idle | moving_joints(self.chain, self.task, q)
 
     @cached_property
     def _numeric(self) -> NumericProblem:

@@ -20,11 +20,13 @@ from dh2urdf.ik.arm import (
     TWO_PI,
     HeldSolver,
     Outputs,
+    Task,
+    beside_seed,
     middle,
     near_ranges,
     turned_to,
 )
-from dh2urdf.kernels.certificate import find_solutions, measure_all
+from dh2urdf.kernels.certificate import measure_all
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import enter_limits
 from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
@@ -158,7 +160,7 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
     else:
         q = turned_to(chain, _on_curves(solver, T, VALUES), seed)
         q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
-    beside = _beside_seed(solver, T, seed, within_limits)
+    beside = beside_seed(chain, Task.POSE, T, seed, within_limits)
     q = np.concatenate([q[:STARTS], beside])
     goal = POSE, T, chain.size
     nearest_on_curves(chain.tables, goal, within_limits, q, seed, np.empty(len(q)))
@@ -174,22 +176,6 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
             kept.append(k)
     nearest: Array = q[sorted(kept, key=lambda k: float(distance[k]))]
     return nearest
-
-
-def _beside_seed(solver: Sweep, T: Array, seed: Array, within_limits: bool) -> Array:
-    """The solution (1, n) of a pose that Newton's method leads to from a seed, or none (0, n).
-
-    A curve that is short, or close to another one, may have none of the values that are swept.
-    """
-    chain, n = solver.chain, solver.chain.n
-    bounds = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
-    if not within_limits:
-        bounds[:, 1:] = -np.inf, np.inf
-    start = np.clip(seed[None], bounds[:, 1], bounds[:, 2])
-    found, residual = np.empty((1, n)), np.empty(1)
-    arm = chain.tables, np.eye(n), np.zeros(n), bounds
-    count, _ = find_solutions(arm, (POSE, T, chain.size), start, found, residual)
-    return found[:count]
 
 
 def reach_intervals(solver: Sweep, T: Array, within_limits: bool) -> Array:

@@ -27,6 +27,9 @@ MOST_STEPS = 10
 FLOOR = 1e-14
 """Damping relative to the trace of ``J J^T``: keeps the Cholesky factor real, no more."""
 
+STILL = 1e-28
+"""Trace of ``J J^T`` that is rounding: no joint moves what is asked for."""
+
 POSE, POSITION, POSITION_AXIS = 0, 1, 2
 """Tasks: the whole pose, its position, its position and the direction of the tool's z axis."""
 
@@ -87,7 +90,8 @@ def solve_damped(damped, damping):
                 total += J[i, a] * J[i, b]
             work[a, 8 + b] = total
         trace += work[a, 8 + a]
-    damped_step(work, damping + FLOOR * trace)
+    # where nothing moves what is asked for, J is rounding, and so is what it does
+    damped_step(work, damping + FLOOR * trace if trace > STILL else 1.0)
 
 
 def add_transposed(damped, factor, dq):

@@ -6,6 +6,7 @@ from functools import cache
 import ik_referee as ref
 import numpy as np
 import pytest
+from dh_product import rows
 from ik_referee import GAP, RESIDUAL, distances, forward, jacobians, misses, random_robot, rows_of
 from margins import assert_apart, assert_margin
 
@@ -326,3 +327,28 @@ def test_a_sweep_of_six_joints_is_refused():
         robot.ik(np.eye(4), samples=4)
     with pytest.raises(ConfigurationError, match="no joint is swept"):
         robot.ik_intervals(np.eye(4))
+
+
+def test_a_seed_on_another_curve_of_a_redundant_arm_is_the_first_answer():
+    """Held values lead to members of some curves; the seed leads to its own."""
+    table = dh2urdf.DHTable.from_array(
+        rows(
+            "pi -.1425 0 pi; 0 0 -.411 pi; -h .2 0 -1.0471975511965976;"
+            "pi -.5697 .3 0; -h 0 .5 0; 0 .2 .3 0"
+        ),
+        convention="modified",
+        columns="theta d a alpha",
+    )
+    robot = dh2urdf.Robot.from_dh(table)
+    q = np.array([1.4364, -2.9494, -1.7405, -2.9401, 1.2902, -3.104])
+    found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+    assert_margin(np.abs(found.q[0] - q).max(), 1e-6)
+
+
+def test_an_idle_joint_stays_where_the_seed_has_it():
+    """Joint 4 of a SCARA turns the tool about its own origin: a point leaves it to the seed."""
+    robot = dh2urdf.Robot.from_dh("omron_cobra600")
+    seed = np.array([0.4, 0.9, 0.1, 1.3])
+    found = robot.ik(robot.fk(seed)[:3, 3], seed=seed, task="position")
+    assert_margin(np.abs(found.q[:, 3] - seed[3]).max(), 1e-6)
+    assert_margin(np.abs(found.q[0] - seed).max(), 1e-6)
