@@ -35,8 +35,11 @@ CONVERGED = 1e-14
 CAREFUL = 2e-15
 """The same where solutions meet, and are united by what their residuals leave open."""
 
-TOUCHING = 1e-12
-"""Value of the polynomial, in parts of the largest, that may be zero."""
+CLOSE = 0.01
+"""Angle [rad] between roots between which F is looked at."""
+
+NOUGHT = 1e-12
+"""Value of F, in parts of the largest, that may be zero."""
 
 CROWDED = 1e-3
 """Determinant of a solution's Jacobian below which poses nearby are asked too."""
@@ -90,16 +93,22 @@ def _find_roots(form, seen, arm):
     return count, largest
 
 
-def _touches(form, seen, count, largest, arm):
-    """Whether F may be zero where it only comes near zero, without a change of its sign."""
+def _roots_meet(form, seen, count, largest, arm):
+    """Whether F may be zero throughout between two roots, or at an extremum beside the axis.
+
+    There rounding hides roots: those that meet, two or more.
+    """
     roots, slopes, hidden, values = arm["roots"], arm["slopes"], arm["hidden"], arm["determinant"]
-    if how_many_below(slopes, count, 1e-300) == 0:
-        return False
+    places = 0
     for k in range(count):
-        hidden[1, k], hidden[0, k] = sincos(roots[k])
-    sample(form, seen, hidden, count, values)
-    for k in range(count):
-        if slopes[k] <= 0.0 and abs(values[k]) < TOUCHING * largest:
+        for i in range(k + 1):
+            touching = i == k and slopes[k] <= 0.0
+            if places < LANES and (touching or (i < k and abs(roots[k] - roots[i]) < CLOSE)):
+                hidden[1, places], hidden[0, places] = sincos(0.5 * (roots[k] + roots[i]))
+                places += 1
+    sample(form, seen, hidden, places, values)
+    for k in range(places):
+        if abs(values[k]) < NOUGHT * largest:
             return True
     return False
 
@@ -140,10 +149,11 @@ def _solve_pose(form, T, out_q, out_residual, arm, D, seen):
         simple = count - how_many_below(slopes, count, 1e-300)
         found = _follow(form, seen, count, False, converged, found, out_q, out_residual, arm)
         clear = spans[1, 0] == 0.0 and simple == found
-        clear = clear and not _touches(form, seen, count, largest, arm)
+        clear = clear and not _roots_meet(form, seen, count, largest, arm)
         clear = clear and how_many_below(kept, found, SINGULAR) == 0
         if attempt == 0:
-            if clear and how_many_below(kept, found, CROWDED) == 0:
+            sure = clear and spans[0, 0] == 0.0  # beside a root a pair may hide in noise
+            if sure and how_many_below(kept, found, CROWDED) == 0:
                 return found
             if not clear:
                 found = _follow(form, seen, count, True, CAREFUL, found, out_q, out_residual, arm)
