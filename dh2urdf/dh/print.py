@@ -6,9 +6,9 @@ from typing import Protocol
 
 from dh2urdf import grids
 from dh2urdf.dh.motions import DHConvention
+from dh2urdf.dh.quoting import latex, markdown, one_line
 from dh2urdf.dh.row import DHRow, Origin
 from dh2urdf.grids import number
-from dh2urdf.quoting import latex, markdown, one_line
 
 ROUNDING = 4e-16
 """Relative difference of two conversions from degrees, each rounded once."""

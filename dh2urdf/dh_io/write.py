@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from dh2urdf.dh import DHRow, DHTable, JointType, Origin
+from dh2urdf.dh.quoting import markdown
 from dh2urdf.dh_io.atomic import atomic_write
 from dh2urdf.dh_io.cells.schema import ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, decimal_text
@@ -16,7 +17,6 @@ from dh2urdf.dh_io.read import format_of
 from dh2urdf.doors import choice, instance
 from dh2urdf.exceptions import TableError
 from dh2urdf.grids import grid_csv, grid_markdown
-from dh2urdf.quoting import markdown
 
 Field = tuple[str, str | list[str]]
 """Key of a cell, and its text (already quoted where it is a word) or a list of numbers."""

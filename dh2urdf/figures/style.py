@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.dh.quoting import one_line
 from dh2urdf.exceptions import MissingExtraError
-from dh2urdf.quoting import one_line
 
 try:
     import matplotlib as mpl

@@ -11,11 +11,11 @@ from dh2urdf.bounds import ROBOT_BYTES, SNAP
 from dh2urdf.cli.options import Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.cli.progress import note
+from dh2urdf.dh.quoting import one_line
 from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
-from dh2urdf.quoting import one_line
 
 Format = Literal["yaml", "toml", "json", "csv", "markdown", "latex", "rtb", "matlab", "matlab-rst"]
 

@@ -5,10 +5,10 @@ import numpy as np
 from dh2urdf.cli.options import Deg, Json, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
+from dh2urdf.dh.quoting import one_line
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
-from dh2urdf.quoting import one_line
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 

@@ -11,8 +11,8 @@ import numpy as np
 from dh2urdf.conversions.write.inertia import tensor
 from dh2urdf.conversions.write.table_chain import grouped_rows
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.dh.quoting import matlab, one_line
 from dh2urdf.exceptions import TableError
-from dh2urdf.quoting import matlab, one_line
 from dh2urdf.transforms import Array
 
 

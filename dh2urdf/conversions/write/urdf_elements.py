@@ -21,8 +21,8 @@ from dh2urdf.conversions.write.inertia import (
 from dh2urdf.conversions.write.table_chain import LinkFrames, dh_to_chain, link_frames
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
+from dh2urdf.dh.quoting import XML_FORBIDDEN
 from dh2urdf.exceptions import TableError
-from dh2urdf.quoting import XML_FORBIDDEN
 from dh2urdf.transforms import Array, matrix_to_rpy
 
 MATERIALS = {

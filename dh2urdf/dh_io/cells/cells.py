@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 from decimal import Decimal
 
 from dh2urdf.dh import Origin
+from dh2urdf.dh.quoting import XML_FORBIDDEN
 from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.dh_io.cells.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
 from dh2urdf.dh_io.cells.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
 from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
 from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
-from dh2urdf.quoting import XML_FORBIDDEN
 
 _SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
 _NUMBER_MUST = re.compile(r"^-?[\d.e+-]+ (?=must)")
