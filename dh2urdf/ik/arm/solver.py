@@ -5,8 +5,6 @@ computing anything per pose, what keeps the family from covering a chain; ``solv
 the caller's arrays in one call of a kernel.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from importlib import import_module
