@@ -20,7 +20,16 @@ from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
-from dh2urdf.kernels.shapes import ClosedForm, Floats, Integers, Outputs, Poses, Three
+from dh2urdf.kernels.shapes import (
+    ClosedForm,
+    Counts,
+    Floats,
+    Integers,
+    Outputs,
+    Poses,
+    Solutions,
+    Three,
+)
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
@@ -92,8 +101,38 @@ def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outpu
         pairs = outer_pairs(form, first, D, slack, pair)
         doubt = _in_line(form, first, pairs, slack, D, pair, scratch[2], trust[2])
         rows = q[i], residual[i], branch[i], free[i]
-        found = add_pairs(form, first, pairs, slack, rows, scratch)
+        found, _ = add_pairs(form, first, pairs, slack, False, rows, scratch)
         count[i] = _settle(chain, Ts[i], trust, doubt, rows, found, start, work, damped)
+
+
+@entry(n=6)
+def wrist_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
+    """Candidates of poses Ts (m, 4, 4) as they are before certification, with a wide slack."""
+    _, form, ends, slack = arm
+    D, R, places, _, rows = wrist_scratch()
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], D)
+        found = 0
+        for k in range(place_wrist(form, D[0, 3], D[1, 3], D[2, 3], slack, places)):
+            found = add_wrist(form, D, places[k], R, slack, *rows, found)
+        count[i] = min(found, q.shape[1])
+        for k in range(count[i]):
+            q[i, k] = rows[0][k]
+
+
+@entry(n=6)
+def parallel_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
+    """The same of an arm with three parallel axes."""
+    _, form, ends, slack = arm
+    scratch = parallel_scratch()
+    rows, first = scratch[5], 1 if form[0, 2] != 0.0 else 0
+    for i in range(Ts.shape[0]):
+        tool_to_wrist(ends, Ts[i], scratch[0])
+        pairs = outer_pairs(form, first, scratch[0], slack, scratch[1])
+        found, _ = add_pairs(form, first, pairs, slack, True, rows, scratch)
+        count[i] = min(found, q.shape[1])
+        for k in range(count[i]):
+            q[i, k] = rows[0][k]
 
 
 @entry()

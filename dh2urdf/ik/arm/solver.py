@@ -21,8 +21,9 @@ from dh2urdf.transforms import Array
 
 IntArray = NDArray[np.int64]
 
-BatchKernel = Callable[..., None]
-"""A kernel: what it knows of the arm, poses, ``within_limits``, where the solutions go."""
+BatchKernel = Callable[..., int | None]
+"""A kernel: what it knows of the arm, poses, ``within_limits``, where the solutions go. A closed
+form returns how many poses are in doubt."""
 
 
 BRANCH_WORDS = (

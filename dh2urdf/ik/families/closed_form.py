@@ -5,20 +5,40 @@ Here the UR and its kin: three neighbouring parallel axes, 1, 2, 3 or 2, 3, 4.
 
 from functools import cached_property
 
+import numpy as np
+
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     NOMINAL,
     SLACK,
     SLACK_OF_NOISE,
+    TWO_PI,
     AxisLines,
     BatchKernel,
     DHForm,
+    IntArray,
     Others,
+    Outputs,
     SolverBase,
     Task,
     plain_ranges,
 )
+from dh2urdf.kernels.certificate import finish_batch, search_valleys
+from dh2urdf.kernels.nearly import parallel_seeds
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
+from dh2urdf.transforms import Array
+
+SEEDS, WIDTH = 32, 40
+"""Most candidates of a pose in doubt, and most solutions that they lead to."""
+
+WIDE = 0.1
+"""Relative amount by which an equation may miss its rim where a seed is looked for."""
+
+SHARP = 1e-11
+"""Residual [m and rad] of what is added; one that was put onto a limit has more."""
+
+SAME = 1e-6
+"""Joint distance [rad or m] at which two solutions are one."""
 
 STUCK = "the arm cannot move its tool in all six directions"
 
@@ -32,6 +52,8 @@ class ClosedForm(SolverBase):
 
     kmax = 8
     if_spare = STUCK
+    seeds: BatchKernel
+    """The kernel that gives candidates as they are before certification."""
 
     def __init__(
         self,
@@ -46,6 +68,48 @@ class ClosedForm(SolverBase):
         slack = max(SLACK, SLACK_OF_NOISE * tolerance)
         self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4), and look wider at those in doubt."""
+        if self.kernel(self.constants, Ts, within_limits, out):
+            rows = np.flatnonzero(out.counts < 0)
+            out.counts[rows] = -1 - out.counts[rows]
+            self._look_wider(Ts, rows, within_limits, out)
+
+    def _look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+        """Add what lies along valleys beside candidates of poses Ts[rows] to their solutions."""
+        chain, poses, k = self.chain, np.ascontiguousarray(Ts[rows]), self.kmax
+        raw, many = np.empty((len(rows), SEEDS, 6)), np.empty(len(rows), np.int64)
+        self.seeds((*self.constants[:3], WIDE), poses, raw, many)
+        found, seeds = Outputs.of(len(rows), WIDTH, 6), np.empty((len(rows), k + SEEDS, 6))
+        known = Outputs.of(len(rows), k, 6)  # those outside the limits, too
+        self.kernel(self.constants, poses, False, known)
+        known.counts[known.counts < 0] = -1 - known.counts[known.counts < 0]
+        found.q[:, :k], found.counts[:] = known.q, known.counts
+        for i, count in enumerate(known.counts):
+            seeds[i, :count], seeds[i, count : count + many[i]] = (
+                known.q[i, :count],
+                raw[i, : many[i]],
+            )
+        many += known.counts
+        search_valleys(chain.tables, chain.size, poses, seeds, many, found.q, found.counts)
+        for i, row in enumerate(rows):
+            if found.counts[i] > known.counts[i]:
+                one = found.rows(slice(i, i + 1))
+                finish_batch(chain.tables, poses[i : i + 1], within_limits, one)
+                self._add_new(one, known.q[i, : known.counts[i]], out.rows(slice(row, row + 1)))
+
+    def _add_new(self, found: Outputs, known: Array, out: Outputs) -> None:
+        """Add solutions of one pose that are not known (k, 6) yet."""
+        for k in range(found.counts[0]):
+            count, p = out.counts[0], found.q[0, k]
+            gaps = known - p
+            turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
+            far = np.where(self.chain.prismatic, np.abs(gaps), turns).max(axis=1)
+            if found.residual[0, k] <= SHARP and count < self.kmax and not (far <= SAME).any():
+                out.q[0, count], out.residual[0, count] = p, found.residual[0, k]
+                out.branch[0, count], out.free[0, count] = -1, found.free[0, k]
+                out.counts[0] += 1
+
 
 def not_six_revolute(chain: SerialChain) -> str | None:
     """Say that a chain is not one of six revolute joints; None if it is."""
@@ -58,6 +122,8 @@ class ThreeParallel(ClosedForm):
 
     name = "three parallel axes"
     needs = "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel"
+
+    seeds = staticmethod(parallel_seeds)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

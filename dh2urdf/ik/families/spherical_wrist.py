@@ -7,6 +7,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import REGULAR, AxisLines, BatchKernel, DHForm, plain_ranges, row_motion
 from dh2urdf.ik.families.closed_form import ClosedForm
+from dh2urdf.kernels.nearly import wrist_seeds
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
 
 
@@ -15,6 +16,8 @@ class SphericalWrist(ClosedForm):
 
     name = "spherical wrist"
     needs = "six joints, the last three revolute with axes through one point"
+
+    seeds = staticmethod(wrist_seeds)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

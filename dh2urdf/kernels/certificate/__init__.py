@@ -3,7 +3,7 @@
 `certify` accepts what reaches the target and keeps each solution once; `finish` unites solutions
 that the residual cannot tell apart (``FLAT``), finds the joints that move freely, for a pose, for
 a batch and for what a solver of the reversed chain found; `arrange` turns solutions to a seed;
-`numeric` searches from any start.
+`numeric` searches from any start, `valley` along what hardly moves the tool.
 """
 
 from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_and_sort, turn_to
@@ -13,6 +13,7 @@ from dh2urdf.kernels.certificate.certify import (
     NO_JOINT,
     ROUNDING,
     TWO_PI,
+    certify_pose,
     copy_rows,
     finish_pose,
     is_known,
@@ -31,3 +32,4 @@ from dh2urdf.kernels.certificate.finish import (
     turn_back,
 )
 from dh2urdf.kernels.certificate.numeric import find_solutions
+from dh2urdf.kernels.certificate.valley import search_valleys

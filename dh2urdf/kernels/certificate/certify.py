@@ -109,13 +109,11 @@ def copy_rows(source, count, target):
     return min(count, room)
 
 
-def finish_pose(chain, T, within_limits, q, residual, branch, free, count, work):
-    """Certify the candidates of one pose in place; returns how many solutions are left.
+def certify_pose(chain, T, q, residual, branch, free, count, work):
+    """Certify the candidates of one pose in place; how many solutions are left, in any turn.
 
-    They are the first ``count`` rows, in any turn; their residual is what the caller measured on
-    the exact chain, or a negative number: not yet. ``within_limits`` drops what no full turn brings
-    into the limits; a free joint may be outside, for another member of its family may not.
-    ``work``: a `work_array`.
+    They are the first ``count`` rows; their residual is what the caller measured on the exact
+    chain, or a negative number: not yet. ``work``: a `work_array`.
 
     Two solutions are one if no joint differs by more than ``CLUSTER`` or the square root of
     their residual: on the rim of the workspace two branches meet as a square root. The one with
@@ -141,6 +139,16 @@ def finish_pose(chain, T, within_limits, q, residual, branch, free, count, work)
             kept += 1
         elif residual[kept] < residual[twin] and residual[twin] > ROUNDING:
             move(q, residual, branch, free, kept, twin)
+    return kept
+
+
+def finish_pose(chain, T, within_limits, q, residual, branch, free, count, work):
+    """Certify the candidates of one pose (:func:`certify_pose`), and turn them near their limits.
+
+    ``within_limits`` drops what no full turn brings into the limits; a free joint may be outside,
+    for another member of its family may not.
+    """
+    kept = certify_pose(chain, T, q, residual, branch, free, count, work)
     return turn_inside(chain, T, within_limits, q, residual, branch, free, kept)
 
 

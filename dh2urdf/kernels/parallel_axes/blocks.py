@@ -155,4 +155,5 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
                 tool_to_wrist(ends, Ts[i], scratch[0])
                 pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
-                count[i] = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
+                count[i], _ = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
+    return 0

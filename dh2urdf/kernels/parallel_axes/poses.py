@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import copy_rows, finish_pose, free_joints
+from dh2urdf.kernels.certificate import certify_pose, copy_rows, free_joints, turn_inside
 from dh2urdf.kernels.numbers import atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import (
@@ -36,11 +36,17 @@ VAGUE = 1e-6
 """Sine of the angle between axis 6 and the parallel axes below which t6, which rounding turns by
 1e-16 over that sine, may have left the interval in which the planar arm reaches."""
 
+IN_LINE = 3e-5
+"""The same below which t6 is in doubt: an angle that was rounded to five digits weighs as much."""
+
+LOOSE = 1e-3
+"""The same where a seed is looked for, which may have any t6."""
+
 ROUNDING = 1e-12
 """Turn of the tool [rad] that rounding, also of t1 near its own rim, explains."""
 
 
-def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
+def _reach_with_last_joint(form, first, D, cs, x, y, in_line, loose):
     """Turn t6, free or nearly so, so that the planar arm reaches (lecture notes 8.2).
 
     The point that the arm has to reach goes round a circle about axis 6. It stays where t6 has
@@ -66,7 +72,7 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
         sine = -sine
     vx, vy = radius * (ux * cosine - uy * sine), radius * (uy * cosine + ux * sine)
     c, s = (bx * vx + by * vy) / (radius * radius), (bx * vy - by * vx) / (radius * radius)
-    if in_line > FREE and in_line * hypot(1.0 - c, s) > ROUNDING:
+    if not loose and in_line > FREE and in_line * hypot(1.0 - c, s) > ROUNDING:
         return x, y
     _, _, up = seen_from_plane(form, first, cs[0, 0], cs[0, 1], D[0, 2], D[1, 2], D[2, 2])
     s = -s if up > 0.0 else s
@@ -74,8 +80,10 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line):
     return cx - vx, cy - vy
 
 
-def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, residual, branch, free, count):
-    """Append the elbows of one set of outer joints; returns the new count."""
+def _add_planar(
+    form, first, D, cs, shoulder, mask, slack, loose, arm, q, residual, branch, free, count
+):
+    """Append the elbows of one set of outer joints; the new count, and the sine of axis 6."""
     in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     if first == 1:
@@ -86,8 +94,8 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, residual, bra
     x, y = x - bx, y - by
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
-    if in_line <= VAGUE:
-        x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line)
+    if in_line <= (LOOSE if loose else VAGUE):
+        x, y = _reach_with_last_joint(form, first, D, cs, x, y, in_line, loose)
     hx, hy, _ = seen_arm(form, first, D, cs, 0.0)
     heading = atan2(hy, hx)
     if x * x + y * y <= FREE * FREE:
@@ -105,7 +113,7 @@ def _add_planar(form, first, D, cs, shoulder, mask, slack, arm, q, residual, bra
         branch[count] = shoulder + 2 * elbow + (4 if cs[4, 1] < 0.0 else 0)
         free[count] = mask
         count += 1
-    return count
+    return count, in_line
 
 
 def slope_of_last(form, D, cs, slack):
@@ -115,15 +123,16 @@ def slope_of_last(form, D, cs, slack):
     return min(wrists, 1) if hypot(x, y) <= FREE else wrists
 
 
-def add_pairs(form, first, pairs, slack, rows, scratch):
-    """From ``pairs`` of outer joints of one pose to candidates; their count.
+def add_pairs(form, first, pairs, slack, loose, rows, scratch):
+    """From ``pairs`` of outer joints of one pose to candidates; their count, and whether in doubt.
 
-    ``first`` is the index of the first parallel axis.
+    That is where axis 6 is nearly, but not within rounding, along the common normal. ``first`` is
+    the index of the first parallel axis; ``loose`` turns joint 6 to where the planar arm reaches.
     """
     D, pair, cs, _, arcs, _, arm = scratch
     outer = 0 if first == 1 else 3
     mask = ALL_FREE if pairs < 0 else 0
-    found = 0
+    found, doubt = 0, False
     for k in range(abs(pairs)):
         leaning = first == 0 and pair[k, 4] != 0.0
         values = pairs_of_leaning(form, D, cs, pair[k, 0], pair[k, 1], arcs) if leaning else 1
@@ -140,18 +149,26 @@ def add_pairs(form, first, pairs, slack, rows, scratch):
                     wrists = slope_of_last(form, D, cs, slack)
             moving = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
-                found = _add_planar(form, first, D, cs, shoulder, moving, slack, arm, *rows, found)
+                found, in_line = _add_planar(
+                    *(form, first, D, cs, shoulder, moving, slack, loose, arm), *rows, found
+                )
+                doubt = doubt or FREE < in_line < IN_LINE
                 cs[4, 1] = -cs[4, 1]
-    return found
+    return found, doubt
 
 
 def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
-    """Certified solutions of one pose in the rows ``out``, from :func:`add_pairs`; their count."""
+    """Certified solutions of one pose in the rows ``out``, from :func:`add_pairs`; their count.
+
+    Returned too is whether there may be more: a candidate was lost, or two fell together.
+    """
     (chain, form, _, slack), work, rows = arm, scratch[3], scratch[5]
-    found = add_pairs(form, first, pairs, slack, rows, scratch)
+    found, doubt = add_pairs(form, first, pairs, slack, False, rows, scratch)
     rows[1][:found] = -1.0
-    found = finish_pose(chain, T, within_limits, *rows, found, work)
-    return copy_rows(rows, found, out)
+    left = certify_pose(chain, T, *rows, found, work)
+    doubt = doubt or left < found
+    left = turn_inside(chain, T, within_limits, *rows, left)
+    return copy_rows(rows, left, out), doubt
 
 
 def make_scratch():
@@ -168,20 +185,25 @@ def make_scratch():
 def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """All solutions of poses Ts (m, 4, 4); q (m, 8, 6), the rest as its first axes.
 
-    The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3.
+    The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3. The count of a pose
+    in doubt is -1 minus that of its solutions; returned is how many are.
     """
     chain, form, ends, slack = arm
     q, residual, count, branch, free = outputs
     scratch = make_scratch()
     D, pair, trial = scratch[0], scratch[1], np.empty(6)
-    first = 1 if form[0, 2] != 0.0 else 0
+    first, doubts = 1 if form[0, 2] != 0.0 else 0, 0
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
         pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
+        count[i], doubt = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
         vague = 0.0
         for k in range(abs(pairs) if first == 0 else 0):
             vague = max(vague, pair[k, 4])
         for k in range(count[i] if vague != 0.0 else 0):
             free[i, k] = free_joints(chain, Ts[i], q[i, k], trial, scratch[3])
+        if doubt:
+            count[i] = -1 - count[i]
+            doubts += 1
+    return doubts

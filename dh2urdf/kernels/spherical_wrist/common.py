@@ -153,4 +153,5 @@ def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs:
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]
                 scratch = make_scratch()
-                count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
+                count[i], _ = solve_pose(arm, Ts[i], within_limits, out, scratch)
+    return 0

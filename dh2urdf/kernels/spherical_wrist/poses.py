@@ -13,11 +13,12 @@ from dh2urdf.kernels.certificate import (
     ACCEPT,
     CLUSTER,
     ROUNDING,
+    certify_pose,
     copy_rows,
-    finish_pose,
     move,
     principal,
     same,
+    turn_inside,
 )
 from dh2urdf.kernels.newton import polish
 from dh2urdf.kernels.numbers import atan2, entry, hypot, root_of_gap, sincos
@@ -28,6 +29,10 @@ from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wri
 MEETING = 1e-5
 """Distance [rad or m] of two position solutions that may be a double root: `MERGE` parts roots by
 1e-7, and by as much divided by the sine of a position near another singularity."""
+
+IN_LINE = 3e-5
+"""Sine of the angle between axes 4 and 6 below which a wrist is in doubt: an angle that was rounded
+to five digits weighs as much."""
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -50,7 +55,10 @@ def middle_angle(form, x, y, z, slack):
         low = _above(z, ca4 * ca5 - scale, square)
         high = -_above(z, ca4 * ca5 + scale, square)
         sine2 = low * high / (scale * scale)
-        sine = root_of_gap(sine2, 1.0, slack)
+        # a rim at which the outer axes are in line is no double root, and known to all digits
+        level = ca4 * ca5 - scale if abs(low) < abs(high) else ca4 * ca5 + scale
+        in_line = abs(abs(level) - 1.0) < 1e-12
+        sine = root_of_gap(sine2, 1.0, -abs(slack) if in_line else slack)
         if sine < 0.0:
             return 0, 1.0, 0.0
     length = hypot(cosine, sine)
@@ -95,11 +103,11 @@ def append_wrist(form, values, R, slack, q, residual, branch, free, count):
         mask |= WRIST_FREE
     for wrist in range(wrists):
         a, b = s5 * sa5, -(c5 * sa5 * ca4 + sa4 * ca5)
-        if in_line <= NICE:
+        c4, s4 = a * wx + b * wy, a * wy - b * wx
+        r = hypot(c4, s4)
+        if in_line <= NICE or r == 0.0:
             s4, c4 = sincos(form[3, 4])
         else:
-            c4, s4 = a * wx + b * wy, a * wy - b * wx
-            r = hypot(c4, s4)
             c4, s4 = c4 / r, s4 / r
         x, y = c5 * c4 - s5 * ca4 * s4, c5 * s4 + s5 * ca4 * c4
         c6 = x * R[0, 0] + y * R[1, 0] + s5 * sa4 * R[2, 0]
@@ -167,19 +175,24 @@ def hidden(joints, rows, merged, k):
 def finish_wrists(arm, places, found, T, within_limits, out, scratch):
     """Certified solutions of one pose in the rows ``out``; their count.
 
-    From ``places`` position solutions and ``found`` candidates of :func:`add_merged`.
+    From ``places`` position solutions and ``found`` candidates of :func:`add_merged`. Returned too
+    is whether a candidate was lost, or axes 4 and 6 are nearly in line.
     """
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
-    (_, joints), merged = chain, found
+    (_, joints), merged, doubt = chain, found, False
     for k in range(places):
         parted = add_wrist(form, D, place[k], R, slack, *rows, found)
+        in_line = hypot(R[0, 2], R[1, 2])
+        doubt = doubt or FREE < in_line < IN_LINE
         for j in range(found, parted):
             rows[1][j] = -1.0
             if not (merged and hidden(joints, rows, merged, j)):
                 move(*rows, j, found)
                 found += 1
-    found = finish_pose(chain, T, within_limits, *rows, found, work)
-    return copy_rows(rows, found, out)
+    left = certify_pose(chain, T, *rows, found, work)
+    doubt = doubt or (left < found and merged == 0)
+    left = turn_inside(chain, T, within_limits, *rows, left)
+    return copy_rows(rows, left, out), doubt
 
 
 def make_scratch():
@@ -191,7 +204,7 @@ def make_scratch():
 
 
 def solve_pose(arm, T, within_limits, out, scratch):
-    """All solutions of one pose in ``out``; their count.
+    """All solutions of one pose in ``out``; their count, and whether there may be more.
 
     Position solutions are parted, merged if they meet, and parted again.
     """
@@ -211,10 +224,15 @@ def solve_pose(arm, T, within_limits, out, scratch):
 def solve_wrist_arm(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """All solutions of poses Ts (m, 4, 4) of an arm of six joints with a spherical wrist.
 
-    Of the exact chain, ``form`` and ``ends`` are in its Denavit-Hartenberg form.
+    Of the exact chain, ``form`` and ``ends`` are in its Denavit-Hartenberg form. The count of
+    a pose in doubt is -1 minus that of its solutions; returned is how many are.
     """
     q, residual, count, branch, free = outputs
-    scratch = make_scratch()
+    scratch, doubts = make_scratch(), 0
     for i in range(Ts.shape[0]):
         out = q[i], residual[i], branch[i], free[i]
-        count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
+        count[i], doubt = solve_pose(arm, Ts[i], within_limits, out, scratch)
+        if doubt:
+            count[i] = -1 - count[i]
+            doubts += 1
+    return doubts
