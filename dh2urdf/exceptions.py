@@ -21,8 +21,6 @@ and its text says what was wrong, where, and what is allowed::
     └── MissingExtraError (ImportError)  an optional dependency is not installed
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 
@@ -37,7 +35,7 @@ class TableError(Dh2UrdfError, ValueError):
         self.problems = (problems,) if isinstance(problems, str) else tuple(problems)
         super().__init__("\n".join(self.problems))
 
-    def __reduce__(self) -> tuple[type[TableError], tuple[tuple[str, ...]]]:
+    def __reduce__(self) -> "tuple[type[TableError], tuple[tuple[str, ...]]]":
         """Pickle by the list of problems."""
         return type(self), (self.problems,)
 
@@ -101,6 +99,6 @@ class MissingExtraError(Dh2UrdfError, ImportError):
         self.extra, self.purpose = extra, purpose
         super().__init__(f"{purpose} needs the extra {extra!r}: pip install 'dh2urdf[{extra}]'")
 
-    def __reduce__(self) -> tuple[type[MissingExtraError], tuple[str, str]]:
+    def __reduce__(self) -> "tuple[type[MissingExtraError], tuple[str, str]]":
         """Pickle by extra and purpose."""
         return type(self), (self.extra, self.purpose)

@@ -1,7 +1,5 @@
 """A URDF read leniently: whatever can be understood of it, faults and all."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from functools import cached_property
@@ -46,7 +44,7 @@ class Document:
         self.joints = list(root.iterchildren("joint"))
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> Document:
+    def read(cls, path: str | os.PathLike[str]) -> "Document":
         """A file's robot.
 
         Raises

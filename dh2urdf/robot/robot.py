@@ -1,7 +1,5 @@
 """A robot: a Pinocchio model, the serial chain between two of its frames, and their agreement."""
 
-from __future__ import annotations
-
 import os
 import threading
 from pathlib import Path
@@ -48,7 +46,7 @@ class _Working(threading.local):
     def __init__(self, model: pin.Model) -> None:
         self.model, self.data = model, model.createData()
 
-    def __reduce__(self) -> tuple[type[_Working], tuple[pin.Model]]:
+    def __reduce__(self) -> "tuple[type[_Working], tuple[pin.Model]]":
         """Pickle by the model."""
         return _Working, (self.model,)
 
@@ -111,7 +109,7 @@ class Robot(RobotIK, RobotPictures):
         self._check_agreement()
 
     @classmethod
-    def from_dh(cls, table: TableLike) -> Robot:
+    def from_dh(cls, table: TableLike) -> "Robot":
         """A robot of a DH table, a table file, or the name of a table that ships.
 
         Raises
@@ -130,7 +128,7 @@ class Robot(RobotIK, RobotPictures):
         tip: str | None = None,
         *,
         strict: bool = False,
-    ) -> Robot:
+    ) -> "Robot":
         """A robot of a URDF (``.xacro`` with the extra, MJCF) between two of its links.
 
         Parameters

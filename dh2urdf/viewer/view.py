@@ -1,7 +1,5 @@
 """The view itself: one arm, one configuration, and the tabs that show and move it."""
 
-from __future__ import annotations
-
 import logging
 import threading
 from typing import Any
@@ -37,7 +35,7 @@ logger = logging.getLogger("dh2urdf")
 
 def view(
     robot: Robot, q: ArrayLike | None = None, *, host: str = "127.0.0.1", port: int | None = None
-) -> ArmView:
+) -> "ArmView":
     """Show an arm in the browser.
 
     Parameters
@@ -244,7 +242,7 @@ class ArmView:
     def __repr__(self) -> str:
         return f"<ArmView of {self.robot.model.name} at {self.url}>"
 
-    def __enter__(self) -> ArmView:
+    def __enter__(self) -> "ArmView":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -4,8 +4,6 @@ Cells stay text until the checker knows what they are meant to be, so a number k
 digits that were typed, and a fault can show them.
 """
 
-from __future__ import annotations
-
 import bisect
 import re
 from dataclasses import dataclass
@@ -63,7 +61,7 @@ class Scalar:
 class Items:
     """A list of nodes."""
 
-    values: tuple[Node, ...]
+    values: "tuple[Node, ...]"
     mark: Mark = NOWHERE
 
 
@@ -71,7 +69,7 @@ class Items:
 class Keys:
     """Pairs of a key and its node, in the file's order, doubles included."""
 
-    pairs: tuple[tuple[Scalar, Node], ...]
+    pairs: "tuple[tuple[Scalar, Node], ...]"
     mark: Mark = NOWHERE
 
 
@@ -87,7 +85,7 @@ class Report:
         self._warnings: list[tuple[Mark, str]] = []
 
     @classmethod
-    def of_text(cls, filename: str, text: str) -> Report:
+    def of_text(cls, filename: str, text: str) -> "Report":
         """Report of a text that has been looked at: of bounded size, printable, not empty."""
         if not isinstance(text, str):
             raise TableFileError(f"text: expected a text, got {value(text)}")

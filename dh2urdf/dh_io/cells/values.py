@@ -4,8 +4,6 @@ A value is linear in at most one joint variable, and lengths and angles keep apa
 two of a kind, a product one that is plain.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from decimal import Decimal, DecimalException, Overflow
@@ -26,7 +24,7 @@ class ExpressionError(TableError):
         self.hint = hint
         super().__init__(message)
 
-    def __reduce__(self) -> tuple[type[ExpressionError], tuple[str, str]]:  # type: ignore[override]
+    def __reduce__(self) -> "tuple[type[ExpressionError], tuple[str, str]]":  # type: ignore[override]
         """Pickle by message and hint."""
         return type(self), (str(self), self.hint)
 

@@ -3,8 +3,6 @@
 Which eliminations suit an arm is found by trying all twelve on random poses.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cached_property
 from typing import TypeAlias
@@ -66,7 +64,7 @@ class General6R(SolverBase):
         """The eliminations that suit the arm; they are chosen when first asked for."""
         return plan_general_6r(self.links)
 
-    def like(self, chain: SerialChain) -> General6R:
+    def like(self, chain: SerialChain) -> "General6R":
         """The solver of a chain that differs little, with the same eliminations if they do."""
         solver = General6R(chain, self.task)
         solver.plan = replan_general_6r(self.plan, np.ascontiguousarray(chain.links))

@@ -4,8 +4,6 @@ It finds solutions one at a time, and cannot tell whether there are more, nor wh
 without one is out of reach.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -129,7 +127,7 @@ class NumericProblem:
         measure_all(self.chain.tables, wanted.number, poses, many, one, residual[None])
         return NumericSolutions(q, residual, target, tried, self.slides, change)
 
-    def _in_own_unit(self) -> tuple[NumericProblem, Array]:
+    def _in_own_unit(self) -> "tuple[NumericProblem, Array]":
         """The problem with lengths in its chain's own unit, and that unit of each value, (n,)."""
         chain = in_own_unit(self.chain)
         unit = chain.unit / self.chain.unit

@@ -1,7 +1,5 @@
 """One problem of inverse kinematics: a chain, a task, the joints that are held, a solver."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
@@ -89,7 +87,7 @@ class Problem:
         self._rooms: list[Room] = []
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
 
-    def at(self, values: Array) -> Problem:
+    def at(self, values: Array) -> "Problem":
         """The same problem with its joints held at other values."""
         other = object.__new__(Problem)
         other.__dict__.update(self.__dict__, values=values)

@@ -4,8 +4,6 @@ Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chains`; what 
 [m], and its residuals are measured there.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -28,7 +26,7 @@ class ScaledProblem(Problem):
         self.inner, self.unit = inner, inner.chain.unit
         self.scale = np.where(chain.prismatic, self.unit, 1.0)
 
-    def at(self, values: Array) -> ScaledProblem:
+    def at(self, values: Array) -> "ScaledProblem":
         """The same problem with its joints held at other values."""
         assert isinstance(self.solver, HeldSolver)
         scaled = values / self.scale[list(self.solver.held)]

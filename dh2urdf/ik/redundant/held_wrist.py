@@ -1,7 +1,5 @@
 """Seven joints, one held, a spherical triple among the others: nothing is rebuilt for a value."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -117,7 +115,7 @@ class HeldWrist(HeldSolver):
         self.joints = np.delete(chain.tables[1], joint, axis=0)
 
     @classmethod
-    def of(cls, chain: SerialChain, joint: int) -> HeldWrist | None:
+    def of(cls, chain: SerialChain, joint: int) -> "HeldWrist | None":
         """The solver; None where the other joints have no spherical triple at one end."""
         if chain.n != 7 or np.delete(chain.prismatic, joint).any():
             return None

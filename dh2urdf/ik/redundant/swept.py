@@ -1,7 +1,5 @@
 """Seven joints and nothing held: one joint is swept through its range, the others solved for."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from functools import cached_property, lru_cache
 
@@ -76,7 +74,7 @@ class SweptJoint(SolverBase):
                 return self.held, other
         return (self.held,)
 
-    def like(self, samples: int) -> SweptJoint:
+    def like(self, samples: int) -> "SweptJoint":
         """The same solver with another number of samples."""
         other: SweptJoint = object.__new__(type(self))
         other.__dict__.update(self.__dict__)
