@@ -21,6 +21,14 @@ NOISE = {"ur5": 2.0**-30, "puma560": 2.0**-20, "ur10e": 2.0**-14, "abb_irb120": 
 
 OWN = {
     "three parallel": ("RRRRRR", "0 .4 0; 0 .3 0; .1 0 1; .1 .05 1; .1 0 1; .1 0 0"),
+    "rounded ur": (
+        "RRRRRR",
+        ".1625 0 1.000002; 0 -.425 0; 0 -.3922 0; .1333 0 1.000002; .0997 0 -1.000002; .0996 0 0",
+    ),
+    "rounded wrist": (
+        "RRRRRR",
+        ".3 .05 -1.000002; 0 .4 0; 0 .03 -1.000002; .4 0 1.000002; 0 0 -1.000002; .1 0 0",
+    ),
     "three slides": ("RPRPRP", ".1 0 1; 0 .1 .5; 0 .2 1; 0 .1 1; 0 .3 .75; 0 0 0"),
 }
 """Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]."""
