@@ -188,6 +188,23 @@ def _add(roots, slopes, count, angle, slope):
     return count + 1
 
 
+def _beside_extremum(here, noise, length, roots, slopes, count):
+    """Append the roots at an extremum, two beside it or a double one; whether in doubt."""
+    centre, row, x, f, ddf = here
+    positive, near = row[0] > 0.0, NEAR_DOUBLE / length
+    if (f > 0.0) != positive:
+        a, da, b, db = _pair(row, x, f, ddf, not positive, length)
+        da, db = abs(da) / length, abs(db) / length
+        count = _add(roots, slopes, count, _angle(centre, row, a), da + 1e-300)
+        count = _add(roots, slopes, count, _angle(centre, row, b), db + 1e-300)
+        return count, min(da, db) * UNSURE < noise
+    if 2.0 * abs(f) < near * near * abs(ddf) + noise:
+        slope = -1.0 if abs(f) < MEETING * noise else 0.0
+        slope = -2.0 if abs(ddf) < CURVED * noise else slope
+        count = _add(roots, slopes, count, _angle(centre, row, x), slope)
+    return count, False
+
+
 def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
     """Append the real roots on one arc; their number.
 
@@ -221,20 +238,13 @@ def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, s
             x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
             positive = row[0] > 0.0
             if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
-                near = NEAR_DOUBLE / length
-                if (f > 0.0) != positive:
-                    a, da, b, db = _pair(row, x, f, ddf, not positive, length)
-                    da, db = abs(da) / length, abs(db) / length
-                    count = _add(roots, slopes, count, _angle(centre, row, a), da + 1e-300)
-                    count = _add(roots, slopes, count, _angle(centre, row, b), db + 1e-300)
-                    doubt = doubt or min(da, db) * UNSURE < noise
-                    decided = True
-                elif changes == 0 or length < NARROWEST:
-                    if 2.0 * abs(f) < near * near * abs(ddf) + noise:
-                        slope = -1.0 if abs(f) < MEETING * noise else 0.0
-                        slope = -2.0 if abs(ddf) < CURVED * noise else slope
-                        count = _add(roots, slopes, count, _angle(centre, row, x), slope)
-                    decided = True
+                pair = (f > 0.0) != positive
+                decided = pair or changes == 0 or length < NARROWEST
+                if decided:
+                    count, unsure = _beside_extremum(
+                        (centre, row, x, f, ddf), noise, length, roots, slopes, count
+                    )
+                    doubt = doubt or unsure
         if doubt:
             _doubt(spans, row, centre)
         if not decided and (length < 1e-12 or top + 2 > STACK):
