@@ -17,6 +17,10 @@ from pathlib import Path
 from typing import Any
 
 Kernel = Callable[..., Any]
+AtOnce = Callable[[Any], bytes | None]
+
+Step = tuple[Kernel, tuple[Any, ...], object]
+"""An entry, its arguments, and what it has to answer."""
 
 side_by_side = range
 """A range whose turns write nothing that another turn reads or writes: they can run as lanes of
@@ -90,3 +94,21 @@ def entry(**lengths: int) -> Callable[[Kernel], Kernel]:
         return compiled
 
     return mark
+
+
+def at_once(memory: Any, *steps: Step) -> AtOnce:
+    """The function of a pose (4, 4) that calls entries one after the other.
+
+    It copies the pose to the beginning of ``memory``, of which all arrays that change are a part,
+    and answers a copy of the memory. It answers None where a step does not answer what it has to,
+    where the pose is no usual array, and if a kernel is interpreted.
+    """
+    if any(getattr(_COMPILED, step[0].__name__, None) is not step[0] for step in steps):
+        return nothing_at_once
+    named = tuple((kernel.__name__, *rest) for kernel, *rest in steps)
+    function: AtOnce = _COMPILED.at_once(memory, named)
+    return function
+
+
+def nothing_at_once(T: Any) -> None:
+    """What calls nothing."""

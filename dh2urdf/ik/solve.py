@@ -4,6 +4,7 @@
 joints that was asked for.
 """
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
+from dh2urdf.engine import AtOnce, nothing_at_once
 from dh2urdf.exceptions import ConfigurationError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
@@ -41,6 +43,9 @@ from dh2urdf.ik.problem import (
 from dh2urdf.ik.redundant import SweptJoint, at_any_value, select_held
 from dh2urdf.transforms import Array
 
+FULL_POSE, NEAREST = sys.intern("pose"), sys.intern("nearest")
+"""What a call asks for if it does not say; known at sight."""
+
 ON_BAD = ("raise", "skip")
 """What may be done about a pose of a batch that is none."""
 
@@ -57,6 +62,7 @@ class InverseKinematics:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
+        self._at_once: tuple[AtOnce, AtOnce] = nothing_at_once, nothing_at_once
 
     def __getstate__(self) -> dict[str, Any]:
         return InverseKinematics(self.chain, self.referee).__dict__
@@ -71,11 +77,17 @@ class InverseKinematics:
     def solve(self, T: ArrayLike, seed: ArrayLike | None, turns: str, asked: Asked) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         task, locked, within_limits, samples, nearest = asked
-        problem, inside = self._plain, flag(within_limits, "within_limits")
-        usual = locked is None and samples is None and type(task) is str and task == "pose"
-        if problem is None or not usual:
-            problem = self.problem(task, locked, inside, samples)
-            self._plain = problem if usual else self._plain
+        plain = task is FULL_POSE and locked is None and samples is None
+        usual = plain and seed is None and nearest is False and turns is NEAREST
+        if usual and (within_limits is True or within_limits is False):
+            memory = self._at_once[within_limits](T)
+            if memory is not None:
+                assert self._plain
+                return IKSolutions(self._plain, memory)
+        inside = flag(within_limits, "within_limits")
+        problem = self.problem(task, locked, inside, samples)
+        if plain and self._plain is None:
+            self._plain, self._at_once = problem, (problem.at_once(False), problem.at_once(True))
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         usual = type(turns) is str and turns == "nearest"
         every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"

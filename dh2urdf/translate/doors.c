@@ -88,17 +88,28 @@ static int take(PyObject *given, const Expected **next, Given **to, npy_intp *le
     return taken;
 }
 
+/* An entry: how many parameters it has, numbers and arrays in them, and lengths; what is expected,
+ * and its call with what was taken. */
+typedef struct {
+    const char *name;
+    Py_ssize_t parameters;
+    int values, names;
+    const Expected *expected;
+    PyObject *(*call)(const npy_intp *lengths, const Given *given);
+} Door;
+
 /* Take all arguments of an entry. */
-static int take_all(PyObject *const *args, Py_ssize_t count, Py_ssize_t parameters,
-    const Expected *next, Given *to, npy_intp *lengths, int names)
+static int take_all(
+    const Door *door, PyObject *const *args, Py_ssize_t count, Given *to, npy_intp *lengths)
 {
-    if (count != parameters) {
-        PyErr_Format(PyExc_TypeError, "expected %zd arguments, got %zd", parameters, count);
+    if (count != door->parameters) {
+        PyErr_Format(PyExc_TypeError, "expected %zd arguments, got %zd", door->parameters, count);
         return 0;
     }
-    for (int k = 0; k < names; k++) {
+    for (int k = 0; k < door->names; k++) {
         lengths[k] = k == 0 ? 0 : -1;
     }
+    const Expected *next = door->expected;
     int taken = 1;
     for (Py_ssize_t i = 0; taken && i < count; i++) {
         taken = take(args[i], &next, &to, lengths);
@@ -109,34 +120,46 @@ static int take_all(PyObject *const *args, Py_ssize_t count, Py_ssize_t paramete
 /* Poses of a call from which on other threads may run meanwhile. */
 #define MANY 256
 
-/* The function of an entry: how many parameters it has, numbers and arrays in them, and lengths;
- * the call, what is answered, and what is expected. */
-#define DOOR(public, entry, parameters, values, names, call, answer, ...) \
-static PyObject *py_##entry(PyObject *self, PyObject *const *args, Py_ssize_t count) \
+#define DOOR(public, entry, parameters, values, names, run, answer, ...) \
+static PyObject *call_##entry(const npy_intp *lengths, const Given *given) \
 { \
-    static const Expected expected[] = {__VA_ARGS__}; \
-    npy_intp lengths[names]; \
-    Given given[values]; \
-    (void)self; \
-    if (!take_all(args, count, parameters, expected, given, lengths, names)) { \
-        return NULL; \
-    } \
     PyThreadState *others = lengths[1] >= MANY ? PyEval_SaveThread() : NULL; \
-    call; \
+    run; \
     entries->leave(); \
     if (others) { \
         PyEval_RestoreThread(others); \
     } \
     return answer; \
+} \
+static const Expected expected_##entry[] = {__VA_ARGS__}; \
+static const Door door_##entry = { \
+    #public, parameters, values, names, expected_##entry, call_##entry}; \
+static PyObject *py_##entry(PyObject *self, PyObject *const *args, Py_ssize_t count) \
+{ \
+    npy_intp lengths[names]; \
+    Given given[values]; \
+    (void)self; \
+    const int taken = take_all(&door_##entry, args, count, given, lengths); \
+    return taken ? call_##entry(lengths, given) : NULL; \
 }
 #include "doors.h"
 #undef DOOR
+
+#define DOOR(public, entry, ...) &door_##entry,
+static const Door *const doors[] = {
+#include "doors.h"
+    NULL,
+};
+#undef DOOR
+
+#include "at_once.c"
 
 /* By names that pickle takes. */
 #define DOOR(public, entry, ...) \
     {#public, (PyCFunction)(void (*)(void))py_##entry, METH_FASTCALL, NULL},
 static PyMethodDef methods[] = {
 #include "doors.h"
+    {"at_once", at_once, METH_VARARGS, NULL},
     {NULL, NULL, 0, NULL},
 };
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain, settled_state
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm.shared_tolerances import NOMINAL
 from dh2urdf.ik.arm.task import Task, spare_joints
 from dh2urdf.kernels.shapes import Outputs
@@ -59,25 +60,17 @@ def imported(where: str) -> Any:
 class Room:
     """Memory of one pose and its solutions in one piece, of which a copy is an answer.
 
-    The pose (16), kmax configurations, residuals, codes of branches, masks of free joints.
+    The pose (16), the number of solutions, kmax configurations, residuals, codes of branches, masks
+    of free joints.
     """
 
     def __init__(self, kmax: int, n: int) -> None:
-        self.kmax, self.memory = kmax, np.zeros(16 + kmax * (n + 3))
-        self.Ts, rest = self.memory[:16].reshape(1, 4, 4), self.memory[16:]
-        self.T = self.Ts[0]
+        self.memory = np.zeros(17 + kmax * (n + 3))
+        self.Ts, rest = self.memory[:16].reshape(1, 4, 4), self.memory[17:]
         residual, *codes = rest[kmax * n :].reshape(3, 1, kmax)
         branch, free = (code.view(np.int64) for code in codes)
-        q = rest[: kmax * n].reshape(1, kmax, n)
-        self.count, self.free, self._none = np.zeros(1, np.int64), free, free.tobytes()
-        self.out = Outputs(q, residual, self.count, branch, free)
-
-    def is_singular(self, memory: bytes) -> bool:
-        """Whether its copy has a singular family; the masks are cleared then."""
-        if memory.endswith(self._none):
-            return False
-        self.free.fill(0)
-        return True
+        count, q = self.memory[16:17].view(np.int64), rest[: kmax * n].reshape(1, kmax, n)
+        self.out = Outputs(q, residual, count, branch, free)
 
 
 class Solver(Protocol):
@@ -157,6 +150,12 @@ class SolverBase:
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
         self.kernel(self.constants, Ts, within_limits, out)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """Kernels that solve poses, see :func:`dh2urdf.engine.at_once`; none where Python helps."""
+        if type(self).solve_batch is not SolverBase.solve_batch:
+            return ()
+        return ((self.kernel, (self.constants, Ts, within_limits, out), None),)
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     NOMINAL,
     SLACK,
@@ -74,6 +75,10 @@ class ClosedForm(SolverBase):
             rows = np.flatnonzero(out.counts < 0)
             out.counts[rows] = -1 - out.counts[rows]
             self._look_wider(Ts, rows, within_limits, out)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernel, if no pose is in doubt."""
+        return ((self.kernel, (self.constants, Ts, within_limits, out), 0),)
 
     def _look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
         """Add what lies along valleys beside candidates of poses Ts[rows] to their solutions."""

@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import NOMINAL, Others, Outputs, SolverBase, Task
 from dh2urdf.ik.families.closed_form import ThreeParallel
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
@@ -44,8 +45,14 @@ class ReversedSolver(SolverBase):
         inverse_poses = np.empty_like(Ts)
         invert_poses(Ts, inverse_poses)
         self.inner.solve_batch(inverse_poses, False, out)
-        out.branch[:] = -1
         turn_back(self.chain.tables, Ts, within_limits, out)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """As :meth:`solve_batch`."""
+        inverse_poses = np.empty_like(Ts)
+        invert: Step = invert_poses, (Ts, inverse_poses), None
+        back: Step = turn_back, (self.chain.tables, Ts, within_limits, out), None
+        return (invert, *self.inner.steps(inverse_poses, False, out), back)
 
 
 class SphericalShoulder(ReversedSolver):

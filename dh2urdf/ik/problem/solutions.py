@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from struct import Struct
 from typing import Protocol, overload
 
 import numpy as np
@@ -24,6 +25,9 @@ def branch_name(code: int, words: BranchWords = BRANCH_WORDS) -> str:
 def joints_of_mask(mask: int) -> tuple[int, ...]:
     """Indices of the joints whose bits are set."""
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
+
+
+_NUMBER = Struct("=q").unpack_from
 
 
 class Answering(Protocol):
@@ -58,17 +62,22 @@ class IKSolutions:
         How far the given pose was from T [rad]; 0 unless ``nearest=True`` was asked for.
     """
 
-    __slots__ = ("_memory", "_problem", "_room", "count", "pose_change")
+    __slots__ = ("_memory", "_problem", "pose_change")
 
-    def __init__(self, problem: Answering, memory: bytes, room: int, count: int) -> None:
-        self._problem, self._memory, self._room, self.count = problem, memory, room, count
-        self.pose_change = 0.0
+    def __init__(self, problem: Answering, memory: bytes) -> None:
+        self._problem, self._memory, self.pose_change = problem, memory, 0.0
+
+    @property
+    def count(self) -> int:
+        """Number of solutions."""
+        count: int = _NUMBER(self._memory, 128)[0]
+        return count
 
     @property
     def q(self) -> Array:
         """Configurations, shape (k, n), read-only."""
         n, count = self._problem.chain.n, self.count
-        return np.frombuffer(self._memory, float, n * count, 8 * 16).reshape(count, n)
+        return np.frombuffer(self._memory, float, n * count, 8 * 17).reshape(count, n)
 
     @property
     def residual(self) -> Array:
@@ -97,8 +106,9 @@ class IKSolutions:
         return self._run(1).view(np.int64), self._run(2).view(np.int64)
 
     def _run(self, number: int) -> Array:
-        """Numbers of each solution, after the pose and the room for configurations."""
-        first = 16 + self._room * (self._problem.chain.n + number)
+        """Numbers of each solution, after the pose, their number and room for configurations."""
+        n, room = self._problem.chain.n, len(self._memory) // 8 - 17
+        first = 17 + room // (n + 3) * (n + number)
         return np.frombuffer(self._memory, float, self.count, 8 * first)
 
     def nearest(self, q: ArrayLike) -> Array:
@@ -158,8 +168,9 @@ class IKSolutions:
         cls, problem: Answering, target: Array, q: Array, residual: Array, *codes: IntArray
     ) -> IKSolutions:
         """Solutions of one target (4, 4) from arrays with a row for each; as :attr:`codes`."""
-        numbers = target.ravel(), q.ravel(), residual, *(code.view(np.float64) for code in codes)
-        return cls(problem, np.concatenate(numbers).tobytes(), len(q), len(q))
+        count, *rest = (whole.view(np.float64) for whole in (np.array([len(q)]), *codes))
+        numbers = target.ravel(), count, q.ravel(), residual, *rest
+        return cls(problem, np.concatenate(numbers).tobytes())
 
     def __repr__(self) -> str:
         if not self:

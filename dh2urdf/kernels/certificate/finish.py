@@ -275,6 +275,6 @@ def turn_back(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
     for i in range(Ts.shape[0]):
         for k in range(count[i]):
             free[i, k] = reverse_joints(q[i, k], free[i, k])
-            residual[i, k] = -1.0
+            residual[i, k], branch[i, k] = -1.0, -1
         rows = q[i], residual[i], branch[i], free[i]
         count[i] = finish_pose(chain, Ts[i], within_limits, *rows, count[i], work)

@@ -1,7 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
 from dh2urdf.engine import entry
-from dh2urdf.kernels.shapes import Outputs, Pose, Poses
+from dh2urdf.kernels.shapes import Codes, Counts, Outputs, Pose, Poses
 
 ORTHONORMAL = 1e-6
 """Largest entry of ``R^T R - 1`` of a rotation typed with six digits."""
@@ -52,9 +52,13 @@ def is_pose(T: Pose):
 
 
 @entry()
-def copy_pose(T: Pose, out: Pose):
-    """Write T (4, 4) to ``out``."""
-    out[:] = T
+def any_family(counts: Counts, free: Codes):
+    """Whether a solution of the poses has free joints."""
+    for i in range(counts.shape[0]):
+        for k in range(counts[i]):
+            if free[i, k]:
+                return True
+    return False
 
 
 @entry()

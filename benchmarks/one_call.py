@@ -1,0 +1,80 @@
+"""``python -m benchmarks.one_call``: what one call costs, and what comes before the first answer.
+
+Of each arm, medians over interleaved rounds: ``robot.ik(T)`` within the limits, ``robot.fk(q)`` and
+``robot.jacobian(q)`` in this process; and over processes of their own, the time to import the
+package, build the robot and solve the first pose, and that of ``dh2urdf ik`` as a whole.
+"""
+
+import argparse
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+from benchmarks.clock import Block, each, interleaved
+from benchmarks.compare import table
+from dh2urdf import Robot
+
+ARMS = ("puma560", "denso_vs060", "stanford", "kuka_kr6_r700", "ur5", "ur10e", "planar_rr")
+ARMS += ("omron_cobra600", "fanuc_crx10ia")
+
+FIRST = """
+import sys, time
+begin = time.perf_counter()
+import numpy as np
+import dh2urdf
+robot = dh2urdf.Robot.from_dh(sys.argv[1])
+imported = time.perf_counter() - begin
+T = robot.fk(np.clip(0.3, robot.lower, robot.upper))
+begin = time.perf_counter()
+robot.ik(T)
+print(imported + time.perf_counter() - begin)
+"""
+
+
+def main() -> None:
+    """Measure and print a table."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.one_call", description=__doc__)
+    parser.add_argument("arms", nargs="*", default=ARMS)
+    parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--processes", type=int, default=5)
+    given = parser.parse_args()
+    blocks: dict[str, Block] = {}
+    for name in given.arms:
+        robot, rng = Robot.from_dh(name), np.random.default_rng(0)
+        lower, upper = np.maximum(robot.lower, -np.pi), np.minimum(robot.upper, np.pi)
+        q = rng.uniform(lower, upper, (200, robot.n))
+        robot.ik(robot.fk(q[0]))  # which builds the solver
+        blocks[f"{name} ik"] = each(robot.ik, robot.fk(q))
+        blocks[f"{name} fk"] = each(robot.fk, q)
+        blocks[f"{name} jacobian"] = each(robot.jacobian, q)
+    found = interleaved(blocks, given.seconds, most=400)
+    rows = []
+    for name in given.arms:
+        calls = [f"{1e6 * found[f'{name} {what}'].median:.2f}" for what in ("ik", "fk", "jacobian")]
+        first = [_first(name) for _ in range(given.processes)]
+        whole = [_whole(name) for _ in range(given.processes)]
+        rows.append([name, *calls, *(f"{np.median(t):.2f}" for t in (first, whole))])
+    head = ["arm", "ik, us", "fk, us", "jacobian, us", "first ik in Python, s", "dh2urdf ik, s"]
+    print(table(head, rows))
+
+
+def _first(name: str) -> float:
+    """Seconds from the import to the first answer, in a process of its own."""
+    words = [sys.executable, "-c", FIRST, name]
+    return float(subprocess.run(words, capture_output=True, text=True, check=True).stdout)
+
+
+def _whole(name: str) -> float:
+    """Seconds of the command, from its start to its end."""
+    robot = Robot.from_dh(name)
+    numbers = robot.fk(np.clip(0.3, robot.lower, robot.upper)).ravel().tolist()
+    words = [sys.executable, "-m", "dh2urdf", "ik", name, f"--matrix={','.join(map(str, numbers))}"]
+    begin = time.perf_counter()
+    subprocess.run(words, capture_output=True, check=True)
+    return time.perf_counter() - begin
+
+
+if __name__ == "__main__":
+    main()

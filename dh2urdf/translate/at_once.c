@@ -1,0 +1,128 @@
+/* A pose solved in one call from Python: entries one after the other, on arguments taken once. */
+
+/* An entry with its arguments, and what it has to answer. */
+typedef struct {
+    const Door *door;
+    PyObject *wanted;
+    npy_intp *lengths;
+    Given *given;
+} Step;
+
+/* The steps, and the memory that they share, of which the pose is the beginning and a copy the
+ * answer. */
+typedef struct {
+    PyObject *kept, *memory;
+    Py_ssize_t count;
+    Step *steps;
+} Steps;
+
+static void forget(PyObject *capsule)
+{
+    Steps *all = PyCapsule_GetPointer(capsule, NULL);
+    for (Py_ssize_t i = 0; all->steps && i < all->count; i++) {
+        free(all->steps[i].lengths);
+        free(all->steps[i].given);
+    }
+    Py_DECREF(all->kept);
+    free(all->steps);
+    free(all);
+}
+
+/* Copy a pose, if it is an array of the usual kind in any order of its numbers. */
+static int copy_pose(PyObject *T, char *to)
+{
+    PyArrayObject *array = (PyArrayObject *)T;
+    if (!PyArray_CheckExact(T) || PyArray_TYPE(array) != NPY_DOUBLE || PyArray_NDIM(array) != 2 ||
+        PyArray_DIM(array, 0) != 4 || PyArray_DIM(array, 1) != 4 || !PyArray_ISNOTSWAPPED(array)) {
+        return 0;
+    }
+    const char *from = PyArray_BYTES(array);
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++, to += 8) {
+            memcpy(to, from + i * PyArray_STRIDE(array, 0) + j * PyArray_STRIDE(array, 1), 8);
+        }
+    }
+    return 1;
+}
+
+/* The memory after all steps, or None where one of them answers something else. */
+static PyObject *solve(PyObject *capsule, PyObject *T)
+{
+    const Steps *all = PyCapsule_GetPointer(capsule, NULL);
+    PyArrayObject *memory = (PyArrayObject *)all->memory;
+    int go_on = copy_pose(T, PyArray_BYTES(memory));
+    for (Py_ssize_t i = 0; go_on && i < all->count; i++) {
+        const Step *step = all->steps + i;
+        PyObject *found = step->door->call(step->lengths, step->given);
+        go_on = found ? PyObject_RichCompareBool(found, step->wanted, Py_EQ) : -1;
+        Py_XDECREF(found);
+        if (go_on < 0) {
+            return NULL;
+        }
+    }
+    if (!go_on) {
+        return Py_NewRef(Py_None);
+    }
+    return PyBytes_FromStringAndSize(PyArray_BYTES(memory), PyArray_NBYTES(memory));
+}
+
+/* Take the arguments of a step: an entry's name, a tuple of its arguments, what it has to answer.
+ */
+static int prepare(PyObject *given, Step *step)
+{
+    PyObject *args, *items[16];
+    const char *name;
+    if (!PyArg_ParseTuple(given, "sO!O", &name, &PyTuple_Type, &args, &step->wanted)) {
+        return 0;
+    }
+    const Door *const *door = doors;
+    while (*door && strcmp((*door)->name, name)) {
+        door++;
+    }
+    const Py_ssize_t count = PyTuple_Size(args);
+    if (!*door || count > 16) {
+        PyErr_SetString(PyExc_ValueError, "at_once: no such entry");
+        return 0;
+    }
+    for (Py_ssize_t i = 0; i < count; i++) {
+        items[i] = PyTuple_GetItem(args, i);
+    }
+    step->door = *door;
+    step->lengths = calloc((*door)->names, sizeof *step->lengths);
+    step->given = calloc((*door)->values, sizeof *step->given);
+    if (!step->lengths || !step->given) {
+        PyErr_NoMemory();
+        return 0;
+    }
+    return take_all(*door, items, count, step->given, step->lengths);
+}
+
+/* at_once(memory, steps): the function of a pose that goes through the steps. All arrays of their
+ * arguments are in memory, or in what the caller does not change. */
+static PyObject *at_once(PyObject *self, PyObject *args)
+{
+    static PyMethodDef method = {"solve", solve, METH_O, NULL};
+    PyObject *memory, *given;
+    (void)self;
+    if (!PyArg_ParseTuple(args, "O!O!", &PyArray_Type, &memory, &PyTuple_Type, &given)) {
+        return NULL;
+    }
+    Steps *all = calloc(1, sizeof *all);
+    Step *steps = calloc(PyTuple_Size(given), sizeof *steps);
+    if (!all || !steps) {
+        free(all);
+        free(steps);
+        return PyErr_NoMemory();
+    }
+    *all = (Steps){Py_NewRef(args), memory, PyTuple_Size(given), steps};
+    PyObject *capsule = PyCapsule_New(all, NULL, forget);
+    for (Py_ssize_t i = 0; capsule && i < all->count; i++) {
+        if (!prepare(PyTuple_GetItem(given, i), steps + i)) {
+            Py_DECREF(capsule);
+            return NULL;
+        }
+    }
+    PyObject *function = capsule ? PyCFunction_NewEx(&method, capsule, NULL) : NULL;
+    Py_XDECREF(capsule);
+    return function;
+}

@@ -1,0 +1,144 @@
+"""A pose solved by one call into the extension: the same answers as by the calls in turn."""
+
+import copy
+import pickle
+
+import numpy as np
+import pinocchio as pin
+import pytest
+
+from dh2urdf import Robot, engine, list_tables
+from dh2urdf.exceptions import PoseError
+from dh2urdf.kernels.numbers import any_family, is_pose
+
+pytestmark = pytest.mark.skipif(engine._COMPILED is None, reason="the kernels are interpreted")
+
+ANGLES = np.radians([-180.0, -90.0, -45.0, 0.0, 30.0, 90.0])
+
+
+def taken(robot):
+    """The functions without and with limits, after a first call; None where Python helps."""
+    robot.ik(robot.fk(np.zeros(robot.n)))
+    both = robot._ik._at_once
+    return None if engine.nothing_at_once in both else both
+
+
+def poses(robot, m):
+    """Poses anywhere, every other at multiples of 15 deg, where singularities are."""
+    rng = np.random.default_rng(0)
+    q = rng.uniform(robot.lower, robot.upper, (m, robot.n)).clip(-4, 4)
+    q[::2] = np.where(robot.slides, q[::2], rng.choice(ANGLES, (len(q[::2]), robot.n)))
+    return robot.fk(q)
+
+
+@pytest.mark.parametrize("name", list_tables())
+def test_one_call_answers_as_the_calls_in_turn_do(name):
+    """With and without limits, bit by bit, or it leaves the pose to them."""
+    robot = Robot.from_dh(name)
+    both = taken(robot)
+    if both is None:
+        assert robot.solver.name not in ("spherical wrist", "three parallel axes", "short chain")
+        return
+    some = 0
+    for T in poses(robot, 60):
+        for inside in (False, True):
+            apart = robot._ik.problem().solve_one(T, inside)
+            together = robot.ik(T, within_limits=inside)
+            some += both[inside](T) is not None
+            for a, b in zip(
+                (apart.q, apart.residual, *apart.codes),
+                (together.q, together.residual, *together.codes),
+                strict=True,
+            ):
+                np.testing.assert_array_equal(a, b)
+            assert apart.T.tobytes() == together.T.tobytes() == T.tobytes()
+    assert some > 20
+
+
+def test_a_pose_comes_as_an_array_in_any_order_as_a_list_or_as_of_pinocchio():
+    """Neighbours in memory, strides and kinds of numbers do not count."""
+    robot = Robot.from_dh("puma560")
+    function = taken(robot)[True]
+    T = poses(robot, 2)[1]
+    wide = np.zeros((8, 12))
+    wide[::2, ::3] = T
+    want = robot.ik(T)
+    assert len(want)
+    for given in (T.copy("F"), wide[::2, ::3], wide[::2, ::3][::-1][::-1]):
+        assert function(given) == function(T)
+    for given in (
+        T.tolist(),
+        pin.SE3(T),
+        T.astype(">f8"),
+        T.view(np.matrix),
+        T[None],
+        np.ma.masked_array(T),
+    ):
+        assert function(given) is None
+        np.testing.assert_array_equal(robot.ik(given).q, want.q)
+    assert function(T.astype(np.float32)) is None
+    assert len(robot.ik(T.astype(np.float32))) == len(want)
+    for none in (None, "T", np.eye(3), np.zeros((4, 4, 1)), object()):
+        assert function(none) is None
+
+
+@pytest.mark.parametrize("spoil", [np.nan, np.inf, 2.0, 1e305])
+def test_what_is_no_pose_is_refused_at_the_first_call_and_later(spoil):
+    """The check is part of the call."""
+    robot = Robot.from_dh("ur5")
+    T = robot.fk(np.full(6, 0.3))
+    bad = T.copy()
+    bad[0, 0] = spoil
+    for _ in range(2):
+        with pytest.raises(PoseError):
+            robot.ik(bad)
+        assert len(robot.ik(T))
+
+
+@pytest.mark.parametrize(
+    "again", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))]
+)
+def test_a_copy_of_a_robot_that_has_solved_solves(again):
+    """So does a copy of its solutions."""
+    robot = Robot.from_dh("puma560")
+    T = poses(robot, 2)[1]
+    robot.ik(T)
+    first = robot.ik(T)
+    np.testing.assert_array_equal(again(robot).ik(T).q, first.q)
+    np.testing.assert_array_equal(again(first).q, first.q)
+    assert again(first).branch == first.branch
+
+
+def test_answers_do_not_share_memory_and_count():
+    """A later call leaves earlier answers as they are."""
+    robot = Robot.from_dh("puma560")
+    taken(robot)
+    Ts = poses(robot, 40)[1::2]
+    found = [robot.ik(T) for T in Ts]
+    values = [f.q.copy() for f in found]
+    for T in Ts[::-1]:
+        robot.ik(T)
+    assert len({len(f) for f in found}) > 1
+    for f, q in zip(found, values, strict=True):
+        np.testing.assert_array_equal(f.q, q)
+
+
+def test_steps_that_are_no_entries_are_not_taken():
+    """A function that is no compiled entry leaves everything to Python; faults are said."""
+    memory = np.zeros(20)
+    T = memory[:16].reshape(4, 4)
+    assert engine.at_once(memory, (len, (T,), 4)) is engine.nothing_at_once
+    yes, no = (engine.at_once(memory, (is_pose, (T,), answer)) for answer in (True, False))
+    assert yes(np.eye(4)) == np.append(np.eye(4), memory[16:]).tobytes()
+    assert no(np.eye(4)) is None
+    for args in ((), (T, T), (T[:3],), (5,), (T.T,)):
+        with pytest.raises((TypeError, ValueError)):
+            engine.at_once(memory, (is_pose, args, True))
+
+
+def test_a_family_is_seen_among_the_solutions_only():
+    """What lies behind the last solution of a pose is none of it."""
+    free = np.array([[0, 0, 8], [0, 0, 0]])
+    assert not any_family(np.array([2, 3]), free)
+    assert any_family(np.array([3, 0]), free)
+    assert not any_family(np.array([0, 0]), free)
