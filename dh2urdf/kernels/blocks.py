@@ -134,7 +134,8 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     """Residual of one solution of every lane by forward kinematics, t1 ... t6 its angles' rows.
 
     The product of the Denavit-Hartenberg rows against the pose, carried to the tool by its
-    offset. The angle is that of ``|R - R_target|_F = 2 sqrt(2) sin(angle / 2)``.
+    offset; joint 3 may slide, by what is in the place of its value. The angle is that of
+    ``|R - R_target|_F = 2 sqrt(2) sin(angle / 2)``.
     """
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
     a2, ca2, sa2, d2 = form[1, 0], form[1, 1], form[1, 2], form[1, 3]
@@ -142,6 +143,7 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     a4, ca4, sa4, d4 = form[3, 0], form[3, 1], form[3, 2], form[3, 3]
     a5, ca5, sa5, d5 = form[4, 0], form[4, 1], form[4, 2], form[4, 3]
     u, v, w = tool[0, 3], tool[1, 3], tool[2, 3]
+    slides, value = form[2, 5] != 0.0, at(VALUES + t3)
     t1, t2, t3 = at(COS + t1), at(COS + t2), at(COS + t3)
     t4, t5, t6 = at(COS + t4), at(COS + t5), at(COS + t6)
     valid, result = at(VALID + solution), at(RESIDUAL + solution)
@@ -150,7 +152,8 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
         x, y, z = (c, s, 0.0), (-ca1 * s, ca1 * c, sa1), (sa1 * s, -sa1 * c, ca1)
         p = a1 * c + d2 * z[0], a1 * s + d2 * z[1], d2 * z[2]
         x, y, z = turned_and_tilted(S[t2 + i], S[TURN + t2 + i], ca2, sa2, x, y, z)
-        p = stepped(p, a2, x, d3, z)
+        slid = S[value + i]
+        p = stepped(p, a2, x, slid if slides else d3, z)
         x, y, z = turned_and_tilted(S[t3 + i], S[TURN + t3 + i], ca3, sa3, x, y, z)
         p = stepped(p, a3, x, d4, z)
         x, y, z = turned_and_tilted(S[t4 + i], S[TURN + t4 + i], ca4, sa4, x, y, z)
@@ -170,15 +173,18 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
 
 
 def _values(form, joints, table, within_limits, n, S):
-    """Joint values of all angles, in the turn nearest to the middle of the limits."""
+    """Joint values of all angles, in the turn nearest to the middle of the limits, and slides."""
     joint_of, _, mirror_of = table
     for r in range(joint_of.shape[0]):
         j, source, kind = joint_of[r], mirror_of[r, 0], mirror_of[r, 1]
         sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
         middle = _middle(lower, upper)
         sine, cosine = at(SIN + source), at(COS + source)
-        target, other = at(VALUES + r), at(VALUES + source)
-        if kind == HALF_TURN:
+        target, other, slides = at(VALUES + r), at(VALUES + source), form[j, 5] != 0.0
+        if slides:
+            for i in side_by_side(n):
+                S[target + i] = sign * (S[target + i] - form[j, 3])
+        elif kind == HALF_TURN:
             for i in side_by_side(n):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
@@ -191,7 +197,7 @@ def _values(form, joints, table, within_limits, n, S):
                 angle = arctangent(S[sine + i], S[cosine + i])
                 S[target + i] = _turned_to(middle, sign * (angle - constant))
         flag = at(INSIDE + r)
-        if not _limited(lower, upper):
+        if not slides and not _limited(lower, upper):
             for i in side_by_side(n):
                 S[flag + i] = 1.0
         elif within_limits:

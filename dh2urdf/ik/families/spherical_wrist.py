@@ -62,7 +62,9 @@ class SphericalWrist(ClosedForm):
     def kernel(self) -> BatchKernel:  # type: ignore[override]
         """The fastest kernel that covers the geometry."""
         rows = self.form.rows
-        common = rows[1, 2] == rows[3, 1] == rows[4, 1] == 0.0 and not self.chain.prismatic.any()
+        slides = self.chain.prismatic
+        right = rows[1, 1 if slides[2] else 2] == rows[3, 1] == rows[4, 1] == 0.0
+        common = right and not slides[:2].any()
         fast = common and self.form.exact and plain_ranges(self.chain)
         return solve_common_wrist if fast else solve_wrist_arm
 

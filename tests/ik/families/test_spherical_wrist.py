@@ -104,12 +104,14 @@ def test_count_equals_that_of_a_search(name):
     checks.check_against_search(ref.shipped(name), 200)
 
 
-def test_block_and_scalar_kernels_agree():
+@pytest.mark.parametrize("geometry", ["denso_vs6556", "stanford", "square", "second square"])
+def test_block_and_scalar_kernels_agree(geometry):
     """The vectorised kernel returns the same solutions and branches as the scalar one."""
     from dh2urdf.kernels.spherical_wrist.common import solve_common_wrist
     from dh2urdf.kernels.spherical_wrist.poses import solve_wrist_arm
 
-    chain = ref.shipped("denso_vs6556")
+    slides = SLIDES.get(geometry)
+    chain = ref.arm(slides + WRIST, "RRPRRR", seed=4) if slides else ref.shipped(geometry)
     solver = SphericalWrist(chain)
     assert solver.kernel is solve_common_wrist
     checks.check_kernels_agree(chain, solver, solve_wrist_arm, 1e-9)
