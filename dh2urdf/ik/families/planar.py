@@ -14,7 +14,7 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import number
 from dh2urdf.exceptions import PoseError
-from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, spare_joints
+from dh2urdf.ik.arm import NOMINAL, SNAP, Others, SolverBase, Task, hold, spare_joints
 from dh2urdf.ik.families.short_position import axis_frames
 from dh2urdf.kernels.short_chains import planar_rr, solve_planar
 from dh2urdf.transforms import Array, check_pose, inverse, product
@@ -102,44 +102,50 @@ def wrist_centre(T: ArrayLike, d6: float) -> Array:
 
 
 class PlanarArm(SolverBase):
-    """Two or three turning joints with parallel axes: lecture notes 8.2."""
+    """Two or three turning joints with parallel axes, lecture notes 8.2, and a slide along them."""
 
     name = "planar arm"
-    needs = "two or three revolute joints with parallel axes"
+    needs = "two or three revolute joints with parallel axes, and a slide along them or none"
     kmax = 2
     kernel = staticmethod(solve_planar)
     branch_words = (None, ("elbow up", "elbow down"))
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
-        frames = axis_frames(chain)
+        turning, sliding = np.flatnonzero(~chain.prismatic), np.flatnonzero(chain.prismatic)
+        flat = hold(chain, dict.fromkeys(sliding.tolist(), 0.0))
+        frames = axis_frames(flat)
         T_first_base = inverse(frames[0])
-        last = chain.tool if chain.n == 2 else frames[2]
+        last = chain.tool if flat.n == 2 else frames[2]
         point = product(inverse(chain.tool), last)[:3, 3]
         link1 = product(T_first_base, frames[1])[0, 3]
-        link2 = product(T_first_base, last)[:2, 3] - (link1, 0.0)
-        signs = np.sign(chain.axes @ chain.axes[0])
+        *link2, height = product(T_first_base, last)[:3, 3] - (link1, 0.0, 0.0)
+        places = np.array([*turning, -1, -1][:3] + [*sliding, -1][:1])
+        signs = np.sign(chain.axes[places] @ flat.axes[0])
         plane = np.stack([T_first_base, product(inverse(chain.tool), frames[0])])
         polar = math.hypot(*link2), math.atan2(link2[1], link2[0])
-        rest = float(np.clip(0.0, chain.lower[0], chain.upper[0]))
-        self.form = np.array([link1, *polar, signs[1], signs[-1], *point, rest])
-        self.constants = chain.tables, plane, self.form, task is Task.POSE
+        rest = float(np.clip(0.0, flat.lower[0], flat.upper[0]))
+        self.form = np.array([link1, *polar, *signs[1:3], *point, rest, signs[3], height])
+        self.constants = chain.tables, places, plane, self.form, task is Task.POSE
 
     @classmethod
     def obstacle(
         cls, chain: SerialChain, task: Task = Task.POSE, tolerance: float = NOMINAL
     ) -> str | None:
         """Say what keeps the notes' planar arm from covering a chain; None if nothing does."""
-        if chain.prismatic.any() or chain.n not in (2, 3):
-            return "it needs two or three revolute joints"
+        turning = np.flatnonzero(~chain.prismatic)
+        joints = len(turning)
+        if joints not in (2, 3) or chain.n > joints + 1:
+            return "it needs two or three revolute joints, and one slide at most"
         if np.abs(np.cross(chain.axes[0], chain.axes)).max() > tolerance:
             return "the axes are not parallel"
-        if task is Task.POSITION_AXIS or (task is Task.POSITION and chain.n == 3):
-            return f"it does not solve for {task.value} with {chain.n} joints"
+        if task is Task.POSITION_AXIS or (task is Task.POSITION and joints == 3):
+            return f"it does not solve for {task.value} with {joints} joints that turn"
         if spare_joints(chain, task):
             return cls.if_spare
-        reach = np.linalg.norm(np.cross(chain.tool[:3, 3] - chain.points[-1], chain.axes[-1]))
-        if chain.n == 2 and reach <= SNAP * chain.size:
+        last = turning[-1]
+        reach = np.linalg.norm(np.cross(chain.tool[:3, 3] - chain.points[last], chain.axes[last]))
+        if joints == 2 and reach <= SNAP * chain.size:
             return "the tool is on axis 2: its place says nothing of joint 2"
         return None
 
@@ -147,10 +153,12 @@ class PlanarArm(SolverBase):
         """Name the lengths and the reach."""
         l1, l2 = self.form[:2] * self.chain.unit
         inner, outer = planar_reach(l1, l2)
-        what = "the tool" if self.chain.n == 2 else "axis 3"
+        turning = int((~self.chain.prismatic).sum())
+        what = "the tool" if turning == 2 else "the last of them"
+        slide = ", a slide along them" if turning < self.chain.n else ""
         return (
             f"parallel axes (lecture notes 8.2), l1 = {l1:.4g} m, l2 = {l2:.4g} m; "
-            f"{what} reaches an annulus from {inner:.4g} to {outer:.4g} m"
+            f"{what} reaches an annulus from {inner:.4g} to {outer:.4g} m{slide}"
         )
 
 

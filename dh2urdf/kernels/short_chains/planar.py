@@ -1,4 +1,4 @@
-"""The planar RR and RRR arms of lecture notes 8.2.
+"""The planar RR and RRR arms of lecture notes 8.2, also with a slide across their plane.
 
 ``x = l1 cos t1 + l2 cos(t1 + t2)``, ``y = l1 sin t1 + l2 sin(t1 + t2)``, ``phi = t1 + t2 + t3``.
 """
@@ -12,7 +12,7 @@ from dh2urdf.kernels.certificate import finish_pose, principal
 from dh2urdf.kernels.newton import work_array
 from dh2urdf.kernels.numbers import atan2, elbow_angle, entry, hypot, root_of_gap, sincos
 from dh2urdf.kernels.rigid import applied, turned
-from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
+from dh2urdf.kernels.shapes import Chain, Floats, Integers, Outputs, Poses
 
 ON_AXIS = 1e-10
 """Distance of the point from axis 1, relative to the reach, that leaves no direction."""
@@ -45,10 +45,8 @@ def planar_rr(l1: float, l2: float, x: float, y: float, slack: float, rest: floa
     if square <= FOLDED * FOLDED * (l1 + l2) * (l1 + l2):
         return _folded(l1, l2, x, y, slack, rest, out)
     count, c2, s2 = elbow_angle(l1, l2, square, slack)
-    for k in range(count):
-        sine = -s2 if k == 0 else s2
-        out[k, 0] = atan2(y, x) - atan2(l2 * sine, l1 + l2 * c2)
-        out[k, 1] = atan2(sine, c2)
+    towards, inside, t2 = atan2(y, x), atan2(l2 * s2, l1 + l2 * c2), atan2(s2, c2)
+    out[0, 0], out[0, 1], out[1, 0], out[1, 1] = towards + inside, -t2, towards - inside, t2
     return count, False
 
 
@@ -94,11 +92,12 @@ def _one_link(l1, l2, x, y, slack, rest, out):
 
 
 class PlanarArm(NamedTuple):
-    """Two or three joints with parallel axes, whose pose or position is asked for."""
+    """Two or three joints with parallel axes and a slide along them, or none: a SCARA arm."""
 
     chain: Chain
+    places: Annotated[Integers, 4]
     plane: Annotated[Floats, 2, 4, 4]
-    form: Annotated[Floats, 9]
+    form: Annotated[Floats, 11]
     pose: bool
 
 
@@ -106,30 +105,37 @@ class PlanarArm(NamedTuple):
 def solve_planar(arm: PlanarArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4), or their positions, of two or three joints with parallel axes.
 
-    ``plane`` (2, 4, 4): base to the frame on axis 1, x to axis 2; what takes the tool's pose at
-    q = 0 back to it. ``form`` (9,): l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3,
-    the point on the last axis (the tool's origin for two joints) in the tool frame [m], rest value
-    of joint 1.
+    ``places`` (4,): the turning joints and the slide, -1 for none. ``plane`` (2, 4, 4): base to
+    the frame on axis 1, x to axis 2; what takes the tool's pose at q = 0 back to it. ``form``
+    (11,): l1, l2, angle of link 2 at q = 0 [rad], signs of axes 2 and 3, the point on the last axis
+    (the tool's origin for two joints) in the tool frame [m], rest value of joint 1, sign of the
+    slide, and height of the point at q = 0.
     """
-    chain, plane, form, pose = arm
+    chain, places, plane, form, pose = arm
     q, residual, count, branch, free = outputs
-    n, F = q.shape[2], plane[0]
-    work, pairs, point = work_array(n), np.empty((2, 2)), np.empty(3)
+    F, heading, work = plane[0], 0.0, work_array(q.shape[2])
+    pairs, point = np.empty((2, 2)), np.empty(3)
+    first, second, third, slide = places[0], places[1], places[2], places[3]
     l1, l2, lean, sign2, sign3, rest = form[0], form[1], form[2], form[3], form[4], form[8]
+    mask = 1 << first | (1 << third if third >= 0 else 0)
     for i in range(Ts.shape[0]):
         T = Ts[i]
-        x, y, _ = applied(F, applied(T, (form[5], form[6], form[7])))
+        x, y, z = applied(F, applied(T, (form[5], form[6], form[7])))
         rows, no_direction = planar_rr(l1, l2, x, y, SLACK, rest, pairs)
-        if n == 2 and pose and _by_heading(l1, l2, x, y, _heading(F, T, plane[1]) + lean, pairs):
+        if pose:
+            heading = _heading(F, T, plane[1]) + lean
+        if third < 0 and pose and _by_heading(l1, l2, x, y, heading, pairs):
             rows, no_direction = 1, False
         for k in range(rows):
             t1, t2 = pairs[k, 0], pairs[k, 1]
-            q[i, k, 0], q[i, k, 1] = t1, sign2 * (t2 - lean)
-            if n == 3:
-                q[i, k, 2] = sign3 * (_heading(F, T, plane[1]) - t1 - t2 + lean)
+            q[i, k, first], q[i, k, second] = t1, sign2 * (t2 - lean)
+            if third >= 0:
+                q[i, k, third] = sign3 * (heading - t1 - t2)
+            if slide >= 0:
+                q[i, k, slide] = form[9] * (z - form[10])
             residual[i, k] = -1.0
             branch[i, k] = 2 if k == 1 or (rows == 1 and 0.0 < t2 < math.pi) else 0  # elbow
-            free[i, k] = (0b101 if n == 3 else 0b01) if no_direction else 0
+            free[i, k] = mask if no_direction else 0
         out = q[i], residual[i], branch[i], free[i]
         if pose:
             count[i] = finish_pose(chain, T, within_limits, *out, rows, work)

@@ -33,6 +33,7 @@ ARMS = {
     "SCARA RRRP": ("RRRP", ".4 .4 0; 0 .3 0; .1 0 pi; 0 0 0", 2),
     "SCARA PRRR": ("PRRR", "0 0 0; .2 .4 0; 0 .3 0; 0 .1 0", 2),
     "SCARA RPRR": ("RPRR", ".3 .4 0; 0 0 0; .1 .3 0; 0 .1 0", 2),
+    "SCARA RRP": ("RRP", ".4 .4 0; 0 .3 0; 0 .2 pi", 1),
     "palletizer RRRR": ("RRRR", ".3 0 h; 0 .4 0; 0 .3 0; 0 .1 h", 4),
     "gantry with a turn": ("PPPR", "0 0 h; 0 0 h; 0 0 0; .1 .2 0", 1),
     "gantry with a head": ("PPPRR", "0 0 h; 0 0 h; 0 0 0; .1 0 h; .2 0 0", 1),
@@ -43,6 +44,8 @@ ARMS = {
     "slides between turns": ("RPRPRP", ".1 0 h; 0 .1 .8; 0 .2 h; 0 .1 h; 0 .3 1; 0 0 0", 2),
 }
 """Kinds, Denavit-Hartenberg steps (d, a, alpha), most solutions."""
+
+SCARA = [name for name in ARMS if name.startswith("SCARA") and "tilt" not in name]
 
 
 def named(name):
@@ -239,6 +242,34 @@ def over_axis_1():
         if np.abs(off(x)).max() < 1e-14:
             return x
     raise AssertionError("the arm reaches over its first axis")
+
+
+@pytest.mark.parametrize("name", SCARA)
+def test_a_slide_along_parallel_axes_leaves_a_planar_arm(name):
+    """SCARA arms are planar arms with a slide: both elbows are found, and named."""
+    chain = named(name)
+    solver = select_solver(chain)
+    assert solver.name == "planar arm"
+    assert "a slide along them" in solver.explain()
+    T = referee.forward(chain, referee.draw(chain, 1, 4)[0])
+    _, _, elbows, _ = referee.solve(chain, T[None]).of(0)
+    assert len(elbows) == ARMS[name][2]
+    assert len({*elbows.tolist()} & {0, 2}) == len(elbows)
+    assert select_solver(named("SCARA with a tilt")).name == "short chain"
+
+
+@pytest.mark.parametrize("kinds", ["RRP", "RPR", "PRR"])
+def test_two_turns_and_a_slide_reach_points(kinds):
+    """Both elbows put the tool's origin at a point, and no search finds a third."""
+    chain = chain_of(kinds, ((0.1, 0.4, 0), (0.2, 0.3, math.pi), (0.1, 0.2, 0)))
+    solver = select_solver(chain, Task.POSITION)
+    assert solver.name == "planar arm"
+    for q in referee.draw(chain, 20, 6):
+        T = referee.forward(chain, q)
+        found = referee.solve(chain, T[None], solver=solver).of(0)[0]
+        assert len(found) == 2
+        assert_margin(referee.gaps(chain, found, q).min(), GAP)
+        assert_margin(np.abs(referee.forward(chain, found)[:, :3, 3] - T[:3, 3]), RESIDUAL)
 
 
 def test_scara_folded_names_joints_1_and_4():
