@@ -46,13 +46,13 @@ def search_in_doubt(
     finish_batch(chain.tables, Ts, False, wide)
     named = (wide.free != 0) & (np.arange(WIDTH) < wide.counts[:, None])
     for i in np.flatnonzero(named.sum(axis=1) > 1).tolist():
-        _one_of_each(chain, Ts[i], wide.rows(slice(i, i + 1)))
+        one_of_each_family(chain, Ts[i], wide.rows(slice(i, i + 1)))
     if within_limits:
         finish_batch(chain.tables, Ts, True, wide)
     return wide
 
 
-def _one_of_each(chain: SerialChain, T: Array, out: Outputs) -> None:
+def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
     """Keep one member of each family of a pose T (4, 4), isolated solutions first, in place."""
     k = int(out.counts[0])
     q, free = out.q[0, :k], out.free[0, :k]

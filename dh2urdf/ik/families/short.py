@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import IntArray, Others, SolverBase, Task
+from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task
+from dh2urdf.ik.families.short_in_doubt import search_short
 from dh2urdf.kernels.numbers import dual_of_pose
 from dh2urdf.kernels.short_chains import (
     close_loop,
@@ -57,6 +58,19 @@ class ShortChain(SolverBase):
         self.ends = inverse(self.links[[0, -1]])
         self.unit = chain.size
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
+
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4), and search at those in doubt."""
+        if not self.kernel(self.constants, Ts, within_limits, out):
+            return
+        rows = np.flatnonzero(out.counts < 0)
+        poses, known = (
+            np.ascontiguousarray(Ts[rows]),
+            Outputs.of(len(rows), self.kmax, self.chain.n),
+        )
+        self.kernel(self.constants, poses, False, known)
+        known.counts[:] = np.maximum(known.counts, -1 - known.counts)
+        out.put(rows, search_short(self.chain, poses, known, within_limits))
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:

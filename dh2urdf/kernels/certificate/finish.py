@@ -36,6 +36,10 @@ are 2e-6 rad apart, and two, it is 1e-13; where six branches meet, and are one, 
 ACROSS = 1e-10
 """Damping of the step by which such a middle is brought back across the way, not along it."""
 
+ASIDE = 0.05
+"""How far that may move the middle, in parts of the distance between the two: a way bends by less,
+and to a third solution it is farther."""
+
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
 
@@ -187,10 +191,19 @@ def _one(chain, T, q, p, accuracy, middle, start, work):
         return False
     if not polish(chain, T, middle, work) <= accuracy:
         return False
-    for i in range(q.shape[0]):
-        if abs(middle[i] - start[i]) > 0.25 * longest:
+    if _is_aside(middle, start, ASIDE * longest):  # at a third solution, if that is regular
+        normal_equations(chain, T, middle, work)
+        if null_direction(work) > SINGULAR:
             return False
-    return True
+    return not _is_aside(middle, start, 0.25 * longest)
+
+
+def _is_aside(middle, start, most):
+    """Whether a joint of the middle has moved by more than ``most``."""
+    for i in range(start.shape[0]):
+        if abs(middle[i] - start[i]) > most:
+            return True
+    return False
 
 
 def merge_solutions(chain, T, q, residual, branch, free, count, trial, work):

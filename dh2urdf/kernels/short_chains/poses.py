@@ -32,6 +32,9 @@ FUZZY = 1e-4
 """Pivot, relative to the first, below which a direction may belong to the null space: double
 roots of the determinant are known to the square root of rounding."""
 
+CLOSE = 1e-3
+"""Distance of two roots x [rad] at which they may hide a third solution or more."""
+
 ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
 
@@ -67,11 +70,21 @@ def _from_matrix(columns, cut, x, scratch, order, q, count):
     return count, tried
 
 
+def _are_close(roots, found):
+    """Whether two of the roots x, cosines and sines in rows 1 and 2, nearly coincide."""
+    close = False
+    for k in range(1, found):
+        for j in range(k):
+            c, s = roots[1, k] - roots[1, j], roots[2, k] - roots[2, j]
+            close = close or c * c + s * s < CLOSE * CLOSE
+    return close
+
+
 def _candidates(loop, cut, scratch, order, roots, q, count):
     """Append all candidates that one cut of the loop gives.
 
-    Returned are the rows of q in use, and a doubt: the pose is singular for this cut, and another
-    one may see more.
+    Returned are the rows of q in use, and a doubt: the pose is singular for this cut, or nearly,
+    and another one may see more.
     """
     shape, used, joints, rest, unit = cut
     columns = scratch[17:29]
@@ -89,6 +102,7 @@ def _candidates(loop, cut, scratch, order, roots, q, count):
         found = 1
     else:
         found = trig_roots(series, 2, roots[1], roots[2])
+        doubt = _are_close(roots, found)
     for k in range(found):
         v, u = sincos(0.5 * atan2(roots[2, k], roots[1, k]))
         count, nullity = _from_matrix(columns, cut, (u, v), scratch, order, q, count)
@@ -115,6 +129,9 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
     cuts of the loop, best first: its shape, see ``add_candidates``, and the nullity to expect; the
     slots that it has, -1 after the last. ``rest_unit`` (n + 1,): rest values, then the length of
     one dual unit [m].
+
+    The count of a pose that is singular for every cut is -1 minus that of its solutions; returned
+    is how many are.
     """
     chain, ends, loop, plan, rest_unit = arm
     _, joints = chain
@@ -127,10 +144,11 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
     order = np.empty(8, np.int64)
     many = np.empty((FEW, n)), np.empty(FEW), np.empty(FEW, np.int64), np.empty(FEW, np.int64)
     rest, unit = rest_unit[:n], rest_unit[n]
+    doubts = 0
     for i in range(Ts.shape[0]):
         T = Ts[i]
         close_loop(ends, T, unit, pose, closed)
-        found = 0
+        found, doubt = 0, False
         for s in range(plan.shape[0]):
             before, cut = found, (plan[s, 0], plan[s, 1], joints, rest, unit)
             found, doubt = _candidates(closed, cut, scratch, order, roots, many[0], found)
@@ -141,3 +159,7 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
                 break
         found = finish_families(chain, T, rest, within_limits, many, found, trial, work)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))
+        if doubt:
+            count[i] = -1 - count[i]
+            doubts += 1
+    return doubts

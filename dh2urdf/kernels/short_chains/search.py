@@ -1,0 +1,101 @@
+"""Levenberg's steps from many starts: what comes near a pose, a solution or not.
+
+Where singularities meet, steps end beside a solution, in a valley that leads to it.
+"""
+
+import math
+from typing import Annotated
+
+import numpy as np
+
+from dh2urdf.kernels.certificate import ACCEPT, NO_JOINT, principal, same
+from dh2urdf.kernels.newton import (
+    POSE,
+    add_transposed,
+    error_and_jacobian,
+    make_damped,
+    solve_damped,
+)
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses
+
+STEPS, STUCK, SETTLED = 50, 8, 2
+"""Steps from a start, and how many without a better residual end them; near a solution, too."""
+
+DONE = 1e-14
+"""Residual [m and rad] at which nothing is left to gain."""
+
+DAMPING = 0.5
+"""Damping in squares of the error: it vanishes where there is a solution."""
+
+LONGEST = 0.6
+"""The longest step [rad, or in sizes of the arm]."""
+
+NEAR = 0.01
+"""Residual [m and rad] of what comes near."""
+
+APART = 1e-3
+"""Joint distance [rad or m] at which two of these are two; solutions are so a thousandth of it."""
+
+FEW = 24
+"""Starts after which a pose is given up that nothing came near to."""
+
+
+def _approach(chain, goal, q, best, dq, damped):
+    """Levenberg's steps from q (n,); the least residual, and in q the configuration that has it."""
+    (_, joints), least, since = chain, math.inf, 0
+    for _ in range(STEPS):
+        residual = error_and_jacobian(chain, goal, q, damped)
+        if residual < least:
+            since = since if residual > 0.9 * least else 0
+            least = residual
+            best[:] = q
+        since += 1
+        if residual <= DONE or since > (SETTLED if least <= ACCEPT else STUCK):
+            break
+        square = 0.0
+        for a in range(6):
+            square += damped[1][a, 6] * damped[1][a, 6]
+        solve_damped(damped, DAMPING * square)
+        dq[:] = 0.0
+        add_transposed(damped, 1.0, dq)
+        longest = LONGEST
+        for j in range(q.shape[0]):
+            longest = max(longest, abs(dq[j]) / (goal[2] if joints[j, 0] != 0.0 else 1.0))
+        q += dq * (LONGEST / longest)
+    for j in range(q.shape[0]):
+        q[j] = best[j] if joints[j, 0] != 0.0 else principal(best[j])
+    return least
+
+
+@entry()
+def search_starts(
+    chain: Chain,
+    starts: Annotated[Floats, "starts", "n"],
+    unit: float,
+    Ts: Poses,
+    seeds: Annotated[Floats, "poses", "seeds", "n"],
+    many: Counts,
+):
+    """Append to ``seeds`` (m, k, n), ``many[i]`` of pose Ts[i], what starts (s, n) lead near to.
+
+    ``unit`` is the size of the arm [m].
+    """
+    joints, n = chain[1], starts.shape[1]
+    trial, best, dq, damped = np.empty(n), np.empty(n), np.empty(n), make_damped(n)
+    for i in range(Ts.shape[0]):
+        goal, least = (POSE, Ts[i], unit), math.inf
+        for s in range(starts.shape[0]):
+            if s == FEW and least > NEAR and many[i] == 0:
+                break
+            trial[:] = starts[s]
+            residual = _approach(chain, goal, trial, best, dq, damped)
+            least = min(least, residual)
+            if not residual <= NEAR or many[i] >= seeds.shape[1]:
+                continue
+            reach, known = (1e-3 * APART if residual <= ACCEPT else APART), False
+            for k in range(many[i]):
+                known = known or same(joints, seeds[i, k], trial, reach, NO_JOINT)
+            if not known:
+                seeds[i, many[i]] = trial
+                many[i] += 1
