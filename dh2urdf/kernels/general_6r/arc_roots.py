@@ -7,17 +7,29 @@ root is overlooked.
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL, TERMS
+from dh2urdf.kernels.general_6r.arc_samples import TERMS
+from dh2urdf.kernels.general_6r.arc_shapes import (
+    CENTRE,
+    CHANGES,
+    CUT,
+    DIP,
+    DOUBT,
+    FIRST,
+    LEFT,
+    OPEN,
+    PAIR,
+    PLACE,
+    RIGHT,
+    ROWS,
+    cut,
+    extremum,
+    shape,
+)
+from dh2urdf.kernels.general_6r.brackets import SLOPE, X, narrow_brackets, place_bracket
 from dh2urdf.kernels.numbers import LANES, atan2
 
-STACK = 40
-"""Rows that the halving needs at most."""
-
-NARROW = 0.06
-"""Length [rad] of an arc on which a pair of roots is looked for at an extremum of f."""
-
 NARROWEST = 2e-4
-"""Length [rad] of an arc below which such a pair counts as a double root."""
+"""Length [rad] of an arc below which a pair at an extremum of f counts as a double root."""
 
 NEAR_DOUBLE = 0.02
 """Imaginary part [rad] below which a complex pair of roots is reported as a double one."""
@@ -28,144 +40,160 @@ MEETING = 30.0
 CURVED = 1e4
 """An arc that is bent by less than this many times the noise may be flat: more than two meet."""
 
-SHALLOW = 0.03
-"""An arc whose smallest coefficient is below this part of its largest may hold such a pair."""
-
-STEEP = 1.5
-"""Growth from the first coefficient to the second where f has its roots beyond the end."""
-
-FLAT = 1e4
-"""An arc on which f is below this many times the noise is in doubt."""
-
-CLEAR = 1e3
-"""An arc without a root on which f comes below this many times the noise is in doubt."""
-
-BLIND = 30.0
-"""An arc with an end where f is below this many times the noise is in doubt."""
-
 UNSURE = 1e-6
 """A root whose place is uncertain by more than this [rad] is in doubt."""
 
 SPANS = 31
 """Spans of doubt that are remembered."""
 
+HALF = LANES // 2
+WAITING = 40
+"""Arcs that are halved at once, and that can wait for it."""
 
-def _evaluate(row, x, scratch):
-    """f, f' and f'' at x in [0, 1] of a row of Bernstein coefficients (de Casteljau)."""
-    y = 1.0 - x
-    for i in range(TERMS - 1):
-        scratch[i] = y * row[i] + x * row[i + 1]
-    for n in range(TERMS - 2, 2, -1):
-        for i in range(n):
-            scratch[i] = y * scratch[i] + x * scratch[i + 1]
-    a, b, c = scratch[0], scratch[1], scratch[2]
-    p, q = y * a + x * b, y * b + x * c
-    return y * p + x * q, 16.0 * (q - p), 240.0 * (a - 2.0 * b + c)
+KEY, MIDDLE, LOW, HIGH, UNCERTAIN, ROOT, AT, SIZE, FACTS = range(9)
+"""What is found of an arc: its place among the others, centre, tangents of the ends, whether in
+doubt, the bracket of a root (-1: none), or the place of a double root and its slope (1: none)."""
+
+FOUND = 64
+"""Most such facts."""
 
 
-def _value_and_slope(row, x):
-    """f and f' at x in [0, 1] of a row of Bernstein coefficients, by Horner's rule.
+def _note(arm, k, doubt, root, x, slope):
+    """Remember what is found of arc k, sorted by places."""
+    facts, order, arcs = arm["facts"], arm["order"], arm["arcs"]
+    n = order[FOUND]
+    if n == FOUND:
+        arm["fresh"][1, 0] = 1.0
+        return
+    centre, left = arcs[CENTRE, k], arcs[LEFT, k]
+    facts[n, KEY], facts[n, MIDDLE] = 2.0 * centre + left, centre
+    facts[n, LOW], facts[n, HIGH], facts[n, UNCERTAIN] = left, arcs[RIGHT, k], doubt
+    facts[n, ROOT], facts[n, AT], facts[n, SIZE] = root, x, slope
+    place = n
+    while place > 0 and facts[order[place - 1], KEY] > facts[n, KEY]:
+        order[place] = order[place - 1]
+        place -= 1
+    order[place] = n
+    order[FOUND] = n + 1
 
-    In ``t = x / (1 - x)``, or its inverse in the other half: ``f = (1 - x)^16 p(t)``.
+
+def _pair(arm, k, roots, x, f, ddf):
+    """Enclose the two roots of arc k beside an extremum that lies across the axis; their number."""
+    arcs, scaled, brackets = arm["arcs"], arm["scaled"], arm["brackets"]
+    h, positive = math.sqrt(abs(2.0 * f / ddf)), arcs[0, k] > 0.0
+    fine = 1e-8 / (2.0 * (arcs[RIGHT, k] - arcs[LEFT, k]))
+    bounds = 0.0, max(x - h, 0.0), x
+    place_bracket(arcs, k, bounds, not positive, fine, roots, scaled, brackets)
+    _note(arm, k, arm["shapes"][DOUBT, k], float(roots), 0.0, 1.0)
+    if roots + 1 < LANES - 1:
+        bounds = x, min(x + h, 1.0), 1.0
+        place_bracket(arcs, k, bounds, positive, fine, roots + 1, scaled, brackets)
+        _note(arm, k, 0.0, float(roots + 1), 0.0, 1.0)
+        return roots + 2
+    return roots + 1
+
+
+def _at_extremum(arm, k, roots, noise):
+    """Look for a pair of roots of arc k, or a double one, at an extremum of f.
+
+    Their number, and whether this decides the arc.
     """
-    left = x <= 0.5
-    y = 1.0 - x if left else x
-    t = (1.0 - y) / y
-    value, slope = row[TERMS - 1] if left else row[0], 0.0
-    for i in range(1, TERMS):
-        k = TERMS - 1 - i if left else i
-        slope = slope * t + value
-        value = value * t + BINOMIAL[k] * row[k]
-    y2 = y * y
-    y4 = y2 * y2
-    y14 = y4 * y4 * y4 * y2
-    slope = y14 * (slope - 16.0 * y * value)
-    return y14 * y2 * value, slope if left else -slope
-
-
-def _bracketed_root(row, low, high, x, rising, tolerance):
-    """The root between low and high, Newton from x kept in the bracket, and f' there."""
-    df = 0.0
-    for _ in range(60):
-        f, df = _value_and_slope(row, x)
-        if (f > 0.0) == rising:
-            high = x
-        else:
-            low = x
-        step = -f / df if df != 0.0 else math.inf
-        if not low < x + step < high:
-            step = 0.5 * (low + high) - x
-        x += step
-        if abs(step) < tolerance:
-            break
-    return x, df
-
-
-def _extremum(row, x, scratch):
-    """The place in [0, 1] where f' vanishes, Newton from x, with f, f', f'' there."""
-    f, df, ddf = _evaluate(row, x, scratch)
-    for _ in range(6):
-        step = -df / ddf if ddf != 0.0 else 0.0
-        x = min(max(x + step, 0.0), 1.0)
-        f, df, ddf = _evaluate(row, x, scratch)
-        if abs(step) < 1e-6:
-            break
-    return x, f, df, ddf
-
-
-def _shape(row):
-    """Sign changes, first crossing, place of the smallest size, that size and the largest."""
-    positive = row[0] > 0.0
-    changes, crossing, place = 0, 0.5, 0
-    smallest, largest = abs(row[0]), abs(row[0])
-    for i in range(1, TERMS):
-        value = row[i]
-        if (value > 0.0) != positive:
-            positive = not positive
-            if changes == 0:
-                crossing = (i - 1 + row[i - 1] / (row[i - 1] - value)) / (TERMS - 1)
-            changes += 1
-        size = abs(value)
-        largest = max(largest, size)
-        if size < smallest:
-            smallest, place = size, i
-    return changes, crossing, place / (TERMS - 1), smallest, largest
-
-
-def _may_hold_pair(row, changes, place, shallow, sure, length):
-    """Whether to look for a pair of roots at an extremum.
-
-    Not where it is sure that f falls towards an end: its roots are beyond.
-    """
-    if changes != 0:
-        return changes == 2 and length < NARROW
-    if sure and place == 0.0 and abs(row[1]) > STEEP * abs(row[0]):
-        return False
-    if sure and place == 1.0 and abs(row[TERMS - 2]) > STEEP * abs(row[TERMS - 1]):
-        return False
-    return shallow
-
-
-def _halve(stack, top):
-    """De Casteljau at the middle: row ``top`` keeps the right half, ``top + 1`` gets the left."""
+    arcs, shapes, row = arm["arcs"], arm["shapes"], arm["row"]
+    length, changes = 2.0 * (arcs[RIGHT, k] - arcs[LEFT, k]), shapes[CHANGES, k]
     for i in range(TERMS):
-        stack[top + 1, i] = stack[top, 0]
-        for j in range(TERMS - 1 - i):
-            stack[top, j] = 0.5 * (stack[top, j] + stack[top, j + 1])
-    middle = 0.5 * (stack[top, 17] + stack[top, 18])
-    stack[top + 1, 17], stack[top + 1, 18] = stack[top, 17], middle
-    stack[top, 17] = middle
+        row[i] = arcs[i, k]
+    start = shapes[PLACE, k] / (TERMS - 1) if changes == 0.0 else 0.5
+    x, f, df, ddf = extremum(row, start, arm["casteljau"])
+    positive = row[0] > 0.0
+    if not abs(df) < 1e-4 * abs(ddf) or positive != (ddf > 0.0):
+        return roots, changes == 0.0
+    if (f > 0.0) != positive:
+        return _pair(arm, k, roots, x, f, ddf), True
+    near = NEAR_DOUBLE / length
+    if changes != 0.0 and not length < NARROWEST:
+        return roots, False
+    if 2.0 * abs(f) < near * near * abs(ddf) + noise:
+        slope = -1.0 if abs(f) < MEETING * noise else 0.0
+        slope = -2.0 if abs(ddf) < CURVED * noise else slope
+        _note(arm, k, 0.0, -1.0, x, slope)
+    return roots, True
 
 
-def _angle(centre, row, x):
-    """The angle at x in [0, 1] of a row."""
-    return centre + 2.0 * atan2(row[17] + x * (row[18] - row[17]), 1.0)
+def _enclose(arm, k, roots):
+    """Enclose the root of an arc with one."""
+    arcs, shapes = arm["arcs"], arm["shapes"]
+    i = int(shapes[FIRST, k])
+    a, b = arcs[i - 1, k], arcs[i, k]
+    guess = (i - 1 + a / (a - b)) / (TERMS - 1)
+    fine, rising = 1e-8 / (2.0 * (arcs[RIGHT, k] - arcs[LEFT, k])), arcs[0, k] <= 0.0
+    bounds = 0.0, guess, 1.0
+    place_bracket(arcs, k, bounds, rising, fine, roots, arm["scaled"], arm["brackets"])
+    _note(arm, k, shapes[DOUBT, k], float(roots), 0.0, 1.0)
 
 
-def _doubt(spans, row, centre):
-    """Widen the last span of doubt to a row, or begin one."""
+def _decide(arm, k, roots, pairs, noise):
+    """Enclose the roots of arc k, if it is plain where they are; their number, and whether so."""
+    arcs, shapes = arm["arcs"], arm["shapes"]
+    changes, before, decided = shapes[CHANGES, k], roots, shapes[CHANGES, k] == 0.0
+    length = 2.0 * (arcs[RIGHT, k] - arcs[LEFT, k])
+    if changes == 1.0:
+        _enclose(arm, k, roots)
+        return roots + 1, True
+    if shapes[PAIR, k] > 0.0 if decided else changes == 2.0 and length < pairs[0]:
+        roots, decided = _at_extremum(arm, k, roots, noise)
+    if shapes[DOUBT, k] > 0.0 and roots == before:
+        _note(arm, k, 1.0, -1.0, 0.0, 1.0)
+    if not decided and length < 1e-12:
+        _note(arm, k, 0.0, -1.0, 0.5, -2.0)
+        decided = True
+    dips = changes == 2.0 and 0.0 < shapes[DIP, k] < TERMS - 1.0
+    arcs[CUT, k] = shapes[DIP, k] / (TERMS - 1) if dips and pairs[2] > 0.0 else 0.5
+    return roots, decided
+
+
+def _isolate(n, noise, pairs, arm):
+    """Enclose the roots on n arcs; their number."""
+    arcs, parts, waiting, shapes = arm["arcs"], arm["parts"], arm["waiting"], arm["shapes"]
+    roots, waits = 0, 0
+    while n > 0:
+        shape(arcs, n, noise, pairs[1], shapes)
+        m = 0
+        for k in range(n):
+            if shapes[OPEN, k] == 0.0 or roots >= LANES - 1:
+                continue
+            roots, decided = _decide(arm, k, roots, pairs, noise)
+            if decided:
+                continue
+            if m < HALF:
+                for i in range(ROWS):
+                    parts[i, m] = arcs[i, k]
+                m += 1
+            elif waits < WAITING:
+                for i in range(ROWS):
+                    waiting[waits, i] = arcs[i, k]
+                waits += 1
+            else:
+                arm["fresh"][1, 0] = 1.0
+        if m == 0 and waits > 0:
+            m = min(waits, HALF)
+            waits -= m
+            for k in range(m):
+                for i in range(ROWS):
+                    parts[i, k] = waiting[waits + k, i]
+        cut(parts, m, arcs)
+        n = 2 * m
+    return roots
+
+
+def _angle(centre, left, right, x):
+    """The angle at x in [0, 1] of an arc."""
+    return centre + 2.0 * atan2(left + x * (right - left), 1.0)
+
+
+def _doubt(spans, centre, left, right):
+    """Widen the last span of doubt to an arc, or begin one."""
     n = int(spans[0, 0])
-    low, high = _angle(centre, row, 0.0), _angle(centre, row, 1.0)
+    low, high = _angle(centre, left, right, 0.0), _angle(centre, left, right, 1.0)
     if n > 0 and low <= spans[1, n] + 1e-9 and high >= spans[0, n] - 1e-9:
         spans[0, n], spans[1, n] = min(low, spans[0, n]), max(high, spans[1, n])
     elif n < SPANS:
@@ -173,86 +201,35 @@ def _doubt(spans, row, centre):
         spans[0, 0], spans[0, n], spans[1, n] = n, low, high
 
 
-def _pair(row, x, f, ddf, rising, length):
-    """The two roots beside an extremum at x that lies across the axis, with f' there."""
-    h = math.sqrt(abs(2.0 * f / ddf))
-    fine = 1e-8 / length
-    a, da = _bracketed_root(row, 0.0, x, max(x - h, 0.0), rising, fine)
-    b, db = _bracketed_root(row, x, 1.0, min(x + h, 1.0), not rising, fine)
-    return a, da, b, db
+def roots_on_arcs(n, noise, pairs, count, arm):
+    """Append the real roots on n arcs; their number.
 
-
-def _add(roots, slopes, count, angle, slope):
-    """Append a root; their number."""
-    roots[count], slopes[count] = angle, slope
-    return count + 1
-
-
-def _beside_extremum(here, noise, length, roots, slopes, count):
-    """Append the roots at an extremum, two beside it or a double one; whether in doubt."""
-    centre, row, x, f, ddf = here
-    positive, near = row[0] > 0.0, NEAR_DOUBLE / length
-    if (f > 0.0) != positive:
-        a, da, b, db = _pair(row, x, f, ddf, not positive, length)
-        da, db = abs(da) / length, abs(db) / length
-        count = _add(roots, slopes, count, _angle(centre, row, a), da + 1e-300)
-        count = _add(roots, slopes, count, _angle(centre, row, b), db + 1e-300)
-        return count, min(da, db) * UNSURE < noise
-    if 2.0 * abs(f) < near * near * abs(ddf) + noise:
-        slope = -1.0 if abs(f) < MEETING * noise else 0.0
-        slope = -2.0 if abs(ddf) < CURVED * noise else slope
-        count = _add(roots, slopes, count, _angle(centre, row, x), slope)
-    return count, False
-
-
-def roots_on_arc(stack, centre, half_tan, noise, scratch, spans, count, roots, slopes):
-    """Append the real roots on one arc; their number.
-
-    The first row of ``stack`` has the arc's Bernstein coefficients, and is overwritten; ``centre``
-    is its middle [rad], ``half_tan`` the tangent of a quarter of its length, ``noise`` the size of
-    f that may be zero. ``spans[0, 0]`` spans of doubt are widened or appended, each from
-    ``spans[0, i]`` to ``spans[1, i]`` [rad]: there f is so small, or a root so uncertain, that it
-    should be sampled anew. ``roots`` and ``slopes`` (24,), of which ``count`` are there already,
-    get angles [rad] and |f'|; the slope is 0 where a complex pair is close to the real axis,
-    -1 where two roots meet within the noise, -2 where more of them do.
+    ``arcs`` of the record has them, and is overwritten; ``noise`` is the size of f that may be
+    zero. Pairs are looked for at an extremum of f on arcs shorter than ``pairs[0]`` [rad], and on
+    arcs without sign changes whose smallest coefficient is below the part ``pairs[1]`` of the
+    largest; longer arcs with two are cut where the coefficients dip if ``pairs[2]`` is 1, else in
+    the middle. Spans of doubt ``fresh`` are widened or appended, their number ``fresh[0, 0]``, each
+    from ``fresh[0, i]`` to ``fresh[1, i]`` [rad]: there f is so small, or a root so uncertain, that
+    it should be sampled anew. ``roots`` and ``slopes``, of which ``count`` are there already, get
+    angles [rad] and |f'|; the slope is 0 where a complex pair is close to the real axis, -1 where
+    two roots meet within the noise, -2 where more of them do.
     """
-    stack[0, 17], stack[0, 18] = -half_tan, half_tan
-    top = 0
-    while top >= 0 and count < LANES - 1:
-        row = stack[top]
-        changes, crossing, place, smallest, largest = _shape(row)
-        length = 2.0 * (row[18] - row[17])
-        end = min(abs(row[0]), abs(row[TERMS - 1]))
-        doubt = largest < FLAT * noise or end < BLIND * noise
-        doubt = doubt or (changes == 0 and smallest < CLEAR * noise)
-        decided = changes < 2
-        if changes == 1:
-            fine = 1e-8 / length
-            x, df = _bracketed_root(row, 0.0, 1.0, crossing, row[0] <= 0.0, fine)
-            slope = abs(df) / length + 1e-300
-            count = _add(roots, slopes, count, _angle(centre, row, x), slope)
+    facts, order, brackets, spans = arm["facts"], arm["order"], arm["brackets"], arm["fresh"]
+    roots, slopes = arm["roots"], arm["slopes"]
+    order[FOUND] = 0
+    narrow_brackets(arm["scaled"], _isolate(n, noise, pairs, arm), brackets)
+    for place in range(order[FOUND]):
+        i = order[place]
+        centre, left, right = facts[i, MIDDLE], facts[i, LOW], facts[i, HIGH]
+        x, slope, doubt = facts[i, AT], facts[i, SIZE], facts[i, UNCERTAIN] > 0.0
+        if facts[i, ROOT] >= 0.0:
+            bracket = int(facts[i, ROOT])
+            x, slope = brackets[X, bracket], abs(brackets[SLOPE, bracket]) / (2.0 * (right - left))
+            slope += 1e-300
             doubt = doubt or slope * UNSURE < noise
-        elif _may_hold_pair(
-            row, changes, place, smallest < SHALLOW * largest, smallest > CLEAR * noise, length
-        ):
-            x, f, df, ddf = _extremum(row, place if changes == 0 else 0.5, scratch)
-            positive = row[0] > 0.0
-            if abs(df) < 1e-4 * abs(ddf) and positive == (ddf > 0.0):
-                pair = (f > 0.0) != positive
-                decided = pair or changes == 0 or length < NARROWEST
-                if decided:
-                    count, unsure = _beside_extremum(
-                        (centre, row, x, f, ddf), noise, length, roots, slopes, count
-                    )
-                    doubt = doubt or unsure
+        if (facts[i, ROOT] >= 0.0 or slope <= 0.0) and count < LANES - 1:
+            roots[count], slopes[count] = _angle(centre, left, right, x), slope
+            count += 1
         if doubt:
-            _doubt(spans, row, centre)
-        if not decided and (length < 1e-12 or top + 2 > STACK):
-            count = _add(roots, slopes, count, _angle(centre, row, 0.5), -2.0)
-            decided = True
-        if decided:
-            top -= 1
-        else:
-            _halve(stack, top)
-            top += 1
+            _doubt(spans, centre, left, right)
     return count

@@ -22,6 +22,8 @@ BINOMIAL = np.array([float(math.comb(2 * DEGREE, i)) for i in range(TERMS)])
 
 CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
 CIRCLE_SIN, CIRCLE_COS = np.array([sincos(x) for x in CIRCLE_ANGLE.tolist()]).T.copy()
+_TURNS = np.outer(np.arange(1, DEGREE + 1), np.arange(LANES)) % LANES
+COSINES, SINES = CIRCLE_COS[_TURNS], CIRCLE_SIN[_TURNS]
 NODE = np.array([sincos(math.pi * (k + 0.5) / LANES)[1] for k in range(LANES)])
 
 
@@ -103,22 +105,24 @@ def _largest(series, first, last):
 def circle_arcs(samples, series, turned, arcs):
     """Bernstein coefficients of f on 24 arcs from samples (24,) around the circle.
 
-    Column k of ``arcs`` (17, 24): those on the arc centred at ``k * ARC``. Returns the largest
-    Fourier coefficient that should vanish (the noise) and the largest of all. ``series`` (24,) and
-    ``turned`` (17, 24) are scratch.
+    Column k of ``arcs``, its first 17 rows: those on the arc centred at ``k * ARC``. Returns the
+    largest Fourier coefficient that should vanish (the noise) and the largest of all. ``series``
+    (24,) and ``turned`` (17, 24) are scratch.
     """
     _transform(samples, CIRCLE_TABLE, series)
     turned[0] = series[0]
     for m in range(1, DEGREE + 1):
         a, b = series[2 * m - 1], series[2 * m]
         for k in side_by_side(LANES):
-            c, s = CIRCLE_COS[(m * k) % LANES], CIRCLE_SIN[(m * k) % LANES]
+            c, s = COSINES[m - 1, k], SINES[m - 1, k]
             turned[2 * m - 1, k] = a * c + b * s
             turned[2 * m, k] = b * c - a * s
     for i in range(TERMS):
-        arcs[i] = 0.0
-        for m in range(TERMS):
-            arcs[i] += ARC_TABLE[i, m] * turned[m]
+        for k in side_by_side(LANES):
+            total = 0.0
+            for m in range(TERMS):
+                total += ARC_TABLE[i, m] * turned[m, k]
+            arcs[i, k] = total
     for k in side_by_side(LANES):
         arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
     return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)

@@ -2,8 +2,10 @@
 
 import numpy as np
 
-from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK
+from dh2urdf.kernels.general_6r.arc_roots import FACTS, FOUND, SPANS, WAITING
 from dh2urdf.kernels.general_6r.arc_samples import TERMS
+from dh2urdf.kernels.general_6r.arc_shapes import ROWS, SHAPES
+from dh2urdf.kernels.general_6r.brackets import BRACKETS
 from dh2urdf.kernels.numbers import COLUMN, LANES
 
 MOST = 3
@@ -16,6 +18,7 @@ _INTEGERS = {
     "trials": (),  # number of eliminations
     "choices": (MOST, 2),  # where each cuts the loop, and in which direction
     "ready": (),  # whether their left sides are known
+    "order": FOUND + 1,  # of facts by place, their number last
 }
 
 _ARM = {
@@ -42,9 +45,15 @@ _WORK = {
     "determinant": LANES,
     "series": LANES,
     "turned": (TERMS, LANES),  # series turned to each arc
-    "arcs": (TERMS, LANES),  # Bernstein coefficients of the arcs
-    "stack": (STACK, TERMS + 2),  # arcs being halved
+    "arcs": (ROWS, LANES),  # Bernstein coefficients of the arcs, and where they are
+    "parts": (ROWS, LANES),  # arcs to be cut
+    "waiting": (WAITING, ROWS),  # and more of them
+    "shapes": (SHAPES, LANES),  # what arcs say
+    "facts": (FOUND, FACTS),  # what is found of them
+    "row": TERMS,  # coefficients of one
     "casteljau": LANES,
+    "brackets": (BRACKETS, LANES),  # roots that are enclosed
+    "scaled": (TERMS, LANES),  # coefficients of their arcs times binomials
     "roots": LANES,
     "slopes": LANES,  # at the roots
     "doubles": LANES,  # roots to be tried again as double ones

@@ -1,16 +1,16 @@
 """The hidden joint's values at one pose: place the target, find the roots."""
 
-from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arc
+from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arcs
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
     ARC_TAN,
     CIRCLE_COS,
     CIRCLE_SIN,
-    TERMS,
     circle_arcs,
     window_arc,
     window_nodes,
 )
+from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
 from dh2urdf.kernels.general_6r.resultant import resultants
 from dh2urdf.kernels.numbers import LANES, side_by_side, sincos
 from dh2urdf.kernels.rigid import load_pose, times_link
@@ -26,6 +26,11 @@ MARGIN = 1.1
 
 NARROWER = 2.4
 """Length, in quarter lengths of a window, below which a span in it is sampled in turn."""
+
+PAIRS = 0.06, 0.03, 0.0, 0.0
+"""Where `roots_on_arcs` looks for pairs at an extremum: also where they are complex, for what is
+nearly a double root may be one; determinants are not so precise. Last the least noise on the
+circle, in parts of the polynomial's largest coefficient."""
 
 EDGE = 1e-7
 """Angle [rad] by which a root may lie outside its span."""
@@ -80,17 +85,18 @@ def place_samples(k, start, arm):
     return middle, sine / cosine
 
 
-def _arcs(k, half_tan, arm):
+def _arcs(k, half_tan, least, arm):
     """Bernstein coefficients of the samples, one arc a column of ``arcs``.
 
-    Returns how many arcs, none where the polynomial says nothing, and the noise.
+    Returns the noise, at least the part ``least`` of the largest coefficient; negative where the
+    polynomial says nothing.
     """
     determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
     if k > 0:
-        return 1, window_arc(determinant, half_tan, series, arcs)
+        return window_arc(determinant, half_tan, series, arcs)
     noise, largest = circle_arcs(determinant, series, arm["turned"], arcs)
     arm["spans"][1, 0] = 1.0 if noise > QUIET * largest else 0.0
-    return (LANES if noise < HOPELESS * largest else 0), noise
+    return max(noise, least * largest) if noise < HOPELESS * largest else -1.0
 
 
 def _keep(roots, slopes, first, count, low, high, inside):
@@ -103,7 +109,7 @@ def _keep(roots, slopes, first, count, low, high, inside):
     return kept
 
 
-def add_roots(k, middle, half_tan, count, arm):
+def add_roots(k, middle, half_tan, pairs, count, arm):
     """Roots of the polynomial and its slopes there, to ``roots`` and ``slopes``; their number.
 
     From samples placed by `place_samples` in turn, first on the whole circle. Spans of doubt that
@@ -111,19 +117,22 @@ def add_roots(k, middle, half_tan, count, arm):
     in doubt within one that are much narrower; the roots there are replaced. ``spans[1, 0]`` is
     set to 1 if doubt remains. -1 where the polynomial says nothing.
     """
-    arcs, stack, roots, slopes = arm["arcs"], arm["stack"], arm["roots"], arm["slopes"]
-    spans, fresh, casteljau = arm["spans"], arm["fresh"], arm["casteljau"]
-    number, noise = _arcs(k, half_tan, arm)
-    if number == 0:
+    arcs, roots, slopes = arm["arcs"], arm["roots"], arm["slopes"]
+    spans, fresh = arm["spans"], arm["fresh"]
+    noise = _arcs(k, half_tan, pairs[3], arm)
+    if noise < 0.0:
         return -1
-    first = count
-    fresh[0, 0] = 0.0
+    first, number = count, LANES if k == 0 else 1
+    fresh[0, 0], fresh[1, 0] = 0.0, 0.0
     for arc in range(number):
-        for i in range(TERMS):
-            stack[0, i] = arcs[i, arc]
-        count = roots_on_arc(
-            stack, middle + arc * ARC, half_tan, noise, casteljau, fresh, count, roots, slopes
+        arcs[LEFT, arc], arcs[RIGHT, arc], arcs[CENTRE, arc] = (
+            -half_tan,
+            half_tan,
+            middle + arc * ARC,
         )
+    count = roots_on_arcs(number, noise, pairs, count, arm)
+    if fresh[1, 0] > 0.0:
+        spans[1, 0] = 1.0
     if k > 0:
         count = _keep(roots, slopes, first, count, spans[0, k], spans[1, k], True)
     last = int(spans[0, 0])
@@ -155,6 +164,6 @@ def find_roots(arm):
             arm["V"],
             arm["beta"],
         )
-        count = add_roots(k, middle, half_tan, count, arm)
+        count = add_roots(k, middle, half_tan, PAIRS, count, arm)
         k += 1
     return count

@@ -5,6 +5,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import turn_inside
 from dh2urdf.kernels.general_6r import (
     ARC,
+    PAIRS,
     SINGULAR,
     Arms,
     add_roots,
@@ -40,6 +41,10 @@ CLOSE = 0.01
 
 NOUGHT = 1e-12
 """Value of F, in parts of the largest, that may be zero."""
+
+APART = 0.005, 0.0, 1.0, 1e-15
+"""Where `add_roots` looks for pairs of roots around the circle: F is precise, so that real ones are
+told apart by cutting arcs, and complex ones are none."""
 
 CROWDED = 1e-3
 """Determinant of a solution's Jacobian below which poses nearby are asked too."""
@@ -88,7 +93,7 @@ def _find_roots(form, seen, arm):
         sample(form, seen, arm["hidden"], LANES, arm["determinant"])
         for i in range(LANES):
             largest = max(largest, abs(arm["determinant"][i]))
-        count = add_roots(k, middle, half_tan, count, arm)
+        count = add_roots(k, middle, half_tan, PAIRS if k > 0 else APART, count, arm)
         k += 1
     return count, largest
 

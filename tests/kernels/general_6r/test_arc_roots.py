@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from margins import assert_margin
 
-from dh2urdf.kernels.general_6r.arc_roots import SPANS, STACK, roots_on_arc
+from dh2urdf.kernels.general_6r.arc_roots import roots_on_arcs
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
     ARC_TAN,
@@ -15,6 +15,10 @@ from dh2urdf.kernels.general_6r.arc_samples import (
     window_arc,
     window_nodes,
 )
+from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
+from dh2urdf.kernels.general_6r.arm import ARM_6R
+from dh2urdf.kernels.general_6r.roots import PAIRS
+from dh2urdf.kernels.two_parallel.poses import APART
 
 CIRCLE = 2 * math.pi * np.arange(24) / 24
 
@@ -26,16 +30,14 @@ def product(q, roots):
     return np.real(values)
 
 
-def roots_around(samples, q, slopes):
-    """Roots of all arcs of the circle: their number, the noise, the largest coefficient."""
-    arcs, stack = np.zeros((TERMS, 24)), np.zeros((STACK, TERMS + 2))
-    noise, largest = circle_arcs(samples, np.zeros(24), np.zeros((TERMS, 24)), arcs)
-    spans, scratch = np.zeros((2, SPANS + 1)), np.zeros(24)
-    count = 0
-    for k in range(24):
-        stack[0, :TERMS] = arcs[:, k]
-        count = roots_on_arc(stack, k * ARC, ARC_TAN, noise, scratch, spans, count, q, slopes)
-    return count, noise, largest
+def roots_around(samples, pairs):
+    """Roots and slopes of all arcs of the circle, the noise, the largest coefficient."""
+    arm = np.zeros(1, ARM_6R)[0]
+    noise, largest = circle_arcs(samples, arm["series"], arm["turned"], arm["arcs"])
+    arm["arcs"][LEFT], arm["arcs"][RIGHT] = -ARC_TAN, ARC_TAN
+    arm["arcs"][CENTRE] = ARC * np.arange(24)
+    count = roots_on_arcs(24, noise, pairs, 0, arm)
+    return arm["roots"][:count], arm["slopes"][:count], noise, largest
 
 
 class Strict(np.ndarray):
@@ -68,22 +70,22 @@ def arc_of(samples, half_tan):
     return arcs, noise
 
 
-def found_roots(roots):
+def found_roots(roots, pairs=PAIRS):
     """Roots and slopes that the arcs of the whole circle give."""
-    q, slopes = np.zeros(24), np.zeros(24)
-    count, noise, largest = roots_around(product(CIRCLE, roots), q, slopes)
+    q, slopes, noise, largest = roots_around(product(CIRCLE, roots), pairs)
     # The noise is the rounding of sixteen factors and of their sum, half of this: no ten times.
     assert_margin(noise, 1e-14 * largest, 1)
-    return np.mod(q[:count], 2 * math.pi), slopes[:count]
+    return np.mod(q, 2 * math.pi), slopes
 
 
-def test_sixteen_real_roots_are_found():
+@pytest.mark.parametrize("pairs", [PAIRS, APART])
+def test_sixteen_real_roots_are_found(pairs):
     """Of 400 draws sixteen real roots, at least 0.01 rad apart, are all found, and no other."""
     away = np.empty((400, 16))
     for seed, row in enumerate(away):
         roots = np.cumsum(np.random.default_rng(seed).uniform(0.02, 1.0, 16))
         roots *= 6.2 / roots[-1]
-        q, slopes = found_roots(roots)
+        q, slopes = found_roots(roots, pairs)
         assert len(q) == 16
         assert (slopes > 0).all()
         row[:] = np.sort(q) - np.sort(np.mod(roots, 2 * math.pi))
@@ -106,12 +108,13 @@ def test_complex_roots_are_not_reported():
 
 @pytest.mark.parametrize("gap", [1e-2, 1e-3, 1e-4, 1e-5])
 @pytest.mark.parametrize("place", [0.1, 0.1309, 3.0])
-def test_close_roots_are_told_apart(gap, place):
+@pytest.mark.parametrize("pairs", [PAIRS, APART])
+def test_close_roots_are_told_apart(gap, place, pairs):
     """Two roots closer than an arc by far are two simple roots, also across an arc's end."""
     others = [0.7, 1.4, 2.2, 4.0, 4.9, 5.5]
-    pairs = [2.5 + 0.4j, 3.6 + 0.7j, 4.4 + 0.3j, 5.9 + 1.0j]
+    complex_ones = [2.5 + 0.4j, 3.6 + 0.7j, 4.4 + 0.3j, 5.9 + 1.0j]
     close = [place - gap / 2, place + gap / 2]
-    q, slopes = found_roots([*others, *close, *pairs, *np.conj(pairs)])
+    q, slopes = found_roots([*others, *close, *complex_ones, *np.conj(complex_ones)], pairs)
     near = np.sort(q[np.abs(q - place) < 0.02])
     assert len(q) == 8
     assert_margin(np.abs(near - close), 0.05 * gap)
