@@ -104,7 +104,13 @@ class InverseKinematics:
         return found
 
     def solve_batch(
-        self, Ts: ArrayLike, asked: Asked, threads: int | None, tell: Progress | None, on_bad: str
+        self,
+        Ts: ArrayLike,
+        asked: Asked,
+        threads: int | None,
+        tell: Progress | None,
+        on_bad: str,
+        out: IKBatch | None,
     ) -> IKBatch:
         """All configurations of many poses, see :meth:`dh2urdf.Robot.ik_batch`."""
         task, locked, within_limits, samples, nearest = asked
@@ -116,9 +122,13 @@ class InverseKinematics:
         poses, change = many_poses(Ts, nearest, skip == "skip")
         flat, shape = poses.reshape(-1, 4, 4), poses.shape[:-2]
         _check_held(problem, len(flat))
+        room = None
+        if out is not None:
+            earlier: IKBatch = instance(out, "out", IKBatch)
+            room = earlier.room(len(flat), problem.solver.kmax, self.chain.n)
         good = ~np.isnan(flat[:, 3, 3])
         if good.all():
-            batch = problem.solve_many(flat, inside, workers, tell)
+            batch = problem.solve_many(flat, inside, workers, tell, room)
         else:
             some = problem
             if problem.values is not None and len(problem.values) > 1:

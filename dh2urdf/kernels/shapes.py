@@ -106,11 +106,12 @@ class Outputs(NamedTuple):
 
     @classmethod
     def of(cls, m: int, kmax: int, n: int) -> "Outputs":
-        """Arrays for m poses, nothing in them."""
-        codes = np.zeros((2, m, kmax), np.int64)
-        return cls(
-            np.empty((m, kmax, n)), np.empty((m, kmax)), np.zeros(m, np.int64), codes[0], codes[1]
-        )
+        """Arrays for m poses, nothing in them, of one piece of memory that nobody has touched."""
+        whole, k = np.zeros(m * (kmax * (n + 3) + 1)), m * kmax
+        q, rest = whole[: k * n].reshape(m, kmax, n), whole[k * n : k * (n + 3)]
+        residual, *codes = rest.reshape(3, m, kmax)
+        branch, free = (code.view(np.int64) for code in codes)
+        return cls(q, residual, whole[k * (n + 3) :].view(np.int64), branch, free)
 
     def put(self, index: Integers, other: "Outputs") -> None:
         """Put those of other arrays, with as many rows a pose or more, in place of some poses."""

@@ -118,7 +118,7 @@ static int take_all(
 }
 
 /* Poses of a call from which on other threads may run meanwhile. */
-#define MANY 256
+#define MANY 64
 
 #define DOOR(public, entry, parameters, values, names, run, answer, ...) \
 static PyObject *call_##entry(const npy_intp *lengths, const Given *given) \

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.arm import IntArray
+from dh2urdf.exceptions import ArgumentError
+from dh2urdf.ik.arm import IntArray, Outputs
 from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 
 if TYPE_CHECKING:
@@ -71,6 +72,21 @@ class IKBatch:
     def bad(self) -> IntArray:
         """Indices of the poses that were skipped because they are none, in flattened order."""
         return np.flatnonzero(np.isnan(self.targets[..., 3, 3]))
+
+    def room(self, m: int, kmax: int, n: int) -> Outputs:
+        """Its arrays, for another answer to m poses.
+
+        Raises
+        ------
+        ArgumentError
+            They are for other numbers of poses or solutions, or parts of larger arrays.
+        """
+        arrays = self.q, self.residual, self.count, self.branch_code, self.free_mask
+        axes, whole = self.count.ndim, all(a.flags.carray for a in arrays)
+        if self.count.size != m or self.q.shape[axes:] != (kmax, n) or not whole:
+            here = f"{m} poses with up to {kmax} solutions of {n} joints"
+            raise ArgumentError(f"out: expected an answer to {here}, got arrays {self.q.shape}")
+        return Outputs._make(a.reshape(m, *a.shape[axes:]) for a in arrays)
 
     def each(self, change: Callable[[Any], Any]) -> IKBatch:
         """The batch with all of its arrays changed in one way."""

@@ -1,8 +1,6 @@
 """One problem of inverse kinematics: a chain, a task, the joints that are held, a solver."""
 
-import os
 from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any
 
 import numpy as np
@@ -31,6 +29,7 @@ from dh2urdf.ik.arm import (
     turn_counts,
 )
 from dh2urdf.ik.problem.batch_solutions import IKBatch
+from dh2urdf.ik.problem.chunks import in_chunks
 from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import RedundantChain
@@ -44,16 +43,11 @@ ForwardKinematics = Callable[[Array], Array]
 Progress = Callable[[int, int], None]
 """Called with the number of poses done and their total."""
 
-CHUNK = 4096
-"""Most poses of one call into a kernel: a few ms, so that progress and Ctrl-C are prompt."""
 
 ALL = slice(None)
 
 NEARER = 1e-5
 """Joint distance [rad or m] by which a solution is nearer to a seed than those that are known."""
-
-SMALL = 256
-"""Poses below which a thread costs more than it saves."""
 
 
 class Problem:
@@ -123,24 +117,22 @@ class Problem:
         return at_once(room.memory, is_one, *steps, *more) if steps else nothing_at_once
 
     def solve_many(
-        self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None
+        self,
+        Ts: Array,
+        within_limits: bool,
+        threads: int | None,
+        progress: Progress | None,
+        out: Outputs | None = None,
     ) -> IKBatch:
-        """All solutions of checked poses Ts (m, 4, 4), in chunks on a pool of threads."""
+        """All solutions of checked poses Ts (m, 4, 4), in chunks on threads; ``out`` is filled."""
         m = len(Ts)
-        batch = IKBatch(self, Ts, *Outputs.of(m, self.solver.kmax, self.chain.n), np.zeros(m))
-        workers = max(1, threads if threads is not None else os.cpu_count() or 1)
-        step = max(SMALL, min(CHUNK, -(-m // workers)))
-        chunks = [slice(i, i + step) for i in range(0, m, step)]
+        room = out or Outputs.of(m, self.solver.kmax, self.chain.n)
 
-        def work(rows: slice) -> int:
-            return self._solve_chunk(batch[rows], rows, within_limits)
+        def work(rows: slice) -> None:
+            self._solve_chunk(Ts[rows], within_limits, room.rows(rows), rows)
 
-        def tell(done: int) -> None:
-            if progress:
-                progress(done, m)
-
-        _run(work, chunks, workers, tell)
-        return batch
+        in_chunks(work, m, threads, lambda done: progress(done, m) if progress else None)
+        return IKBatch(self, Ts, *room, np.zeros(m))
 
     def _solve_held(self, Ts: Array, within_limits: bool, out: Outputs, rows: slice = ALL) -> None:
         """Solve poses Ts (m, 4, 4) at the held values of these rows of the whole batch."""
@@ -151,22 +143,22 @@ class Problem:
             values = np.repeat(values, len(Ts), axis=0)
         self.solver.solve_held(Ts, values, within_limits, out)
 
-    def _solve_chunk(self, part: IKBatch, rows: slice, within_limits: bool) -> int:
-        """Fill the arrays of a part of a batch; the number of its poses."""
-        out = Outputs(part.q, part.residual, part.count, part.branch_code, part.free_mask)
+    def _solve_chunk(self, Ts: Array, within_limits: bool, out: Outputs, rows: slice) -> None:
+        """Fill the arrays of a chunk of poses Ts (m, 4, 4), these rows of the whole batch."""
         if self.values is None:
-            self._solve(part.targets, within_limits, out)
+            self._solve(Ts, within_limits, out)
         else:
-            self._solve_held(part.targets, within_limits, out, rows)
+            self._solve_held(Ts, within_limits, out, rows)
         singular = pad_solutions(out, np.nan)
-        for i in np.flatnonzero(part.free_mask.any(axis=1)) if singular and within_limits else ():
-            found = self._families_inside(part.solutions(int(i)))
-            k = len(found)
-            part.count[i] = k
-            part.q[i, :k], part.residual[i, :k] = found.q, found.residual
-            part.branch_code[i, :k], part.free_mask[i, :k] = found.codes
+        for i in np.flatnonzero(out.free.any(axis=1)) if singular and within_limits else ():
+            k = out.counts[i]
+            codes = out.branch[i, :k], out.free[i, :k]
+            found = IKSolutions.of(self, Ts[i], out.q[i, :k], out.residual[i, :k], *codes)
+            found = self._families_inside(found)
+            k = out.counts[i] = len(found)
+            out.q[i, :k], out.residual[i, :k] = found.q, found.residual
+            out.branch[i, :k], out.free[i, :k] = found.codes
             pad_solutions(out.rows(slice(i, i + 1)), np.nan)
-        return len(part)
 
     def _families_inside(self, found: IKSolutions) -> IKSolutions:
         """Bring the representatives of singular families into the limits, or drop them."""
@@ -283,25 +275,3 @@ class Problem:
         position, turn = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
         largest: Array = np.maximum(position, turn)
         return largest
-
-
-def _run(
-    work: Callable[[slice], int], chunks: list[slice], workers: int, tell: Callable[[int], None]
-) -> None:
-    """Work on all chunks, in this thread or on a pool, and say how far it has come."""
-    done = 0
-    if workers == 1 or len(chunks) < 2:
-        for chunk in chunks:
-            done += work(chunk)
-            tell(done)
-        return
-    with ThreadPoolExecutor(min(workers, len(chunks))) as pool:
-        pending: set[Future[int]] = {pool.submit(work, chunk) for chunk in chunks}
-        try:
-            while pending:
-                finished, pending = wait(pending, return_when=FIRST_COMPLETED)
-                done += sum(future.result() for future in finished)
-                tell(done)
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import HeldSolver, lengths_in
+from dh2urdf.ik.arm import HeldSolver, Outputs, lengths_in
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.path import IKPath, PathFinder
 from dh2urdf.ik.problem.problem import Problem, Progress
@@ -39,10 +39,16 @@ class ScaledProblem(Problem):
         return self._outside(self.inner.solve_one(lengths_in(T, self.unit), within_limits), T)
 
     def solve_many(
-        self, Ts: Array, within_limits: bool, threads: int | None, progress: Progress | None
+        self,
+        Ts: Array,
+        within_limits: bool,
+        threads: int | None,
+        progress: Progress | None,
+        out: Outputs | None = None,
     ) -> IKBatch:
         """All solutions of checked poses Ts (m, 4, 4)."""
-        found = self.inner.solve_many(lengths_in(Ts, self.unit), within_limits, threads, progress)
+        inside = lengths_in(Ts, self.unit)
+        found = self.inner.solve_many(inside, within_limits, threads, progress, out)
         found.q[:] *= self.scale
         self.measured(Ts, found.q, found.count, found.residual)
         return replace(found, problem=self, targets=Ts)
