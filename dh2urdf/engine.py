@@ -19,8 +19,8 @@ from typing import Any
 Kernel = Callable[..., Any]
 AtOnce = Callable[[Any], bytes | None]
 
-Step = tuple[Kernel, tuple[Any, ...], object]
-"""An entry, its arguments, and what it has to answer."""
+Step = tuple[Kernel, tuple[Any, ...], bool]
+"""An entry, its arguments, and what it has to answer: nothing and zero are false."""
 
 side_by_side = range
 """A range whose turns write nothing that another turn reads or writes: they can run as lanes of

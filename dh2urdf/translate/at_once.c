@@ -1,9 +1,9 @@
 /* A pose solved in one call from Python: entries one after the other, on arguments taken once. */
 
-/* An entry with its arguments, and what it has to answer. */
+/* An entry with its arguments, and whether it has to answer something, or zero or nothing. */
 typedef struct {
     const Door *door;
-    PyObject *wanted;
+    int wanted;
     npy_intp *lengths;
     Given *given;
 } Step;
@@ -54,11 +54,11 @@ static PyObject *solve(PyObject *capsule, PyObject *T)
     for (Py_ssize_t i = 0; go_on && i < all->count; i++) {
         const Step *step = all->steps + i;
         PyObject *found = step->door->call(step->lengths, step->given);
-        go_on = found ? PyObject_RichCompareBool(found, step->wanted, Py_EQ) : -1;
-        Py_XDECREF(found);
-        if (go_on < 0) {
+        if (!found) {
             return NULL;
         }
+        go_on = PyObject_IsTrue(found) == step->wanted;
+        Py_DECREF(found);
     }
     if (!go_on) {
         return Py_NewRef(Py_None);
@@ -72,7 +72,7 @@ static int prepare(PyObject *given, Step *step)
 {
     PyObject *args, *items[16];
     const char *name;
-    if (!PyArg_ParseTuple(given, "sO!O", &name, &PyTuple_Type, &args, &step->wanted)) {
+    if (!PyArg_ParseTuple(given, "sO!p", &name, &PyTuple_Type, &args, &step->wanted)) {
         return 0;
     }
     const Door *const *door = doors;

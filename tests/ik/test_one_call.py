@@ -127,7 +127,7 @@ def test_steps_that_are_no_entries_are_not_taken():
     """A function that is no compiled entry leaves everything to Python; faults are said."""
     memory = np.zeros(20)
     T = memory[:16].reshape(4, 4)
-    assert engine.at_once(memory, (len, (T,), 4)) is engine.nothing_at_once
+    assert engine.at_once(memory, (len, (T,), True)) is engine.nothing_at_once
     yes, no = (engine.at_once(memory, (is_pose, (T,), answer)) for answer in (True, False))
     assert yes(np.eye(4)) == np.append(np.eye(4), memory[16:]).tobytes()
     assert no(np.eye(4)) is None

@@ -149,13 +149,18 @@ class SolverBase:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, see :class:`Solver`."""
-        self.kernel(self.constants, Ts, within_limits, out)
+        if self.kernel(self.constants, Ts, within_limits, out):
+            self.look_wider(Ts, np.flatnonzero(out.counts < 0), within_limits, out)
+
+    def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts[rows], of which the kernel doubts that its solutions are all."""
+        raise NotImplementedError
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """Kernels that solve poses, see :func:`dh2urdf.engine.at_once`; none where Python helps."""
         if type(self).solve_batch is not SolverBase.solve_batch:
             return ()
-        return ((self.kernel, (self.constants, Ts, within_limits, out), None),)
+        return ((self.kernel, (self.constants, Ts, within_limits, out), False),)
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:

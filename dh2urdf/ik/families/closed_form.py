@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     NOMINAL,
     SLACK,
@@ -69,19 +68,9 @@ class ClosedForm(SolverBase):
         slack = max(SLACK, SLACK_OF_NOISE * tolerance)
         self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4), and look wider at those in doubt."""
-        if self.kernel(self.constants, Ts, within_limits, out):
-            rows = np.flatnonzero(out.counts < 0)
-            out.counts[rows] = -1 - out.counts[rows]
-            self._look_wider(Ts, rows, within_limits, out)
-
-    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
-        """The kernel, if no pose is in doubt."""
-        return ((self.kernel, (self.constants, Ts, within_limits, out), 0),)
-
-    def _look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+    def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
         """Add what lies along valleys beside candidates of poses Ts[rows] to their solutions."""
+        out.counts[rows] = -1 - out.counts[rows]
         chain, poses, k = self.chain, np.ascontiguousarray(Ts[rows]), self.kmax
         raw, many = np.empty((len(rows), SEEDS, 6)), np.empty(len(rows), np.int64)
         self.seeds((*self.constants[:3], WIDE), poses, raw, many)

@@ -50,8 +50,8 @@ class ReversedSolver(SolverBase):
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """As :meth:`solve_batch`."""
         inverse_poses = np.empty_like(Ts)
-        invert: Step = invert_poses, (Ts, inverse_poses), None
-        back: Step = turn_back, (self.chain.tables, Ts, within_limits, out), None
+        invert: Step = invert_poses, (Ts, inverse_poses), False
+        back: Step = turn_back, (self.chain.tables, Ts, within_limits, out), False
         return (invert, *self.inner.steps(inverse_poses, False, out), back)
 
 

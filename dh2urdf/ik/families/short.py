@@ -59,11 +59,8 @@ class ShortChain(SolverBase):
         self.unit = chain.size
         self.rest_unit = np.append(np.clip(0.0, chain.lower, chain.upper), self.unit)
 
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4), and search at those in doubt."""
-        if not self.kernel(self.constants, Ts, within_limits, out):
-            return
-        rows = np.flatnonzero(out.counts < 0)
+    def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+        """Search at poses Ts[rows]."""
         poses, known = (
             np.ascontiguousarray(Ts[rows]),
             Outputs.of(len(rows), self.kmax, self.chain.n),
