@@ -2,8 +2,9 @@
 
 `certify` accepts what reaches the target and keeps each solution once; `finish` unites solutions
 that the residual cannot tell apart (``FLAT``), finds the joints that move freely, for a pose, for
-a batch and for what a solver of the reversed chain found; `arrange` turns solutions to a seed;
-`numeric` searches from any start, `valley` along what hardly moves the tool.
+a batch and for what a solver of the reversed chain found, by the `walk` that families are named
+for; `arrange` turns solutions to a seed; `numeric` searches from any start, `valley` along what
+hardly moves the tool, in the singular vectors of `directions`.
 """
 
 from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_and_sort, turn_to
@@ -26,7 +27,7 @@ from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,
     finish_families,
-    free_joints,
+    name_families,
     null_direction,
     reverse_joints,
     turn_back,

@@ -22,6 +22,9 @@ ROUNDING = 1e-15
 NO_JOINT = 0
 """The mask of no joint."""
 
+EVERY_JOINT = (1 << 30) - 1
+"""The mask of all joints."""
+
 CLUSTER = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 

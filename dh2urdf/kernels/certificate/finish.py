@@ -5,14 +5,15 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import (
-    ACCEPT,
     CLUSTER,
+    EVERY_JOINT,
     ROUNDING,
     TWO_PI,
     finish_pose,
     move,
     turn_inside,
 )
+from dh2urdf.kernels.certificate.walk import LENGTHS, free_of
 from dh2urdf.kernels.newton import (
     POLISH,
     damped_step,
@@ -42,19 +43,6 @@ and to a third solution it is farther."""
 
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
-
-WALK = 0.05
-"""Length of the trial walk [rad or m]."""
-
-STEADY, STEADY_STEPS = 1e-6, 6
-"""Damping and number of the first steps back to the family: across it and not along, for beside a
-family the Jacobian has its rank, and a plain step may go anywhere."""
-
-PARTS = 4
-"""Parts in which the way back from it is looked at."""
-
-MOVES = 1e-5
-"""Motion [rad or m] of a joint over the walk that makes it free."""
 
 
 def null_direction(work):
@@ -86,48 +74,30 @@ def null_direction(work):
     return 1.0 / (size * trace)
 
 
-def _steady(chain, T, trial, work):
-    """Bring a configuration (n,) back to the family beside it, across it and not along."""
-    for _ in range(STEADY_STEPS):
-        normal_equations(chain, T, trial, work)
-        damped_step(work, STEADY)
-        for i in range(trial.shape[0]):
-            trial[i] += work[i, 7]
-
-
-def free_joints(chain, T, q, trial, work):
+def free_joints(chain, T, q, mask, alone, work):
     """Bits of the joints that move along a family of solutions through q (n,); 0: isolated.
 
-    Where the Jacobian loses rank, a step is taken along its null direction and polished on the
-    exact chain. At a double root Newton comes back to q; on a family it stays away, and all of the
-    way between is accepted. ``trial`` (n,) is scratch.
+    Those in the mask are tried first, where singularities meet; ``alone`` as in :func:`.free_of`.
+    A regular solution costs little.
     """
-    n = q.shape[0]
     normal_equations(chain, T, q, work)
     if null_direction(work) > SINGULAR:
         return 0
-    for i in range(n):
-        trial[i] = q[i] + WALK * work[i, 6]
-    _steady(chain, T, trial, work)
-    if not polish(chain, T, trial, work) <= ACCEPT:
-        return 0
-    away = 0.0
-    mask = 0
-    for i in range(n):
-        gap = abs(trial[i] - q[i])
-        away += gap * gap
-        if gap > MOVES:
-            mask |= 1 << i
-    if not away > 0.25 * WALK * WALK:
-        return 0
-    # on a family, and not between two solutions, the way back is accepted too
-    for part in range(1, PARTS):
-        for i in range(n):
-            trial[i] += (q[i] - trial[i]) / (PARTS + 1 - part)
-        _steady(chain, T, trial, work)
-        if not pose_residual(chain, T, trial) <= ACCEPT:
-            return 0
-    return mask
+    moving = free_of(chain, T, q, LENGTHS[0], mask, alone)
+    if moving == 0 and mask != EVERY_JOINT:
+        moving = free_of(chain, T, q, LENGTHS[0], EVERY_JOINT, alone)
+        for k in range(1, len(LENGTHS)):
+            moving = moving if moving != 0 else free_of(chain, T, q, LENGTHS[k], mask, alone)
+    return moving
+
+
+def name_families(chain, T, rows, count, suspected, work):
+    """Name the families of solutions whose masks say, or all of which are suspected, to be so."""
+    q, _, _, free = rows
+    for k in range(count):
+        if free[k] != 0 or suspected:
+            mask = free[k] if free[k] != 0 else EVERY_JOINT
+            free[k] = free_joints(chain, T, q[k], mask, True, work)
 
 
 def one_of_each_family(joints, rest, q, residual, branch, free, count):
@@ -232,7 +202,7 @@ def merge_families(chain, T, rows, count, trial, work):
     q, _, _, free = rows
     count = merge_solutions(chain, T, *rows, count, trial, work)
     for k in range(count):
-        free[k] = free_joints(chain, T, q[k], trial[0], work)
+        free[k] = free_joints(chain, T, q[k], EVERY_JOINT, False, work)
     return count
 
 

@@ -4,8 +4,6 @@ Where a Jacobian has one small singular value, solutions lie on a curve along wh
 errors vanish and the last is small: the curve is walked, both ways, and where the error has a
 least size Newton's method decides. Rounded angles make such curves of singular families, of which
 a few points are left; equations that are solved one after the other lose these to rounding.
-
-Singular values and vectors by Hestenes' one-sided rotations, which keep the small ones.
 """
 
 import math
@@ -14,7 +12,8 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate.certify import is_known, principal, same
-from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, pose_residual
+from dh2urdf.kernels.certificate.directions import add_step, look
+from dh2urdf.kernels.newton import POSE, make_damped, pose_residual
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses, Solutions
 
@@ -33,9 +32,6 @@ ON_IT = 1e-12
 STEP, MOST_STEPS = 0.1, 160
 """Step along a valley [rad, or in sizes of the arm], and how many each way."""
 
-SWEEPS = 12
-"""Most sweeps of rotations; five are usual."""
-
 HALVINGS, NEWTON = 40, 12
 """Most steps by which a least error is brought to its place, and of Newton's method then."""
 
@@ -46,98 +42,6 @@ LEFT = 1e-11
 """Error at which a family has been left, along which nothing is to be looked for."""
 
 
-def decompose(damped, V, sigma):
-    """Rows of the Jacobian J^T (n, 6) in ``damped`` to ``sigma_k u_k``, V (n, n) to its vectors.
-
-    The rows ``V[k]`` are right singular vectors, sigma (n,) their singular values; returns the
-    index of the smallest and the size of the largest.
-    """
-    U, n = damped[0], V.shape[0]
-    for i in range(n):
-        V[i] = 0.0
-        V[i, i] = 1.0
-    for _ in range(SWEEPS):
-        turned = False
-        for i in range(n - 1):
-            for j in range(i + 1, n):
-                a, b, c = 0.0, 0.0, 0.0
-                for k in range(6):
-                    a += U[i, k] * U[i, k]
-                    b += U[j, k] * U[j, k]
-                    c += U[i, k] * U[j, k]
-                if abs(c) <= 1e-15 * math.sqrt(a * b) or c == 0.0:
-                    continue
-                turned = True
-                z = (b - a) / (2.0 * c)
-                t = math.copysign(1.0, z) / (abs(z) + math.sqrt(1.0 + z * z))
-                co = 1.0 / math.sqrt(1.0 + t * t)
-                si = co * t
-                for k in range(6):
-                    x, y = U[i, k], U[j, k]
-                    U[i, k], U[j, k] = co * x - si * y, si * x + co * y
-                for k in range(n):
-                    x, y = V[i, k], V[j, k]
-                    V[i, k], V[j, k] = co * x - si * y, si * x + co * y
-        if not turned:
-            break
-    least, largest = 0, 0.0
-    for i in range(n):
-        total = 0.0
-        for k in range(6):
-            total += U[i, k] * U[i, k]
-        sigma[i] = math.sqrt(total)
-        largest = max(largest, sigma[i])
-        least = i if sigma[i] < sigma[least] else least
-    return least, largest
-
-
-def _look(chain, goal, q, room):
-    """Error and decomposed Jacobian at q: index of the weak direction, largest singular value.
-
-    Slides count in sizes of the arm, as errors of the position do.
-    """
-    damped, V, sigma, joints = room[0], room[1], room[2], chain[1]
-    error_and_jacobian(chain, goal, q, damped)
-    for i in range(q.shape[0]):
-        if joints[i, 0] != 0.0:
-            for k in range(6):
-                damped[0][i, k] *= goal[2]
-    return decompose(damped, V, sigma)
-
-
-def _along(U, e, k, sigma):
-    """Part of the error e, column 6, along left vector k, over its singular value."""
-    total = 0.0
-    for i in range(6):
-        total += U[k, i] * e[i, 6]
-    return total / (sigma[k] * sigma[k])
-
-
-def _add_step(chain, goal, q, room, floor, most):
-    """Newton's step by the directions above a singular value; its length, not over ``most``.
-
-    Returned too are what of the error these directions take away, and what they leave.
-    """
-    (J, e), V, sigma, step, joints = room[0], room[1], room[2], room[3], chain[1]
-    n = q.shape[0]
-    step[:] = 0.0
-    total, taken = 0.0, 0.0
-    for i in range(6):
-        total += e[i, 6] * e[i, 6]
-    for k in range(n):
-        if sigma[k] > floor:
-            along = _along(J, e, k, sigma)
-            taken += (along * sigma[k]) * (along * sigma[k])
-            step += along * V[k]
-    longest = 0.0
-    for i in range(n):
-        longest = max(longest, abs(step[i]))
-    scale = min(1.0, most / longest) if longest > 0.0 else 0.0
-    for i in range(n):
-        q[i] += scale * step[i] * (goal[2] if joints[i, 0] != 0.0 else 1.0)
-    return longest, math.sqrt(taken), math.sqrt(max(total - taken, 0.0))
-
-
 def _settle(chain, goal, q, room):
     """Bring q across onto the valley: the error left, its smallest and largest singular value.
 
@@ -145,9 +49,9 @@ def _settle(chain, goal, q, room):
     """
     left, weak, largest = math.inf, 0, 1.0
     for _ in range(8):
-        weak, largest = _look(chain, goal, q, room)
+        weak, largest = look(chain, goal, q, room)
         floor = max(WEAK * largest, room[2][weak])
-        longest, taken, left = _add_step(chain, goal, q, room, floor, STEP)
+        longest, taken, left = add_step(chain, goal[2], q, room, floor, STEP)
         if taken <= ON_IT or not longest < math.inf:
             break
     if not taken <= 1e3 * ON_IT:
@@ -191,8 +95,8 @@ def _emit(chain, goal, q, room, found, count):
             kept[:] = q
         if residual <= 1e-14:
             break
-        _, largest = _look(chain, goal, q, room)
-        _add_step(chain, goal, q, room, 1e-13 * largest, 0.5 * STEP)
+        _, largest = look(chain, goal, q, room)
+        add_step(chain, goal[2], q, room, 1e-13 * largest, 0.5 * STEP)
     if not best <= SHARP or count >= found.shape[0]:
         return count
     for i in range(q.shape[0]):

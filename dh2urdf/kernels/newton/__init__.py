@@ -22,5 +22,7 @@ from dh2urdf.kernels.newton.steps import (
     polish,
     pose_residual,
     substitute,
+    turn_between,
+    way_between,
     work_array,
 )

@@ -13,7 +13,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import certify_pose, copy_rows, free_joints, turn_inside
+from dh2urdf.kernels.certificate import certify_pose, copy_rows, name_families, turn_inside
 from dh2urdf.kernels.numbers import atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import (
@@ -167,6 +167,7 @@ def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
     rows[1][:found] = -1.0
     left = certify_pose(chain, T, *rows, found, work)
     doubt = doubt or left < found
+    name_families(chain, T, rows, left, doubt, work)
     left = turn_inside(chain, T, within_limits, *rows, left)
     return copy_rows(rows, left, out), doubt
 
@@ -188,21 +189,16 @@ def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, output
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3. The count of a pose
     in doubt is -1 minus that of its solutions; returned is how many are.
     """
-    chain, form, ends, slack = arm
+    _, form, ends, slack = arm
     q, residual, count, branch, free = outputs
     scratch = make_scratch()
-    D, pair, trial = scratch[0], scratch[1], np.empty(6)
+    D, pair = scratch[0], scratch[1]
     first, doubts = 1 if form[0, 2] != 0.0 else 0, 0
     for i in range(Ts.shape[0]):
         tool_to_wrist(ends, Ts[i], D)
         pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
         count[i], doubt = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
-        vague = 0.0
-        for k in range(abs(pairs) if first == 0 else 0):
-            vague = max(vague, pair[k, 4])
-        for k in range(count[i] if vague != 0.0 else 0):
-            free[i, k] = free_joints(chain, Ts[i], q[i, k], trial, scratch[3])
         if doubt:
             count[i] = -1 - count[i]
             doubts += 1

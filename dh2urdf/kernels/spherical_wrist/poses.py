@@ -16,6 +16,7 @@ from dh2urdf.kernels.certificate import (
     certify_pose,
     copy_rows,
     move,
+    name_families,
     principal,
     same,
     turn_inside,
@@ -172,11 +173,12 @@ def hidden(joints, rows, merged, k):
     return False
 
 
-def finish_wrists(arm, places, found, T, within_limits, out, scratch):
+def finish_wrists(arm, places, found, meet, T, within_limits, out, scratch):
     """Certified solutions of one pose in the rows ``out``; their count.
 
-    From ``places`` position solutions and ``found`` candidates of :func:`add_merged`. Returned too
-    is whether a candidate was lost, or axes 4 and 6 are nearly in line.
+    From ``places`` position solutions, whether these ``meet``, and ``found`` candidates of
+    :func:`add_merged`. Returned too is whether a candidate was lost, or axes 4 and 6 are nearly in
+    line.
     """
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
     (_, joints), merged, doubt = chain, found, False
@@ -191,6 +193,7 @@ def finish_wrists(arm, places, found, T, within_limits, out, scratch):
                 found += 1
     left = certify_pose(chain, T, *rows, found, work)
     doubt = doubt or (left < found and merged == 0)
+    name_families(chain, T, rows, left, doubt or meet, work)
     left = turn_inside(chain, T, within_limits, *rows, left)
     return copy_rows(rows, left, out), doubt
 
@@ -213,11 +216,12 @@ def solve_pose(arm, T, within_limits, out, scratch):
     tool_to_wrist(ends, T, D)
     x, y, z, merged = D[0, 3], D[1, 3], D[2, 3], 0
     found = place_wrist(form, x, y, z, -slack, place)
-    if roots_meet(joints, place, found):
+    meet = roots_meet(joints, place, found)
+    if meet:
         found = place_wrist(form, x, y, z, slack, place)
         merged = add_merged(arm, found, T, scratch)
         found = place_wrist(form, x, y, z, -slack, place)
-    return finish_wrists(arm, found, merged, T, within_limits, out, scratch)
+    return finish_wrists(arm, found, merged, meet, T, within_limits, out, scratch)
 
 
 @entry(n=6, solutions=8)

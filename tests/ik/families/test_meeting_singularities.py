@@ -51,7 +51,7 @@ def lost(chain, q):
     """Rows of q (m, n) that are neither found, nor in a family, nor the found pose to rounding."""
     Ts = np.ascontiguousarray(ref.forward(chain, q))
     ik = solver_of(chain)
-    batch = ik.solve_batch(Ts, ANYWHERE, None, None, "raise")
+    batch = ik.solve_batch(Ts, ANYWHERE, None, None, "raise", None)
     missed = []
     for i, T in enumerate(Ts):
         found = batch.q[i, : batch.count[i]]

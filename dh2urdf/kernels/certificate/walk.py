@@ -1,0 +1,121 @@
+"""Whether a solution moves: a family is named when a walk along it stays within ``ACCEPT``.
+
+The walk, of one turn, is tried by a hundredth part of it, ``LENGTHS``, which may lead off the pose
+by as small a part of what is accepted. It goes in a direction in which the Jacobian says that the
+tool stays, and is brought back across such directions by Newton's method. At a double root it comes
+back to where it began, beside a family it ends off the pose, on one it arrives.
+"""
+
+import math
+
+import numpy as np
+
+from dh2urdf.kernels.certificate.certify import ACCEPT
+from dh2urdf.kernels.certificate.directions import add_step, look_at_some
+from dh2urdf.kernels.newton import make_damped, pose_residual
+
+LENGTHS = (0.05, 2e-3, 1e-4)
+"""Length of the part [rad or m]: solutions on a shorter loop count as isolated. The last two are
+for families that a closed form tells of: beside an arm that is stretched they are short loops."""
+
+PART, ALONE = 0.01, 0.1
+"""The part of ``ACCEPT`` that ``LENGTHS[0]`` may add to the residual of where it begins; and where
+some joints walk alone, without the help of others."""
+
+FLAT = 1e-5
+"""Singular value, relative to the largest, of a direction in which a walk may go."""
+
+STEPS, MOST = 24, 0.1
+"""Newton steps back to the family, and the longest of them [rad or m]."""
+
+DONE = 1e-14
+"""Residual [m and rad] at which nothing is left to gain."""
+
+PARTS = 4
+"""Parts in which the way back is looked at: on a family, and not between two solutions, it is
+accepted, too."""
+
+MOVES = (1e-5, 1e-7, 1e-10)
+"""Motion [rad or m] of a joint over the walk that makes it free, the largest by which the joints
+that move walk alone. Where singularities meet, some move by very little, but have to."""
+
+
+def _arrives(chain, T, q, way, length, part, mask, trial, room):
+    """Whether Newton's method, from ``length`` along ``way``, ends on the family: in trial (n,).
+
+    Not if it comes back to q (n,), as it does at a double root.
+    """
+    longest, last = 0.0, math.inf
+    for i in range(q.shape[0]):
+        trial[i] = q[i] + length * way[i]
+        longest = max(longest, abs(way[i]))
+    for k in range(STEPS):
+        residual, away = pose_residual(chain, T, trial), 0.0
+        for i in range(q.shape[0]):
+            away = max(away, abs(trial[i] - q[i]))
+        if away < 0.5 * length * longest:
+            return False
+        if residual <= DONE or (k > 2 and residual > 0.9 * last):
+            break
+        last = residual
+        _, largest = look_at_some(chain, T, trial, mask, room)
+        add_step(chain, 1.0, trial, room, FLAT * largest, MOST)
+    added = part * ACCEPT * length / LENGTHS[0]
+    return pose_residual(chain, T, trial) <= min(pose_residual(chain, T, q) + added, ACCEPT)
+
+
+def _walks(chain, T, q, way, length, part, mask, trial, room):
+    """Whether a walk from q (n,) along ``way`` arrives at all of its parts; its end in trial."""
+    for k in range(PARTS):
+        some = length * (PARTS - k) / PARTS
+        if not _arrives(chain, T, q, way, some, part, mask, trial[k], room):
+            return False
+    return True
+
+
+def joints_that_move(chain, T, q, length, part, mask, moved):
+    """How far joints of a mask move along a family of solutions through q (n,); if at all.
+
+    Each direction in which the tool stays is walked both ways, unless the first arrives. ``moved``
+    (n,) is the largest motion of each joint.
+    """
+    n, found = q.shape[0], False
+    room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
+    ways, trial = np.empty((n, n)), np.empty((PARTS, n))
+    trial[0] = q
+    moved[:] = 0.0
+    _, largest = look_at_some(chain, T, trial[0], mask, room)
+    flat = 0
+    for k in range(n):
+        if mask >> k & 1 and room[2][k] <= FLAT * largest:
+            ways[flat] = room[1][k]
+            flat += 1
+    for k in range(flat):
+        for _ in range(2):
+            if _walks(chain, T, q, ways[k], length, part, mask, trial, room):
+                found = True
+                for i in range(n):
+                    moved[i] = max(moved[i], abs(trial[0, i] - q[i]))
+                break
+            for i in range(n):
+                ways[k, i] = -ways[k, i]
+    return found
+
+
+def free_of(chain, T, q, length, mask, alone):
+    """Bits of the joints of a mask that walk along a family through q (n,); 0: none.
+
+    ``alone``: the others do not move at all, which is tried.
+    """
+    moved, other, bits = np.empty(q.shape[0]), np.empty(q.shape[0]), 0
+    if not joints_that_move(chain, T, q, length, PART, mask, moved):
+        return 0
+    for least in range(len(MOVES)):
+        last, bits = bits, 0
+        for i in range(q.shape[0]):
+            bits |= (1 if moved[i] > MOVES[least] else 0) << i
+        if not alone or bits == mask:
+            return bits
+        if bits != last and joints_that_move(chain, T, q, length, ALONE, bits, other):
+            return bits
+    return 0
