@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks import machine, referee
+from benchmarks import families, machine, referee
 from benchmarks.apart import do_apart
 from benchmarks.arms import ARMS, arm_named
 from benchmarks.clock import interleaved
@@ -181,6 +181,14 @@ def test_every_contestant_has_its_turn_in_every_round():
     timings = interleaved({name: block_of(name) for name in runs}, 1.0, least=4, most=4)
     assert runs == {"a": 5, "b": 5}
     assert all(t.rounds == 4 and t.low <= t.median <= t.high for t in timings.values())
+
+
+def test_two_parallel_axes_are_timed_against_the_general_solver():
+    """A row of the comparison: the family is faster, even on a loaded machine."""
+    name, ours, theirs, ratio = families.row("xarm6", 100, 0.05)
+    assert name == "xarm6"
+    assert float(ours.split()[0]) < float(theirs.split()[0])
+    assert float(ratio) > 1.0
 
 
 def test_a_peer_that_misses_solutions_is_not_the_fastest():

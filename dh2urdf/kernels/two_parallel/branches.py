@@ -11,14 +11,18 @@ follow by the direction of axis 6, which they turn in their plane, or by the pla
 
 import math
 
-from dh2urdf.kernels.numbers import LANES
+from dh2urdf.kernels.numbers import LANES, side_by_side
 from dh2urdf.kernels.rigid import dot, minus
 from dh2urdf.kernels.two_parallel.polynomial import cross, seen_from, vector
 
 Z = (0.0, 0.0, 1.0)
 
 MOST = 20
-"""Most seeds at one value of joint 1."""
+"""Most seeds at one value of joint 1, where they are made widely."""
+
+FIT, GAP, SEEDS = 12, 13, 14
+"""Rows of a branch below six cosines and six sines: how badly it fits, and the square of a sine,
+which may be negative; the number of rows."""
 
 BEYOND = 1e-6
 WIDELY_BEYOND = 0.1
@@ -57,7 +61,8 @@ def _turn(axis, v, w):
     """Cosine and sine of the angle about a unit axis that turns v to w."""
     x, y = dot(v, w) - dot(v, axis) * dot(w, axis), dot(axis, cross(v, w))
     size = math.sqrt(x * x + y * y)
-    return (1.0, 0.0) if size < 1e-150 else (x / size, y / size)
+    none = 1.0 if size < 1e-150 else 0.0
+    return (x + none) / (size + none), y / (size + none)
 
 
 def _turned(axis, c, s, v):
@@ -80,29 +85,32 @@ def _minus_angle(a, b):
     return a[0] * b[0] + a[1] * b[1], a[1] * b[0] - a[0] * b[1]
 
 
-def _store(form, seen, turns, lane, arm):
-    """Write a seed: cosines and sines of joint 1, joint 2, joints 2 and 3, joint 4, joint 5."""
-    _, axes, _, joints, signs, _ = form
-    one, two, both, four, five = turns
-    h6, across = vector(axes[5]), vector(axes[6])
+def _others(form, seen, one, turns):
+    """Joint 3, joint 6: from joint 1 and joint 2, joints 2 and 3, joint 4, joint 5."""
+    _, axes, _, _, _, _ = form
+    two, both, four, five = turns
     v = _turned(Z, both[0], -both[1], seen_from(seen, 6, one[0], one[1]))
     v = _turned(vector(axes[3]), four[0], -four[1], v)
     v = _turned(vector(axes[4]), five[0], -five[1], v)
-    three, six = _minus_angle(both, two), _turn(h6, across, v)
-    for i in range(6):
-        c, s = one
-        if i == 1:
-            c, s = two
-        elif i == 2:
-            c, s = three
-        elif i == 3:
-            c, s = four
-        elif i == 4:
-            c, s = five
-        elif i == 5:
-            c, s = six
-        at = joints[i] * LANES + lane
-        arm["cosines"][at], arm["sines"][at] = c, signs[i] * s
+    return _minus_angle(both, two), _turn(vector(axes[5]), vector(axes[6]), v)
+
+
+def _put(form, i, c, s, lane, arm):
+    """Write cosine and sine of axis i of a seed."""
+    _, _, _, joints, signs, _ = form
+    at = joints[i] * LANES + lane
+    arm["cosines"][at], arm["sines"][at] = c, signs[i] * s
+
+
+def _store(form, seen, one, turns, lane, arm):
+    """Write a seed."""
+    (two, _, four, five), (three, six) = turns, _others(form, seen, one, turns)
+    _put(form, 0, one[0], one[1], lane, arm)
+    _put(form, 1, two[0], two[1], lane, arm)
+    _put(form, 2, three[0], three[1], lane, arm)
+    _put(form, 3, four[0], four[1], lane, arm)
+    _put(form, 4, five[0], five[1], lane, arm)
+    _put(form, 5, six[0], six[1], lane, arm)
 
 
 def _elbow(r2, u, v, side):
@@ -121,8 +129,11 @@ def _elbow(r2, u, v, side):
     return reaches, two, _turn(Z, v, _turned(Z, two[0], two[1], (x, y, 0.0)))
 
 
-def _close(form, seen, one, m, w, wide, lane, arm):
-    """Append the seeds of the branch m, w at a value of joint 1; their number."""
+def _reach(form, seen, one, m, w):
+    """By the direction of axis 6: joint 2, joints 2 and 3, joint 4, joint 5.
+
+    Before them how badly the planar arm reaches, squares in parts of those of its links.
+    """
     _, axes, steps, _, _, _ = form
     h4, h5, h6 = vector(axes[3]), vector(axes[4]), vector(axes[5])
     r2, r3, r4, r5 = vector(steps[2]), vector(steps[3]), vector(steps[4]), vector(steps[5])
@@ -135,58 +146,95 @@ def _close(form, seen, one, m, w, wide, lane, arm):
     square = dot(r2, r2)
     misfit = abs(rest[0] * rest[0] + rest[1] * rest[1] - square)
     size = square + v[0] * v[0] + v[1] * v[1]
-    if misfit < size * (WIDE_MISFIT if wide else MISFIT):
-        _store(form, seen, (one, _turn(Z, r2, rest), both, four, five), lane, arm)
-        lane += 1
-    if wide and l6[0] * l6[0] + l6[1] * l6[1] < PARALLEL:
-        for k in range(2):
-            reaches, two, both = _elbow(r2, u, v, 1.0 - 2.0 * k)
-            if reaches:
-                _store(form, seen, (one, two, both, four, five), lane, arm)
-                lane += 1
-    axis5 = _turned(h4, four[0], four[1], h5)
-    if wide and axis5[0] * axis5[0] + axis5[1] * axis5[1] < PARALLEL:
-        psi = _turn(Z, _turned(h4, four[0], four[1], h6), l6)
-        last = _turned(Z, psi[0], psi[1], _turned(h4, four[0], four[1], r5))
-        near, side = _plus(r3, _turned(h4, four[0], four[1], r4)), math.copysign(1.0, axis5[2])
-        for k in range(2):
-            reaches, two, both = _elbow(r2, minus(u, last), near, 1.0 - 2.0 * k)
-            if reaches:
-                c, s = _minus_angle(psi, both)
-                _store(form, seen, (one, two, both, four, (c, side * s)), lane, arm)
-                lane += 1
-    return lane
+    return misfit / size, (_turn(Z, r2, rest), both, four, five)
 
 
-def add_branches(form, seen, one, wide, lane, arm):
-    """Append to the lanes the seeds at a value of joint 1, cosine and sine ``one``.
+def _lay(form, seen, hidden, k, seeds):
+    """Complete lane k of a branch, of which its first six rows have m and w."""
+    one = hidden[0, k], hidden[1, k]
+    m, w = (seeds[0, k], seeds[1, k], seeds[2, k]), (seeds[3, k], seeds[4, k], seeds[5, k])
+    misfit, turns = _reach(form, seen, one, m, w)
+    (two, _, four, five), (three, six) = turns, _others(form, seen, one, turns)
+    seeds[0, k], seeds[6, k] = one
+    seeds[1, k], seeds[7, k] = two
+    seeds[2, k], seeds[8, k] = three
+    seeds[3, k], seeds[9, k] = four
+    seeds[4, k], seeds[10, k] = five
+    seeds[5, k], seeds[11, k] = six
+    seeds[FIT, k] = misfit
 
-    Where ``wide``, also those that fit badly or belong to special positions. Their number.
+
+def lay_branch(form, seen, hidden, n, sides, seeds):
+    """One branch at n values of joint 1, cosines and sines ``hidden`` (2, 24), to seeds (14, 24).
+
+    Cosines and sines of the six axes, how badly the planar arm reaches, and a square that should
+    not be negative.
     """
     _, axes, steps, _, _, _ = form
     h4, h5, h6 = vector(axes[3]), vector(axes[4]), vector(axes[5])
-    r4, r5 = vector(steps[4]), vector(steps[5])
-    u, l6 = seen_from(seen, 0, one[0], one[1]), seen_from(seen, 3, one[0], one[1])
-    c1, c2, least = l6[2], u[2] - steps[3, 2], -WIDELY_BEYOND if wide else -BEYOND
-    first = dot(r4, r4) == 0.0
-    if first:
-        middle, way, gap = _directions(h6, r5, c1, c2)
+    r4, r5, height = vector(steps[4]), vector(steps[5]), steps[3, 2]
+    first, second = sides
+    if dot(r4, r4) == 0.0:
+        for k in side_by_side(n):
+            u = seen_from(seen, 0, hidden[0, k], hidden[1, k])
+            l6 = seen_from(seen, 3, hidden[0, k], hidden[1, k])
+            middle, way, gap = _directions(h6, r5, l6[2], u[2] - height)
+            w = _beside(middle, way, first)
+            at, across, rest = _directions(h4, h5, h4[2], dot(w, h5))
+            seeds[0, k], seeds[1, k], seeds[2, k] = _beside(at, across, second)
+            seeds[3, k], seeds[4, k], seeds[5, k] = w
+            seeds[GAP, k] = min(gap, rest)
     else:
-        middle, way, gap = _directions(h4, r4, h4[2], c2)
-    if gap < least:
+        for k in side_by_side(n):
+            u = seen_from(seen, 0, hidden[0, k], hidden[1, k])
+            l6 = seen_from(seen, 3, hidden[0, k], hidden[1, k])
+            middle, way, gap = _directions(h4, r4, h4[2], u[2] - height)
+            m = _beside(middle, way, first)
+            at, across, rest = _directions(h5, h6, dot(m, h5), l6[2])
+            seeds[0, k], seeds[1, k], seeds[2, k] = m
+            seeds[3, k], seeds[4, k], seeds[5, k] = _beside(at, across, second)
+            seeds[GAP, k] = min(gap, rest)
+    for k in side_by_side(n):
+        _lay(form, seen, hidden, k, seeds)
+
+
+def take_seed(form, seeds, k, wide, lane, arm):
+    """Append lane k of a branch, if it fits; the number of seeds."""
+    if not seeds[FIT, k] < (WIDE_MISFIT if wide else MISFIT):
         return lane
-    for i in range(2):
-        v = _beside(middle, way, 1.0 - 2.0 * i)
-        if first:
-            at, across, gap = _directions(h4, h5, h4[2], dot(v, h5))
-        else:
-            at, across, gap = _directions(h5, h6, dot(v, h5), c1)
-        if gap < least:
-            continue
-        for j in range(2):
-            w = _beside(at, across, 1.0 - 2.0 * j)
-            if first:
-                lane = _close(form, seen, one, w, v, wide, lane, arm)
-            else:
-                lane = _close(form, seen, one, v, w, wide, lane, arm)
+    if not seeds[GAP, k] >= (-WIDELY_BEYOND if wide else -BEYOND):
+        return lane
+    for i in range(6):
+        _put(form, i, seeds[i, k], seeds[6 + i, k], lane, arm)
+    return lane + 1
+
+
+def take_elbows(form, seen, seeds, k, lane, arm):
+    """Append both elbows of lane k, where axis 6 or 5 is nearly parallel to 2 and 3."""
+    _, axes, steps, _, _, _ = form
+    h4, h5, h6 = vector(axes[3]), vector(axes[4]), vector(axes[5])
+    r2, r3, r4, r5 = vector(steps[2]), vector(steps[3]), vector(steps[4]), vector(steps[5])
+    one, four = (seeds[0, k], seeds[6, k]), (seeds[3, k], seeds[9, k])
+    five = seeds[4, k], seeds[10, k]
+    u, l6 = seen_from(seen, 0, one[0], one[1]), seen_from(seen, 3, one[0], one[1])
+    if not seeds[GAP, k] >= -WIDELY_BEYOND:
+        return lane
+    if l6[0] * l6[0] + l6[1] * l6[1] < PARALLEL:
+        far = _turned(h4, four[0], four[1], _plus(r4, _turned(h5, five[0], five[1], r5)))
+        for i in range(2):
+            reaches, two, both = _elbow(r2, u, _plus(r3, far), 1.0 - 2.0 * i)
+            if reaches:
+                _store(form, seen, one, (two, both, four, five), lane, arm)
+                lane += 1
+    axis5 = _turned(h4, four[0], four[1], h5)
+    if axis5[0] * axis5[0] + axis5[1] * axis5[1] < PARALLEL:
+        psi = _turn(Z, _turned(h4, four[0], four[1], h6), l6)
+        last = _turned(Z, psi[0], psi[1], _turned(h4, four[0], four[1], r5))
+        near, side = _plus(r3, _turned(h4, four[0], four[1], r4)), math.copysign(1.0, axis5[2])
+        for i in range(2):
+            reaches, two, both = _elbow(r2, minus(u, last), near, 1.0 - 2.0 * i)
+            if reaches:
+                c, s = _minus_angle(psi, both)
+                _store(form, seen, one, (two, both, four, (c, side * s)), lane, arm)
+                lane += 1
     return lane

@@ -16,7 +16,7 @@ from dh2urdf.kernels.general_6r import (
     polish_lanes,
 )
 from dh2urdf.kernels.newton import pose_residual
-from dh2urdf.kernels.numbers import LANES, atan2, entry, sincos
+from dh2urdf.kernels.numbers import LANES, atan2, entry, side_by_side, sincos
 from dh2urdf.kernels.rigid import (
     applied,
     dot,
@@ -27,7 +27,7 @@ from dh2urdf.kernels.rigid import (
     turned,
 )
 from dh2urdf.kernels.shapes import Chain, Outputs, Poses
-from dh2urdf.kernels.two_parallel.branches import MOST, add_branches
+from dh2urdf.kernels.two_parallel.branches import MOST, SEEDS, lay_branch, take_elbows, take_seed
 from dh2urdf.kernels.two_parallel.polynomial import TwoParallel, cross, sample, vector
 
 CONVERGED = 1e-14
@@ -118,32 +118,61 @@ def _roots_meet(form, seen, count, largest, arm):
     return False
 
 
-def _follow(form, seen, count, wide, converged, found, out_q, out_residual, arm):
-    """Append the solutions that roots, and where ``wide`` spans of doubt, lead to; their number."""
-    roots, spans, lane = arm["roots"], arm["spans"], 0
-    places = count + (int(spans[0, 0]) if wide else 0)
-    for r in range(places):
-        value = 0.0
-        if r < count:
-            value = roots[r]
-        else:
-            value = 0.5 * (spans[0, r - count + 1] + spans[1, r - count + 1])
-        s, c = sincos(value)
-        lane = add_branches(form, seen, (c, s), wide, lane, arm)
-        if lane > LANES - (MOST if wide else 4) or r == places - 1:
-            if lane > 0:
-                polish_lanes(lane, 0, converged, arm)
-            for k in range(lane):
-                found, _ = keep_lane(k, found, out_q, out_residual, arm)
+def _keep(lanes, converged, found, out_q, out_residual, arm):
+    """Polish seeds in lanes and append the solutions; their number."""
+    if lanes > 0:
+        polish_lanes(lanes, 0, converged, arm)
+    for k in range(lanes):
+        found, _ = keep_lane(k, found, out_q, out_residual, arm)
+    return found
+
+
+def _follow(form, seen, values, count, wide, converged, found, out_q, out_residual, arm, branches):
+    """Append the solutions that ``count`` values of joint 1 lead to; their number.
+
+    Where ``wide``, also from seeds that fit badly or are for special positions.
+    """
+    hidden, n, lane = arm["hidden"], (count + 7) // 8 * 8, 0
+    for k in side_by_side(n):
+        hidden[1, k], hidden[0, k] = sincos(values[k])
+    for b in range(4):
+        sides = 1.0 - 2.0 * (b // 2), 1.0 - 2.0 * (b % 2)
+        lay_branch(form, seen, hidden, n, sides, branches[b])
+    for k in range(count):
+        for b in range(4):
+            lane = take_seed(form, branches[b], k, wide, lane, arm)
+            if wide:
+                lane = take_elbows(form, seen, branches[b], k, lane, arm)
+        if lane > LANES - (MOST if wide else 4) or (k == count - 1 and lane > 0):
+            polish_lanes(lane, 0, converged, arm)
+            for i in range(lane):
+                found, _ = keep_lane(i, found, out_q, out_residual, arm)
             lane = 0
     return found
 
 
-def _solve_pose(form, T, out_q, out_residual, arm, D, seen):
+def _follow_widely(form, seen, count, found, out_q, out_residual, arm, branches):
+    """Append the solutions that roots and spans of doubt lead to, taken widely; their number."""
+    roots, spans, middles = arm["roots"], arm["spans"], arm["doubles"]
+    found = _follow(
+        form, seen, roots, count, True, CAREFUL, found, out_q, out_residual, arm, branches
+    )
+    n = int(spans[0, 0])
+    for first in range(0, n, LANES):
+        some = min(n - first, LANES)
+        for k in range(some):
+            middles[k] = 0.5 * (spans[0, first + k + 1] + spans[1, first + k + 1])
+        found = _follow(
+            form, seen, middles, some, True, CAREFUL, found, out_q, out_residual, arm, branches
+        )
+    return found
+
+
+def _solve_pose(form, T, out_q, out_residual, arm, D, seen, branches):
     """All solutions of one pose; their number, or -1 minus it where in doubt."""
     kept, spans, slopes, target = arm["kept"], arm["spans"], arm["slopes"], arm["target"]
     target[:] = T[:3]
-    found, agreed = 0, 0
+    found, agreed, rest = 0, 0, (out_q, out_residual, arm, branches)
     for attempt in range(len(NUDGES)):
         see(form, T, NUDGES[attempt], D, seen)
         count, largest = _find_roots(form, seen, arm)
@@ -152,7 +181,7 @@ def _solve_pose(form, T, out_q, out_residual, arm, D, seen):
             continue
         converged = CONVERGED if attempt == 0 else CAREFUL
         simple = count - how_many_below(slopes, count, 1e-300)
-        found = _follow(form, seen, count, False, converged, found, out_q, out_residual, arm)
+        found = _follow(form, seen, arm["roots"], count, False, converged, found, *rest)
         clear = spans[1, 0] == 0.0 and simple == found
         clear = clear and not _roots_meet(form, seen, count, largest, arm)
         clear = clear and how_many_below(kept, found, SINGULAR) == 0
@@ -161,7 +190,7 @@ def _solve_pose(form, T, out_q, out_residual, arm, D, seen):
             if sure and how_many_below(kept, found, CROWDED) == 0:
                 return found
             if not clear:
-                found = _follow(form, seen, count, True, CAREFUL, found, out_q, out_residual, arm)
+                found = _follow_widely(form, seen, count, found, *rest)
         else:
             agreed = agreed + 1 if clear else 0
             if agreed == 2:
@@ -186,8 +215,9 @@ def solve_two_parallel(
     """
     q, residual, count, branch, free = outputs
     arm, D, seen = arms[0], np.empty((4, 4)), np.empty((9, 3))
+    branches = np.empty((4, SEEDS, LANES))
     for i in range(Ts.shape[0]):
-        found = _solve_pose(form, Ts[i], q[i], residual[i], arm, D, seen)
+        found = _solve_pose(form, Ts[i], q[i], residual[i], arm, D, seen, branches)
         for k in range(found):
             residual[i, k] = pose_residual(chain, Ts[i], q[i, k])
             branch[i, k], free[i, k] = -1, 0
