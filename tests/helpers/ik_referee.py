@@ -248,12 +248,13 @@ def search(chain, T, seed, starts=400, steps=40):
     return np.array(distinct).reshape(-1, chain.n)
 
 
-def same_to_rounding(chain, found, q, T):
+def same_to_rounding(chain, found, q, T, moving=slice(None)):
     """Whether a way leads from a solution to q on which the pose is T to rounding.
 
-    Where singularities meet, a pose is that of a whole stretch of configurations as far as double
-    precision goes. The way goes towards q in directions in which the pose hardly changes, and is
-    brought back to the stretch across them; every point has to reach T to 4e-15.
+    It is one of the joints ``moving``. Where singularities meet, a pose is that of a whole stretch
+    of configurations as far as double precision goes. The way goes towards q in directions in which
+    the pose hardly changes, and is brought back to the stretch across them; every point has to
+    reach T to 4e-15.
     """
     p, turning = found.copy(), ~chain.prismatic
     for _ in range(150):
@@ -261,9 +262,9 @@ def same_to_rounding(chain, found, q, T):
         d[turning] = (d[turning] + math.pi) % (2 * math.pi) - math.pi
         if np.abs(d).max() < 1e-5:
             return True
-        _, sigma, Vt = np.linalg.svd(jacobians(chain, p))
-        flat = Vt[sigma < 1e-5 * sigma[0]]
-        step = flat.T @ (flat @ d)
+        _, sigma, Vt = np.linalg.svd(jacobians(chain, p)[:, moving])
+        flat, step = Vt[sigma < 1e-5 * sigma[0]], np.zeros_like(d)
+        step[moving] = flat.T @ (flat @ d[moving])
         if np.abs(step).max() < 0.1 * np.abs(d).max():
             return False
         p = p + step * min(1.0, 0.05 / np.abs(step).max())
@@ -271,7 +272,7 @@ def same_to_rounding(chain, found, q, T):
             if residuals(chain, p, T) < 4e-15:
                 break
             e = error_vectors(forward(chain, p), T)
-            p = p + np.linalg.pinv(jacobians(chain, p), rcond=1e-5) @ e
+            p[moving] += np.linalg.pinv(jacobians(chain, p)[:, moving], rcond=1e-5) @ e
         if residuals(chain, p, T) > 4e-15:
             return False
     return False

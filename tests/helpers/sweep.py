@@ -72,7 +72,7 @@ def smallest(arm, q, moving):
     return np.linalg.svd(J, compute_uv=False)[..., -1]
 
 
-def contains(arm, found, masks, q, T, tolerance):
+def contains(arm, found, masks, q, T, tolerance, moving=slice(None)):
     """Whether q (n,) is a solution (k, n), on a named family, or a solution to rounding."""
     away = gaps(arm, found, q) if len(found) else np.array([np.inf])
     if away.min() <= tolerance:
@@ -82,7 +82,7 @@ def contains(arm, found, masks, q, T, tolerance):
         if masks[k] and on_family(arm, found[k], q, T, bits[k], MOST):
             return True
     near = [k for k in np.argsort(away) if away[k] < 0.1]
-    return tolerance > LEAST and any(same_to_rounding(arm, found[k], q, T) for k in near)
+    return tolerance > LEAST and any(same_to_rounding(arm, found[k], q, T, moving) for k in near)
 
 
 def judge(tally, table, q, solve, robot=None, held=()):
@@ -107,7 +107,7 @@ def judge(tally, table, q, solve, robot=None, held=()):
         tally.count[kind] += 1
         if k == 0:
             tally.note("no answer", table, q[i])
-        if k == 0 or not contains(arm, found, masks, q[i], T, tolerance[i]):
+        if k == 0 or not contains(arm, found, masks, q[i], T, tolerance[i], moving):
             tally.note(f"{kind} lost", table, q[i])
         if k > 0:
             _check_solutions(tally, table, arm, (found, masks, moving), T, q[i])

@@ -39,6 +39,7 @@ POSES, PARTS = 10_000, 50
 SLOW = {
     "search_valleys": 1,
     "search_starts": 1,
+    "add_curves": 1,
     "onward": 1,
     "enter_limits": 3,
     "walk_family": 2,

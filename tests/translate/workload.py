@@ -30,6 +30,7 @@ OWN = {
         ".3 .05 -1.000002; 0 .4 0; 0 .03 -1.000002; .4 0 1.000002; 0 0 -1.000002; .1 0 0",
     ),
     "square of five": ("RRRRR", "0 .1 2; 0 .5 0; 0 .1 1; 0 .2 1; .2 0 0"),
+    "four in a plane": ("RRRR", "0 .3 0; 0 .2 0; 0 .25 0; 0 .1 0"),
     "three slides": ("RPRPRP", ".1 0 1; 0 .1 .5; 0 .2 1; 0 .1 1; 0 .3 .75; 0 0 0"),
 }
 """Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]."""

@@ -5,13 +5,15 @@ one-parameter family through every solution. Joints are then held so that the re
 task, at rest or at the first of a row of values at which the pose is reached; at rest only, where
 the joints that are held are the only ones to move along the family. Where the pose is reached at
 none of the values, as on the rim of the workspace, a numeric search looks for one member. A pose
-may have several curves of solutions, and the values meet some of them; a seed finds its own.
+may have several curves of solutions, and the values meet some of them: with one joint to spare the
+others are looked for from many starts, with more the answer holds a part. A seed finds its own.
 """
 
 import itertools
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
@@ -24,15 +26,19 @@ from dh2urdf.ik.arm import (
     Task,
     beside_seed,
     hold,
+    middle,
     moving_joints,
     near_ranges,
     random_configurations,
     scaled_jacobian,
     spare_joints,
+    turned_to,
 )
 from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held_values import HeldOneByOne
 from dh2urdf.ik.redundant.searched import nearly_reaching
+from dh2urdf.kernels.certificate import measure_all
+from dh2urdf.kernels.redundant import add_curves
 from dh2urdf.transforms import Array
 
 STARTS = 8
@@ -45,6 +51,9 @@ FAR = 0.01
 """Error, in sizes of the arm and radians, of such poses; what is reached, a rim too, is found to
 rounding by one of the searches."""
 
+CURVES = 48
+"""Starts from which curves are looked for that no held value meets."""
+
 MOST = 16
 """Solutions of a pose with the joints held; another solver may cover the chain at each value."""
 
@@ -54,6 +63,9 @@ right angle for three."""
 
 HELD_FOR_POSE, HELD_OTHERWISE = 3, 2
 """Most joints that are held for a full pose, as of an arm folded onto itself, and for less."""
+
+
+Values = list[tuple[float, ...]]
 
 
 class RedundantChain(SolverBase):
@@ -93,9 +105,15 @@ class RedundantChain(SolverBase):
     def details(self) -> str:
         """Name the held joints and the solver of the others."""
         names = ", ".join(self.chain.names[i] for i in self.held)
+        if self.alone:
+            whole = "a member of each family"
+        elif len(self.held) == 1:
+            whole = f"a member of each curve of solutions, those without one from {CURVES} starts"
+        else:
+            whole = "members of a part of the solutions"
         return (
-            f"{names} held at rest or where the pose is reached, for a member of each curve of "
-            f"solutions that these values meet; a seed finds its own; {self.one_by_one}"
+            f"{names} held at rest or where the pose is reached: {whole}; a seed finds its own; "
+            f"{self.one_by_one}"
         )
 
     def beside_seed(self, T: Array, seed: Array, within_limits: bool) -> tuple[Array, IntArray]:
@@ -119,20 +137,48 @@ class RedundantChain(SolverBase):
         error[:, :3] /= self.chain.size
         return bool(np.abs(error).max(axis=1).min() > FAR)
 
+    @cached_property
+    def _starts(self) -> Array:
+        """Configurations (``CURVES``, n) from which curves are looked for."""
+        return random_configurations(self.chain, CURVES)
+
+    def _add_curves(self, Ts: Array, out: Outputs) -> NDArray[np.bool_]:
+        """Add members of curves that no held value has met; which poses nothing comes near to."""
+        chain, number, before = self.chain, self.task.number, out.counts.copy()
+        least, residual = np.empty(len(Ts)), np.empty_like(out.residual)
+        add_curves(chain.tables, number, chain.size, Ts, self._starts, out.q, out.counts, least)
+        measure_all(chain.tables, number, Ts, out.q, out.counts, residual)
+        for i in np.flatnonzero(out.counts > before):
+            new = slice(before[i], out.counts[i])
+            out.q[i, new] = turned_to(chain, out.q[i, new], middle(chain))
+            out.residual[i, new] = residual[i, new]
+        hopeless: NDArray[np.bool_] = least > FAR
+        return hopeless
+
+    def _hold_at(
+        self, values: Values, Ts: Array, within_limits: bool, out: Outputs, rows: IntArray
+    ) -> None:
+        """Solve poses Ts[rows], held value by held value, until they have a solution."""
+        for held in values:
+            rows = rows[out.counts[rows] == 0]
+            if not len(rows):
+                return
+            found = out.rows(rows)
+            self.one_by_one.at(held).solve_batch(Ts[rows], within_limits, found)
+            out.q[rows], out.residual[rows], out.counts[rows] = found[:3]
+
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
         out.counts[:] = 0
-        hopeless = np.zeros(len(Ts), np.bool_)
-        for k, values in enumerate(self.values):
-            open_ = np.flatnonzero((out.counts == 0) & ~hopeless)
-            if k == ENOUGH:
-                hopeless[open_] = [self._far_from(T) for T in Ts[open_]]
-                open_ = open_[~hopeless[open_]]
-            if not len(open_):
-                break
-            found = out.rows(open_)
-            self.one_by_one.at(values).solve_batch(Ts[open_], within_limits, found)
-            out.q[open_], out.residual[open_], out.counts[open_] = found[:3]
+        self._hold_at(self.values[:ENOUGH], Ts, within_limits, out, np.arange(len(Ts)))
+        if self.alone:
+            hopeless = np.ones(len(Ts), np.bool_)
+        elif len(self.held) == 1:
+            hopeless = self._add_curves(Ts, out)
+        else:
+            none = [k == 0 and self._far_from(T) for k, T in zip(out.counts, Ts, strict=True)]
+            hopeless = np.array(none, np.bool_)
+        self._hold_at(self.values[ENOUGH:], Ts, within_limits, out, np.flatnonzero(~hopeless))
         for i in () if self.alone else np.flatnonzero(out.counts == 0):
             some = self._numeric.solve(
                 Ts[i], within_limits=within_limits, task=self.task, starts=STARTS

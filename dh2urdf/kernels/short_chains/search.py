@@ -41,7 +41,7 @@ FEW = 24
 """Starts after which a pose is given up that nothing came near to."""
 
 
-def _approach(chain, goal, q, best, dq, damped):
+def approach(chain, goal, q, best, dq, damped):
     """Levenberg's steps from q (n,); the least residual, and in q the configuration that has it."""
     (_, joints), least, since = chain, math.inf, 0
     for _ in range(STEPS):
@@ -89,7 +89,7 @@ def search_starts(
             if s == FEW and least > NEAR and many[i] == 0:
                 break
             trial[:] = starts[s]
-            residual = _approach(chain, goal, trial, best, dq, damped)
+            residual = approach(chain, goal, trial, best, dq, damped)
             least = min(least, residual)
             if not residual <= NEAR or many[i] >= seeds.shape[1]:
                 continue
