@@ -14,6 +14,10 @@ from dh2urdf.transforms import Array, dot, product
 TRIALS = 4
 """Random configurations on which the rank of the Jacobian is taken; one would nearly always do."""
 
+STILL = 1e-10
+"""Part of a joint in a unit motion below which it stands still: half a turn moves the tool by less
+than a solution may be off."""
+
 MOST_JOINTS = 6
 """Joints of the longest chain that is looked at for weak directions."""
 
@@ -111,6 +115,6 @@ def moving_joints(chain: SerialChain, task: Task, q: Array) -> NDArray[np.int64]
     full[:, : sigma.shape[1]] = sigma
     null = full <= FAMILY_RANK * full[:, :1]
     motion = np.sqrt(((Vt * null[:, :, None]) ** 2).sum(axis=1))
-    bits = (motion > FAMILY_RANK).astype(np.int64) << np.arange(chain.n)
+    bits = (motion > STILL).astype(np.int64) << np.arange(chain.n)
     mask: NDArray[np.int64] = bits.sum(axis=1)
     return mask

@@ -19,6 +19,7 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
     search_in_doubt,
+    spare_joints,
 )
 from dh2urdf.ik.families.closed_form import STUCK, ThreeParallel, not_six_revolute
 from dh2urdf.ik.families.general_6r import General6R
@@ -77,6 +78,8 @@ class NearFamily(Refereed):
         """Say what keeps a nominal arm from the chain; None if nothing does."""
         if unfit := not_six_revolute(chain):
             return unfit
+        if spare_joints(chain, Task.POSE):
+            return STUCK
         if _match(chain) is None:
             return f"no three axes nearly meet or are nearly parallel (within {NEAR[-1]:g})"
         return None

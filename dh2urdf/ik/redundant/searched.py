@@ -9,7 +9,6 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
     ACCEPT,
-    SLACK,
     Outputs,
     Solver,
     SolverBase,
@@ -22,12 +21,15 @@ from dh2urdf.ik.arm import (
     task_jacobian,
     turned_to,
 )
-from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.ik.families import search_short
 from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.transforms import Array
 
 STARTS = 64
 STEPS = 60
+
+SIX = 6
+"""Joints of an arm of which only poses without a solution are searched."""
 
 LESS = 0.05
 """Damping after a good step; in a valley it has to fall below the square of its slope."""
@@ -72,17 +74,15 @@ class SearchedSolver:
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) into the caller's arrays, and search for those without any."""
+        """Solve poses Ts (m, 4, 4), and search: of six joints where there is no solution."""
         self.inner.solve_batch(Ts, within_limits, out)
-        for i in np.flatnonzero(out.counts == 0):
-            q, error = nearly_reaching(self.chain, Ts[i], Task.POSE)
-            q = q[np.abs(error).max(axis=1) <= SLACK]
-            found = Outputs.of(1, max(len(q), self.kmax), self.chain.n)
-            found.q[0, : len(q)], found.counts[0] = q, len(q)
-            finish_batch(self.chain.tables, Ts[i : i + 1], within_limits, found)
-            np.minimum(found.counts, self.kmax, out=found.counts)
-            for whole, part in zip(out, found, strict=True):
-                whole[i] = part[0, : self.kmax] if part.ndim > 1 else part[0]
+        rows = np.flatnonzero((out.counts == 0) | (self.chain.n < SIX))
+        if not len(rows):
+            return
+        poses, known = np.ascontiguousarray(Ts[rows]), out.rows(rows)
+        if within_limits:
+            self.inner.solve_batch(poses, False, known)
+        out.put(rows, search_short(self.chain, poses, known, within_limits))
 
     def __str__(self) -> str:
         return self.name

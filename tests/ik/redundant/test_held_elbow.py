@@ -1,0 +1,24 @@
+"""Elbows held nearly straight: what is left turns about the arm's line, on curves of its own."""
+
+import numpy as np
+import pytest
+from sweep import Tally, judge
+
+import dh2urdf
+
+
+@pytest.mark.parametrize("poses", [8, pytest.param(200, marks=pytest.mark.exhaustive)])
+@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3, 0.5])
+def test_an_elbow_held_nearly_straight_loses_no_configuration(size, poses):
+    """The joints whose parts in the family are as small as the angle of the elbow are named too."""
+    table = dh2urdf.load_table("kuka_iiwa7")
+    q = np.random.default_rng(0).uniform(-2, 2, (poses, 7))
+    q[:, 3] = size * np.random.default_rng(1).uniform(0.3, 3.0, poses)
+    tally = Tally(f"elbow held at {size:g}")
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={3: q[:, 3]})
+
+    judge(tally, table, q, held, held=(3,))
+    print("\n" + tally.line())
+    assert tally.failures() == []
