@@ -42,6 +42,10 @@ CLOSE = 0.01
 NOUGHT = 1e-12
 """Value of F, in parts of the largest, that may be zero."""
 
+VANISHED = 1e-10
+"""The largest value of F, in parts of an arm's length to the power of eight, where a family of
+solutions has every value of joint 1, as where axes 1 and 5 are one line."""
+
 APART = 0.005, 0.0, 1.0, 1e-15
 """Where `add_roots` looks for pairs of roots around the circle: F is precise, so that real ones are
 told apart by cutting arcs, and complex ones are none."""
@@ -173,9 +177,13 @@ def _solve_pose(form, T, out_q, out_residual, arm, D, seen, branches):
     kept, spans, slopes, target = arm["kept"], arm["spans"], arm["slopes"], arm["target"]
     target[:] = T[:3]
     found, agreed, rest = 0, 0, (out_q, out_residual, arm, branches)
+    square = arm["size"] * arm["size"]
+    fourth = square * square
     for attempt in range(len(NUDGES)):
         see(form, T, NUDGES[attempt], D, seen)
         count, largest = _find_roots(form, seen, arm)
+        if attempt == 0 and largest < VANISHED * fourth * fourth:
+            return -1
         if count < 0:
             agreed = 0
             continue

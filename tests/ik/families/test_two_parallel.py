@@ -22,6 +22,7 @@ from ik_referee import (
 )
 from margins import assert_margin
 
+from dh2urdf import Robot
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.ik.arm.solver_order import select_solver
@@ -206,6 +207,18 @@ def test_few_random_poses_are_left_to_the_general_solver(monkeypatch):
         monkeypatch.setattr(solver.general, "solve_unfinished", counted)
         solve(shipped(name), forward(shipped(name), draw(shipped(name), 1_000, 4)), solver=solver)
         assert 0 < sum(asked) < 50
+
+
+@pytest.mark.parametrize(
+    "degrees", [(-90, 90, -90, 90, 0, 0), (180, 90, -90, 90, 90, 180), (17, -90, -90, -90, 33, 4)]
+)
+def test_a_family_with_every_value_of_joint_1_is_named(degrees):
+    """Axes 1 and 5 are one line, joints 1 and 5 turn against each other: F is zero throughout."""
+    robot, q = Robot.from_dh("fanuc_crx10ia"), np.radians(degrees)
+    found = robot.ik(robot.fk(q), seed=q, within_limits=False)
+    k = np.linalg.norm(found.q - q, axis=1).argmin()
+    assert found.free_joints[k] == (0, 4)
+    assert_margin(np.abs(found.q[k] - q), 1e-7)
 
 
 def test_the_solver_explains_itself():
