@@ -42,7 +42,7 @@ CLOSE = 0.01
 NOUGHT = 1e-12
 """Value of F, in parts of the largest, that may be zero."""
 
-VANISHED = 1e-10
+VANISHED = 1e-14
 """The largest value of F, in parts of an arm's length to the power of eight, where a family of
 solutions has every value of joint 1, as where axes 1 and 5 are one line."""
 
