@@ -174,19 +174,30 @@ extern const Entries entries_any;
 int has_any(void) { return 1; }
 
 #ifdef __x86_64__
-#define HAS(feature) __builtin_cpu_supports(feature)
+#include <cpuid.h>
 extern const Entries entries_v4, entries_v3;
-int has_v4(void)
+
+/* Whether the processor has these bits of registers c and b, and the system keeps that state of its
+ * registers. The compilers' own question, __builtin_cpu_supports, has no answer where the compiler
+ * is that of the wheel. */
+static int has(unsigned c1, unsigned b7, unsigned state)
 {
-    return HAS("avx512f") && HAS("avx512cd") && HAS("avx512bw") && HAS("avx512dq") &&
-        HAS("avx512vl");
+    unsigned a, b, c, d, kept, more;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & c1) != c1) {
+        return 0;
+    }
+    __asm__("xgetbv" : "=a"(kept), "=d"(more) : "c"(0));
+    return (kept & state) == state && __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & b7) == b7;
 }
-int has_v3(void) { return HAS("avx2") && HAS("bmi") && HAS("bmi2") && HAS("fma"); }
-#define PREPARE() __builtin_cpu_init()
+
+#define C1 (bit_OSXSAVE | bit_AVX | bit_FMA)
+#define V3 (bit_AVX2 | bit_BMI | bit_BMI2)
+#define V4 (V3 | bit_AVX512F | bit_AVX512CD | bit_AVX512BW | bit_AVX512DQ | bit_AVX512VL)
+int has_v3(void) { return has(C1, V3, 0x06); }
+int has_v4(void) { return has(C1, V4, 0xe6); }
 #define OTHERS {"v4", has_v4, &entries_v4}, {"v3", has_v3, &entries_v3},
 #define NAMES "v4, v3, any"
 #else
-#define PREPARE()
 #define OTHERS
 #define NAMES "any"
 #endif
@@ -202,7 +213,6 @@ static struct PyModuleDef definition = {
 PyMODINIT_FUNC PyInit__kernels(void)
 {
     import_array();
-    PREPARE();
     const char *wanted = getenv("DH2URDF_LEVEL");
     const int any = !wanted || !*wanted;
     const Level *level = levels;

@@ -1,5 +1,9 @@
 """What an entry is handed is looked at before it runs: kinds, numbers and all lengths."""
 
+import os
+import platform
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -88,3 +92,18 @@ def test_other_counts_of_arguments_are_refused(count):
     given = [*map(good, types(solve_common_wrist).values()), 0.0][:count]
     with pytest.raises(TypeError, match=f"expected 4 arguments, got {count}"):
         solve_common_wrist(*given)
+
+
+CPUINFO = Path("/proc/cpuinfo")
+
+
+@pytest.mark.skipif(not CPUINFO.exists(), reason="only Linux says what the processor has")
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="other processors have one level")
+@pytest.mark.skipif(bool(os.environ.get("DH2URDF_LEVEL")), reason="a level was asked for")
+def test_the_level_is_the_best_that_the_processor_has():
+    """Whatever compiled the extension, the system's compiler or that of the wheel."""
+    flags = set(next(x for x in CPUINFO.read_text().splitlines() if x[:5] == "flags").split())
+    v4 = {"avx512f", "avx512cd", "avx512bw", "avx512dq", "avx512vl"}
+    v3 = {"avx2", "bmi1", "bmi2", "fma"}
+    best = "any" if not v3 <= flags else "v3" if not v4 <= flags else "v4"
+    assert best == engine._COMPILED.LEVEL
