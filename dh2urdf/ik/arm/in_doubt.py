@@ -44,12 +44,17 @@ def search_in_doubt(
     finish_batch(chain.tables, Ts, False, wide)
     search_beside(chain.tables, Ts, wide)
     finish_batch(chain.tables, Ts, False, wide)
-    named = (wide.free != 0) & (np.arange(WIDTH) < wide.counts[:, None])
+    unite_families(chain, Ts, within_limits, wide)
+    return wide
+
+
+def unite_families(chain: SerialChain, Ts: Array, within_limits: bool, wide: Outputs) -> None:
+    """Keep one member of each family of poses Ts (d, 4, 4), and, then, what is within limits."""
+    named = (wide.free != 0) & (np.arange(wide.q.shape[1]) < wide.counts[:, None])
     for i in np.flatnonzero(named.sum(axis=1) > 1).tolist():
         one_of_each_family(chain, Ts[i], wide.rows(slice(i, i + 1)))
     if within_limits:
         finish_batch(chain.tables, Ts, True, wide)
-    return wide
 
 
 def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
