@@ -10,7 +10,7 @@ from hostile import hostile, outcome
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dh2urdf.cli.verbs.ik_poses import LAYOUTS, poses_of_csv
+from dh2urdf.cli.verbs.ik.poses import LAYOUTS, poses_of_csv
 from dh2urdf.exceptions import PoseError
 
 LENGTHS = {"": 1.0, "m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1 / 0.0254}

@@ -11,7 +11,7 @@ import numpy as np
 from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
-from dh2urdf.cli.verbs.ik_poses import Poses, pose_of, poses_of_csv
+from dh2urdf.cli.verbs.ik.poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv, grid_text, number
 from dh2urdf.transforms import Array
