@@ -6,12 +6,13 @@ the compiler turns into vector instructions. A lane where a root nearly merges, 
 lines up, a limit is nearly touched or a residual is not at rounding is marked as dirty, and its
 pose is solved again by the careful scalar kernel: here is no code for edges.
 
+Where four arms of a pose are lanes too, arm ``k`` of lane ``i`` is lane ``k n + i`` of a block of
+``n`` poses: also the arms of one pose are worked out side by side.
+
 Of the angles of an arm some are mirror images of others; only the others need an arctangent.
 """
 
 import math
-
-import numpy as np
 
 from dh2urdf.kernels.certificate import CLUSTER, TWO_PI
 from dh2urdf.kernels.newton import POLISH
@@ -19,9 +20,11 @@ from dh2urdf.kernels.numbers import arctangent, side_by_side
 from dh2urdf.kernels.rigid import dot, minus
 
 LANES = 32
-BLOCK = 40
-"""Poses of a block, and numbers from row to row: an odd number of cache lines, so that the rows of
-one pose do not all fall into the same places of the cache."""
+ARMS, POSES = 4, 16
+BLOCK = 72
+"""Poses of a block; where arms are lanes, arms of a pose and poses of a block; and numbers from row
+to row: an odd number of cache lines, so that the rows of one pose do not all fall into the same
+places of the cache."""
 
 CLEAR = 1e-6
 """Sine of an angle from which a lane is clean."""
@@ -31,33 +34,27 @@ MERGED = CLEAR * CLEAR
 careful kernel allows."""
 
 POSE, DIRTY, COS = 0, 12, 13
-SIN = COS + 40
+SIN = COS + 24
 TURN = BLOCK * (SIN - COS)
-VALUES = SIN + 40
-INSIDE = VALUES + 40
-VALID = INSIDE + 40
+VALUES = SIN + 24
+INSIDE = VALUES + 48
+VALID = INSIDE + 48
 RESIDUAL = VALID + 8
 WORK = RESIDUAL + 8
+LEFT, UP = WORK, WORK + 1
 ROWS = WORK + 64
-"""Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 40 angles, their
-joint values, whether these are inside their limits, and for eight solutions whether they exist
-and their residual; the rest belongs to the family."""
+"""Rows of a block: the pose (twelve), the dirt, cosines and sines of up to 24 angles, joint values
+of up to eight solutions, joint by joint, whether these are inside their limits, and of each
+solution whether it exists and its residual; the rest belongs to the family."""
 
 ROUND = 1.5 * 2.0**52
 """Added to a number and taken away again, it rounds it to an integer."""
 
 PER_TURN = 1.0 / TWO_PI
 
-OWN, HALF_TURN, NEGATED = range(3)
-"""How the angle of a row is found: from its cosine and sine; half a turn from that of another row;
-the negative of another."""
-
-MIRRORS = np.array(
-    [(r, OWN) for r in range(22)]
-    + [(r, HALF_TURN if r < 14 or r >= 18 else NEGATED) for r in range(10, 22)]
-)
-"""Of 34 angles of which 10 to 21 are the wrist's, joint by joint, the rest the other wrist's:
-``(q4 + pi, -q5, q6 + pi)``."""
+OWN, SAME, HALF_TURN, NEGATED = range(4)
+"""How the values of a row are found: from a row's cosines and sines; they are those of another row,
+half a turn from them, or the negatives."""
 
 
 def at(k):
@@ -130,6 +127,21 @@ def load_poses(ends, lift, Ts, first, n, S):
         S[BLOCK * DIRTY + i] = 0.0
 
 
+def share(first, last, n, S):
+    """Give what n lanes have in some rows to as many lanes behind them."""
+    for row in range(first, last):
+        for i in side_by_side(n):
+            S[BLOCK * row + n + i] = S[BLOCK * row + i]
+
+
+def sides(n, S):
+    """The arms of every lane: ``LEFT`` is 1 or -1 by turns, ``UP`` by pairs."""
+    for arm in range(ARMS):
+        lane, left, up = n * arm, 1.0 - 2.0 * (arm & 1), 1.0 - 2.0 * (arm >> 1)
+        for i in side_by_side(n):
+            S[BLOCK * LEFT + lane + i], S[BLOCK * UP + lane + i] = left, up
+
+
 def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
     """Residual of one solution of every lane by forward kinematics, t1 ... t6 its angles' rows.
 
@@ -172,36 +184,42 @@ def measure(form, tool, n, S, solution, t1, t2, t3, t4, t5, t6):
         S[BLOCK * DIRTY + i] += 1.0 if exists and not rounding else 0.0
 
 
-def _values(form, joints, table, within_limits, n, S):
+def _values(form, joints, angles, within_limits, arms, n, S):
     """Joint values of all angles, in the turn nearest to the middle of the limits, and slides."""
-    joint_of, _, mirror_of = table
-    for r in range(joint_of.shape[0]):
-        j, source, kind = joint_of[r], mirror_of[r, 0], mirror_of[r, 1]
+    for r in range(angles.shape[0]):
+        j, source, kind, lanes = r % 6, angles[r, 0], angles[r, 1], n * angles[r, 2]
         sign, constant, lower, upper = form[j, 6], form[j, 4], joints[j, 1], joints[j, 2]
-        middle = _middle(lower, upper)
+        middle, slides = _middle(lower, upper), form[j, 5] != 0.0
         sine, cosine = at(SIN + source), at(COS + source)
-        target, other, slides = at(VALUES + r), at(VALUES + source), form[j, 5] != 0.0
+        target, other = at(VALUES + r), at(VALUES + source)
+        if kind == SAME:
+            for i in side_by_side(lanes):
+                S[target + i] = S[other + i]
+                S[at(INSIDE + r) + i] = S[at(INSIDE + source) + i]
+            continue
         if slides:
-            for i in side_by_side(n):
+            for i in side_by_side(lanes):
                 S[target + i] = sign * (S[target + i] - form[j, 3])
         elif kind == HALF_TURN:
-            for i in side_by_side(n):
+            for i in side_by_side(lanes):
                 value = S[other + i]
                 S[target + i] = value - math.copysign(math.pi, value - middle)
         elif kind == NEGATED:
             twice = 2.0 * sign * constant
-            for i in side_by_side(n):
+            for i in side_by_side(lanes):
                 S[target + i] = _turned_to(middle, -twice - S[other + i])
         else:
-            for i in side_by_side(n):
+            for i in side_by_side(lanes):
                 angle = arctangent(S[sine + i], S[cosine + i])
                 S[target + i] = _turned_to(middle, sign * (angle - constant))
+        if angles[r, 2] < arms:
+            share(VALUES + r, VALUES + r + 1, lanes, S)
         flag = at(INSIDE + r)
         if not slides and not _limited(lower, upper):
-            for i in side_by_side(n):
+            for i in side_by_side(arms * n):
                 S[flag + i] = 1.0
         elif within_limits:
-            for i in side_by_side(n):
+            for i in side_by_side(arms * n):
                 room = min(S[target + i] - lower, upper - S[target + i])
                 S[flag + i] = 1.0 if room >= 0.0 else 0.0
                 touching = abs(room) < CLUSTER
@@ -225,38 +243,39 @@ def _limited(lower, upper):
     return lower > middle - math.pi or upper < middle + math.pi
 
 
-def _settle(form, joints, table, within_limits, n, S):
-    """Joint values of all lanes, and which solutions there are with these."""
-    row_of = table[1]
-    _values(form, joints, table, within_limits, n, S)
-    if not within_limits:
-        return
-    for k in range(8):
-        valid, row = at(VALID + k), row_of[k]
-        a, b, c = at(INSIDE + row[0]), at(INSIDE + row[1]), at(INSIDE + row[2])
-        d, e, f = at(INSIDE + row[3]), at(INSIDE + row[4]), at(INSIDE + row[5])
-        for i in side_by_side(n):
-            S[valid + i] *= S[a + i] * S[b + i] * S[c + i] * S[d + i] * S[e + i] * S[f + i]
-
-
-def emit(form, joints, table, within_limits, place, named, first, n, S, out):
-    """Write the solutions of all clean lanes, joint j to column ``place[j]``; how many are clean.
+def emit(form, joints, angles, within_limits, place, named, first, n, S, out):
+    """Write the solutions of all clean poses, joint j to column ``place[j]``; how many are clean.
 
     The others get a count of -1. A solution that does not exist is written over by the next one.
-    ``table`` (rows,), (8, 6), (rows, 2): joint of each angle; row of each solution's angle of each
-    joint; row whose angle it is or mirrors, and how. ``named``: branches have the number of their
-    solution, else -1.
+    ``angles`` (48 or 12, 3), for each joint of each solution, or of each wrist of the four arms
+    that are lanes: what row its values are found from, how, and in how many arms they differ.
+    ``named``: branches have the number of their solution, else -1.
     """
-    (q, residual, count, branch, free), row_of, clean = out, table[1], 0
-    _settle(form, joints, table, within_limits, n, S)
+    (q, residual, count, branch, free), clean = out, 0
+    sets = angles.shape[0] // 6
+    arms = 8 // sets
+    _values(form, joints, angles, within_limits, arms, n, S)
+    for k in range(sets if within_limits else 0):
+        valid, inside = at(VALID + k), at(INSIDE + 6 * k)
+        for i in side_by_side(arms * n):
+            a, b, c = column(S, inside + i, BLOCK)
+            d, e, f = column(S, inside + BLOCK * 3 + i, BLOCK)
+            S[valid + i] *= a * b * c * d * e * f
+    for arm in range(1, arms):
+        for i in side_by_side(n):
+            S[BLOCK * DIRTY + i] += S[BLOCK * DIRTY + n * arm + i]
     for i in side_by_side(n):
-        found, row = 0, first + i
-        for k in range(8):
-            for j in range(6):
-                q[row, found, place[j]] = S[at(VALUES + row_of[k, j]) + i]
-            residual[row, found] = S[BLOCK * (RESIDUAL + k) + i]
-            branch[row, found], free[row, found] = k if named else -1, 0
-            found += 1 if S[BLOCK * (VALID + k) + i] > 0.0 else 0
+        found, row, solution = 0, first + i, 0
+        for k in range(sets):
+            for arm in range(arms):
+                lane = n * arm + i
+                values = at(VALUES + 6 * k) + lane
+                for j in range(6):
+                    q[row, found, place[j]] = S[values + BLOCK * j]
+                residual[row, found] = S[BLOCK * (RESIDUAL + k) + lane]
+                branch[row, found], free[row, found] = solution if named else -1, 0
+                found += 1 if S[BLOCK * (VALID + k) + lane] > 0.0 else 0
+                solution += 1
         rough = S[BLOCK * DIRTY + i] != 0.0
         count[row] = -1 if rough else found
         clean += 0 if rough else 1

@@ -10,18 +10,23 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.blocks import (
+    ARMS,
     BLOCK,
     CLEAR,
     COS,
     DIRTY,
     HALF_TURN,
-    LANES,
+    LEFT,
     MERGED,
     NEGATED,
     OWN,
+    POSE,
+    POSES,
     ROWS,
+    SAME,
     SIN,
     TURN,
+    UP,
     VALID,
     WORK,
     at,
@@ -30,6 +35,8 @@ from dh2urdf.kernels.blocks import (
     load_poses,
     measure,
     planar_arm,
+    share,
+    sides,
 )
 from dh2urdf.kernels.numbers import entry, side_by_side
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
@@ -38,99 +45,89 @@ from dh2urdf.kernels.rigid import dot
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import tool_to_wrist
 
-JOINT_OF = np.array([0] * 2 + [4] * 4 + [5] * 4 + [1] * 8 + [2] * 8 + [3] * 8)
-K, PAIR = np.arange(8), (np.arange(8) & 1) + 2 * (np.arange(8) >> 2)
 IN_ORDER = np.arange(6)
-ROW_OF = np.stack([K & 1, 10 + K, 18 + K, 26 + K, 2 + PAIR, 6 + PAIR], 1)
-
-MIRROR_OF = np.array([(r, OWN) for r in range(34)])
-MIRROR_OF[4:6] = (2, NEGATED), (3, NEGATED)
-MIRROR_OF[8:10] = (6, HALF_TURN), (7, HALF_TURN)
+ANGLES = np.array([(r, OWN, 4 if 0 < r % 6 < 4 else 2) for r in range(12)])
+ANGLES[[6, 10, 11]] = (0, SAME, 4), (4, NEGATED, 4), (5, HALF_TURN, 4)
 """The other wrist has ``-q5`` and ``q6 + pi``."""
 
-PLANE = WORK
-"""Per shoulder and wrist: where the planar arm has to reach, and its heading; four rows each."""
+PLANE = WORK + 2
+"""Where the planar arm has to reach, and its heading; four rows."""
 
 
 def _shoulders(form, slack, n, S):
-    """Joint 1 from the offset of the arm's plane, joint 5 from the slope of axis 6."""
+    """Joint 1 from the offset of the arm's plane, joint 5 from the slope of axis 6, both wrists."""
     ca1, sa1, sa4, sa5 = form[0, 1], form[0, 2], form[3, 2], form[4, 2]
-    constant = form[1, 3] + form[2, 3] + form[3, 3]
-    for shoulder in range(2):
-        side = (1.0 if sa1 < 0.0 else -1.0) * (1.0 - 2.0 * shoulder)
-        cosine, sine, valid = at(COS + shoulder), at(SIN + shoulder), at(VALID + shoulder)
-        for i in side_by_side(n):
-            px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
-            a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
-            square = a * a + b * b
-            gap = square - d * d
-            t = side * math.sqrt(max(gap, 0.0))
-            inverse = 1.0 / max(square, 1e-30)
-            c, s = (a * d - b * t) * inverse, (b * d + a * t) * inverse
-            exists = 1.0 if gap > 0.0 else 0.0
-            k = sa1 * s, -sa1 * c, ca1
-            rx, ry = dot(k, column(S, i, BLOCK * 3)), dot(k, column(S, BLOCK + i, BLOCK * 3))
-            rz = dot(k, column(S, BLOCK * 2 + i, BLOCK * 3))
-            s5 = math.sqrt(rx * rx + ry * ry)
-            c5 = -rz * sa4 * sa5
-            inverse = sa4 / max(s5, 1e-30)
-            c6, s6 = rx * inverse, -ry * inverse
-            S[cosine + i], S[sine + i] = c, s
-            S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i] = c5, s5
-            S[cosine + BLOCK * 4 + i], S[sine + BLOCK * 4 + i] = c5, -s5
-            S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i] = c6, s6
-            S[cosine + BLOCK * 8 + i], S[sine + BLOCK * 8 + i] = -c6, -s6
-            S[valid + i] = exists
-            size = square + d * d
-            dirty = -slack * size < gap < MERGED * size or (s5 < CLEAR and exists > 0.0)
-            S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
+    constant, side = form[1, 3] + form[2, 3] + form[3, 3], 1.0 if sa1 < 0.0 else -1.0
+    for i in side_by_side(2 * n):
+        px, py, pz = S[BLOCK * 9 + i], S[BLOCK * 10 + i], S[BLOCK * 11 + i]
+        a, b, d = -sa1 * py, sa1 * px, constant - ca1 * pz
+        square = a * a + b * b
+        gap = square - d * d
+        t = side * S[BLOCK * LEFT + i] * math.sqrt(max(gap, 0.0))
+        inverse = 1.0 / max(square, 1e-30)
+        c, s = (a * d - b * t) * inverse, (b * d + a * t) * inverse
+        exists = 1.0 if gap > 0.0 else 0.0
+        k = sa1 * s, -sa1 * c, ca1
+        rx, ry = dot(k, column(S, i, BLOCK * 3)), dot(k, column(S, BLOCK + i, BLOCK * 3))
+        rz = dot(k, column(S, BLOCK * 2 + i, BLOCK * 3))
+        s5 = math.sqrt(rx * rx + ry * ry)
+        c5 = -rz * sa4 * sa5
+        inverse = sa4 / max(s5, 1e-30)
+        c6, s6 = rx * inverse, -ry * inverse
+        S[BLOCK * COS + i], S[BLOCK * SIN + i] = c, s
+        S[BLOCK * (COS + 4) + i], S[BLOCK * (SIN + 4) + i] = c5, s5
+        S[BLOCK * (COS + 5) + i], S[BLOCK * (SIN + 5) + i] = c6, s6
+        S[BLOCK * (COS + 10) + i], S[BLOCK * (SIN + 10) + i] = c5, -s5
+        S[BLOCK * (COS + 11) + i], S[BLOCK * (SIN + 11) + i] = -c6, -s6
+        S[BLOCK * VALID + i], S[BLOCK * (VALID + 1) + i] = exists, exists
+        size = square + d * d
+        dirty = -slack * size < gap < MERGED * size or (s5 < CLEAR and exists > 0.0)
+        S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-def _planes(form, n, S):
-    """Where the planar arm has to reach and how it points, for both shoulders and wrists."""
+def _planes(form, wrist, n, S):
+    """Where the planar arm has to reach and how it points, for both shoulders."""
     a1, ca1, sa1 = form[0, 0], form[0, 1], form[0, 2]
     a4, sa5, d5 = form[3, 0], form[4, 2], form[4, 3]
-    for pair in range(4):
-        shoulder = pair & 1
-        rows, first = at(PLANE + 4 * pair), at(COS + shoulder)
-        cosine, sine = at(COS + pair), at(SIN + pair)
-        for i in side_by_side(n):
-            c1, s1 = S[first + i], S[first + TURN + i]
-            c5, s5 = S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i]
-            c6, s6 = S[cosine + BLOCK * 6 + i], S[sine + BLOCK * 6 + i]
-            x, y, z = c5 * a4, sa5 * d5, sa5 * s5 * a4
-            lever, slope = (c6 * x + s6 * y, c6 * y - s6 * x, z), (c6 * c5, -s6 * c5, sa5 * s5)
-            r0, r1 = column(S, i, BLOCK), column(S, BLOCK * 3 + i, BLOCK)
-            r2 = column(S, BLOCK * 6 + i, BLOCK)
-            p0, h0 = S[BLOCK * 9 + i] - dot(r0, lever), dot(r0, slope)
-            p1, h1 = S[BLOCK * 10 + i] - dot(r1, lever), dot(r1, slope)
-            p2, h2 = S[BLOCK * 11 + i] - dot(r2, lever), dot(r2, slope)
-            S[rows + i] = c1 * p0 + s1 * p1 - a1
-            S[rows + BLOCK + i] = ca1 * (c1 * p1 - s1 * p0) + sa1 * p2
-            S[rows + BLOCK * 2 + i] = c1 * h0 + s1 * h1
-            S[rows + BLOCK * 3 + i] = ca1 * (c1 * h1 - s1 * h0) + sa1 * h2
+    t5, t6, rows = at(COS + 4 + 6 * wrist), at(COS + 5 + 6 * wrist), at(PLANE)
+    for i in side_by_side(n):
+        c1, s1 = S[BLOCK * COS + i], S[BLOCK * SIN + i]
+        c5, s5, c6, s6 = S[t5 + i], S[TURN + t5 + i], S[t6 + i], S[TURN + t6 + i]
+        x, y, z = c5 * a4, sa5 * d5, sa5 * s5 * a4
+        lever, slope = (c6 * x + s6 * y, c6 * y - s6 * x, z), (c6 * c5, -s6 * c5, sa5 * s5)
+        r0, r1 = column(S, i, BLOCK), column(S, BLOCK * 3 + i, BLOCK)
+        r2 = column(S, BLOCK * 6 + i, BLOCK)
+        p0, h0 = S[BLOCK * 9 + i] - dot(r0, lever), dot(r0, slope)
+        p1, h1 = S[BLOCK * 10 + i] - dot(r1, lever), dot(r1, slope)
+        p2, h2 = S[BLOCK * 11 + i] - dot(r2, lever), dot(r2, slope)
+        S[rows + i] = c1 * p0 + s1 * p1 - a1
+        S[rows + BLOCK + i] = ca1 * (c1 * p1 - s1 * p0) + sa1 * p2
+        S[rows + BLOCK * 2 + i] = c1 * h0 + s1 * h1
+        S[rows + BLOCK * 3 + i] = ca1 * (c1 * h1 - s1 * h0) + sa1 * h2
 
 
-def _elbows(form, slack, n, S):
-    """Joints 2, 3 and 4 of all eight arms: planar RRR (lecture notes 8.2)."""
-    upper, fore = form[1, 0], form[2, 0]
-    for k in range(7, -1, -1):
-        shoulder, elbow, pair = k & 1, k >> 1 & 1, (k & 1) + 2 * (k >> 2)
-        rows, valid, result = at(PLANE + 4 * pair), at(VALID + shoulder), at(VALID + k)
-        cosine, sine = at(COS + k), at(SIN + k)
-        side = -1.0 if (elbow == 0) == ((form[0, 2] > 0.0) == (shoulder == 0)) else 1.0
-        for i in side_by_side(n):
-            x, y = S[rows + i], S[rows + BLOCK + i]
-            hx, hy = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i]
-            c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, side, x, y, slack)
-            c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
-            S[cosine + BLOCK * 10 + i], S[sine + BLOCK * 10 + i] = c2, s2
-            S[cosine + BLOCK * 18 + i], S[sine + BLOCK * 18 + i] = c3, s3
-            S[cosine + BLOCK * 26 + i] = hx * c + hy * s
-            S[sine + BLOCK * 26 + i] = hy * c - hx * s
-            exists = S[valid + i]
-            S[BLOCK * DIRTY + i] += exists if dirty else 0.0
-            S[result + i] = exists if reached else 0.0
+def _elbows(form, slack, wrist, n, S):
+    """Joints 2, 3 and 4 of all four arms: planar RRR (lecture notes 8.2)."""
+    upper, fore, side = form[1, 0], form[2, 0], -1.0 if form[0, 2] > 0.0 else 1.0
+    rows, valid, cosine, sine = (
+        at(PLANE),
+        at(VALID + wrist),
+        at(COS + 6 * wrist),
+        at(SIN + 6 * wrist),
+    )
+    for i in side_by_side(n):
+        x, y = S[rows + i], S[rows + BLOCK + i]
+        hx, hy = S[rows + BLOCK * 2 + i], S[rows + BLOCK * 3 + i]
+        bend = side * S[BLOCK * LEFT + i] * S[BLOCK * UP + i]
+        c2, s2, c3, s3, reached, dirty = planar_arm(upper, fore, bend, x, y, slack)
+        c, s = c2 * c3 - s2 * s3, s2 * c3 + c2 * s3
+        S[cosine + BLOCK + i], S[sine + BLOCK + i] = c2, s2
+        S[cosine + BLOCK * 2 + i], S[sine + BLOCK * 2 + i] = c3, s3
+        S[cosine + BLOCK * 3 + i] = hx * c + hy * s
+        S[sine + BLOCK * 3 + i] = hy * c - hx * s
+        exists = S[valid + i]
+        S[BLOCK * DIRTY + i] += exists if dirty else 0.0
+        S[valid + i] = exists if reached else 0.0
 
 
 @entry(n=6, solutions=8)
@@ -138,17 +135,26 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
     (_, joints), form, ends, slack = arm
     q, residual, count, branch, free = outputs
-    m, S, table = Ts.shape[0], np.empty(ROWS * BLOCK), (JOINT_OF, ROW_OF, MIRROR_OF)
-    for first in range(0, m, LANES):
-        n = min(LANES, m - first)
+    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
+    for first in range(0, m, POSES):
+        n = min(POSES, m - first)
+        arms = ARMS * n
         load_poses(ends, form[0, 3], Ts, first, n, S)
+        sides(n, S)
+        share(POSE, COS, n, S)
         _shoulders(form, slack, n, S)
-        _planes(form, n, S)
-        _elbows(form, slack, n, S)
-        for k in range(8):
-            pair = (k & 1) + 2 * (k >> 2)
-            measure(form, ends[2], n, S, k, k & 1, 10 + k, 18 + k, 26 + k, 2 + pair, 6 + pair)
-        emit(form, joints, table, within_limits, IN_ORDER, True, first, n, S, outputs)
+        share(POSE, COS + 1, 2 * n, S)
+        share(SIN, SIN + 1, 2 * n, S)
+        for wrist in range(2):
+            share(COS + 6 * wrist + 4, COS + 6 * wrist + 6, 2 * n, S)
+            share(SIN + 6 * wrist + 4, SIN + 6 * wrist + 6, 2 * n, S)
+        share(VALID, VALID + 2, 2 * n, S)
+        for wrist in range(2):
+            _planes(form, wrist, arms, S)
+            _elbows(form, slack, wrist, arms, S)
+            r = 6 * wrist
+            measure(form, ends[2], arms, S, wrist, 0, r + 1, r + 2, r + 3, r + 4, r + 5)
+        emit(form, joints, ANGLES, within_limits, IN_ORDER, True, first, n, S, outputs)
         for i in range(first, first + n):
             if count[i] < 0:
                 scratch = make_scratch()

@@ -25,11 +25,14 @@ from dh2urdf.kernels.blocks import (
     CLEAR,
     COS,
     DIRTY,
+    HALF_TURN,
     LANES,
     MERGED,
-    MIRRORS,
+    NEGATED,
+    OWN,
     RESIDUAL,
     ROWS,
+    SAME,
     TURN,
     VALID,
     at,
@@ -52,9 +55,16 @@ from dh2urdf.kernels.redundant.held_wrist_load import (
 from dh2urdf.kernels.rigid import dot, minus
 from dh2urdf.kernels.shapes import Held, Outputs, Poses
 
-JOINT_OF = np.array([2] * 2 + [0] * 4 + [1] * 4 + ([3] * 4 + [4] * 4 + [5] * 4) * 2)
-K, ARM, OTHER = np.arange(8), np.arange(8) & 3, 12 * (np.arange(8) >> 2)
-ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, *(10 + 4 * j + ARM + OTHER for j in range(3))], 1)
+K, ARM = np.arange(8), np.arange(8) & 3
+ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, 10 + ARM, 14 + ARM, 18 + ARM], 1)
+
+ANGLES = np.array([(row, OWN, 1) for row in ROW_OF.ravel()])
+ANGLES[[8, 20]] = (2, SAME, 1), (14, SAME, 1)
+ANGLES[24:] = [
+    (r % 24, SAME if r % 6 < 3 else NEGATED if r % 6 == 4 else HALF_TURN, 1) for r in range(24, 48)
+]
+"""Arms 0 and 1 have one joint 3, arms 2 and 3 the other; the other wrist of all four is
+``(q4 + pi, -q5, q6 + pi)``."""
 
 T3, T1, T2, T4 = COS, COS + 2, COS + 6, COS + 10
 """Cosines of joint 3 (two elbows), of joints 1, 2, 4, 5 and 6 (one an arm)."""
@@ -255,7 +265,6 @@ def solve_held_blocks(
     if m == 0:
         return
     same, seen_from_tool = all_equal(values), which[REVERSED] != 0
-    table = JOINT_OF, ROW_OF, MIRRORS
     oriented, place = np.empty((6, 3)), np.empty(6, np.int64)
     for j in range(6):
         moving = 5 - j if seen_from_tool else j
@@ -270,7 +279,7 @@ def solve_held_blocks(
         place_shoulders(S0, slack, n, S)
         for k in range(4):
             finish_arm(form, S0, seen_from_tool, k, n, S)
-        clean = emit(form, oriented, table, within_limits, place, False, first, n, S, outputs)
+        clean = emit(form, oriented, ANGLES, within_limits, place, False, first, n, S, outputs)
         for i in range(first, first + n):
             for k in range(8):
                 q[i, k, which[HELD]] = values[i]
