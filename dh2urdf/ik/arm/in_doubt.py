@@ -17,6 +17,15 @@ where arms of right angles have their singular poses."""
 WIDTH = 128
 """Most candidates of a pose."""
 
+SHARP = 1e-11
+"""Residual [m and rad] of a solution beside which a point of a valley is none."""
+
+SAME = 1e-6
+"""Joint distance [rad or m] at which two solutions are one."""
+
+ALIKE = 1e-14
+"""Residuals [m and rad] below which one member of a family is as good as another."""
+
 
 def _starts() -> Array:
     """Configurations (``STARTS``, 6)."""
@@ -48,6 +57,25 @@ def search_in_doubt(
     return wide
 
 
+def keep_sharp(out: Outputs, known: Array) -> None:
+    """Of one pose with a solution, drop what is accepted beside it along a valley, in place.
+
+    Solutions that are known (k, n) stay.
+    """
+    q, residual, free = out.q[0, : out.counts[0]], out.residual[0, : out.counts[0]], out.free[0]
+    is_known = (np.abs(q[:, None] - known).max(axis=2, initial=0.0) <= SAME).any(axis=1)
+    kept = np.flatnonzero((residual <= SHARP) | (free[: len(q)] != 0) | is_known)
+    if len(kept):
+        _keep(out, kept)
+
+
+def _keep(out: Outputs, rows: IntArray | list[int]) -> None:
+    """Keep some solutions of one pose, in place."""
+    out.counts[0] = len(rows)
+    for array in (out.q, out.residual, out.branch, out.free):
+        array[0, : len(rows)] = array[0, rows]
+
+
 def unite_families(chain: SerialChain, Ts: Array, within_limits: bool, wide: Outputs) -> None:
     """Keep one member of each family of poses Ts (d, 4, 4), and, then, what is within limits."""
     named = (wide.free != 0) & (np.arange(wide.q.shape[1]) < wide.counts[:, None])
@@ -58,11 +86,11 @@ def unite_families(chain: SerialChain, Ts: Array, within_limits: bool, wide: Out
 
 
 def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
-    """Keep one member of each family of a pose T (4, 4), isolated solutions first, in place."""
+    """Keep the best member of each family of a pose T (4, 4), isolated ones first, in place."""
     k = int(out.counts[0])
-    q, free = out.q[0, :k], out.free[0, :k]
+    q, free, residual = out.q[0, :k], out.free[0, :k], np.maximum(out.residual[0, :k], ALIKE)
     kept = np.flatnonzero(free == 0).tolist()
-    members = np.flatnonzero(free).tolist()
+    members = sorted(np.flatnonzero(free).tolist(), key=lambda m: residual[m])
     while members:
         first = members.pop(0)
         kept.append(first)
@@ -71,6 +99,4 @@ def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
         alike = [m for m in members if free[m] == free[first]]
         same = {m for m, on in zip(alike, family.contains(q[alike]), strict=True) if on}
         members = [m for m in members if m not in same]
-    out.counts[0] = len(kept)
-    for array in (out.q, out.residual, out.branch, out.free):
-        array[0, : len(kept)] = array[0, kept]
+    _keep(out, kept)

@@ -21,9 +21,12 @@ from dh2urdf.ik.arm import (
     Outputs,
     SolverBase,
     Task,
+    keep_sharp,
     plain_ranges,
+    search_in_doubt,
+    unite_families,
 )
-from dh2urdf.kernels.certificate import finish_batch, search_valleys
+from dh2urdf.kernels.certificate import DEEP, finish_batch, name_batch, search_valleys
 from dh2urdf.kernels.nearly import parallel_seeds
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 from dh2urdf.transforms import Array
@@ -69,15 +72,33 @@ class ClosedForm(SolverBase):
         self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
     def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
-        """Add what lies along valleys beside candidates of poses Ts[rows] to their solutions."""
-        out.counts[rows] = -1 - out.counts[rows]
-        chain, poses, k = self.chain, np.ascontiguousarray(Ts[rows]), self.kmax
-        raw, many = np.empty((len(rows), SEEDS, 6)), np.empty(len(rows), np.int64)
-        self.seeds((*self.constants[:3], WIDE), poses, raw, many)
-        found, seeds = Outputs.of(len(rows), WIDTH, 6), np.empty((len(rows), k + SEEDS, 6))
-        known = Outputs.of(len(rows), k, 6)  # those outside the limits, too
+        """Look for more solutions of poses Ts[rows]: along valleys, or from many starts."""
+        coded = -1 - out.counts[rows]
+        out.counts[rows] = coded % DEEP
+        poses = np.ascontiguousarray(Ts[rows])
+        known = Outputs.of(len(rows), self.kmax, 6)  # those outside the limits, too
         self.kernel(self.constants, poses, False, known)
-        known.counts[known.counts < 0] = -1 - known.counts[known.counts < 0]
+        known.counts[known.counts < 0] = (-1 - known.counts[known.counts < 0]) % DEEP
+        found = self._along_valleys(poses, known)
+        deep = coded >= DEEP
+        for i, row in enumerate(rows):
+            mine = slice(i, i + 1)
+            if deep[i]:
+                wide = self._from_starts(poses[mine], found.rows(mine), known.rows(mine))
+                if within_limits:
+                    finish_batch(self.chain.tables, poses[mine], True, wide)
+                out.put(np.array([row]), wide)
+            elif found.counts[i] > known.counts[i]:
+                one = found.rows(mine)
+                finish_batch(self.chain.tables, poses[mine], within_limits, one)
+                self._add_new(one, known.q[i, : known.counts[i]], out.rows(slice(row, row + 1)))
+
+    def _along_valleys(self, poses: Array, known: Outputs) -> Outputs:
+        """What lies along valleys beside candidates of poses (d, 4, 4), after what is known."""
+        chain, k, d = self.chain, self.kmax, len(poses)
+        raw, many = np.empty((d, SEEDS, 6)), np.empty(d, np.int64)
+        self.seeds((*self.constants[:3], WIDE), poses, raw, many)
+        found, seeds = Outputs.of(d, WIDTH, 6), np.empty((d, k + SEEDS, 6))
         found.q[:, :k], found.counts[:] = known.q, known.counts
         for i, count in enumerate(known.counts):
             seeds[i, :count], seeds[i, count : count + many[i]] = (
@@ -86,20 +107,35 @@ class ClosedForm(SolverBase):
             )
         many += known.counts
         search_valleys(chain.tables, chain.size, poses, seeds, many, found.q, found.counts)
-        for i, row in enumerate(rows):
-            if found.counts[i] > known.counts[i]:
-                one = found.rows(slice(i, i + 1))
-                finish_batch(chain.tables, poses[i : i + 1], within_limits, one)
-                self._add_new(one, known.q[i, : known.counts[i]], out.rows(slice(row, row + 1)))
+        return found
+
+    def _from_starts(self, pose: Array, found: Outputs, known: Outputs) -> Outputs:
+        """What many starts find of one pose (1, 4, 4); of each family what is known, or a member.
+
+        Solutions that are known keep their branch.
+        """
+        wide = search_in_doubt(self.chain, pose, found, np.zeros(1, np.int64), False)
+        name_batch(self.chain.tables, pose, wide)
+        keep_sharp(wide, known.q[0, : known.counts[0]])
+        unite_families(self.chain, pose, False, wide)
+        for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
+            far = self._far(wide.q[0, : wide.counts[0]], p)
+            wide.branch[0, : len(far)][far <= SAME] = branch
+        return wide
+
+    def _far(self, q: Array, p: Array) -> Array:
+        """Largest difference of a joint from p (n,) of configurations q (k, n)."""
+        gaps = q - p
+        turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
+        far: Array = np.where(self.chain.prismatic, np.abs(gaps), turns).max(axis=1)
+        return far
 
     def _add_new(self, found: Outputs, known: Array, out: Outputs) -> None:
         """Add solutions of one pose that are not known (k, 6) yet."""
         for k in range(found.counts[0]):
             count, p = out.counts[0], found.q[0, k]
-            gaps = known - p
-            turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
-            far = np.where(self.chain.prismatic, np.abs(gaps), turns).max(axis=1)
-            if found.residual[0, k] <= SHARP and count < self.kmax and not (far <= SAME).any():
+            new = not (self._far(known, p) <= SAME).any()
+            if found.residual[0, k] <= SHARP and count < self.kmax and new:
                 out.q[0, count], out.residual[0, count] = p, found.residual[0, k]
                 out.branch[0, count], out.free[0, count] = -1, found.free[0, k]
                 out.counts[0] += 1

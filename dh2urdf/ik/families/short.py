@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task, unite_families
+from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task, keep_sharp, unite_families
 from dh2urdf.kernels.certificate import finish_batch, search_valleys
 from dh2urdf.kernels.numbers import dual_of_pose
 from dh2urdf.kernels.short_chains import (
@@ -52,12 +52,6 @@ where arms of right angles have their singular poses."""
 
 SEEDS, WIDTH = 64, 96
 """Most seeds of a pose, and most candidates."""
-
-SAME = 1e-6
-"""Joint distance [rad or m] at which two solutions are one."""
-
-SHARP = 1e-11
-"""Residual [m and rad] of a solution beside which a point of a valley is none."""
 
 
 class ShortChain(SolverBase):
@@ -215,20 +209,6 @@ def _starts(chain: SerialChain) -> Array:
     return starts
 
 
-def _keep_sharp(out: Outputs, known: Array) -> None:
-    """Of one pose with a solution, drop what is accepted beside it along a valley, in place.
-
-    Solutions that are known (k, n) stay.
-    """
-    q, residual, free = out.q[0, : out.counts[0]], out.residual[0, : out.counts[0]], out.free[0]
-    is_known = (np.abs(q[:, None] - known).max(axis=2, initial=0.0) <= SAME).any(axis=1)
-    kept = np.flatnonzero((residual <= SHARP) | (free[: len(q)] != 0) | is_known)
-    if len(kept):
-        out.counts[0] = len(kept)
-        for array in (out.q, out.residual, out.branch, out.free):
-            array[0, : len(kept)] = array[0, kept]
-
-
 def search_short(chain: SerialChain, Ts: Array, found: Outputs, within_limits: bool) -> Outputs:
     """Solve poses Ts (d, 4, 4), their solutions, limits aside, being known: wider outputs."""
     d, k = len(Ts), found.q.shape[1]
@@ -239,6 +219,6 @@ def search_short(chain: SerialChain, Ts: Array, found: Outputs, within_limits: b
     search_valleys(chain.tables, chain.size, Ts, seeds, many, wide.q, wide.counts)
     finish_batch(chain.tables, Ts, False, wide)
     for i in range(d):
-        _keep_sharp(wide.rows(slice(i, i + 1)), found.q[i, : found.counts[i]])
+        keep_sharp(wide.rows(slice(i, i + 1)), found.q[i, : found.counts[i]])
     unite_families(chain, Ts, within_limits, wide)
     return wide

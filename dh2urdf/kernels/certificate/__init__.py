@@ -11,6 +11,7 @@ from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_
 from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,
+    DEEP,
     NO_JOINT,
     ROUNDING,
     TWO_PI,
@@ -27,6 +28,7 @@ from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,
     finish_families,
+    name_batch,
     name_families,
     null_direction,
     reverse_joints,

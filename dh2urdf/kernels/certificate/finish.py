@@ -100,6 +100,16 @@ def name_families(chain, T, rows, count, suspected, work):
             free[k] = free_joints(chain, T, q[k], mask, True, work)
 
 
+@entry()
+def name_batch(chain: Chain, Ts: Poses, outputs: Outputs):
+    """Name the families of solutions q (m, kmax, n) of poses Ts (m, 4, 4) anew, in place."""
+    q, residual, count, branch, free = outputs
+    work = work_array(q.shape[2])
+    for i in range(Ts.shape[0]):
+        rows = q[i], residual[i], branch[i], free[i]
+        name_families(chain, Ts[i], rows, count[i], True, work)
+
+
 def one_of_each_family(joints, rest, q, residual, branch, free, count):
     """Keep one representative of each singular family; the new count.
 

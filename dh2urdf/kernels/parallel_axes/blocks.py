@@ -38,6 +38,7 @@ from dh2urdf.kernels.blocks import (
     share,
     sides,
 )
+from dh2urdf.kernels.certificate import DEEP
 from dh2urdf.kernels.numbers import entry, side_by_side
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
@@ -161,5 +162,6 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
                 tool_to_wrist(ends, Ts[i], scratch[0])
                 pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
                 out = q[i], residual[i], branch[i], free[i]
-                count[i], _ = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
+                found = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
+                count[i] = found if found >= 0 else (-1 - found) % DEEP
     return 0

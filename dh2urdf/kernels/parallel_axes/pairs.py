@@ -37,6 +37,10 @@ LEANING = 1e-4
 t4 may have moved it anywhere."""
 
 
+VOID = 1e-4
+"""Coefficients [m, or sines] of an equation for the outer joints below which it says little."""
+
+
 def pairs_of_meeting(form, D, slack, pair):
     """Joint 1 where axes 2, 3, 4 are parallel and 5 meets 6: subproblem 4.
 
@@ -179,10 +183,7 @@ def _pairs_before_four(form, D, slack, pair):
         count, c1, s1, c2, s2 = linear_trig(row[1], row[2], -row[0], slack)
         cosines[0], sines[0], cosines[1], sines[1] = c1, s1, c2, s2
     else:
-        add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
-        add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
-        add_square(series, 1.0, ca3 * ca4, -sa3 * sa4, 0.0)
-        series[0] -= 1.0
+        _fourth(form, rise, slope, series)
         count = trig_roots(series, 2, cosines, sines)
     pairs = 0
     for k in range(count):
@@ -209,6 +210,38 @@ def _pairs_before_four(form, D, slack, pair):
             pair[pairs, 2], pair[pairs, 3] = (c5 / r, s5 / r) if r > 0.0 else (1.0, 0.0)
             pairs += 1
     return pairs
+
+
+def _fourth(form, rise, slope, series):
+    """The equation for t4 of :func:`_pairs_before_four`, as :func:`trig_roots` takes it."""
+    a5, sa5 = form[4, 0], form[4, 2]
+    add_square(series, 1.0 / (a5 * a5), rise[0], rise[1], rise[2])
+    add_square(series, 1.0 / (sa5 * sa5), slope[0], slope[1], slope[2])
+    add_square(series, 1.0, form[2, 1] * form[3, 1], -form[2, 2] * form[3, 2], 0.0)
+    series[0] -= 1.0
+
+
+def says_little(form, first, pairs, D, pair):
+    """Whether an equation for the outer joints is void, nearly: it fixes none of its unknowns."""
+    for k in range(abs(pairs) if first == 0 else 0):
+        if pair[k, 4] != 0.0:
+            return True
+    a5, sa5 = form[4, 0], form[4, 2]
+    if first == 0:
+        if a5 == 0.0 or sa5 == 0.0:
+            return False
+        rise, slope, series, most = np.empty(3), np.empty(3), np.zeros(5), 0.0
+        levels(form, D, rise, slope)
+        _fourth(form, rise, slope, series)
+        for k in range(5):
+            most = max(most, abs(series[k]))
+        return most <= VOID
+    slope1 = abs(form[0, 2]) * hypot(D[0, 2], D[1, 2])
+    rise1 = abs(form[0, 2]) * hypot(D[0, 3], D[1, 3])
+    if a5 == 0.0:
+        return rise1 <= VOID
+    slope5, rise5 = abs(form[3, 2] * sa5), abs(form[3, 2] * a5)
+    return max(slope1, rise1) <= VOID or slope1 + slope5 <= VOID or rise1 + rise5 <= VOID
 
 
 def outer_pairs(form, first, D, slack, pair):

@@ -13,9 +13,9 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import certify_pose, copy_rows, name_families, turn_inside
+from dh2urdf.kernels.certificate import DEEP, certify_pose, copy_rows, name_families, turn_inside
 from dh2urdf.kernels.numbers import atan2, entry, hypot
-from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
+from dh2urdf.kernels.parallel_axes.pairs import outer_pairs, says_little
 from dh2urdf.kernels.parallel_axes.plane import (
     MOST_ARCS,
     common_axis,
@@ -38,6 +38,9 @@ VAGUE = 1e-6
 
 IN_LINE = 3e-5
 """The same below which t6 is in doubt: an angle that was rounded to five digits weighs as much."""
+
+DULL = 1e-12
+"""Residual [m and rad] of a solution that Newton's method did not make sharp: it is singular."""
 
 LOOSE = 1e-3
 """The same where a seed is looked for, which may have any t6."""
@@ -80,10 +83,19 @@ def _reach_with_last_joint(form, first, D, cs, x, y, in_line, loose):
     return cx - vx, cy - vy
 
 
+def _two_arcs(form, first, distance, radius):
+    """Whether the planar arm reaches two arcs of a circle so far off its first axis: not all."""
+    upper, fore = form[first, 0], form[first + 1, 0]
+    return abs(upper - fore) > abs(distance - radius) and upper + fore < distance + radius
+
+
 def _add_planar(
     form, first, D, cs, shoulder, mask, slack, loose, arm, q, residual, branch, free, count
 ):
-    """Append the elbows of one set of outer joints; the new count, and the sine of axis 6."""
+    """Append the elbows of one set of outer joints; the new count, and the doubt that is left.
+
+    1: axis 6 is nearly along the common normal; 2: what t6 can be is two arcs.
+    """
     in_line = last_joint(form, first, D, cs)
     px, py, pz = D[0, 3], D[1, 3], D[2, 3]
     if first == 1:
@@ -91,6 +103,7 @@ def _add_planar(
     x, y, _ = seen_from_plane(form, first, cs[0, 0], cs[0, 1], px, py, pz)
     x -= form[0, 0] if first == 1 else 0.0
     bx, by, _ = seen_arm(form, first, D, cs, 1.0)
+    parted = in_line < IN_LINE and _two_arcs(form, first, hypot(x, y), hypot(bx, by))
     x, y = x - bx, y - by
     if in_line <= FREE:
         mask |= (0b111 << first) | 0b100000
@@ -113,7 +126,7 @@ def _add_planar(
         branch[count] = shoulder + 2 * elbow + (4 if cs[4, 1] < 0.0 else 0)
         free[count] = mask
         count += 1
-    return count, in_line
+    return count, 2 if parted else (1 if FREE < in_line < IN_LINE else 0)
 
 
 def slope_of_last(form, D, cs, slack):
@@ -124,15 +137,15 @@ def slope_of_last(form, D, cs, slack):
 
 
 def add_pairs(form, first, pairs, slack, loose, rows, scratch):
-    """From ``pairs`` of outer joints of one pose to candidates; their count, and whether in doubt.
+    """From ``pairs`` of outer joints of one pose to candidates; their count, and the doubt.
 
-    That is where axis 6 is nearly, but not within rounding, along the common normal. ``first`` is
+    That of :func:`_add_planar`. ``first`` is
     the index of the first parallel axis; ``loose`` turns joint 6 to where the planar arm reaches.
     """
     D, pair, cs, _, arcs, _, arm = scratch
     outer = 0 if first == 1 else 3
     mask = ALL_FREE if pairs < 0 else 0
-    found, doubt = 0, False
+    found, doubt = 0, 0
     for k in range(abs(pairs)):
         leaning = first == 0 and pair[k, 4] != 0.0
         values = pairs_of_leaning(form, D, cs, pair[k, 0], pair[k, 1], arcs) if leaning else 1
@@ -149,10 +162,10 @@ def add_pairs(form, first, pairs, slack, loose, rows, scratch):
                     wrists = slope_of_last(form, D, cs, slack)
             moving = FIFTH_FREE if leaning else mask
             for _ in range(wrists):
-                found, in_line = _add_planar(
+                found, more = _add_planar(
                     *(form, first, D, cs, shoulder, moving, slack, loose, arm), *rows, found
                 )
-                doubt = doubt or FREE < in_line < IN_LINE
+                doubt = max(doubt, more)
                 cs[4, 1] = -cs[4, 1]
     return found, doubt
 
@@ -160,16 +173,22 @@ def add_pairs(form, first, pairs, slack, loose, rows, scratch):
 def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
     """Certified solutions of one pose in the rows ``out``, from :func:`add_pairs`; their count.
 
-    Returned too is whether there may be more: a candidate was lost, or two fell together.
+    It is -1 minus that where there may be more: a candidate was lost, two fell together, or, then
+    less ``DEEP``, the equations say little.
     """
     (chain, form, _, slack), work, rows = arm, scratch[3], scratch[5]
-    found, doubt = add_pairs(form, first, pairs, slack, False, rows, scratch)
+    found, more = add_pairs(form, first, pairs, slack, False, rows, scratch)
+    deep = more == 2 or says_little(form, first, pairs, scratch[0], scratch[1])
     rows[1][:found] = -1.0
     left = certify_pose(chain, T, *rows, found, work)
-    doubt = doubt or left < found
+    for k in range(left):
+        deep = deep or rows[1][k] > DULL
+    doubt = more > 0 or left < found or deep
+    deep = deep or (doubt and left == 0)
     name_families(chain, T, rows, left, doubt, work)
     left = turn_inside(chain, T, within_limits, *rows, left)
-    return copy_rows(rows, left, out), doubt
+    left = copy_rows(rows, left, out)
+    return -1 - left - (DEEP if deep else 0) if doubt else left
 
 
 def make_scratch():
@@ -187,7 +206,7 @@ def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, output
     """All solutions of poses Ts (m, 4, 4); q (m, 8, 6), the rest as its first axes.
 
     The parallel axes are 2, 3, 4 where ``form[0]`` has a twist, else 1, 2, 3. The count of a pose
-    in doubt is -1 minus that of its solutions; returned is how many are.
+    in doubt is as :func:`finish_pairs` has it; returned is how many are.
     """
     _, form, ends, slack = arm
     q, residual, count, branch, free = outputs
@@ -198,8 +217,6 @@ def solve_three_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, output
         tool_to_wrist(ends, Ts[i], D)
         pairs = outer_pairs(form, first, D, slack, pair)
         out = q[i], residual[i], branch[i], free[i]
-        count[i], doubt = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
-        if doubt:
-            count[i] = -1 - count[i]
-            doubts += 1
+        count[i] = finish_pairs(arm, first, pairs, Ts[i], within_limits, out, scratch)
+        doubts += 1 if count[i] < 0 else 0
     return doubts

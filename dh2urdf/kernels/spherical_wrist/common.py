@@ -43,6 +43,7 @@ from dh2urdf.kernels.blocks import (
     sides,
     turned_and_tilted,
 )
+from dh2urdf.kernels.certificate import DEEP
 from dh2urdf.kernels.numbers import entry, side_by_side, sincos
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
@@ -204,9 +205,10 @@ def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs:
             if count[i] < 0:
                 out = q[i], residual[i], branch[i], free[i]
                 scratch = make_scratch()
-                count[i], doubt = solve_pose(arm, Ts[i], within_limits, out, scratch)
+                count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
                 # beside a slide at zero joint 2 hardly turns the tool
-                if doubt and slides:
-                    count[i] = -1 - count[i]
+                if count[i] < 0 and slides:
                     doubts += 1
+                elif count[i] < 0:
+                    count[i] = (-1 - count[i]) % DEEP
     return doubts

@@ -12,6 +12,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import (
     ACCEPT,
     CLUSTER,
+    DEEP,
     ROUNDING,
     certify_pose,
     copy_rows,
@@ -34,6 +35,9 @@ MEETING = 1e-5
 IN_LINE = 3e-5
 """Sine of the angle between axes 4 and 6 below which a wrist is in doubt: an angle that was rounded
 to five digits weighs as much."""
+
+DULL = 1e-12
+"""Residual [m and rad] of a solution that Newton's method did not make sharp: it is singular."""
 
 WRIST_FREE = 0b101000
 """Joints 4 and 6: axes 4 and 6 in line."""
@@ -98,7 +102,7 @@ def append_wrist(form, values, R, slack, q, residual, branch, free, count):
     ca4, sa4, ca5, sa5 = form[3, 1], form[3, 2], form[4, 1], form[4, 2]
     wx, wy = R[0, 2], R[1, 2]
     in_line = hypot(wx, wy)
-    mask = int(values[4])
+    mask = int(max(values[4], 0.0))
     if in_line <= FREE:
         wrists = min(wrists, 1)
         mask |= WRIST_FREE
@@ -132,7 +136,7 @@ def roots_meet(joints, arm, rows):
     """
     for k in range(rows):
         for j in range(k):
-            free = (int(arm[k, 4]) & int(arm[j, 4])) | 0b010
+            free = (int(max(arm[k, 4], 0.0)) & int(max(arm[j, 4], 0.0))) | 0b010
             if same(joints, arm[k, :3], arm[j, :3], MEETING, free):
                 return True
     return False
@@ -177,25 +181,29 @@ def finish_wrists(arm, places, found, meet, T, within_limits, out, scratch):
     """Certified solutions of one pose in the rows ``out``; their count.
 
     From ``places`` position solutions, whether these ``meet``, and ``found`` candidates of
-    :func:`add_merged`. Returned too is whether a candidate was lost, or axes 4 and 6 are nearly in
-    line.
+    :func:`add_merged`. The count is -1 minus that where a candidate was lost or axes 4 and 6 are
+    nearly in line, less ``DEEP`` where joint 2 is vague or a solution dull.
     """
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
-    (_, joints), merged, doubt = chain, found, False
+    (_, joints), merged, doubt, deep = chain, found, False, False
     for k in range(places):
         parted = add_wrist(form, D, place[k], R, slack, *rows, found)
         in_line = hypot(R[0, 2], R[1, 2])
         doubt = doubt or FREE < in_line < IN_LINE
+        deep = deep or place[k, 4] < 0.0
         for j in range(found, parted):
             rows[1][j] = -1.0
             if not (merged and hidden(joints, rows, merged, j)):
                 move(*rows, j, found)
                 found += 1
     left = certify_pose(chain, T, *rows, found, work)
-    doubt = doubt or (left < found and merged == 0)
+    for k in range(left):
+        deep = deep or rows[1][k] > DULL
+    doubt = doubt or deep or (left < found and merged == 0)
     name_families(chain, T, rows, left, doubt or meet, work)
     left = turn_inside(chain, T, within_limits, *rows, left)
-    return copy_rows(rows, left, out), doubt
+    left = copy_rows(rows, left, out)
+    return -1 - left - (DEEP if deep else 0) if doubt else left
 
 
 def make_scratch():
@@ -207,7 +215,7 @@ def make_scratch():
 
 
 def solve_pose(arm, T, within_limits, out, scratch):
-    """All solutions of one pose in ``out``; their count, and whether there may be more.
+    """All solutions of one pose in ``out``; their count, as :func:`finish_wrists` has it.
 
     Position solutions are parted, merged if they meet, and parted again.
     """
@@ -235,8 +243,6 @@ def solve_wrist_arm(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Ou
     scratch, doubts = make_scratch(), 0
     for i in range(Ts.shape[0]):
         out = q[i], residual[i], branch[i], free[i]
-        count[i], doubt = solve_pose(arm, Ts[i], within_limits, out, scratch)
-        if doubt:
-            count[i] = -1 - count[i]
-            doubts += 1
+        count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
+        doubts += 1 if count[i] < 0 else 0
     return doubts

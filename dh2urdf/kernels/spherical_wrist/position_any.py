@@ -28,11 +28,16 @@ from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,
     UPPER_FREE,
+    VAGUE,
     place_wrist_in_plane,
 )
 
 ON_AXIS = 1e-6
 """Distance [m] of the wrist centre from axis 2 at which it may be on it, but for rounding."""
+
+BESIDE = 1e-5
+"""Distance [m] of the wrist centre from axis 2 at which joint 2 is vague: joints 1 and 3 are off by
+the root of rounding where that is nearest."""
 
 OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
@@ -233,13 +238,14 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
         arm[k, 1], arm[k, 4] = z - vz, 0.0
         if form[1, 5] == 0.0:
             arm[k, 1] = atan2(vx * y - vy * x, vx * x + vy * y)
+            arm[k, 4] = VAGUE if vx * vx + vy * vy <= BESIDE * BESIDE else 0.0
             if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
                 near_c, near_s, off = _nearest(Y, form[0, 5] != 0.0, c, s)
                 near_e, near_f, miss = _nearest(V, form[2, 5] != 0.0, e, f)
                 off = max(off, miss)
                 if off <= ACCEPT or (slack > 0.0 and off <= ON_AXIS):
                     c, s, e, f, arm[k, 1] = near_c, near_s, near_e, near_f, form[1, 4]
-                    arm[k, 4] = UPPER_FREE if off <= ACCEPT else 0.0
+                    arm[k, 4] = UPPER_FREE if off <= ACCEPT else VAGUE
         if free:
             arm[k, 4] = SHOULDER_FREE
         arm[k, 0] = c if form[0, 5] != 0.0 else atan2(s, c)

@@ -22,6 +22,9 @@ WRIST_MASK = 0b111000
 SHOULDER_FREE = 0b000001 | WRIST_MASK
 UPPER_FREE = 0b000010 | WRIST_MASK
 
+VAGUE = -1.0
+"""In place of a mask: no joint is free, but joint 2 hardly moves the wrist centre."""
+
 
 def tool_to_wrist(ends, T, D):
     """Frame 6 in frame 0, ``D = base^-1 T tool^-1``, both inverses in ``ends``; D (4, 4)."""
