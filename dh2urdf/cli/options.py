@@ -7,14 +7,15 @@ A number on the command line is what it is in a table file: ``0.1``, ``-pi/2``, 
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ANGLE, DPI, LENGTH, NUMBER
-from dh2urdf.dh_io import FORMATS, Kind, Units, parse_cell
+from dh2urdf.dh_io import FORMATS, Kind, Told, Units, parse_cell, told
 from dh2urdf.dh_io.cells.units import SI
 from dh2urdf.dh_io.cells.values import FUNCTIONS
 from dh2urdf.doors import found
@@ -29,6 +30,27 @@ _VALUE = re.compile(
 
 Values = Annotated[list[str] | None, Parameter(consume_multiple=(1, None))]
 """Numbers after one option, parted by spaces or commas, read by :func:`read_numbers`."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Reading:
+    """How files are read that leave something to be told."""
+
+    convention: Literal["standard", "modified"] | None = None
+    """Convention of a table file that does not say it."""
+
+    units: str | None = None
+    """Units of a table file that does not say them, such as mm,deg."""
+
+    @property
+    def told(self) -> Told:
+        """What a table file is told."""
+        return told(self.convention, self.units)
+
+
+DEFAULT = Reading()
+
 
 Arm = Annotated[str, Parameter(help="A table file, the name of a table that ships, or a URDF.")]
 Link = Annotated[str | None, Parameter(help="Link of a URDF where the chain begins or ends.")]

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from dh2urdf.bounds import TABLE_BYTES
-from dh2urdf.cli.options import read_numbers
+from dh2urdf.cli.options import DEFAULT, Reading, read_numbers
 from dh2urdf.cli.progress import note
 from dh2urdf.dh import DHTable
-from dh2urdf.dh_io import Kind, TableFile, Units
+from dh2urdf.dh_io import Kind, TableFile, Told, Units
+from dh2urdf.dh_io.cells.told import NOTHING
 from dh2urdf.exceptions import ConfigurationError, TableError
 from dh2urdf.grids import grid_matrix, number
 from dh2urdf.transforms import Array
@@ -57,32 +58,34 @@ def stdin() -> BinaryIO:
     return getattr(sys.stdin, "buffer", None) or io.BytesIO(sys.stdin.read().encode())
 
 
-def read_source(source: str) -> TableFile:
-    """A table by path, by name, or from stdin (``-``, YAML)."""
+def read_source(source: str, told: Told = NOTHING) -> TableFile:
+    """A table by path, by name, or from stdin (``-``, YAML); what it does not say was told."""
     from dh2urdf.dh_io import parse_table
     from dh2urdf.dh_io.files import read_text
     from dh2urdf.robots import load_table_file
 
     if source == "-":
-        return parse_table(read_text(stdin(), TABLE_BYTES, TableError), "yaml", "<stdin>")
-    return load_table_file(source)
+        return parse_table(read_text(stdin(), TABLE_BYTES, TableError), "yaml", "<stdin>", told)
+    return load_table_file(source, told)
 
 
-def table_of(source: str) -> DHTable:
+def table_of(source: str, told: Told = NOTHING) -> DHTable:
     """The table of a source, its oddities noted on stderr."""
-    table, warnings = read_source(source)
+    table, warnings = read_source(source, told)
     for warning in warnings:
         note(f"warning: {warning}")
     return table
 
 
-def robot_of(source: str, base: str | None = None, tip: str | None = None) -> Robot:
+def robot_of(
+    source: str, base: str | None = None, tip: str | None = None, reading: Reading = DEFAULT
+) -> Robot:
     """The robot of a table or of a robot description, by suffix."""
     from dh2urdf.robot import Robot
 
     if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
         return Robot.from_urdf(source, base, tip)
-    return Robot.from_dh(table_of(source))
+    return Robot.from_dh(table_of(source, reading.told))
 
 
 def parse_configuration(

@@ -6,7 +6,8 @@ and a hint; `write_table` and `table_to_text` keep every number to the last bit.
 Keys of a file
     ``convention`` and ``units: {length, angle}`` have no default. ``name``, ``source``,
     ``checked``, ``constants``, ``base: {xyz, rpy}`` and ``tool: {xyz, rpy}`` may be left out.
-    ``joints`` is the list of rows.
+    ``joints`` is the list of rows. Where a file does not say convention and units, the caller
+    may (`told`).
 Keys of a row
     ``theta``, ``d``, ``a``, ``alpha`` at q = 0 (the one that the joint moves may be left out),
     ``name``, ``type`` (revolute, prismatic, fixed), ``sign``, ``lower``, ``upper``,
@@ -28,6 +29,7 @@ Messages
 
 from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign
 from dh2urdf.dh_io.cells.expressions import parse_cell
+from dh2urdf.dh_io.cells.told import Told, told
 from dh2urdf.dh_io.cells.units import SI, Kind, Units
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses

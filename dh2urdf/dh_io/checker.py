@@ -5,22 +5,28 @@ from dh2urdf.dh import DHConvention, DHRow, DHTable, Origin
 from dh2urdf.dh_io.cells.cells import Cells, Context, found
 from dh2urdf.dh_io.cells.document import NOWHERE, Items, Keys, Node, Report, Scalar
 from dh2urdf.dh_io.cells.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
+from dh2urdf.dh_io.cells.told import NOTHING, Told
 from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, unit_name
 from dh2urdf.dh_io.near_misses import near_misses
 from dh2urdf.dh_io.rows import read_row
 from dh2urdf.exceptions import TableError
 
+_NOT_OVERRULED = "; what a file says itself is not overruled"
 
-def check_document(root: Node, report: Report, name: str) -> DHTable:
-    """Turn a document into a table, named so where it gives no name, or into all its faults."""
+
+def check_document(root: Node, report: Report, name: str, told: Told = NOTHING) -> DHTable:
+    """Turn a document into a table, named so where it gives no name, or into all its faults.
+
+    Convention and units that it does not say are those that were told.
+    """
     if isinstance(root, Scalar) and not root.text:
         report.stop(NOWHERE, "the file is empty")
     if not isinstance(root, Keys):
         hint = "a table file opens with keys: convention, units, joints"
         report.stop(root.mark, f"no table: found {found(root)}", hint)
     cells = Cells(root, "", TABLE_KEYS, report)
-    convention = _convention(cells, report)
-    context = Context(report, _units(cells, report))
+    convention = _convention(cells, report, told)
+    context = Context(report, _units(cells, report, told))
     if (constants := cells.get("constants")) is not None:
         context.define(constants)
     rows = _rows(cells, context)
@@ -57,46 +63,61 @@ def _warn(table: DHTable, context: Context) -> None:
         context.report.warn(place.mark if place else next(inside, NOWHERE), path, message)
 
 
-def _convention(cells: Cells, report: Report) -> DHConvention:
+def _convention(cells: Cells, report: Report, told: Told) -> DHConvention:
     cell = cells.get("convention")
     meaning = "standard (distal: Paul, Spong) or modified (proximal: Craig, Khalil)"
     if cell is None:
-        hint = "there is no default: the two look alike and describe different arms"
-        if cells.is_missing("convention"):
+        if told.convention is None and cells.is_missing("convention"):
+            example = report.example("convention", "standard")
+            hint = f"write {example}, or give --convention; there is no default: the two look"
+            hint += " alike and describe different arms"
             report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
-        return DHConvention.STANDARD
+        return told.convention or DHConvention.STANDARD
     word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
     if word not in CONVENTIONS:
         hint = did_you_mean(word, CONVENTIONS) if word != "dh" else "dh alone does not say which"
         report.fault(cell.mark, "convention", f"found {found(cell)}; allowed: {meaning}", hint)
-    return CONVENTIONS.get(word, DHConvention.STANDARD)
+    convention = CONVENTIONS.get(word, DHConvention.STANDARD)
+    if told.convention not in (None, convention) and not told.may_differ:
+        message = f"found {found(cell)}, but told {told.convention}{_NOT_OVERRULED}"
+        report.fault(cell.mark, "convention", message)
+    return convention
 
 
-def _units(cells: Cells, report: Report) -> Units:
+def _units(cells: Cells, report: Report, told: Told) -> Units:
     node = cells.get("units")
     allowed = {kind.value: ", ".join(UNIT_SIZES[kind]) for kind in (Kind.LENGTH, Kind.ANGLE)}
     meaning = f"length ({allowed['length']}) and angle ({allowed['angle']})"
-    hint = "for instance units: {length: mm, angle: deg}"
+    hint = f"for instance {report.example('units', length='mm', angle='deg')}"
     if not isinstance(node, Keys):
         if node is not None:
             report.fault(node.mark, "units", f"found {found(node)}; expected {meaning}", hint)
-        elif cells.is_missing("units"):
-            hint += "; there is no default"
+        elif cells.is_missing("units") and not (told.length and told.angle):
+            hint += ", or give --units mm,deg; there is no default"
             report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
-        return SI
+        return Units(told.length or SI.length, told.angle or SI.angle)
     parts = Cells(node, "units", ("length", "angle"), report)
-    units = SI
-    for kind in (Kind.LENGTH, Kind.ANGLE):
-        cell = parts.get(kind.value)
-        unit = unit_name(cell.text) if isinstance(cell, Scalar) else ""
-        if unit in UNIT_SIZES[kind]:
-            units = units._replace(**{kind.value: unit})
-        elif cell is not None or parts.is_missing(kind.value):
-            message = f"found {found(cell)}; " if cell is not None else "missing; "
-            message += f"allowed: {allowed[kind.value]}"
-            hint = did_you_mean(unit, UNIT_SIZES[kind]) if unit else ""
-            report.fault(parts.mark_of(kind.value), f"units.{kind.value}", message, hint)
-    return units
+    return Units(*(_unit(parts, kind, report, told) for kind in (Kind.LENGTH, Kind.ANGLE)))
+
+
+def _unit(parts: Cells, kind: Kind, report: Report, told: Told) -> str:
+    """Unit of lengths or of angles."""
+    key, otherwise = kind.value, getattr(told, kind.value)
+    cell = parts.get(key)
+    if cell is None and otherwise:
+        return str(otherwise)
+    unit = unit_name(cell.text) if isinstance(cell, Scalar) else ""
+    if unit in UNIT_SIZES[kind]:
+        if otherwise not in ("", unit) and not told.may_differ and cell is not None:
+            message = f"found {found(cell)}, but told {otherwise}{_NOT_OVERRULED}"
+            report.fault(cell.mark, f"units.{key}", message)
+        return unit
+    if cell is not None or parts.is_missing(key):
+        message = f"found {found(cell)}; " if cell is not None else "missing; "
+        message += f"allowed: {', '.join(UNIT_SIZES[kind])}"
+        hint = did_you_mean(unit, UNIT_SIZES[kind]) if unit else ""
+        report.fault(parts.mark_of(key), f"units.{key}", message, hint)
+    return SI.of(kind)
 
 
 def _rows(cells: Cells, context: Context) -> list[DHRow]:

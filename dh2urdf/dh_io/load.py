@@ -2,10 +2,12 @@
 
 import difflib
 import os
+from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
-from dh2urdf.dh import DHTable
+from dh2urdf.dh import DHConvention, DHTable
+from dh2urdf.dh_io.cells.told import NOTHING, Told, told
 from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
 from dh2urdf.exceptions import NameNotFoundError
@@ -27,7 +29,11 @@ def as_table(table: TableLike) -> DHTable:
     return table if isinstance(table, DHTable) else load_table(table)
 
 
-def load_table(path: str | os.PathLike[str]) -> DHTable:
+def load_table(
+    path: str | os.PathLike[str],
+    convention: DHConvention | str | None = None,
+    units: Iterable[str] | str | None = None,
+) -> DHTable:
     """A DH table from a file, or one that ships, by name.
 
     Parameters
@@ -35,6 +41,9 @@ def load_table(path: str | os.PathLike[str]) -> DHTable:
     path : path or str
         A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
         package (``.urdf``: the table that it carries), or a name of :func:`list_tables`.
+    convention, units : optional
+        For a file that does not say them: ``"modified"``, ``"mm,deg"``. One that says otherwise
+        is refused.
 
     Raises
     ------
@@ -43,10 +52,10 @@ def load_table(path: str | os.PathLike[str]) -> DHTable:
     NameNotFoundError
         Neither a file nor a name; the message lists the names that are near.
     """
-    return load_table_file(path).table
+    return load_table_file(path, told(convention, units)).table
 
 
-def load_table_file(path: str | os.PathLike[str]) -> TableFile:
+def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> TableFile:
     """Like :func:`load_table`, with what looked odd about the file."""
     where = path_of(path, "table", "a DHTable, a path or the name of a table that ships")
     if where.suffix.lower() == ".urdf":
@@ -54,9 +63,9 @@ def load_table_file(path: str | os.PathLike[str]) -> TableFile:
 
         return TableFile(embedded_table(where), ())
     if isinstance(path, str) and path in list_tables():
-        return read_table(FOLDER / f"{path}.yaml")
+        return read_table(FOLDER / f"{path}.yaml", told=told)
     if where.suffix.lower() in FORMATS or os.path.exists(where):
-        return read_table(where)
+        return read_table(where, told=told)
     names = list_tables()
     close = difflib.get_close_matches(where.name, names, 3, 0.5)
     hint = f"did you mean {' or '.join(close)}?" if close else "`dh2urdf list` names them"

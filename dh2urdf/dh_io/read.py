@@ -9,6 +9,7 @@ from typing import NamedTuple
 from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.cells.document import Node, Report
+from dh2urdf.dh_io.cells.told import NOTHING, Told
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, read_text, shown
 from dh2urdf.dh_io.formats.csv import read_csv
@@ -58,7 +59,9 @@ def format_of(path: str | os.PathLike[str]) -> str:
     raise TableFileError(message)
 
 
-def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> TableFile:
+def read_table(
+    path: str | os.PathLike[str], *, format: str | None = None, told: Told = NOTHING
+) -> TableFile:
     """Read a table from a YAML, TOML, JSON, CSV or Markdown file.
 
     Parameters
@@ -66,6 +69,8 @@ def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> Ta
     path : path
     format : str, optional
         ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``; by the suffix where not given.
+    told : Told
+        Convention and units, for a file that does not say them.
 
     Raises
     ------
@@ -83,17 +88,19 @@ def read_table(path: str | os.PathLike[str], *, format: str | None = None) -> Ta
         raise TableFileError(
             f"{error}\n  hint: did you mean {near}?" if near else str(error)
         ) from None
-    return parse_table(text, kind or "yaml", shown(where))
+    return parse_table(text, kind or "yaml", shown(where), told)
 
 
-def parse_table(text: str, format: str, filename: str = "<text>") -> TableFile:
+def parse_table(
+    text: str, format: str, filename: str = "<text>", told: Told = NOTHING
+) -> TableFile:
     """Read a table from a text in one of the formats.
 
     Messages call the text by the file's name, whose stem names a table that has no name.
     """
-    report = Report.of_text(filename, text)
     read = _READERS[choice(format, "format", _READERS, TableFileError)]
-    table = check_document(read(text, report), report, Path(filename).stem or "robot")
+    report = Report.of_text(filename, text, format)
+    table = check_document(read(text, report), report, Path(filename).stem or "robot", told)
     return TableFile(table, report.warnings)
 
 

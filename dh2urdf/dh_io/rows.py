@@ -108,9 +108,10 @@ class _Row:
             label = self.cells.get("name")
             match = _VARIABLE.fullmatch(name)
             mine = isinstance(label, Scalar) and label.text == name
-            if not match and not mine:
-                raise self.context.unknown(name, own)
-            if key not in ("theta", "d"):
+            constant = key not in ("theta", "d")
+            if not mine and (not match or (constant and match["length"])):
+                raise self.context.unknown(name, "" if constant else own)
+            if constant:
                 raise ExpressionError(f"{key} is constant; a joint variable stands in theta or d")
             if match and not mine:
                 self.check_name(name, match, kind, own)
@@ -124,7 +125,8 @@ class _Row:
         wrong_kind = match["length"] if kind is Kind.ANGLE else match["angle"]
         if wrong_kind or (index not in (None, "i") and int(index) != self.joint):
             message = f"{name!r} is not the variable of this row (joint {self.joint})"
-            hint = f"the row's own variable is {own}; for a constant give {name} under constants:"
+            hint = f"the row's own variable is {own}; {name} is a constant with "
+            hint += self.context.report.example("constants", **{name: "0.4"})
             raise ExpressionError(message, hint)
 
     def sign(self, parts: dict[str, Value | None]) -> int:
@@ -170,7 +172,8 @@ class _Row:
         moving = "d" if self.type is JointType.PRISMATIC else "theta"
         for key in _PARAMETERS:
             if key != moving and self.cells.is_missing(key):
-                self.fault(key, "missing", f"write {key}: 0 if there is none")
+                example = self.context.report.cell(key, "0")
+                self.fault(key, "missing", f"write {example} if there is none")
 
     def kept(self, key: str, read: Callable[..., Read | None], *how: object) -> Read | None:
         """What a cell is read as, None where there is none; one without a value is bad."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import Json, whole
+from dh2urdf.cli.options import DEFAULT, Json, Reading, whole
 from dh2urdf.cli.output import emit, emit_json, read_source
 from dh2urdf.cli.progress import note, track
 from dh2urdf.conversions.write import UrdfOptions
@@ -26,6 +26,7 @@ def convert_(
     dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
     digits: Annotated[int | None, whole(0, 17)] = None,
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
+    reading: Reading = DEFAULT,
     json: Json = False,
 ) -> int:
     """Turn DH tables into URDF files that Pinocchio has checked, or into tables of other formats.
@@ -74,10 +75,11 @@ def convert_(
         except (OSError, ValueError) as error:
             raise Dh2UrdfError(f"{shown(out_dir)}: {getattr(error, 'strerror', error)}") from None
     if len(tables) == 1:
-        result = _convert(tables[0], _target(tables[0], output, out_dir), options, force)
+        target = _target(tables[0], output, out_dir)
+        result = _convert(tables[0], reading, target, options, force)
         _show_one(result, json=json)
         return 0
-    return _convert_many(tables, out_dir or Path(), options, force=force, json=json)
+    return _convert_many(tables, reading, out_dir or Path(), options, force=force, json=json)
 
 
 def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
@@ -90,9 +92,11 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
     return (out_dir or Path()) / f"{stem}.urdf"
 
 
-def _convert(source: str, target: Path, options: UrdfOptions, force: bool) -> dict[str, Any]:
+def _convert(
+    source: str, reading: Reading, target: Path, options: UrdfOptions, force: bool
+) -> dict[str, Any]:
     """What was written, as JSON has it."""
-    table, warnings = read_source(source)
+    table, warnings = read_source(source, reading.told)
     try:
         made = _made(table, target, options, force)
     except TableError as error:  # a warning of the reader may tell where
@@ -145,7 +149,13 @@ def _checked(result: dict[str, object]) -> str:
 
 
 def _convert_many(
-    tables: tuple[str, ...], out_dir: Path, options: UrdfOptions, *, force: bool, json: bool
+    tables: tuple[str, ...],
+    reading: Reading,
+    out_dir: Path,
+    options: UrdfOptions,
+    *,
+    force: bool,
+    json: bool,
 ) -> int:
     """Convert one after another; a bad file is reported and does not stop the rest."""
     done, failed = [], []
@@ -155,7 +165,7 @@ def _convert_many(
         try:
             if target in targets:
                 raise Dh2UrdfError(f"{source}: {target} was already written from {targets[target]}")
-            done.append(_convert(source, target, options, force))
+            done.append(_convert(source, reading, target, options, force))
             targets[target] = source
         except Dh2UrdfError as error:
             failed.append({"source": source, "error": str(error)})

@@ -5,7 +5,18 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values
+from dh2urdf.cli.options import (
+    DEFAULT,
+    Arm,
+    Deg,
+    Dpi,
+    Force,
+    Json,
+    Link,
+    PicturePath,
+    Reading,
+    Values,
+)
 from dh2urdf.cli.output import emit, emit_json, parse_angles, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
 from dh2urdf.transforms import Array
@@ -25,6 +36,7 @@ def figure_(
     view: Values = None,
     base: Link = None,
     tip: Link = None,
+    reading: Reading = DEFAULT,
     dpi: Dpi = 180.0,
     force: Force = False,
     json: Json = False,
@@ -50,7 +62,7 @@ def figure_(
     from dh2urdf.figures.save import check_target
 
     check_target(output, force=force)
-    arm = robot_of(robot, base, tip)
+    arm = robot_of(robot, base, tip, reading)
     eye = parse_angles(view, "--view", 2, deg=True)
     config = parse_configuration(q, arm, deg=deg) if q else None
     ghosts, names = list[Array](), list[str]()

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.cli.options import Arm, Json, Link, Values
+from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
 from dh2urdf.cli.output import (
     emit,
     emit_json,
@@ -26,6 +26,7 @@ def fk_(
     deg: bool = False,
     base: Link = None,
     tip: Link = None,
+    reading: Reading = DEFAULT,
     json: Json = False,
 ) -> None:
     """Place the tip: forward kinematics of a table or a URDF.
@@ -39,7 +40,7 @@ def fk_(
     deg
         Bare angles are degrees, and the orientation is shown in degrees.
     """
-    arm = robot_of(robot, base, tip)
+    arm = robot_of(robot, base, tip, reading)
     config = parse_configuration([*values, *(q or [])], arm, deg=deg)
     T = arm.fk(config)
     rpy = matrix_to_rpy(T)

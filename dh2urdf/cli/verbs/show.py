@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from dh2urdf.cli.options import Deg, Json, Values
+from dh2urdf.cli.options import DEFAULT, Deg, Json, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line
@@ -28,6 +28,7 @@ def show_(
     deg: Deg = False,
     symbolic: bool = False,
     format: str = "text",
+    reading: Reading = DEFAULT,
     json: Json = False,
 ) -> None:
     """Print a table, each of its transforms, their product, and its solver.
@@ -45,7 +46,7 @@ def show_(
     format
         Of the table alone: text, markdown, csv, latex, html.
     """
-    arm = Robot.from_dh(table_of(table))
+    arm = Robot.from_dh(table_of(table, reading.told))
     dh = arm.table
     assert dh is not None
     if choice(format, "--format", ("text", *WRITERS)) != "text":

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import Deg, Link, Values, whole
+from dh2urdf.cli.options import DEFAULT, Deg, Link, Reading, Values, whole
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
 
@@ -17,6 +17,7 @@ def view_(
     deg: Deg = False,
     base: Link = None,
     tip: Link = None,
+    reading: Reading = DEFAULT,
     host: str = "127.0.0.1",
     port: Annotated[int | None, whole(0, 65_535)] = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
@@ -44,7 +45,7 @@ def view_(
     from dh2urdf.viewer import view
     from dh2urdf.viewer.tabs.table_tab import new_table
 
-    arm = robot_of(robot, base, tip) if robot else Robot.from_dh(new_table())
+    arm = robot_of(robot, base, tip, reading) if robot else Robot.from_dh(new_table())
     shown = view(arm, parse_configuration(q, arm, deg=deg) if q else None, host=host, port=port)
     with shown:
         if json:

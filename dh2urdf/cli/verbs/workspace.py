@@ -5,7 +5,19 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, PicturePath, Values, real, whole
+from dh2urdf.cli.options import (
+    DEFAULT,
+    Arm,
+    Dpi,
+    Force,
+    Json,
+    Link,
+    PicturePath,
+    Reading,
+    Values,
+    real,
+    whole,
+)
 from dh2urdf.cli.output import emit, emit_json, parse_angles, robot_of
 from dh2urdf.cli.progress import bar
 from dh2urdf.dh_io import Kind
@@ -25,6 +37,7 @@ def workspace_(
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
     base: Link = None,
     tip: Link = None,
+    reading: Reading = DEFAULT,
     dpi: Dpi = 180.0,
     force: Force = False,
     json: Json = False,
@@ -55,7 +68,7 @@ def workspace_(
     from dh2urdf.figures.save import check_target
 
     check_target(output, force=force)
-    arm = robot_of(robot, base, tip)
+    arm = robot_of(robot, base, tip, reading)
     with bar("mapping", 1) as report:
         picture = workspace_figure(
             arm,

@@ -14,6 +14,7 @@ from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 _SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
+_LINK_LENGTH = re.compile(r"[lI]_?\d")
 _NUMBER_MUST = re.compile(r"^-?[\d.e+-]+ (?=must)")
 _PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
@@ -104,7 +105,8 @@ class Context:
         if self.constants:
             known = f"constants: has {', '.join(sorted(self.constants)[:12])}"
         else:
-            known = f"give its value under constants: ({name:.20} = ...)"
+            example = self.report.example("constants", **{f"{name:.20}": "0.4"})
+            known = f"give its value, as in {example}"
         return ExpressionError(
             f"{name!r} has no value", _slip(name) or did_you_mean(name, names) or known
         )
@@ -144,6 +146,8 @@ _EXAMPLES = {
 
 def _slip(text: str) -> str:
     """Hint where only letters for digits or a decimal comma keep a text from being a number."""
+    if _LINK_LENGTH.fullmatch(text.strip()):
+        return ""
     fixed = text.strip().translate(_SLIPS)
     right = fixed != text.strip() and _PLAIN_NUMBER.fullmatch(fixed) and any(map(str.isdigit, text))
     return f"did you mean {fixed}?" if right else ""

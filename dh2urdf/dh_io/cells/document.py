@@ -18,6 +18,9 @@ MAX_SHOWN = 25
 
 SNIPPET_WIDTH = 96
 
+_EQUALS = {"yaml": (": ", "", ""), "toml": (" = ", "", '"'), "json": (": ", '"', '"')}
+"""Of a format with keys: what stands after a key, and the quotes of keys and of words."""
+
 _CONTROL = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff]")
 
 
@@ -79,17 +82,18 @@ Node = Scalar | Items | Keys
 class Report:
     """Faults and warnings of one file, collected so that all are told at once."""
 
-    def __init__(self, filename: str, text: str = "") -> None:
+    def __init__(self, filename: str, text: str = "", format: str = "yaml") -> None:
         self.filename, self.lines, self._cells = filename, text.split("\n"), 0
+        self.format = format
         self._faults: list[tuple[Mark, str]] = []
         self._warnings: list[tuple[Mark, str]] = []
 
     @classmethod
-    def of_text(cls, filename: str, text: str) -> "Report":
+    def of_text(cls, filename: str, text: str, format: str = "yaml") -> "Report":
         """Report of a text that has been looked at: of bounded size, printable, not empty."""
         if not isinstance(text, str):
             raise TableFileError(f"text: expected a text, got {value(text)}")
-        report = cls(filename, text)
+        report = cls(filename, text, format)
         if "\0" in text:
             report.stop(NOWHERE, "not a text file: it holds binary data")
         if len(text) > TABLE_BYTES:
@@ -123,6 +127,27 @@ class Report:
         self.fault(mark, "", message, hint)
         self.raise_faults()
         raise AssertionError("unreachable")
+
+    def example(self, key: str, word: str = "", **parts: str) -> str:
+        """How the file's own format says so: ``units: {length: mm, angle: deg}``."""
+        if self.format not in _EQUALS:
+            start = "# " if self.format == "csv" else ""
+            if key == "constants":
+                return ", ".join(f"{start}{key}.{name}: {value}" for name, value in parts.items())
+            return f"{start}{key}: {word or ', '.join(parts.values())}"
+        equals, name, text = _EQUALS[self.format]
+        if word:
+            return f"{name}{key}{name}{equals}{text}{word}{text}"
+        cells = {k: v if v[:1].isdigit() else f"{text}{v}{text}" for k, v in parts.items()}
+        inside = ", ".join(f"{name}{k}{name}{equals}{v}" for k, v in cells.items())
+        return f"{name}{key}{name}{equals}{{{inside}}}"
+
+    def cell(self, key: str, value: str) -> str:
+        """How a row's cell says so: ``a: 0``, or the value alone where columns have headings."""
+        if self.format not in _EQUALS:
+            return value
+        equals, name, _ = _EQUALS[self.format]
+        return f"{name}{key}{name}{equals}{value}"
 
     def raise_faults(self) -> None:
         """Raise one error with all faults noted so far, in the file's order."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.options import Arm, Json, Link, Values
+from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.verbs.ik.poses import Poses, pose_of, poses_of_csv
@@ -47,6 +47,7 @@ def ik_(
     deg: bool = False,
     base: Link = None,
     tip: Link = None,
+    reading: Reading = DEFAULT,
     json: Json = False,
 ) -> int:
     """Find every configuration that reaches a pose, each measured by Pinocchio.
@@ -78,7 +79,7 @@ def ik_(
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
-    arm = robot_of(robot, base, tip)
+    arm = robot_of(robot, base, tip, reading)
     options: _Options = {"locked": _held(locked, arm, deg=deg), "task": task}
     options |= {"within_limits": within_limits, "nearest": nearest}
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
