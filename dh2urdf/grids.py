@@ -10,6 +10,13 @@ Grid = Sequence[Sequence[str]]
 HTML_COLOURS = {"theta": "#c2188b", "d": "#00808a", "a": "#d97000", "alpha": "#6a3fbf"}
 """One colour per DH quantity, the same in tables, figures and the browser view."""
 
+PAGE_STYLE = (
+    "body{font:16px/1.45 system-ui,sans-serif;margin:2em;color:#222}"
+    "table{font-variant-numeric:tabular-nums;margin-bottom:1.5em}"
+    "caption{white-space:pre-line;padding-bottom:.6em}"
+    "thead tr{border-bottom:1px solid #999}p{max-width:46em;color:#555}"
+)
+
 
 def number(value: float, *, minus: str = "\N{MINUS SIGN}") -> str:
     """Shortest decimal that reads back as the same float, with a true minus sign."""
@@ -90,4 +97,20 @@ def grid_html(header: Sequence[str], rows: Grid, *, keys: Sequence[str], caption
         f'<table style="border-collapse:collapse"><caption style="text-align:left">'
         f"{html.escape(caption)}</caption><thead><tr>{head}</tr></thead>"
         f"<tbody>{''.join(body)}</tbody></table>"
+    )
+
+
+def paragraph(text: str) -> str:
+    """A paragraph of plain text."""
+    return f"<p>{html.escape(text)}</p>"
+
+
+def html_page(heading: str, parts: Sequence[str]) -> str:
+    """A page of its own, of parts that are HTML already."""
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{html.escape(heading)}</title>\n<style>{PAGE_STYLE}</style>\n</head>\n<body>\n"
+        + "\n".join(parts)
+        + "\n</body>\n</html>"
     )

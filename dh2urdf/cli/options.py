@@ -150,6 +150,8 @@ def whole(low: int, high: int) -> Parameter:
 
 Dpi = Annotated[float, real(*DPI), Parameter(help="Resolution of a PNG.")]
 
+Digits = Annotated[int | None, whole(0, 17)]
+
 _TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
 
 ALONE: dict[str, dict[str, str]] = {

@@ -1,29 +1,49 @@
-"""How a DH table prints: text, HTML, Markdown, LaTeX; angles in degrees, lengths in metres."""
+"""How a DH table prints for people: text, HTML, LaTeX; in metres and degrees by default.
+
+What programs read is written by `dh2urdf.dh_io`.
+"""
 
 import math
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, Protocol
 
 from dh2urdf import grids
 from dh2urdf.dh.motions import DHConvention
-from dh2urdf.dh.quoting import latex, markdown, one_line
+from dh2urdf.dh.quoting import latex, one_line
 from dh2urdf.dh.row import DHRow, Origin
 from dh2urdf.grids import number
 
 ROUNDING = 4e-16
 """Relative difference of two conversions from degrees, each rounded once."""
 
+MINUS = "\N{MINUS SIGN}"
+
 COLUMNS = {
     "i": ("i", "$i$"),
     "name": ("joint", "joint"),
-    "theta": ("θ [deg]", r"$\theta_i$ [deg]"),
-    "d": ("d [m]", r"$d_i$ [m]"),
-    "a": ("a [m]", r"$a_i$ [m]"),
-    "alpha": ("α [deg]", r"$\alpha_i$ [deg]"),
+    "theta": ("θ", r"$\theta_i$"),
+    "d": ("d", "$d_i$"),
+    "a": ("a", "$a_i$"),
+    "alpha": ("α", r"$\alpha_i$"),
     "limits": ("limits of q", "limits of $q_i$"),
     "step": ("fixed step", "fixed step"),
+    "velocity": ("velocity", "velocity"),
+    "effort": ("effort [N m or N]", "effort [N\\,m or N]"),
+    "damping": ("damping [N m s/rad or N s/m]", "damping [N\\,m\\,s/rad or N\\,s/m]"),
+    "friction": ("friction [N m or N]", "friction [N\\,m or N]"),
+    "mass": ("mass [kg]", "$m_i$ [kg]"),
+    "com": ("centre of mass", "centre of mass"),
+    "inertia": (
+        "inertia ixx, ixy, ixz, iyy, iyz, izz [kg m²]",
+        "$I_{xx}, I_{xy}, I_{xz}, I_{yy}, I_{yz}, I_{zz}$ [kg\\,m$^2$]",
+    ),
 }
 """Heads of the columns by key, in plain text and in LaTeX."""
+
+PREVIOUS = {"a": ("aᵢ₋₁", "$a_{i-1}$"), "alpha": ("αᵢ₋₁", r"$\alpha_{i-1}$")}
+"""Heads of the columns that a modified table takes from the link before."""
+
+_DYNAMICS = ("velocity", "effort", "damping", "friction", "mass", "com", "inertia")
 
 
 class _Table(Protocol):
@@ -43,6 +63,10 @@ class _Table(Protocol):
     def n(self) -> int: ...
     @property
     def joint_names(self) -> Sequence[str]: ...
+    @property
+    def source(self) -> str: ...
+    @property
+    def checked(self) -> str: ...
 
 
 def degrees(value: float) -> str:
@@ -55,107 +79,180 @@ def degrees(value: float) -> str:
     return number(exact)
 
 
+class Look(NamedTuple):
+    """Units in which a table prints, and how [m] and [rad] become a text in them."""
+
+    length: str = "m"
+    angle: str = "deg"
+    of_length: Callable[[float], str] = number
+    of_angle: Callable[[float], str] = degrees
+
+    def limit(self, value: float, slides: bool) -> str:
+        """A limit or speed, for reading: of seven digits or more in degrees, two decimals."""
+        text = (self.of_length if slides else self.of_angle)(value)
+        if slides or self.angle != "deg" or len(text.strip(MINUS).replace(".", "")) < 7:
+            return text
+        exact = math.degrees(value)
+        return number(float(f"{exact:.3g}") if abs(exact) < 1 else round(exact, 2))
+
+    def triple(self, values: Sequence[float]) -> str:
+        """A point: ``(0, 1.5, 0) m``."""
+        return f"({', '.join(map(self.of_length, values))}) {self.length}"
+
+
+LOOK = Look()
+
+
 def plus(variable: str, offset: str) -> str:
     """``variable + offset`` with zero left out and a minus sign folded in."""
     if offset == "0":
         return variable
-    minus = "\N{MINUS SIGN}"
-    if offset.startswith(minus):
-        return f"{variable} {minus} {offset.removeprefix(minus)}"
+    if offset.startswith(MINUS):
+        return f"{variable} {MINUS} {offset.removeprefix(MINUS)}"
     return f"{variable} + {offset}"
 
 
-def table_grid(table: _Table) -> tuple[list[str], list[str], list[list[str]]]:
+def heads(table: _Table, look: Look = LOOK) -> dict[str, tuple[str, str]]:
+    """Heads of the columns as the table's convention and the units have them."""
+    named = COLUMNS | (PREVIOUS if table.convention is DHConvention.MODIFIED else {})
+    units = dict.fromkeys(("theta", "alpha"), look.angle) | dict.fromkeys("da", look.length)
+    return {
+        key: (f"{plain} [{units[key]}]", f"{tex} [{units[key]}]") if key in units else (plain, tex)
+        for key, (plain, tex) in named.items()
+    }
+
+
+def table_grid(table: _Table, look: Look = LOOK) -> tuple[list[str], list[str], list[list[str]]]:
     """Keys, header and cells of a table; columns that say nothing are left out."""
     rows, joint = [], 0
     for row in table.rows:
         joint += row.is_joint
         name = one_line(table.joint_names[joint - 1]) if row.is_joint else ""
-        rows.append(_cells(row, joint, name))
-    own, head = [*COLUMNS], [plain for plain, _ in COLUMNS.values()]
+        rows.append(_cells(row, joint, name, look))
+    own, named = [*COLUMNS][:8], heads(table, look)
     kept = [k for k, key in enumerate(own) if key in own[:6] or any(r[k] for r in rows)]
-    keys, header, *cells = ([r[k] for k in kept] for r in (own, head, *rows))
+    keys, header, *cells = ([r[k] for k in kept] for r in (own, [named[k][0] for k in own], *rows))
     return keys, header, cells
 
 
-def _cells(row: DHRow, i: int, name: str) -> list[str]:
-    theta, d = degrees(row.theta), number(row.d)
+def _cells(row: DHRow, i: int, name: str, look: Look) -> list[str]:
+    theta, d, a, alpha = (
+        *(look.of_angle(row.theta), look.of_length(row.d)),
+        *(look.of_length(row.a), look.of_angle(row.alpha)),
+    )
     if not row.is_joint:
         if row.origin is not None:
-            return ["", "fixed", "", "", "", "", "", step(row.origin)]
-        return ["", "fixed", theta, d, number(row.a), degrees(row.alpha), "", ""]
-    sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
+            return ["", "fixed", "", "", "", "", "", step(row.origin, look)]
+        return ["", "fixed", theta, d, a, alpha, "", ""]
+    sign = "" if row.sign > 0 else MINUS
     slides = row.joint_type == "prismatic"
     if slides:
         d = plus(f"{sign}q{i}", d)
     else:
         theta = plus(f"{sign}q{i}", theta)
-    show = number if slides else degrees
-    low = "" if row.lower is None else show(row.lower)
-    high = "" if row.upper is None else show(row.upper)
-    unit = " m" if slides else "°"
+    low = "" if row.lower is None else look.limit(row.lower, slides)
+    high = "" if row.upper is None else look.limit(row.upper, slides)
+    unit = f" {look.length}" if slides else "°" if look.angle == "deg" else f" {look.angle}"
     limits = f"{low or '…'} to {high or '…'}{unit}" if low or high else ""
-    return [str(i), name, theta, d, number(row.a), degrees(row.alpha), limits, ""]
+    return [str(i), name, theta, d, a, alpha, limits, ""]
 
 
-def step(origin: Origin) -> str:
+def dynamics_grid(table: _Table, look: Look = LOOK) -> tuple[list[str], list[str], list[list[str]]]:
+    """The same of speeds, efforts, losses and masses; no rows where the table has none."""
+    rows = []
+    for i, (name, row) in enumerate(
+        zip(table.joint_names, (r for r in table.rows if r.is_joint), strict=True), 1
+    ):
+        rows.append([str(i), one_line(name), *(_dynamic(row, key, look) for key in _DYNAMICS)])
+    keys, named = ["i", "name", *_DYNAMICS], heads(table, look)
+    kept = [k for k in range(len(keys)) if k < 2 or any(row[k] for row in rows)]
+    header = [named[keys[k]][0] for k in kept]
+    cells = [[row[k] for k in kept] for row in rows] if len(kept) > 2 else []
+    return [keys[k] for k in kept], header, cells
+
+
+def _dynamic(row: DHRow, key: str, look: Look) -> str:
+    value = getattr(row, key)
+    if value is None:
+        return ""
+    if key == "com":
+        return look.triple(value)
+    if key == "velocity":
+        slides = row.joint_type == "prismatic"
+        return f"{look.limit(value, slides)} {look.length if slides else look.angle}/s"
+    return ", ".join(map(number, value)) if key == "inertia" else number(value)
+
+
+def step(origin: Origin, look: Look = LOOK) -> str:
     """A rigid step in words: ``xyz (0, 1.5, 0) m, rpy (0, 0, 90) deg``."""
-    xyz = ", ".join(number(v) for v in origin.xyz)
-    rpy = ", ".join(degrees(v) for v in origin.rpy)
-    return f"xyz ({xyz}) m" + (f", rpy ({rpy}) deg" if any(origin.rpy) else "")
+    rpy = ", ".join(map(look.of_angle, origin.rpy))
+    turn = f", rpy ({rpy}) {look.angle}" if any(origin.rpy) else ""
+    return f"xyz {look.triple(origin.xyz)}{turn}"
 
 
-def title(table: _Table) -> str:
+def title(table: _Table, look: Look = LOOK) -> str:
     """Name and convention, and the base and tool where there are any."""
     lines = [
         f"{one_line(table.name)}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"
     ]
     steps = {"base": table.base, "tool": table.tool}
-    lines += [f"{key}: {step(origin)}" for key, origin in steps.items() if not origin.is_identity]
+    lines += [
+        f"{key}: {step(origin, look)}" for key, origin in steps.items() if not origin.is_identity
+    ]
     return "\n".join(lines)
 
 
-def table_text(table: _Table) -> str:
+def origins(table: _Table) -> list[str]:
+    """Where the figures come from and what they were checked against, a line each."""
+    texts = (("source", table.source), ("checked", table.checked))
+    return [f"{key}: {' '.join(one_line(text).split())}" for key, text in texts if text]
+
+
+def table_text(table: _Table, look: Look = LOOK) -> str:
     """The table for a terminal."""
-    _, header, rows = table_grid(table)
-    return f"{title(table)}\n\n{grids.grid_text(header, rows)}"
+    _, header, rows = table_grid(table, look)
+    return f"{title(table, look)}\n\n{grids.grid_text(header, rows)}"
 
 
-def table_markdown(table: _Table) -> str:
-    """The table as a Markdown pipe table, angles in degrees."""
-    keys, header, rows = table_grid(table)
-    at = keys.index("name")
-    cells = [[markdown(c) if k == at else c for k, c in enumerate(row)] for row in rows]
-    return grids.grid_markdown(header, cells)
-
-
-def table_html(table: _Table) -> str:
+def table_html(table: _Table, look: Look = LOOK) -> str:
     """The table for a notebook."""
-    keys, header, rows = table_grid(table)
-    return grids.grid_html(header, rows, keys=keys, caption=title(table))
+    keys, header, rows = table_grid(table, look)
+    return grids.grid_html(header, rows, keys=keys, caption=title(table, look))
 
 
-def table_csv(table: _Table) -> str:
-    """The table as comma-separated values as shown, angles in degrees."""
-    _, header, rows = table_grid(table)
-    return grids.grid_csv(header, rows)
+def html_page(table: _Table, look: Look = LOOK) -> str:
+    """All of the table as a page of its own."""
+    keys, header, rows = dynamics_grid(table, look)
+    caption = "speeds, efforts and masses; centre of mass and inertia in the frame of the row"
+    parts = [table_html(table, look)]
+    parts += [grids.grid_html(header, rows, keys=keys, caption=caption)] if rows else []
+    return grids.html_page(one_line(table.name), [*parts, *map(grids.paragraph, origins(table))])
 
 
-def table_latex(table: _Table) -> str:
-    """The table as a LaTeX ``tabular`` (package booktabs), angles in degrees."""
-    keys, _, rows = table_grid(table)
-    cells = [[_latex_cell(key, text) for key, text in zip(keys, row, strict=True)] for row in rows]
-    return grids.grid_latex([COLUMNS[key][1] for key in keys], cells)
+def table_latex(table: _Table, look: Look = LOOK) -> str:
+    """All of the table as a LaTeX ``table`` (package booktabs), angles in degrees."""
+    named = heads(table, look)
+    lines = [r"\begin{table}", r"\centering", rf"\caption{{{_latex_text(title(table, look))}}}"]
+    for keys, _, rows in (table_grid(table, look), dynamics_grid(table, look)):
+        if rows:
+            cells = [[*map(_latex_cell, keys, row)] for row in rows]
+            lines += [grids.grid_latex([named[key][1] for key in keys], cells), ""]
+    lines += [rf"{{\footnotesize {_latex_text(line)}\par}}" for line in origins(table)]
+    return "\n".join([*lines, r"\end{table}"])
+
+
+def _latex_text(text: str) -> str:
+    """Lines of words and numbers as one paragraph."""
+    plain = "; ".join(map(latex, text.split("\n")))
+    return plain.replace(MINUS, "$-$").replace("…", r"\ldots{}").replace("°", r"$^\circ$")
 
 
 def _latex_cell(key: str, text: str) -> str:
-    if key == "name":
-        return latex(text)
-    plain = text.replace("\N{MINUS SIGN}", "-").replace("…", r"\ldots{}")
-    if key in {"theta", "d", "a", "alpha"} and plain:
+    if key in {"theta", "d", "a", "alpha"} and text:
+        plain = text.replace(MINUS, "-")
         head, mark, index = plain.partition("q")
         if mark:
             digits = index[: len(index) - len(index.lstrip("0123456789"))]
             return f"${head}q_{{{digits}}}{index[len(digits) :]}$"
         return f"${plain}$"
-    return plain.replace("°", r"$^\circ$")
+    return latex(text) if key == "name" else _latex_text(text)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import JOINTS, LENGTH, ROWS
 from dh2urdf.dh.motions import DHConvention, convention_of
-from dh2urdf.dh.print import table_csv, table_html, table_latex, table_markdown, table_text
+from dh2urdf.dh.print import table_html, table_latex, table_text
 from dh2urdf.dh.row import DHRow, JointType, Origin
 from dh2urdf.doors import finite_array, found, instance, real_array, text
 from dh2urdf.exceptions import ConfigurationError, TableError
@@ -197,8 +197,6 @@ class DHTable:
             T = T @ row.transform(0.0, self.convention)
         return T
 
-    to_markdown = table_markdown
-    to_csv = table_csv
     to_latex = table_latex
     _repr_html_ = table_html
 

@@ -1,7 +1,8 @@
 """DH tables as files: YAML, TOML, JSON, CSV and Markdown, read with care and written whole.
 
 `read_table` and `parse_table` tell all faults of a file at once, each with its line, column
-and a hint; `write_table` and `table_to_text` keep every number to the last bit.
+and a hint; `write_table` and `table_to_text` keep every number to the last bit. They write LaTeX
+and HTML for people, too.
 
 Keys of a file
     ``convention`` and ``units: {length, angle}`` have no default. ``name``, ``source``,
@@ -34,4 +35,4 @@ from dh2urdf.dh_io.cells.units import SI, Kind, Units
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.near_misses import NearMiss, near_misses
 from dh2urdf.dh_io.read import FORMATS, TableFile, format_of, parse_table, read_table
-from dh2urdf.dh_io.write import table_to_text, write_table
+from dh2urdf.dh_io.write import READ_BACK, WRITTEN, table_to_text, usual_units, write_table

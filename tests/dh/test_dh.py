@@ -128,13 +128,11 @@ def test_q_of_the_wrong_length_is_refused():
 
 
 def test_table_prints_itself():
-    """Text, Markdown, CSV, LaTeX and HTML hold every number with a true minus sign."""
+    """Text, LaTeX and HTML hold every number with a true minus sign."""
     table = dh2urdf.load_table("puma560")
     text = str(table)
     for cell in ("puma560", "q1", "0.67183", "0.15005", "\N{MINUS SIGN}90", "standard DH"):
         assert cell in text
-    assert table.to_markdown().splitlines()[1].startswith("|--")
-    assert len(table.to_csv().splitlines()) == 7
     assert r"\toprule" in table.to_latex()
     assert r"$q_{1}$" in table.to_latex()
     html = table._repr_html_()

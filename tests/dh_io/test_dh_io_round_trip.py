@@ -149,8 +149,8 @@ def test_numbers_are_written_plainly() -> None:
 def test_unknown_formats_and_units_are_refused() -> None:
     """The message lists what is allowed."""
     table = DHTable((DHRow(),), DHConvention.STANDARD)
-    with pytest.raises(TableError, match=r"format: expected 'yaml' or 'toml' .* got 'latex'"):
-        table_to_text(table, "latex")
+    with pytest.raises(TableError, match=r"format: expected 'yaml' or 'toml' .* got 'excel'"):
+        table_to_text(table, "excel")
     with pytest.raises(TableError, match=r"units\.length: expected 'm' or .* got 'ft'"):
         table_to_text(table, "yaml", Units("ft", "deg"))
     with pytest.raises(TableError, match=r"units\.angle: expected 'rad' or 'deg', got 'm'"):

@@ -8,18 +8,19 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.options import Force, Json, real
+from dh2urdf.cli.options import Digits, Force, Json, real
 from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.cli.progress import note
-from dh2urdf.dh.quoting import one_line
-from dh2urdf.dh_io import FORMATS, atomic_write, refuse_foreign, table_to_text
+from dh2urdf.dh_io import WRITTEN, atomic_write, refuse_foreign, table_to_text, usual_units
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError
 from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
 
-Format = Literal["yaml", "toml", "json", "csv", "markdown", "latex", "rtb", "matlab", "matlab-rst"]
+Format = Literal[
+    "yaml", "toml", "json", "csv", "markdown", "latex", "html", "rtb", "matlab", "matlab-rst"
+]
 
-SUFFIXES = FORMATS | {".tex": "latex", ".py": "rtb", ".m": "matlab"}
+SUFFIXES = WRITTEN | {".py": "rtb", ".m": "matlab"}
 
 
 def extract_(
@@ -33,6 +34,7 @@ def extract_(
     explain: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     format: Format | None = None,
+    digits: Digits = None,
     force: Force = False,
     x_axis: Literal["auto", "away"] = "auto",
     compact: Annotated[bool, Parameter(negative="--no-compact")] = True,
@@ -64,6 +66,8 @@ def extract_(
     format
         Format of the output; rtb is Python for robotics-toolbox-python, matlab is for Corke's
         toolbox, matlab-rst for the Robotics System Toolbox.
+    digits
+        Decimals of the table's lengths and angles; default: as few as keep them exact.
     x_axis
         away: every x points away from the axis before it, a >= 0, as in the notes.
     compact
@@ -78,7 +82,7 @@ def extract_(
         text, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
     )
     if output is not None or format is not None:
-        _write(found, output, format, force=force)
+        _write(found, output, format, digits, force=force)
     if json:
         emit_json(
             "extract",
@@ -105,10 +109,11 @@ def _stdin() -> str:
     return text
 
 
-def _write(found: Extraction, output: Path | None, format: str | None, *, force: bool) -> None:
+def _write(
+    found: Extraction, output: Path | None, format: str | None, digits: int | None, *, force: bool
+) -> None:
     """The table in its format, to a file or stdout."""
-    from dh2urdf.conversions.write import CONSTRUCTORS
-    from dh2urdf.dh.print import table_latex
+    from dh2urdf.conversions.write import CONSTRUCTORS, table_text_and_error
 
     to_stdout = output is None or str(output) == "-"
     suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")
@@ -118,10 +123,11 @@ def _write(found: Extraction, output: Path | None, format: str | None, *, force:
         raise Dh2UrdfError(f"{output}: the suffix tells no format; use {known} or --format")
     if chosen in CONSTRUCTORS:
         text = CONSTRUCTORS[chosen](found.table)
-    elif chosen == "latex":
-        text = f"% {one_line(found.table.source)}\n{table_latex(found.table)}\n"
     else:
-        text = table_to_text(found.table, chosen)
+        units = usual_units(found.table, chosen, None)
+        text, error = table_text_and_error(found.table, chosen, units, digits)
+        if error:
+            note(f"rounded to {digits} decimals, the arm is up to {error:.2g} m or rad off")
     if output is None or to_stdout:
         emit(text)
         return

@@ -1,23 +1,18 @@
 """``dh2urdf show``: a table, its transforms, and how its inverse kinematics is solved."""
 
+from typing import Literal
+
 import numpy as np
 
-from dh2urdf.cli.options import DEFAULT, Deg, Json, Reading, Values
+from dh2urdf.cli.options import DEFAULT, Deg, Digits, Json, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line
-from dh2urdf.doors import choice
+from dh2urdf.dh_io import Units, table_to_text, usual_units
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-WRITERS = {
-    "markdown": DHTable.to_markdown,
-    "csv": DHTable.to_csv,
-    "latex": DHTable.to_latex,
-    "html": DHTable._repr_html_,
-}
 
 
 def show_(
@@ -27,7 +22,8 @@ def show_(
     q: Values = None,
     deg: Deg = False,
     symbolic: bool = False,
-    format: str = "text",
+    format: Literal["text", "yaml", "toml", "json", "csv", "markdown", "latex", "html"] = "text",
+    digits: Digits = None,
     reading: Reading = DEFAULT,
     json: Json = False,
 ) -> None:
@@ -44,13 +40,17 @@ def show_(
     symbolic
         The transforms in symbols too (extra symbolic).
     format
-        Of the table alone: text, markdown, csv, latex, html.
+        Of the table alone: text, which goes with the transforms; yaml, toml, json, csv and
+        markdown, which read back as the same table; latex and html.
+    digits
+        Decimals of the table's lengths and angles; default: as few as keep them exact.
     """
     arm = Robot.from_dh(table_of(table, reading.told))
     dh = arm.table
     assert dh is not None
-    if choice(format, "--format", ("text", *WRITERS)) != "text":
-        emit(WRITERS[format](dh))
+    units = Units("m", "deg") if format == "text" else usual_units(dh, format, None)
+    if format != "text":
+        emit(table_to_text(dh, format, units, digits))
         return
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
@@ -73,7 +73,7 @@ def show_(
             solver_explained=why,
         )
         return
-    emit(str(dh))
+    emit(table_to_text(dh, format, units, digits))
     for label, text in (("source", dh.source), ("checked", dh.checked)):
         if text:
             emit(f"\n{label}: {' '.join(one_line(text).split())}")

@@ -2,7 +2,8 @@
 
 `table_chain`, `urdf_elements` (every joint and link of the file), `bodies`, `link_paths` and
 `inertia` (what is drawn and weighed), `urdf_file` (the whole way, checked by `verify`),
-`urdf_options`; `constructors` writes tables as code of other toolboxes.
+`urdf_options`; `table_file` writes tables in their own formats, `constructors` as code of
+other toolboxes.
 """
 
 from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along
@@ -23,6 +24,7 @@ from dh2urdf.conversions.write.table_chain import (
     link_frames,
     turned_round,
 )
+from dh2urdf.conversions.write.table_file import table_difference, table_text_and_error
 from dh2urdf.conversions.write.urdf_elements import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,

@@ -5,33 +5,14 @@ import math
 import numpy as np
 import pinocchio as pin
 
+from dh2urdf.conversions.write.table_file import COARSE, arm_size, random_configurations
 from dh2urdf.conversions.write.urdf_elements import default_limits
-from dh2urdf.dh import DHTable, JointType
+from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import VerificationError
-from dh2urdf.transforms import Array, pose_error
+from dh2urdf.transforms import pose_error
 
 LARGEST_ERROR = 1e-9
 """Largest FK difference [rad, and m per m of arm beyond 1 m] of a file with whole floats."""
-
-COARSE = 1e-2
-"""Largest FK difference [rad, and m per m of arm] of a rounded file that is of any use."""
-
-
-def _size(table: DHTable) -> float:
-    """How far the arm reaches at most [m], its slides drawn out."""
-    slides = (row for row in table.joints if row.joint_type is JointType.PRISMATIC)
-    travel = [np.abs(default_limits(row, table)).max() for row in slides]
-    return math.hypot(*table.base.xyz) + table.length + float(sum(travel)) or 1.0
-
-
-def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
-    """Configurations within the limits, at most one turn each way, shape (count, n)."""
-    rng = np.random.default_rng(seed)
-    bounds = np.array([default_limits(row, table) for row in table.joints])
-    turns = np.array([row.joint_type is JointType.REVOLUTE for row in table.joints])
-    low = np.where(turns, np.maximum(bounds[:, 0], -2 * np.pi), bounds[:, 0])
-    high = np.where(turns, np.minimum(bounds[:, 1], 2 * np.pi), bounds[:, 1])
-    return rng.uniform(low, np.maximum(low, high), size=(count, table.n))
 
 
 def verify_urdf_text(
@@ -53,7 +34,7 @@ def verify_urdf_text(
     body = pin.FrameType.BODY
     present = [i for i in range(table.n + 1) if model.existFrame(f"dh_{i}", body)]
     ids = [model.getFrameId(name, body) for name in [*(f"dh_{i}" for i in present), "tool0"]]
-    size = _size(table) if digits is not None else max(1.0, _size(table))
+    size = arm_size(table) if digits is not None else max(1.0, arm_size(table))
     largest = relative = 0.0
     for q in random_configurations(table, count):
         pin.framesForwardKinematics(model, data, q[np.argsort(order)])

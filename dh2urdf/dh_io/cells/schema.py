@@ -2,6 +2,7 @@
 
 import difflib
 import re
+import unicodedata
 from collections.abc import Iterable, Mapping
 
 from dh2urdf.dh import DHConvention, JointType
@@ -72,9 +73,14 @@ _PREVIOUS = re.compile(r"_?(?:\(?i_?[-−]_?1\)?)$")
 _OWN = re.compile(r"_?\(?i\)?$")
 
 
+def _plain(text: str) -> str:
+    """A word in small letters without LaTeX's signs, its subscripts on the line."""
+    return re.sub(r"[\\${}]", "", unicodedata.normalize("NFKC", text)).casefold()
+
+
 def canonical(text: str) -> str:
     r"""Key that a word stands for: ``$\alpha_{i-1}$``, ``Twist`` and ``alpha`` are one."""
-    clean = re.sub(r"[\\${}]", "", text).strip().casefold()
+    clean = _plain(text).strip()
     clean = re.sub(r"[\s-]+", "_", clean) if "i-1" not in clean else clean
     stem = _OWN.sub("", _PREVIOUS.sub("", clean)).strip("_ ")
     for word in (clean, stem):
@@ -86,7 +92,7 @@ def canonical(text: str) -> str:
 
 def of_previous_link(text: str) -> bool:
     """Tell whether a header is ``a_{i-1}`` or ``alpha_(i-1)``, as in modified tables."""
-    clean = re.sub(r"[\\${}\s]", "", text).casefold()
+    clean = re.sub(r"\s", "", _plain(text))
     return canonical(text) in ("a", "alpha") and _PREVIOUS.search(clean) is not None
 
 

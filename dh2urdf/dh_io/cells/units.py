@@ -80,17 +80,23 @@ def to_si(number: Decimal, unit: str) -> Decimal:
     return EXACT.divide(EXACT.multiply(number, numerator), denominator)
 
 
-def decimal_text(value: float, unit: str = "") -> str:
-    """Shortest decimal, in the unit, that reads back as exactly this float in [m] or [rad]."""
+def decimal_text(value: float, unit: str = "", digits: int | None = None) -> str:
+    """Shortest decimal, in the unit, that reads back as exactly this float in [m] or [rad].
+
+    With ``digits`` it is rounded to so many decimals instead.
+    """
     kind = unit_kind(unit)
     numerator, denominator = UNIT_SIZES[kind][unit] if kind else (ONE, ONE)
     if value == 0:
         return "0"
-    if numerator == denominator:
+    if numerator == denominator and digits is None:
         return repr(value).removesuffix(".0")
     exact = EXACT.divide(EXACT.multiply(Decimal(repr(value)), denominator), numerator)
-    for digits in range(15, 25):
-        short = Context(prec=digits).plus(exact).normalize(EXACT)
+    if digits is not None:
+        rounded = EXACT.normalize(EXACT.quantize(exact, Decimal(1).scaleb(-digits)))
+        return f"{rounded:f}" if rounded else "0"
+    for precision in range(15, 25):
+        short = Context(prec=precision).plus(exact).normalize(EXACT)
         if float(to_si(short, unit)) == value:
             break
     return f"{short:f}" if -5 < short.adjusted() < 16 else f"{short:e}"

@@ -246,7 +246,7 @@ def unit_words(value: Scalar) -> list[tuple[Scalar, Node]]:
 def _refuse_modified_header(grid: Grid, report: Report) -> None:
     stated = {CONVENTIONS.get(v.text.casefold()) for k, v in grid.meta if k.text == "convention"}
     for cell in grid.header:
-        if of_previous_link(cell.text) and DHConvention.STANDARD in stated:
+        if of_previous_link(heading(cell.text)[0]) and DHConvention.STANDARD in stated:
             message = f"{cell.text} is a modified table's column, but convention says standard"
             hint = "write convention: modified, or the columns a and alpha"
             report.fault(cell.mark, "header", message, hint)
