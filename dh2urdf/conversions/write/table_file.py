@@ -28,8 +28,8 @@ def table_text_and_error(
         return text, 0.0
     try:
         again = parse_table(text, format).table
-    except TableError as error:
-        problem = f"{table.name}: the written text does not read back: {error}"
+    except TableError as fault:
+        problem = f"{table.name}: the written text does not read back: {fault}"
         raise VerificationError(problem) from None
     if again == table:
         return text, 0.0
