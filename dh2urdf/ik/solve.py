@@ -16,15 +16,17 @@ from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.engine import AtOnce, nothing_at_once
-from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.exceptions import ArgumentError, ConfigurationError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Solver,
     Task,
     as_configuration,
+    as_tolerance,
     in_own_unit,
     many_poses,
     one_pose,
+    seed_gaps,
     select_solver,
 )
 from dh2urdf.ik.problem import (
@@ -74,11 +76,19 @@ class InverseKinematics:
         assert not isinstance(solver, HeldSolver)
         return solver
 
-    def solve(self, T: ArrayLike, seed: ArrayLike | None, turns: str, asked: Asked) -> IKSolutions:
+    def solve(
+        self,
+        T: ArrayLike,
+        seed: ArrayLike | None,
+        tolerance: ArrayLike | None,
+        turns: str,
+        asked: Asked,
+    ) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         task, locked, within_limits, samples, nearest = asked
         plain = task is FULL_POSE and locked is None and samples is None
-        usual = plain and seed is None and nearest is False and turns is NEAREST
+        unseeded = seed is None and tolerance is None
+        usual = plain and unseeded and nearest is False and turns is NEAREST
         if usual and (within_limits is True or within_limits is False):
             memory = self._at_once[within_limits](T)
             if memory is not None:
@@ -89,6 +99,9 @@ class InverseKinematics:
         if plain and self._plain is None:
             self._plain, self._at_once = problem, (problem.at_once(False), problem.at_once(True))
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
+        most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
+        if most is not None and goal is None:
+            raise ArgumentError("seed_tolerance: there is no seed from which to measure it")
         usual = type(turns) is str and turns == "nearest"
         every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"
         pose, change = one_pose(T, problem.task, nearest)
@@ -99,6 +112,8 @@ class InverseKinematics:
             found = problem.arranged(found, goal, inside)
         if every:
             found = problem.with_all_turns(found, goal)
+        if goal is not None and most is not None:
+            found = found.select(np.all(seed_gaps(self.chain, found.q, goal) <= most, axis=1))
         if change:
             found.pose_change = change
         return found

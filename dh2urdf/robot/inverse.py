@@ -43,6 +43,7 @@ class RobotIK(RobotConfigurations):
         T: ArrayLike,
         *,
         seed: ArrayLike | None = None,
+        seed_tolerance: ArrayLike | None = None,
         within_limits: bool = True,
         locked: Locked | None = None,
         task: Task | str = "pose",
@@ -59,6 +60,10 @@ class RobotIK(RobotConfigurations):
         seed : array_like, shape (n,), optional
             Configuration to be near to: solutions are sorted by their distance from it, full
             turns and singular families are resolved towards it.
+        seed_tolerance : float or array_like, shape (n,), optional
+            Leave out solutions of which a joint is farther from the seed than this [rad] or [m];
+            one number for all joints, or one for each. Angles are measured on the circle, so a
+            full turn is no distance.
         within_limits : bool
             Leave out solutions outside the joint limits.
         locked : mapping of index or name to float, optional
@@ -82,7 +87,8 @@ class RobotIK(RobotConfigurations):
         ------
         PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
         """
-        return self._ik.solve(T, seed, turns, (task, locked, within_limits, samples, nearest))
+        asked = task, locked, within_limits, samples, nearest
+        return self._ik.solve(T, seed, seed_tolerance, turns, asked)
 
     def ik_batch(
         self,

@@ -203,3 +203,27 @@ def test_rounded_matrices_of_a_file_are_named_by_line_or_taken(run, refused, tmp
     assert err.startswith("--nearest: the rotation was off by ")
     (tmp_path / "poses.csv").write_text(f"{row}\n{','.join(['0.7'] * 12)}\n")
     assert "poses.csv:2:" in refused("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+
+
+def test_solutions_farther_from_the_seed_than_allowed_are_left_out(run):
+    """--seed-tolerance, one value or one a joint; if it leaves none, by how much, and status 1."""
+    start = np.radians([5, -60, 40, 10, 40, 170])
+    seed = ["--seed", *map(repr, np.degrees(start).tolist())]
+    every = json.loads(run("ik", "denso_vs6556", *POSE, *seed, "--json")[1])["solutions"]
+    gaps = [np.abs(np.angle(np.exp(1j * (np.array(s["q"]) - start)))) for s in every]
+    least = min(gap.max() for gap in gaps)
+    most = repr(math.degrees(least) + 1e-6)
+    for tolerance in ([most], [most] * 6):
+        status, out, _ = run(
+            "ik", "denso_vs6556", *POSE, *seed, "--seed-tolerance", *tolerance, "--json"
+        )
+        near = json.loads(out)["solutions"]
+        assert (status, [s["q"] for s in near]) == (0, [every[0]["q"]])
+    status, out, err = run("ik", "denso_vs6556", *POSE, *seed, "--seed-tolerance", "1e-3")
+    assert (status, out) == (1, "")
+    by = f"nearest by {least - math.radians(1e-3):.4g} rad at joint_"
+    assert (
+        f"all 8 solutions are farther from the seed than --seed-tolerance allows, the {by}" in err
+    )
+    status, _, err = run("ik", "denso_vs6556", *POSE, "--seed-tolerance", "1")
+    assert (status, err.strip()) == (2, "dh2urdf: --seed-tolerance does nothing without --seed")

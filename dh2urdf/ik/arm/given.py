@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.bounds import ANGLE, LENGTH
-from dh2urdf.doors import FLOAT, finite_array, flag, real_array
-from dh2urdf.exceptions import ConfigurationError, PoseError
+from dh2urdf.doors import FLOAT, finite_array, flag, found, real_array
+from dh2urdf.exceptions import ArgumentError, ConfigurationError, PoseError
 from dh2urdf.ik.arm.task import Task
 from dh2urdf.kernels.numbers import first_bad_pose, is_pose
 from dh2urdf.poses import POSE, check_pose, rounded_off
@@ -92,3 +92,17 @@ def as_configuration(q: ArrayLike, slides: NDArray[np.bool_], what: str) -> Arra
         allowed = f"a length up to {LENGTH:g} m" if slides[i] else f"an angle up to {ANGLE:g} rad"
         raise ConfigurationError(f"{what}[{i}]: expected {allowed} either way, got {out[i]:g}")
     return out
+
+
+def as_tolerance(given: ArrayLike, n: int) -> Array:
+    """How far each of n joints may be from a seed [rad] or [m], of one number or n; none below 0.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    expected = f"a number, or {n} of them, not below 0"
+    out = real_array(given, "seed_tolerance", expected)
+    if out.shape not in ((), (n,)) or not (out >= 0.0).all():
+        raise ArgumentError(f"seed_tolerance: expected {expected}, got {found(given)}")
+    return np.broadcast_to(out, (n,))

@@ -56,6 +56,16 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     return out
 
 
+def seed_gaps(chain: SerialChain, q: Array, seed: Array) -> Array:
+    """How far each joint of q (k, n) is from a seed (n,) [rad] or [m], shape (k, n).
+
+    Angles are measured on the circle: a full turn apart is no distance.
+    """
+    gap = q - seed
+    gap -= np.where(chain.prismatic, 0.0, TWO_PI * np.rint(gap / TWO_PI))
+    return np.abs(gap)
+
+
 def _turns(chain: SerialChain, q: Array) -> tuple[Array, Array]:
     """First and last full turn of configurations q (..., n) inside the limits, shape (..., n).
 

@@ -39,6 +39,7 @@ def ik_(
     matrix: Values = None,
     csv: str | None = None,
     seed: Values = None,
+    seed_tolerance: Values = None,
     locked: Values = None,
     task: Literal["pose", "position", "position+axis"] = "pose",
     turns: Literal["nearest", "all"] = "nearest",
@@ -66,6 +67,9 @@ def ik_(
         "x [mm]" or "yaw (deg)". The answer is CSV, too.
     seed
         Joint values to be near to: sorts the solutions, picks turns and members of families.
+    seed_tolerance
+        How far each joint may be from the seed, on the circle: one value for all or for each.
+        Solutions with a joint farther away are left out.
     locked
         Joints held at a value: --locked joint_7=0.3.
     task
@@ -84,6 +88,10 @@ def ik_(
     options |= {"within_limits": within_limits, "nearest": nearest}
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None
     near: _Options = {"seed": goal, "turns": turns}
+    if seed_tolerance:
+        each = seed_tolerance * (arm.n if len(seed_tolerance) == 1 else 1)
+        most = parse_configuration(each, arm, deg=deg, what="--seed-tolerance")
+        near["seed_tolerance"] = most
     if csv is not None:
         poses = poses_of_csv(csv, deg=deg, nearest=nearest)
         return _many(arm, poses, near, options, deg=deg, json=json)
@@ -92,7 +100,7 @@ def ik_(
     _tell_change(found.pose_change)
     if goal is None:
         found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
-    reason = _reason(arm, T, found, options)
+    reason = _reason(arm, T, found, near, options)
     if json:
         solver = arm.solver_for(locked=options["locked"], task=task)
         emit_json("ik", **_as_data(arm, found), solver=str(solver))
@@ -138,11 +146,29 @@ def _outside(arm: Robot, q: Array) -> Array:
     return np.where(excess > 1e-12, excess, 0.0)
 
 
-def _reason(arm: Robot, T: Array, found: IKSolutions, options: _Options) -> str:
+def _reason(arm: Robot, T: Array, found: IKSolutions, near: _Options, options: _Options) -> str:
     """Why there is no solution within the limits; empty if there is one."""
     if found and (_outside(arm, found.q) == 0.0).all(axis=1).any():
         return ""
+    if not found and "seed_tolerance" in near:
+        others = arm.ik(T, **{**near, **options, "seed_tolerance": None})
+        if others:
+            return _too_far(arm, others.q, near)
     return arm.why_unreachable(T, **{**options, "within_limits": True})
+
+
+def _too_far(arm: Robot, q: Array, near: _Options) -> str:
+    """By how much the nearest of solutions (k, n) is farther from the seed than is allowed."""
+    from dh2urdf.ik.arm import seed_gaps
+
+    excess = seed_gaps(arm.chain, q, near["seed"]) - near["seed_tolerance"]
+    nearest = excess[excess.max(axis=1).argmin()]
+    worst = int(nearest.argmax())
+    by = f"{nearest[worst]:.4g} {'m' if arm.slides[worst] else 'rad'}"
+    return (
+        f"all {len(q)} solutions are farther from the seed than --seed-tolerance allows, the "
+        f"nearest by {by} at {arm.joint_names[worst]}"
+    )
 
 
 def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
@@ -221,7 +247,7 @@ def _many(
     _tell_change(change)
     for i, first in missed.items():
         if first is not None:
-            reason = _reason(arm, poses.T[i], first, options)
+            reason = _reason(arm, poses.T[i], first, near, options)
             note(f"{poses.name(i)}: no solution within limits: {reason}")
     if len(missed) > SHOWN:
         note(f"... and {len(missed) - SHOWN} more of {len(poses.T)} poses without a solution")
