@@ -26,6 +26,9 @@ from dh2urdf.transforms import Array, dot, inverse, product
 FARTHEST = 1000 * LENGTH
 """Longest link [m]: all rows of the largest table in one."""
 
+FAR_START = 10
+"""A first frame so many times the arm's length along axis 1 is not part of the arm."""
+
 
 def settled_state(thing: object) -> dict[str, Any]:
     """What of an object is pickled, copied so that other threads may go on filling its caches."""
@@ -132,9 +135,16 @@ class SerialChain:
         """Distances [m] from axis to axis and to the tool, added up.
 
         They are measured between the axes as lines, so that frames far out along parallel axes
-        (calibrated arms) do not count.
+        (calibrated arms) do not count; nor does a first frame so far along its axis.
         """
-        total, last = 0.0, self.points[0]
+        start, z = self.points[0], self.axes[0]
+        near = start - z * float(dot(z, start))
+        total, from_base = self._walk(start), self._walk(near)
+        return from_base if math.dist(start, near) > FAR_START * from_base else total
+
+    def _walk(self, last: Array) -> float:
+        """Way [m] from a point of axis 1 over the nearest points of the others to the tool."""
+        total = 0.0
         for point, axis in zip(self.points[1:], self.axes[1:], strict=True):
             foot = point + axis * float(dot(axis, last - point))
             total += math.dist(foot, last)

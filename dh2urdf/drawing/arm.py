@@ -8,12 +8,22 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign import chain_to_dh
-from dh2urdf.conversions.write import Body, dh_to_chain, draw_bodies, link_frames
-from dh2urdf.dh import DHTable
+from dh2urdf.conversions.write import (
+    Body,
+    dh_to_chain,
+    draw_bodies,
+    is_far,
+    link_frames,
+    straight_points,
+)
+from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.doors import finite_array, instance
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse
+
+OUTSIDE = 0.5
+"""Distance from the arm, as a share of its size, above which a frame is moved to it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +39,29 @@ class DrawnArm:
         poses: Array = self.table.frames(q) @ self._T_dh_link
         poses[0] = np.eye(4)
         return poses
+
+    def frames(self, q: Array) -> Array:
+        """DH frames 0 ... n in base at q (n,), moved by ``shifts`` along z, (n + 1, 4, 4)."""
+        frames: Array = self.table.frames(q)
+        frames[:, :3, 3] += self.shifts[:, None] * frames[:, :3, 2]
+        return frames
+
+    @cached_property
+    def shifts(self) -> Array:
+        """How far along its z each frame is moved to stand on the arm [m], shape (n + 1,).
+
+        Zero but for calibrated arms: nearly parallel axes have their common normal, and with it a
+        DH frame, hundreds of metres away. A frame turns with its link, so does its place there.
+        """
+        shifts = np.zeros(self.table.n + 1)
+        if not is_far(self.table, self.chain):
+            return shifts
+        on_axis = slice(0, -1) if self.table.convention is DHConvention.STANDARD else slice(1, None)
+        frames = self.table.frames(np.zeros(self.table.n))[on_axis]
+        away = np.stack(straight_points(self.chain)[1:-1]) - frames[:, :3, 3]
+        along = np.einsum("ij,ij->i", away, frames[:, :3, 2])
+        shifts[on_axis] = np.where(np.abs(along) > OUTSIDE * self.size, along, 0.0)
+        return shifts
 
     @cached_property
     def _T_dh_link(self) -> Array:
@@ -52,6 +85,12 @@ def table_of(robot: Robot) -> DHTable:
     if robot.table is not None:
         return robot.table
     return chain_to_dh(robot.chain, name=robot.model.name).table
+
+
+def arm_points(robot: Robot, Q: Array) -> Array:
+    """Origins of the frames of a robot at configurations Q (m, n), on the arm, (m, k, 3)."""
+    arm = drawn_arm(table_of(robot))
+    return np.stack([arm.frames(q)[:, :3, 3] for q in robot.chain_configuration(Q)])
 
 
 def zero_configuration(robot: Robot, q: ArrayLike | None) -> Array:

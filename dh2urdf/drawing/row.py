@@ -7,7 +7,7 @@ alpha first, about x_{i-1}; then theta and d about z_i.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,16 +18,25 @@ from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.grids import number
 from dh2urdf.transforms import Array, rotation
 
+STUB = 0.15
+"""Length drawn for a d that leads far away along its axis, as a share of the arm's size."""
+
+MOVED = "frames that are far from the arm are drawn moved along z to it, marked x′, z′."
+
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 
 @dataclass(frozen=True, eq=False)
 class Measure:
-    """A length of the row: its segment (2, 3) in base [m], its value [m]."""
+    """A length of the row: its segment (2, 3) in base [m], its value [m].
+
+    ``moved`` where it is measured far from the arm: then the segment is not as long as the value.
+    """
 
     key: str
     segment: Array
     value: float
+    moved: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,12 +101,57 @@ def row_picture(arm: DrawnArm, q: Array, i: int) -> DHRowPicture:
         twist = Arc("alpha", foot, x_prev, z_prev, row.alpha)
     lengths = Measure("d", d_segment, d), Measure("a", a_segment, row.a)
     case = classify(T_prev_next, arm.size).case
-    return DHRowPicture(i, T_prev, T_reached, T_next, T_prev_next, turn, *lengths, twist, case)
+    picture = DHRowPicture(i, T_prev, T_reached, T_next, T_prev_next, turn, *lengths, twist, case)
+    return _brought_near(picture, arm, q) if arm.shifts[i - 1 : i + 1].any() else picture
+
+
+def _brought_near(picture: DHRowPicture, arm: DrawnArm, q: Array) -> DHRowPicture:
+    """The same with its frames moved along z to the arm, and its measures between them.
+
+    A d whose frames are then side by side is a stub on its axis.
+    """
+    T_prev, T_next = arm.frames(q)[picture.i - 1 : picture.i + 1]
+    before, after = (arm.shifts[picture.i - 1 : picture.i + 1] != 0.0).tolist()
+    T_reached = T_next if after else picture.T_reached
+    start, end = T_prev[:3, 3], T_reached[:3, 3]
+    stub = math.copysign(STUB * arm.size, picture.d.value)
+    if arm.table.convention is DHConvention.STANDARD:
+        foot = _beside(end, start, T_prev[:3, 2]) if after else picture.a.segment[0]
+        a, d, far = (foot, end), (start, foot), after
+        centres = foot, end
+        spare = start, start + stub * T_prev[:3, 2]
+    else:
+        foot = _beside(start, end, T_reached[:3, 2]) if before else picture.a.segment[1]
+        a, d, far = (start, foot), (foot, end), before
+        centres = end, foot
+        spare = end - stub * T_reached[:3, 2], end
+    if math.dist(*d) < STUB * arm.size:
+        d = spare
+    return replace(
+        picture,
+        T_prev=T_prev,
+        T_reached=T_reached,
+        T_next=T_next,
+        theta=replace(picture.theta, centre=centres[0]),
+        alpha=replace(picture.alpha, centre=centres[1]),
+        d=replace(picture.d, segment=np.stack(d), moved=True),
+        a=replace(picture.a, segment=np.stack(a), moved=far),
+    )
 
 
 def subscript(name: str, i: int | str) -> str:
     """A name with a subscript in plain text."""
     return f"{name}{str(i).translate(SUBSCRIPTS)}"
+
+
+def _beside(point: Array, start: Array, axis: Array) -> Array:
+    """The point of an axis through ``start`` that is nearest to another point."""
+    return np.asarray(start + axis * float(axis @ (point - start)))
+
+
+def axis_name(arm: DrawnArm, letter: str, i: int) -> str:
+    """``z₂``, or ``z′₂`` for a frame that is drawn moved along its z."""
+    return subscript(f"{letter}′" if arm.shifts[i] else letter, i)
 
 
 def length_index(table: DHTable, i: int) -> int:
@@ -142,6 +196,8 @@ def row_words(table: DHTable, picture: DHRowPicture) -> str:
     words = f"{words} {_variable_words(row, i)}"
     if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
         words += f" A fixed step leads from there to frame {i}."
+    if picture.d.moved:
+        words += f" d leads {rounded_length(abs(picture.d.value))} away: {MOVED}"
     return words
 
 

@@ -11,7 +11,7 @@ from dh2urdf.doors import choice, finite_array, flag, items, text
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, table_of, zero_configuration
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
-from dh2urdf.figures.dh_panel import DHPanel, draw_key, pose_sentence
+from dh2urdf.figures.dh_panel import DHPanel, draw_key, moved_sentence, pose_sentence
 from dh2urdf.figures.projection import View, best_view
 from dh2urdf.figures.schematic import draw_schematic, schematic_points
 from dh2urdf.figures.solids.ghosts import group_ghosts
@@ -105,14 +105,14 @@ class _ArmPicture:
         self.ghosts = group_ghosts(self.arm, self.q, others, ghost_names)
         self.key = [(ghost.colour, ghost.name) for ghost in self.ghosts if ghost.name]
         self.style, self.show_frames = style, frames
-        dh_frames = self.arm.table.frames(self.q)
+        dh_frames = self.arm.frames(self.q)
         eye = None if view is None else finite_array(view, "view", "two angles", shape=(2,))
         self.view = View(*eye.tolist()) if eye is not None else best_view(dh_frames, self.arm.chain)
         self.parts = self._parts(self.q)
         self.floor = self._floor()
         self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]
-        note = pose_sentence(self.q, self.arm.chain.prismatic)
-        self.panel = DHPanel(self.arm.table, [note], self.key) if table else None
+        notes = [pose_sentence(self.q, self.arm.chain.prismatic), *moved_sentence(self.arm.shifts)]
+        self.panel = DHPanel(self.arm.table, notes, self.key) if table else None
         self._lay_out(dh_frames)
 
     def _parts(self, q: Array) -> list[Part]:

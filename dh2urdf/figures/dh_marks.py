@@ -1,16 +1,18 @@
 """DH frames, the lengths d and a, and the joint axes, drawn over an arm with their labels."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from dh2urdf.dh import DHConvention
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY
-from dh2urdf.drawing.row import length_index, row_picture
+from dh2urdf.drawing.row import Measure, length_index, row_picture
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.labels import Label, Line, place_labels
 from dh2urdf.figures.style import mix
+from dh2urdf.grids import number
 from dh2urdf.transforms import Array
 
 LABEL = 14.0
@@ -24,6 +26,9 @@ SAME = 1e-6
 
 LEADER = 13.0
 """Gap [pt] between a label and its anchor from which a thin line joins them."""
+
+BROKEN = (2.2, 1.1)
+"""Dashes of a measure whose frames were moved to the arm."""
 
 OUTLINE = 0.16
 """How much a body's outline minds being covered by a label, against 1 for an arrow."""
@@ -53,7 +58,7 @@ class DHMarks:
         self, canvas: Canvas, arm: DrawnArm, q: Array, length: float, outlines: list[Array]
     ) -> None:
         self.canvas, self.view, self.length = canvas, canvas.view, length
-        self.arm, self.frames = arm, arm.table.frames(q)
+        self.arm, self.frames = arm, arm.frames(q)
         self.rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
         self.lines = [
             Line(canvas.to(np.stack(edge)), OUTLINE)
@@ -77,9 +82,10 @@ class DHMarks:
         standard = self.arm.table.convention is DHConvention.STANDARD
         for row in self.rows:
             frame = row.T_prev if standard else row.T_reached
-            z, d = frame[:3, 2], row.d.value if standard else -row.d.value
-            low, high = min(0.0, d) - 0.75 * self.length, max(0.0, d) + 0.75 * self.length
-            ends = frame[:3, 3] + np.array([[low], [high]]) * z
+            z = frame[:3, 2]
+            along = (row.d.segment - frame[:3, 3]) @ z
+            reach = np.array([along.min() - 0.75 * self.length, along.max() + 0.75 * self.length])
+            ends = frame[:3, 3] + reach[:, None] * z
             points = self.canvas.at(ends)
             if float(np.linalg.norm(points[1] - points[0])) < 4.0:
                 continue
@@ -90,24 +96,29 @@ class DHMarks:
         """Segments of d and a in their colours, and the fixed steps dotted in grey."""
         for row in self.rows:
             for measure, index in ((row.d, row.i), (row.a, length_index(self.arm.table, row.i))):
-                self._measure(measure.key, index, measure.segment)
+                self._measure(measure, index)
             step = self.canvas.at(np.stack([row.T_reached[:3, 3], row.T_next[:3, 3]]))
             if float(np.linalg.norm(step[1] - step[0])) > 1.5:
                 self.canvas.line(step, "#6b7280", 1.6, dashes=(1.5, 1.5))
                 self.lines.append(Line(step))
 
-    def _measure(self, key: str, index: int, segment: Array) -> None:
+    def _measure(self, measure: Measure, index: int) -> None:
+        """A segment with its name; broken, and with its value, where it is measured far away."""
+        segment, colour = measure.segment, QUANTITY[measure.key]
         if float(np.linalg.norm(segment[1] - segment[0])) < SAME * self.arm.size:
             return
         points = self.canvas.at(segment)
         way = points[1] - points[0]
         if float(np.linalg.norm(way)) < 1.5:
             return
-        for colour, width in (("white", 4.6), (QUANTITY[key], 3.0)):
-            self.canvas.line(points, colour, width)
+        dashes: dict[str, Any] = {"dashes": BROKEN} if measure.moved else {}
+        self.canvas.line(points, "white", 4.6)
+        self.canvas.line(points, colour, 3.0, **dashes)
         self.lines.append(Line(points))
-        across = np.array([-way[1], way[0]])
-        self._label(f"${key}_{{{index}}}$", points.mean(axis=0), across, QUANTITY[key], True)
+        name = f"${measure.key}_{{{index}}}$"
+        if measure.moved:
+            name += f" = {number(float(f'{measure.value:.4g}'))} m"
+        self._label(name, points.mean(axis=0), np.array([-way[1], way[0]]), colour, True)
 
     def _arrows(self) -> None:
         """All axes, far ones first; y short and thin, without a name."""
@@ -122,7 +133,9 @@ class DHMarks:
         colour, reach = AXIS[arrow.letter], self.length * (0.5 if thin else 1.0)
         start, end = self.canvas.at(np.stack([arrow.start, arrow.start + reach * arrow.direction]))
         shown = float(np.linalg.norm(self.view.flat(arrow.direction)))
-        name = "$" + r",\,".join(f"{n[0]}_{{{n[1:]}}}" for n in arrow.names) + "$"
+        moved = [r"^{\prime}" if self.arm.shifts[int(n[1:])] else "" for n in arrow.names]
+        parts = [f"{n[0]}_{{{n[1:]}}}{m}" for n, m in zip(arrow.names, moved, strict=True)]
+        name = "$" + r",\,".join(parts) + "$"
         if shown < END_ON:
             if not thin:
                 toward = float(self.view.depth(arrow.direction)) > 0

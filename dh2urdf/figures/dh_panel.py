@@ -143,6 +143,21 @@ def pose_sentence(q: Array, slides: Iterable[bool]) -> str:
     return f"pose drawn: $q$ = ({', '.join(cells)})"
 
 
+def moved_sentence(shifts: Array) -> list[str]:
+    """What was done to frames far from the arm, each moved by so much along its z [m]."""
+    far = [
+        f"{i} by {number(float(f'{s:.4g}'))}\N{NO-BREAK SPACE}m"
+        for i, s in enumerate(shifts.tolist())
+        if s
+    ]
+    if not far:
+        return []
+    return [
+        f"Frames drawn on the arm, moved along their nearly parallel axes z: {', '.join(far)} "
+        "(marked x\N{PRIME}, z\N{PRIME}; lengths measured out there are broken lines)."
+    ]
+
+
 def wrapped(text: str, width: float, size: float) -> list[str]:
     """A sentence cut into lines no wider than so many points."""
     lines, line = [], ""

@@ -44,7 +44,7 @@ def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:
     standard, size = arm.table.convention is DHConvention.STANDARD, arm.size
     corners = [np.zeros(3), rows[0].T_prev[:3, 3]]
     for row in rows:
-        foot = (row.d if standard else row.a).segment[1]
+        foot = row.a.segment[0 if standard else 1]
         corners += [foot, row.T_reached[:3, 3], row.T_next[:3, 3]]
     corners.append((rows[-1].T_next @ arm.table.tool.matrix)[:3, 3])
     for start, end in pairwise(corners):

@@ -8,7 +8,7 @@ from dh2urdf.conversions.write import Body, frame_along
 from dh2urdf.dh import DHConvention
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb
-from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, row_picture, subscript, values
+from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, axis_name, row_picture, values
 from dh2urdf.drawing.surfaces import body_surface
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.arm_scene import add_mesh, set_poses
@@ -74,14 +74,14 @@ class FramesScene:
             _arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
             for letter, direction in (("x", 0), ("z", 2)):
                 name, place = f"/dh/{i}/name_{letter}", 1.15 * length * np.eye(3)[direction]
-                text, small = subscript(letter, i), {"font_screen_scale": 0.9}
+                text, small = axis_name(self.arm, letter, i), {"font_screen_scale": 0.9}
                 self.labels.append(_label(self.server, name, text, place, **small))
 
     def show(self, q: Array) -> None:
         """Place the frames at q (n,)."""
         if not self.roots:
             return
-        frames = self.arm.table.frames(q)
+        frames = self.arm.frames(q)
         set_poses(self.roots, frames)
         self._name(frames)
 
@@ -90,7 +90,7 @@ class FramesScene:
         length = 1.15 * 0.8 * AXIS_LENGTH * self.arm.size
         ends = frames[:, :3, 3][:, None] + length * frames[:, :3, [0, 2]].transpose(0, 2, 1)
         places = ends.reshape(-1, 3)
-        names = [subscript(letter, i) for i in range(len(frames)) for letter in "xz"]
+        names = [axis_name(self.arm, letter, i) for i in range(len(frames)) for letter in "xz"]
         away = np.linalg.norm(places[:, None] - places[None], axis=2)
         first = np.argmax(away < CROWDED * length, axis=1)
         for k, label in enumerate(self.labels):
@@ -187,7 +187,9 @@ class RowScene:
                 place = T[:3, 3] + 1.12 * self.length * T[:3, direction]
                 if letter == "x" and _on(picture.a.segment, place):
                     place = place - BESIDE * self.length * T[:3, 2]
-                self._label(f"{letter}{'prev' if k < i else 'next'}", subscript(letter, k), place)
+                self._label(
+                    f"{letter}{'prev' if k < i else 'next'}", axis_name(self.arm, letter, k), place
+                )
 
     def _segments(
         self, name: str, points: Array, colour: str, width: float, *, visible: bool = True

@@ -41,7 +41,7 @@ def set_stage(
 
     Returns where the eye looks, shape (3,), and from how far [m].
     """
-    points = arm.table.frames(robot.chain_configuration(q))[:, :3, 3]
+    points = arm.frames(robot.chain_configuration(q))[:, :3, 3]
     points = np.concatenate([points, np.zeros((1, 3)), robot.fk(q)[None, :3, 3]])
     low, high = points.min(axis=0), points.max(axis=0)
     middle = (low + high) / 2

@@ -17,6 +17,7 @@ from dh2urdf.conversions.write.inertia import (
     why_impossible,
     without_noise,
 )
+from dh2urdf.conversions.write.link_paths import is_far, straight_points
 from dh2urdf.conversions.write.table_chain import (
     FLIP,
     dh_to_chain,

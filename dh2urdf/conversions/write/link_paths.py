@@ -20,9 +20,23 @@ the arm (calibrated arms); its links are drawn straight from axis to axis."""
 
 def link_paths(table: DHTable, chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:
     """Corner points [m] of base_link (index 0) and of links 1 ... n, each in its link's frame."""
-    if table.length > FAR * chain.size:
-        return _straight_paths(chain, frames)
-    return _dh_paths(table, frames)
+    return _straight_paths(chain, frames) if is_far(table, chain) else _dh_paths(table, frames)
+
+
+def is_far(table: DHTable, chain: SerialChain) -> bool:
+    """Tell whether the common normals of a table lie far outside its arm."""
+    return table.length > FAR * chain.size
+
+
+def straight_points(chain: SerialChain) -> list[Array]:
+    """From the base over a point on each axis to the tip, each the nearest to the one before.
+
+    In base at q = 0 [m], n + 2 of shape (3,).
+    """
+    points = [np.zeros(3)]
+    for point, axis in zip(chain.points, chain.axes, strict=True):
+        points.append(point + axis * float(axis @ (points[-1] - point)))
+    return [*points, chain.tool[:3, 3]]
 
 
 def _dh_paths(table: DHTable, frames: LinkFrames) -> list[list[Array]]:
@@ -47,10 +61,7 @@ def _dh_paths(table: DHTable, frames: LinkFrames) -> list[list[Array]]:
 
 def _straight_paths(chain: SerialChain, frames: LinkFrames) -> list[list[Array]]:
     """From axis to axis by the nearest points."""
-    points = [np.zeros(3)]
-    for point, axis in zip(chain.points, chain.axes, strict=True):
-        points.append(point + axis * float(axis @ (points[-1] - point)))
-    points.append(chain.tool[:3, 3])
+    points = straight_points(chain)
     T_base_link, paths = np.eye(4), []
     for i in range(chain.n + 1):
         T_base_link = T_base_link @ frames.origins[i - 1] if i else T_base_link

@@ -37,7 +37,7 @@ def group_ghosts(
 
     There may be fewer names than ghosts.
     """
-    places = [arm.table.frames(one)[:, :3, 3] for one in (q, *ghosts)]
+    places = [arm.frames(one)[:, :3, 3] for one in (q, *ghosts)]
     groups: list[list[int]] = [[0]]
     for k in range(1, len(places)):
         near = (g for g in groups if np.abs(places[g[0]] - places[k]).max() < ALIKE * arm.size)

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.drawing.arm import zero_configuration
+from dh2urdf.drawing.arm import arm_points, zero_configuration
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
 from dh2urdf.robot import Robot
@@ -147,8 +147,9 @@ def _key(drawn: Any, bar: Any, ticks: ArrayLike, names: list[str]) -> Any:
 def _silhouette(axes: Any, robot: Robot, grid: Section, R: Array, within_limits: bool) -> None:
     """The arm as bones, at a solution in the plane where there is one."""
     q, target = _posed(robot, grid, R, within_limits)
-    frames = robot.frames(q)[:, :3, 3]
-    points = np.concatenate([np.zeros((1, 3)), frames, robot.fk(q)[None, :3, 3]])
+    points = np.concatenate(
+        [np.zeros((1, 3)), *arm_points(robot, q[None]), robot.fk(q[None])[:, :3, 3]]
+    )
     bones = points[:, [grid.plane.u, grid.plane.v]]
     axes.plot(*bones.T, color="white", lw=6.5, solid_capstyle="round", solid_joinstyle="round")
     axes.plot(*bones.T, color=INK, lw=3.6, solid_capstyle="round", solid_joinstyle="round")
@@ -173,6 +174,6 @@ def _posed(
         except Dh2UrdfError:
             return zero, None
         if len(found):
-            heights = robot.frames(found.q)[..., :3, 3].mean(axis=1)[:, grid.plane.v]
+            heights = arm_points(robot, found.q).mean(axis=1)[:, grid.plane.v]
             return found.q[int(np.argmax(heights))], T[:3, 3]
     return zero, None
