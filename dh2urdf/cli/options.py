@@ -43,10 +43,13 @@ class Reading:
     units: str | None = None
     """Units of a table file that does not say them, such as mm,deg."""
 
+    model: str | None = None
+    """The UR that a calibration.conf belongs to, such as ur5e."""
+
     @property
     def told(self) -> Told:
         """What a table file is told."""
-        return told(self.convention, self.units)
+        return told(self.convention, self.units, model=self.model)
 
 
 DEFAULT = Reading()

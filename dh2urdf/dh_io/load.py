@@ -9,8 +9,9 @@ from pathlib import Path
 from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.dh_io.cells.told import NOTHING, Told, told
 from dh2urdf.dh_io.files import path_of, shown
+from dh2urdf.dh_io.forms import CONF, read_conf_file
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
-from dh2urdf.exceptions import NameNotFoundError
+from dh2urdf.exceptions import ArgumentError, NameNotFoundError
 
 FOLDER = Path(__file__).parents[1] / "robots"
 """Tables that ship, one YAML file an arm."""
@@ -33,6 +34,8 @@ def load_table(
     path: str | os.PathLike[str],
     convention: DHConvention | str | None = None,
     units: Iterable[str] | str | None = None,
+    *,
+    model: str | None = None,
 ) -> DHTable:
     """A DH table from a file, or one that ships, by name.
 
@@ -40,10 +43,14 @@ def load_table(
     ----------
     path : path or str
         A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
-        package (``.urdf``: the table that it carries), or a name of :func:`list_tables`.
+        package (``.urdf``: the table that it carries), or a name of :func:`list_tables`; UR's
+        ``calibration.yaml`` and ``calibration.conf``, too.
     convention, units : optional
         For a file that does not say them: ``"modified"``, ``"mm,deg"``. One that says otherwise
         is refused.
+    model : str, optional
+        The UR that a ``calibration.conf`` belongs to, as ``"ur5e"``: its deltas add to the nominal
+        table. Without it, the only UR that they fit, or an error.
 
     Raises
     ------
@@ -52,12 +59,16 @@ def load_table(
     NameNotFoundError
         Neither a file nor a name; the message lists the names that are near.
     """
-    return load_table_file(path, told(convention, units)).table
+    return load_table_file(path, told(convention, units, model=model)).table
 
 
 def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> TableFile:
     """Like :func:`load_table`, with what looked odd about the file."""
     where = path_of(path, "table", "a DHTable, a path or the name of a table that ships")
+    if where.suffix.lower() == CONF:
+        return TableFile(*read_conf_file(where, told))
+    if told.model is not None:
+        raise ArgumentError(f"model: only a calibration.conf needs it, not {shown(where)}")
     if where.suffix.lower() == ".urdf":
         from dh2urdf.dh_io.xml import embedded_table
 

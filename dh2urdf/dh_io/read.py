@@ -17,6 +17,7 @@ from dh2urdf.dh_io.formats.json import read_json
 from dh2urdf.dh_io.formats.markdown import read_markdown
 from dh2urdf.dh_io.formats.toml import read_toml
 from dh2urdf.dh_io.formats.yaml import read_yaml
+from dh2urdf.dh_io.forms import other_form
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
 
@@ -100,7 +101,10 @@ def parse_table(
     """
     read = _READERS[choice(format, "format", _READERS, TableFileError)]
     report = Report.of_text(filename, text, format)
-    table = check_document(read(text, report), report, Path(filename).stem or "robot", told)
+    root, name = read(text, report), Path(filename).stem or "robot"
+    if (form := other_form(root, report, name, told)) is not None:
+        return TableFile(*form)
+    table = check_document(root, report, name, told)
     return TableFile(table, report.warnings)
 
 

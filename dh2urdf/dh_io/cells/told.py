@@ -11,7 +11,7 @@ from dh2urdf.exceptions import TableError
 
 
 class Told(NamedTuple):
-    """Convention and units of a file that is silent about them.
+    """Convention and units of a file that is silent about them, and whose calibration one is.
 
     A file that says otherwise is at fault, unless it ``may_differ``.
     """
@@ -20,6 +20,7 @@ class Told(NamedTuple):
     length: str = ""
     angle: str = ""
     may_differ: bool = False
+    model: str | None = None
 
 
 NOTHING = Told()
@@ -30,6 +31,7 @@ def told(
     units: Iterable[str] | str | None = None,
     *,
     may_differ: bool = False,
+    model: str | None = None,
 ) -> Told:
     """Convention and units, such as ``"mm, deg"`` or ``("mm", "deg")``, in any spelling.
 
@@ -59,4 +61,4 @@ def told(
             expected = f'a length ({lengths}) and an angle ({angles}), as in "mm,deg"'
             raise TableError(f"units: found {found(units)}; expected {expected}")
         names[kind] = unit
-    return Told(chosen, names[Kind.LENGTH], names[Kind.ANGLE], may_differ)
+    return Told(chosen, names[Kind.LENGTH], names[Kind.ANGLE], may_differ, model)

@@ -14,20 +14,21 @@ _NUMBER = re.compile(r"[-+]?(\.inf|\.nan|(\d+\.?\d*|\.\d+)(e[-+]?\d+)?)", re.IGN
 def yaml_values(text: str, filename: str) -> Any:
     """Dictionaries, lists, numbers and texts of a YAML or JSON text, or a TableFileError."""
     report = Report.of_text(filename, text)
-    values = _values(read_yaml(text, report), report)
+    values = plain_values(read_yaml(text, report), report)
     report.raise_faults()
     return values
 
 
-def _values(node: Node, report: Report) -> Any:
+def plain_values(node: Node, report: Report) -> Any:
+    """Dictionaries, lists, numbers and texts of a document; keys given twice are faults."""
     if isinstance(node, Items):
-        return [_values(value, report) for value in node.values]
+        return [plain_values(value, report) for value in node.values]
     if isinstance(node, Keys):
         out: dict[str, Any] = {}
         for key, value in node.pairs:
             if key.text in out:
                 report.fault(key.mark, key.text[:40], "given twice")
-            out[key.text] = _values(value, report)
+            out[key.text] = plain_values(value, report)
         return out
     if node.quoted or not node.text:
         return node.text if node.quoted else None
