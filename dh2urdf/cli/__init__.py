@@ -11,6 +11,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from itertools import takewhile
 from typing import Any
 
 from dh2urdf.cli.progress import note
@@ -48,8 +49,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     except Dh2UrdfError as error:
         if debug:
             raise
-        note(f"dh2urdf: {error}")
-        status = 1 if isinstance(error, UnreachedError) else 2
+        status = _failed(error, tokens)
     except OSError as error:
         if debug:
             raise
@@ -147,6 +147,20 @@ def _spelt(error: UnicodeError) -> tuple[str, int]:
     assert isinstance(error, UnicodeEncodeError)
     sign = error.object[error.start]
     return PLAIN.get(sign, sign.encode("ascii", "backslashreplace").decode()), error.start + 1
+
+
+def _failed(error: Dh2UrdfError, tokens: list[str]) -> int:
+    """Say what was wrong, with ``--json`` on stdout too; the status."""
+    note(f"dh2urdf: {error}")
+    if "--json" in takewhile(lambda token: token != "--", tokens):
+        from dh2urdf.cli.output import emit_error
+
+        try:
+            emit_error(tokens[0] if tokens[0] in VERBS else "", error)
+            sys.stdout.flush()
+        except OSError as lost:
+            return _lost_output(lost)
+    return 1 if isinstance(error, UnreachedError) else 2
 
 
 def _lost_output(error: OSError) -> int:

@@ -55,7 +55,9 @@ class Reading:
 DEFAULT = Reading()
 
 
-Arm = Annotated[str, Parameter(help="A table file, the name of a table that ships, or a URDF.")]
+Arm = Annotated[
+    str, Parameter(help="A table file, the name of a table that ships, or a URDF; - for stdin.")
+]
 Link = Annotated[str | None, Parameter(help="Link of a URDF where the chain begins or ends.")]
 Deg = Annotated[bool, Parameter(help="Bare angles are degrees.")]
 Json = Annotated[bool, Parameter(help="One JSON object instead of text.")]
@@ -158,12 +160,17 @@ Digits = Annotated[int | None, whole(0, 17)]
 _TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
 
 ALONE: dict[str, dict[str, str]] = {
-    "show": {"json": "format symbolic", "format": "symbolic values q", "q": "values"},
+    "show": {"json": "format", "format": "symbolic values q", "q": "values"},
     "fk": {"q": "values"},
-    "ik": {"csv": "xyz rpy matrix", "matrix": "xyz rpy", "task=position": "rpy"},
+    "ik": {
+        "csv": "xyz rpy matrix",
+        "csv=-": "robot=-",
+        "matrix": "xyz rpy",
+        "task=position": "rpy",
+    },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
-    "check": {"fix": "run json"},
-    "extract": {"json": "output=-", "output=-": "force"},
+    "check": {"fix": "run"},
+    "extract": {"output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
 """For each verb, options, and those that say nothing beside them.
@@ -179,7 +186,7 @@ NEEDED: dict[str, dict[str, str]] = {
     "workspace": {"deg": "rpy"},
     "view": {"base": "robot", "tip": "robot", "deg": "q"},
     "check": {"base": "fix", "tip": "fix", "force": "fix"},
-    "extract": {"json+format": "output", "force": "output"},
+    "extract": {"force": "output"},
 }
 """For each verb, options, and those without one of which they say nothing."""
 

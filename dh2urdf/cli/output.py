@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import sys
 from collections.abc import Iterable
 from pathlib import Path
@@ -11,13 +12,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from dh2urdf.bounds import TABLE_BYTES
+from dh2urdf.bounds import ROBOT_BYTES, TABLE_BYTES
 from dh2urdf.cli.options import DEFAULT, Reading, read_numbers
 from dh2urdf.cli.progress import note
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Told, Units
 from dh2urdf.dh_io.cells.told import NOTHING
-from dh2urdf.exceptions import ConfigurationError, TableError
+from dh2urdf.exceptions import ConfigurationError, TableError, UrdfError
 from dh2urdf.grids import grid_matrix, number
 from dh2urdf.transforms import Array
 
@@ -28,11 +29,23 @@ if TYPE_CHECKING:
 SCHEMA = 1
 """Number of the layout of ``--json`` objects; it grows when a key changes its meaning."""
 
+PLACE = re.compile(
+    r"(?P<place>(?:(?!: )[^\n])+?):(?P<line>\d+)(?::(?P<column>\d+))?: |(?P<word>\S+): "
+)
+"""How messages begin: ``arm.yaml:3:12: ``, ``poses.csv:5: `` or ``--xyz: ``."""
+
 ROBOT_SUFFIXES = {".urdf", ".xacro", ".xml", ".mjcf"}
 
 
 def emit(text: str) -> None:
-    """Result for people, on stdout."""
+    """Result on stdout: a terminal shows the true minus, a program reads ASCII numbers."""
+    if not sys.stdout.isatty():
+        text = text.replace("\N{MINUS SIGN}", "-").replace("\N{DEGREE SIGN}", " deg")
+    emit_file(text)
+
+
+def emit_file(text: str) -> None:
+    """Text on stdout as a file would hold it."""
     sys.stdout.write(text.rstrip("\n") + "\n")
 
 
@@ -41,6 +54,23 @@ def emit_json(verb: str, **values: Any) -> None:
     data = {"schema": SCHEMA, "verb": verb, **values}
     spelt = "utf" not in (sys.stdout.encoding or "").lower()
     sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=spelt, indent=2) + "\n")
+
+
+def emit_error(verb: str, error: Exception) -> None:
+    """One JSON object on stdout that says what was wrong, and where."""
+    problems = error.problems if isinstance(error, TableError) else (str(error),)
+    each = [{"message": problem, "where": _where(problem)} for problem in problems]
+    kind, where = type(error).__name__, each[0]["where"]
+    emit_json(verb, kind=kind, message=str(error), where=where, problems=each)
+
+
+def _where(problem: str) -> dict[str, Any] | None:
+    """File, option or name that a message begins with; its line and column where it tells them."""
+    match = PLACE.match(problem)
+    if match is None:
+        return None
+    line, column = (int(number) if number else None for number in match.group("line", "column"))
+    return {"place": match["place"] or match["word"], "line": line, "column": column}
 
 
 def _plain(value: Any) -> Any:
@@ -59,30 +89,57 @@ def stdin() -> BinaryIO:
 
 
 def read_source(source: str, told: Told = NOTHING) -> TableFile:
-    """A table by path, by name, or from stdin (``-``, YAML); what it does not say was told."""
-    from dh2urdf.dh_io import parse_table
-    from dh2urdf.dh_io.files import read_text
+    """A table by path, by name, or from stdin (``-``); what it does not say was told."""
     from dh2urdf.robots import load_table_file
 
-    if source == "-":
-        return parse_table(read_text(stdin(), TABLE_BYTES, TableError), "yaml", "<stdin>", told)
-    return load_table_file(source, told)
+    return _table_of_text(_piped(), told) if source == "-" else load_table_file(source, told)
+
+
+def _piped() -> str:
+    """The text on stdin: a table or a robot description."""
+    from dh2urdf.dh_io.files import read_text
+
+    return read_text(stdin(), ROBOT_BYTES, TableError)
+
+
+def _table_of_text(text: str, told: Told) -> TableFile:
+    """The table of a text in any format, also one that a URDF carries."""
+    from dh2urdf.dh_io import parse_table
+    from dh2urdf.dh_io.read import format_of_text
+    from dh2urdf.dh_io.xml import embedded_table
+
+    if text.lstrip().startswith("<"):
+        return TableFile(embedded_table(io.BytesIO(text.encode())), ())
+    if len(text) > TABLE_BYTES:
+        raise TableError(f"<stdin>: larger than {TABLE_BYTES // 1000} kB, the most that is read")
+    return parse_table(text, format_of_text(text), "<stdin>", told)
 
 
 def table_of(source: str, told: Told = NOTHING) -> DHTable:
     """The table of a source, its oddities noted on stderr."""
-    table, warnings = read_source(source, told)
-    for warning in warnings:
+    return _noted(read_source(source, told))
+
+
+def _noted(read: TableFile) -> DHTable:
+    """A table, its oddities noted on stderr."""
+    for warning in read.warnings:
         note(f"warning: {warning}")
-    return table
+    return read.table
 
 
 def robot_of(
     source: str, base: str | None = None, tip: str | None = None, reading: Reading = DEFAULT
 ) -> Robot:
-    """The robot of a table or of a robot description, by suffix."""
+    """The robot of a table or of a robot description, by suffix; of what stdin holds for ``-``."""
     from dh2urdf.robot import Robot
 
+    if source == "-":
+        text = _piped()
+        if text.lstrip().startswith("<"):
+            return Robot.from_urdf(text, base, tip)
+        if base or tip:
+            raise UrdfError("<stdin>:1: not XML; --base and --tip are links of a URDF")
+        return Robot.from_dh(_noted(_table_of_text(text, reading.told)))
     if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
         return Robot.from_urdf(source, base, tip)
     return Robot.from_dh(table_of(source, reading.told))

@@ -2,6 +2,7 @@
 
 import difflib
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
@@ -42,6 +43,15 @@ _READERS: dict[str, Callable[[str, Report], Node]] = {
 }
 
 
+_SIGNS = {
+    "json": re.compile(r"\A\s*\{"),
+    "markdown": re.compile(r"^\s*\|", re.MULTILINE),
+    "yaml": re.compile(r"^(?:joints|convention|units|name)\s*:", re.MULTILINE),
+    "toml": re.compile(r"^\s*(?:\[|\w+\s*=)", re.MULTILINE),
+    "csv": re.compile(r"^[^#\n]*[,;\t]", re.MULTILINE),
+}
+
+
 class TableFile(NamedTuple):
     """A table read from a file, and what looked odd about it."""
 
@@ -58,6 +68,11 @@ def format_of(path: str | os.PathLike[str]) -> str:
     if suffix in (".urdf", ".xacro", ".xml", ".mjcf"):
         message += "\n  hint: to get a table from a robot description, extract it"
     raise TableFileError(message)
+
+
+def format_of_text(text: str) -> str:
+    """Format of a text without a path, by the first sign of one."""
+    return next((name for name, sign in _SIGNS.items() if sign.search(text)), "yaml")
 
 
 def read_table(

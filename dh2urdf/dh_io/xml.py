@@ -1,6 +1,7 @@
 """XML documents, and the DH table that a URDF of this package carries."""
 
 import os
+from typing import BinaryIO
 
 from lxml import etree
 
@@ -27,7 +28,7 @@ def parse_xml(data: bytes, where: str) -> etree._Element:
     return root
 
 
-def embedded_table(path: str | os.PathLike[str]) -> DHTable:
+def embedded_table(path: str | os.PathLike[str] | BinaryIO) -> DHTable:
     """The DH table that a URDF written by this package carries, identical to the original.
 
     Raises
@@ -35,14 +36,15 @@ def embedded_table(path: str | os.PathLike[str]) -> DHTable:
     UrdfError
         Not XML, or no embedded table.
     """
-    root = parse_xml(read_bytes(path, ROBOT_BYTES, UrdfError), shown(path))
+    where = shown(path) if isinstance(path, str | os.PathLike) else "<stdin>"
+    root = parse_xml(read_bytes(path, ROBOT_BYTES, UrdfError), where)
     text = root.findtext("dh2urdf")
     if not text:
         raise UrdfError(
-            f"{shown(path)}: no DH table is embedded in this URDF; `dh2urdf extract` finds one by "
+            f"{where}: no DH table is embedded in this URDF; `dh2urdf extract` finds one by "
             "frame assignment"
         )
     try:
-        return parse_table(text, "json", f"{shown(path)}:<dh2urdf>").table
+        return parse_table(text, "json", f"{where}:<dh2urdf>").table
     except TableFileError as error:
-        raise UrdfError(f"{shown(path)}: the embedded DH table is damaged: {error}") from None
+        raise UrdfError(f"{where}: the embedded DH table is damaged: {error}") from None

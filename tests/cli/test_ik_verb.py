@@ -20,7 +20,7 @@ def target():
 
 def test_solutions_are_printed_with_branch_and_residual(run):
     """Eight rows, those inside the limits first, the others marked with by how much."""
-    status, out, _ = run("ik", "denso_vs6556", *POSE)
+    status, out, _ = run("ik", "denso_vs6556", *POSE, "--no-within-limits")
     rows = out.splitlines()[2:]
     assert status == 0
     assert len(rows) == 8
@@ -32,7 +32,7 @@ def test_solutions_are_printed_with_branch_and_residual(run):
 
 def test_json_has_full_precision(run):
     """The solutions of --json put the tip at the pose, to 1e-12, by forward kinematics."""
-    status, out, _ = run("ik", "denso_vs6556", *POSE, "--json")
+    status, out, _ = run("ik", "denso_vs6556", *POSE, "--json", "--no-within-limits")
     found = json.loads(out)
     robot = dh2urdf.Robot.from_dh("denso_vs6556")
     assert (status, found["schema"], found["solver"]) == (0, 1, "spherical wrist")
@@ -90,18 +90,74 @@ def test_out_of_reach_is_status_1_with_a_reason(run):
 def test_outside_the_limits_is_status_1_and_shown(run):
     """All solutions outside: they are printed, marked, and the least excess is named."""
     argv = ["ik", "denso_vs6556", "--xyz", 0.1, 0, 0.3, "--rpy", 0, 180, 0, "--deg"]
-    status, out, err = run(*argv)
+    status, out, err = run(*argv, "--no-within-limits")
     assert status == 1
     assert out.count("outside limits") == 8
     assert "all 8 solutions are outside the joint limits, the nearest by 0.17" in err
-    assert run(*argv, "--within-limits")[:2] == (1, "")
+    status, out, err = run(*argv)
+    assert (status, out) == (1, "")
+    assert err.rstrip().endswith("--no-within-limits shows them")
+
+
+@pytest.mark.parametrize("pose", [POSE, ["--xyz=.2,.3,.3", "--rpy=0,3,0"]])
+def test_limits_are_kept_as_by_the_method(run, pose):
+    """Without an option ik and Robot.ik give the same solutions, of a pose and of a file."""
+    found = json.loads(run("ik", "denso_vs6556", *pose, "--json")[1])
+    q = dh2urdf.Robot.from_dh("denso_vs6556").ik(found["T_base_tip"]).q
+    assert 0 < len(q) < 8
+    np.testing.assert_array_equal([s["q"] for s in found["solutions"]], q)
+
+
+class Terminal(io.StringIO):
+    """What stands for a terminal."""
+
+    encoding = "utf-8"
+
+    def isatty(self):
+        """As a terminal would answer."""
+        return True
+
+
+@pytest.mark.parametrize("arm", ["ur5", "denso_vs6556", "franka_fer", "kuka_iiwa14", "planar_rr"])
+@pytest.mark.parametrize("unit", [(), ("--deg",)])
+def test_solutions_fit_a_terminal_of_80_columns(run, monkeypatch, arm, unit):
+    """No line is longer, and what is read back reaches the pose to the digits that are shown."""
+    robot = dh2urdf.Robot.from_dh(arm)
+    T = robot.fk(np.clip(np.full(robot.n, -0.7), robot.lower, robot.upper))
+    monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr("sys.stdout", screen := Terminal())
+    cells = [repr(v) for v in T.ravel().tolist()]
+    run("ik", arm, "--matrix", *cells, *unit, "--no-within-limits")
+    lines = screen.getvalue().splitlines()
+    assert max(map(len, lines)) <= 80
+    assert "-" not in screen.getvalue().replace("e-", "")
+    rule = next(i for i, line in enumerate(lines) if set(line) == {"─"})
+    rows = [line.replace("−", "-").split() for line in lines[rule + 1 :] if line[:4].strip()]
+    assert len(rows) == len(robot.ik(T, within_limits=False))
+    for row in rows:
+        q = np.array(row[1 : robot.n + 1], float)
+        assert np.abs(robot.fk(np.radians(q) if unit else q) - T).max() < 2e-3
+
+
+def test_numbers_in_a_pipe_are_ascii(run):
+    """What is not printed on a terminal has the hyphen that programs read."""
+    for argv in (
+        ["ik", "ur5", *POSE],
+        ["fk", "ur5", "1", "1", "1", "1", "1", "1"],
+        ["show", "ur5"],
+    ):
+        out = run(*argv)[1]
+        assert "−" not in out
+        assert "-" in out
 
 
 def test_csv_of_many_poses(run, tmp_path):
     """Each line is a pose; the answer is CSV; a pose without solution is named by its line."""
     lines = ["z,x,y,roll,pitch,yaw", "0.3,0.4,0,0,180,0", "", "# far", "0,5,0,0,0,0"]
     (tmp_path / "poses.csv").write_text("\n".join(lines))
-    status, out, err = run("ik", "denso_vs6556", "--csv", "poses.csv", "--deg")
+    status, out, err = run(
+        "ik", "denso_vs6556", "--csv", "poses.csv", "--deg", "--no-within-limits"
+    )
     rows = list(csv.DictReader(io.StringIO(out)))
     robot = dh2urdf.Robot.from_dh("denso_vs6556")
     assert status == 1
@@ -118,7 +174,7 @@ def test_csv_of_many_poses(run, tmp_path):
 def test_csv_of_matrices(run, tmp_path):
     """Lines of 16 entries are matrices."""
     (tmp_path / "poses.csv").write_text(",".join(repr(v) for v in target().ravel().tolist()))
-    status, out, _ = run("ik", "denso_vs6556", "--csv", "poses.csv")
+    status, out, _ = run("ik", "denso_vs6556", "--csv", "poses.csv", "--no-within-limits")
     assert status == 0
     assert len(out.splitlines()) == 9
 
@@ -182,7 +238,9 @@ def test_a_rounded_matrix_is_refused_with_a_hint_and_solved_with_nearest(run, re
     err = refused("ik", "denso_vs6556", "--matrix", *cells)
     assert "--nearest" in err
     assert "--matrix: rotation part is not orthonormal" in err
-    status, out, err = run("ik", "denso_vs6556", "--matrix", *cells, "--nearest")
+    status, out, err = run(
+        "ik", "denso_vs6556", "--matrix", *cells, "--nearest", "--no-within-limits"
+    )
     assert (status, len(out.splitlines())) == (0, 10)
     off = float(err.split("off by ")[1].split(" rad")[0])
     assert off == pytest.approx(np.abs(np.linalg.svd(typed[:3, :3])[1] - 1).max(), rel=0.1)
@@ -198,7 +256,9 @@ def test_rounded_matrices_of_a_file_are_named_by_line_or_taken(run, refused, tmp
     row = ",".join(repr(float(v)) for v in typed[:3].ravel())
     (tmp_path / "poses.csv").write_text(f"{row}\n\n{row}\n")
     assert "poses.csv:1: rotation part" in refused("ik", "denso_vs6556", "--csv", "poses.csv")
-    status, out, err = run("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+    status, out, err = run(
+        "ik", "denso_vs6556", "--csv", "poses.csv", "--nearest", "--no-within-limits"
+    )
     assert (status, len(out.splitlines())) == (0, 17)
     assert err.startswith("--nearest: the rotation was off by ")
     (tmp_path / "poses.csv").write_text(f"{row}\n{','.join(['0.7'] * 12)}\n")
@@ -222,8 +282,7 @@ def test_solutions_farther_from_the_seed_than_allowed_are_left_out(run):
     status, out, err = run("ik", "denso_vs6556", *POSE, *seed, "--seed-tolerance", "1e-3")
     assert (status, out) == (1, "")
     by = f"nearest by {least - math.radians(1e-3):.4g} rad at joint_"
-    assert (
-        f"all 8 solutions are farther from the seed than --seed-tolerance allows, the {by}" in err
-    )
+    many = f"all {len(every)} solutions"
+    assert f"{many} are farther from the seed than --seed-tolerance allows, the {by}" in err
     status, _, err = run("ik", "denso_vs6556", *POSE, "--seed-tolerance", "1")
     assert (status, err.strip()) == (2, "dh2urdf: --seed-tolerance does nothing without --seed")

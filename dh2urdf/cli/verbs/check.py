@@ -64,7 +64,7 @@ def check_(
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
     if fix is not None:
-        return _mend(files, fix, base, tip, force=force)
+        return _mend(files, fix, base, tip, force=force, json=json)
     results, failed, done = [], [], count(1)
     total = len(files) * (1 + run * len(installed()))
     with bar("checking", total) as report:
@@ -120,7 +120,7 @@ def _result(file: str, run: bool, answered: Callable[[], None]) -> _Result:
 
 
 def _mend(
-    files: tuple[str, ...], fix: Path, base: str | None, tip: str | None, *, force: bool
+    files: tuple[str, ...], fix: Path, base: str | None, tip: str | None, *, force: bool, json: bool
 ) -> int:
     if len(files) != 1:
         raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
@@ -129,7 +129,10 @@ def _mend(
     if not force:
         refuse_foreign(fix, MENDED)
     atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
-    emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
+    if json:
+        emit_json("check", fixed=fix, mends=mends)
+    else:
+        emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
     return 0
 
 

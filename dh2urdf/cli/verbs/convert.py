@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from dh2urdf.cli.options import DEFAULT, Json, Reading, whole
-from dh2urdf.cli.output import emit, emit_json, read_source
+from dh2urdf.cli.output import emit, emit_file, emit_json, read_source
 from dh2urdf.cli.progress import note, track
 from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.dh import DHTable
@@ -37,7 +37,7 @@ def convert_(
     Parameters
     ----------
     tables
-        Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, or - for YAML on
+        Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, or - for one on
         stdin.
     shipped
         All tables that ship with the package; `convert --shipped --out-dir urdf` made the folder
@@ -136,7 +136,7 @@ def _show_one(result: dict[str, object], *, json: bool) -> None:
     for warning in result["warnings"]:  # type: ignore[attr-defined]
         note(f"warning: {warning}")
     if "text" in result:
-        emit(str(result["text"]))
+        emit_file(str(result["text"]))
         note(_checked(result))
     else:
         emit(f"{result['path']}  {_checked(result)}")

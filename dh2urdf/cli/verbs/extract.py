@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
 from dh2urdf.cli.options import Digits, Force, Json, real
-from dh2urdf.cli.output import emit, emit_json, stdin
+from dh2urdf.cli.output import emit, emit_file, emit_json, stdin
 from dh2urdf.cli.progress import note
 from dh2urdf.dh_io import WRITTEN, atomic_write, refuse_foreign, table_to_text, usual_units
 from dh2urdf.dh_io.files import read_text, shown
@@ -77,12 +77,17 @@ def extract_(
     embedded
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
     """
-    text, own = _stdin() if source == "-" else source, embedded and not explain
+    given, own = _stdin() if source == "-" else source, embedded and not explain
     found = extract_dh(
-        text, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
+        given, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
     )
-    if output is not None or format is not None:
-        _write(found, output, format, digits, force=force)
+    to_stdout = str(output or "-") == "-"
+    asked = output is not None or format is not None
+    text = _text(found, output, format, digits) if asked else ""
+    if output is not None and not to_stdout:
+        _write(found, output, text, force=force)
+    elif text and not json:
+        emit_file(text)
     if json:
         emit_json(
             "extract",
@@ -91,6 +96,7 @@ def extract_(
             steps=[asdict(step) for step in found.steps],
             changes=[asdict(change) for change in found.changes],
             warnings=found.warnings,
+            **({"text": text} if text and to_stdout else {}),
         )
         return
     for warning in found.warnings:
@@ -109,28 +115,26 @@ def _stdin() -> str:
     return text
 
 
-def _write(
-    found: Extraction, output: Path | None, format: str | None, digits: int | None, *, force: bool
-) -> None:
-    """The table in its format, to a file or stdout."""
+def _text(found: Extraction, output: Path | None, format: str | None, digits: int | None) -> str:
+    """The table in the format of an output, or the one that is named."""
     from dh2urdf.conversions.write import CONSTRUCTORS, table_text_and_error
 
-    to_stdout = output is None or str(output) == "-"
-    suffix = ".yaml" if to_stdout else str(output.suffix.lower() if output else "")
+    suffix = output.suffix.lower() if output and str(output) != "-" else ".yaml"
     chosen = format or SUFFIXES.get(suffix, "")
     if not chosen:
         known = ", ".join(SUFFIXES)
         raise Dh2UrdfError(f"{output}: the suffix tells no format; use {known} or --format")
     if chosen in CONSTRUCTORS:
-        text = CONSTRUCTORS[chosen](found.table)
-    else:
-        units = usual_units(found.table, chosen, None)
-        text, error = table_text_and_error(found.table, chosen, units, digits)
-        if error:
-            note(f"rounded to {digits} decimals, the arm is up to {error:.2g} m or rad off")
-    if output is None or to_stdout:
-        emit(text)
-        return
+        return CONSTRUCTORS[chosen](found.table)
+    units = usual_units(found.table, chosen, None)
+    text, error = table_text_and_error(found.table, chosen, units, digits)
+    if error:
+        note(f"rounded to {digits} decimals, the arm is up to {error:.2g} m or rad off")
+    return text
+
+
+def _write(found: Extraction, output: Path, text: str, *, force: bool) -> None:
+    """The text of the table to a file."""
     if not force:
         refuse_foreign(output, SIGNATURE)
     atomic_write(output, text)

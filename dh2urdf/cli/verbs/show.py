@@ -1,11 +1,19 @@
 """``dh2urdf show``: a table, its transforms, and how its inverse kinematics is solved."""
 
-from typing import Literal
+from json import loads
+from typing import Any, Literal
 
 import numpy as np
 
 from dh2urdf.cli.options import DEFAULT, Deg, Digits, Json, Reading, Values
-from dh2urdf.cli.output import emit, emit_json, matrix_text, parse_configuration, table_of
+from dh2urdf.cli.output import (
+    emit,
+    emit_file,
+    emit_json,
+    matrix_text,
+    parse_configuration,
+    table_of,
+)
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line
 from dh2urdf.dh_io import Units, table_to_text, usual_units
@@ -32,7 +40,7 @@ def show_(
     Parameters
     ----------
     table
-        A table file, or the name of a table that ships.
+        A table file, or the name of a table that ships; - for stdin.
     values
         Joint values for the transforms; default: all zero.
     q
@@ -50,7 +58,7 @@ def show_(
     assert dh is not None
     units = Units("m", "deg") if format == "text" else usual_units(dh, format, None)
     if format != "text":
-        emit(table_to_text(dh, format, units, digits))
+        emit_file(table_to_text(dh, format, units, digits))
         return
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
@@ -71,6 +79,8 @@ def show_(
             T_base_tool=dh.fk(config),
             solver=name,
             solver_explained=why,
+            table=loads(table_to_text(dh, "json")),
+            **(_symbols(dh) if symbolic else {}),
         )
         return
     emit(table_to_text(dh, format, units, digits))
@@ -92,6 +102,15 @@ def _show_transforms(dh: DHTable, config: Array) -> None:
     emit(f"\nH_{dh.n}^0 =\n{matrix_text(np.linalg.inv(frames[0]) @ frames[-1])}")
     if not (dh.tool.is_identity and np.array_equal(frames[0], np.eye(4))):
         emit(f"\nT_base_tool =\n{matrix_text(dh.fk(config))}")
+
+
+def _symbols(dh: DHTable) -> dict[str, Any]:
+    """The transforms and their product in symbols, each cell an expression of SymPy."""
+    from dh2urdf.symbolic import symbolic_product, symbolic_transforms
+
+    each = [*symbolic_transforms(dh), symbolic_product(dh)]
+    *transforms, product = ([list(map(str, row)) for row in H.tolist()] for H in each)
+    return {"symbolic_transforms": transforms, "symbolic_product": product}
 
 
 def _show_symbols(dh: DHTable) -> None:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
+from cyclopts import Parameter
 
 from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
+from dh2urdf.cli.verbs.ik.answers import as_data, names_of, outside, solutions_text
 from dh2urdf.cli.verbs.ik.poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
-from dh2urdf.grids import grid_csv, grid_text, number
+from dh2urdf.grids import grid_csv
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -43,7 +45,7 @@ def ik_(
     locked: Values = None,
     task: Literal["pose", "position", "position+axis"] = "pose",
     turns: Literal["nearest", "all"] = "nearest",
-    within_limits: bool = False,
+    within_limits: Annotated[bool, Parameter(negative="--no-within-limits")] = True,
     nearest: bool = False,
     deg: bool = False,
     base: Link = None,
@@ -77,7 +79,7 @@ def ik_(
     turns
         nearest, or all where a range is wider than a turn.
     within_limits
-        Leave out solutions outside the joint limits instead of marking them.
+        Leave out solutions outside the joint limits, as `Robot.ik` does; else mark them.
     nearest
         Take the nearest rotation where that of a matrix is rounded, and tell how far it was.
     deg
@@ -99,15 +101,17 @@ def ik_(
     found = arm.ik(T, **near, **options)
     _tell_change(found.pose_change)
     if goal is None:
-        found = found.select(np.argsort(_outside(arm, found.q).any(axis=1), kind="stable"))
+        found = found.select(np.argsort(outside(arm, found.q).any(axis=1), kind="stable"))
     reason = _reason(arm, T, found, near, options)
     if json:
         solver = arm.solver_for(locked=options["locked"], task=task)
-        emit_json("ik", **_as_data(arm, found), solver=str(solver))
+        emit_json("ik", **as_data(arm, found), solver=str(solver), reason=reason)
     elif found:
-        emit(_table(arm, found, deg=deg))
+        emit(solutions_text(arm, found, deg=deg))
     if reason:
-        note(f"no solution: {reason}" if not found else f"no solution within limits: {reason}")
+        hidden = within_limits and "outside the joint limits" in reason
+        hint = "; --no-within-limits shows them" if hidden else ""
+        note(f"no solution{' within limits' if found else ''}: {reason}{hint}")
     return 1 if reason else 0
 
 
@@ -140,15 +144,9 @@ def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float]
     return held
 
 
-def _outside(arm: Robot, q: Array) -> Array:
-    """Excess of each joint over its limits, 0 inside, shape (k, n)."""
-    excess: Array = np.maximum(np.maximum(arm.lower - q, q - arm.upper), 0.0)
-    return np.where(excess > 1e-12, excess, 0.0)
-
-
 def _reason(arm: Robot, T: Array, found: IKSolutions, near: _Options, options: _Options) -> str:
     """Why there is no solution within the limits; empty if there is one."""
-    if found and (_outside(arm, found.q) == 0.0).all(axis=1).any():
+    if found and (outside(arm, found.q) == 0.0).all(axis=1).any():
         return ""
     if not found and "seed_tolerance" in near:
         others = arm.ik(T, **{**near, **options, "seed_tolerance": None})
@@ -171,56 +169,6 @@ def _too_far(arm: Robot, q: Array, near: _Options) -> str:
     )
 
 
-def _as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
-    """The solutions as plain values: metres and radians, full precision."""
-    outside = _outside(arm, found.q)
-    return {
-        "base": arm.base,
-        "tip": arm.tip,
-        "T_base_tip": found.T,
-        "pose_change": found.pose_change,
-        "joint_names": arm.joint_names,
-        "solutions": [
-            {
-                "q": q,
-                "residual": float(residual),
-                "branch": branch,
-                "free_joints": [arm.joint_names[i] for i in free],
-                "outside_limits": _names(arm, over),
-            }
-            for q, residual, branch, free, over in zip(
-                found.q, found.verify(), found.branch, found.free_joints, outside, strict=True
-            )
-        ],
-    }
-
-
-def _shown(value: float, *, slides: bool, deg: bool) -> str:
-    """A joint value with six decimals, in degrees with four."""
-    return number(round(math.degrees(value), 4) if deg and not slides else round(value, 6))
-
-
-def _table(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
-    """Solutions for people: values, residual by Pinocchio, branch, remarks."""
-    slides = arm.slides.tolist()
-    units = ["m" if s else "deg" if deg else "rad" for s in slides]
-    header = ["#", *(f"{name} [{unit}]" for name, unit in zip(arm.joint_names, units, strict=True))]
-    rows = []
-    outside = _outside(arm, found.q)
-    lines = zip(found.q, found.verify(), found.branch, found.free_joints, outside, strict=True)
-    for i, (q, residual, branch, free, over) in enumerate(lines, 1):
-        cells = [_shown(v, slides=s, deg=deg) for v, s in zip(q, slides, strict=True)]
-        parts = [branch] if branch else []
-        parts += [f"free: {', '.join(arm.joint_names[j] for j in free)}"] if free else []
-        far = [
-            f"{arm.joint_names[j]} by {_shown(over[j], slides=slides[j], deg=deg)}"
-            for j in np.flatnonzero(over)
-        ]
-        parts += [f"outside limits: {', '.join(far)}"] if far else []
-        rows.append([str(i), *cells, f"{residual:.1e}", "; ".join(parts)])
-    return grid_text([*header, "residual", "branch"], rows, left={len(header) + 1})
-
-
 def _many(
     arm: Robot, poses: Poses, near: _Options, options: _Options, *, deg: bool, json: bool
 ) -> int:
@@ -230,25 +178,28 @@ def _many(
     data: list[dict[str, Any]] = []
     lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
     for i, found in enumerate(_solved(arm, poses.T, near, options)):
-        over, change = _outside(arm, found.q), max(change, found.pose_change)
+        over, change = outside(arm, found.q), max(change, found.pose_change)
         if not (over == 0.0).all(axis=1).any():
             missed[i] = found if len(missed) < SHOWN else None
         if json:
-            data.append(_as_data(arm, found))
+            data.append(as_data(arm, found))
             continue
         lines += _lines(arm, i, found, over, deg=deg)
         if len(lines) > CHUNK:
             emit(grid_csv(lines[0], lines[1:]))
             lines.clear()
+    reasons = {
+        i: _reason(arm, poses.T[i], first, near, options)
+        for i, first in missed.items()
+        if first is not None
+    }
     if json:
-        emit_json("ik", poses=data, unreached=list(missed))
+        emit_json("ik", poses=data, unreached=list(missed), reasons=reasons)
     elif lines:
         emit(grid_csv(lines[0], lines[1:]))
     _tell_change(change)
-    for i, first in missed.items():
-        if first is not None:
-            reason = _reason(arm, poses.T[i], first, near, options)
-            note(f"{poses.name(i)}: no solution within limits: {reason}")
+    for i, reason in reasons.items():
+        note(f"{poses.name(i)}: no solution within limits: {reason}")
     if len(missed) > SHOWN:
         note(f"... and {len(missed) - SHOWN} more of {len(poses.T)} poses without a solution")
     return 1 if missed else 0
@@ -270,14 +221,9 @@ def _solved(arm: Robot, Ts: Array, near: _Options, options: _Options) -> Iterato
 def _lines(arm: Robot, pose: int, found: IKSolutions, over: Array, *, deg: bool) -> list[list[str]]:
     """One line a solution: pose, solution, joint values, residual, branch, outside limits."""
     q = found.q * np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
-    far = [" ".join(_names(arm, one)) for one in over]
+    far = [" ".join(names_of(arm, one)) for one in over]
     measured = zip(q.tolist(), found.verify(), found.branch, far, strict=True)
     return [
         [f"{pose + 1}", f"{k + 1}", *map(repr, row), f"{residual:.1e}", branch, names]
         for k, (row, residual, branch, names) in enumerate(measured)
     ]
-
-
-def _names(arm: Robot, over: Array) -> list[str]:
-    """The joints outside their limits."""
-    return [arm.joint_names[j] for j in np.flatnonzero(over)]
