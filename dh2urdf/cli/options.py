@@ -182,7 +182,7 @@ An option stands for itself, for one value (``task=position``) or for the suffix
 NEEDED: dict[str, dict[str, str]] = {
     "show": {"deg": "values q"},
     "ik": {"nearest": "matrix csv", "seed_tolerance": "seed"},
-    "figure": {"deg": "q"},
+    "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},
     "view": {"base": "robot", "tip": "robot", "deg": "q"},
     "check": {"base": "fix", "tip": "fix", "force": "fix"},

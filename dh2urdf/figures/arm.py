@@ -9,12 +9,14 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.doors import choice, finite_array, flag, items, text
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, table_of, zero_configuration
+from dh2urdf.drawing.colours import QUANTITY
+from dh2urdf.figures.branches import draw_angles
 from dh2urdf.figures.canvas import Canvas
 from dh2urdf.figures.dh_marks import DHMarks
-from dh2urdf.figures.dh_panel import DHPanel, draw_key, moved_sentence, pose_sentence
-from dh2urdf.figures.projection import View, best_view
+from dh2urdf.figures.dh_panel import DHPanel, draw_key, joint_values, moved_sentence
+from dh2urdf.figures.projection import View, best_view, is_planar
 from dh2urdf.figures.schematic import draw_schematic, schematic_points
-from dh2urdf.figures.solids.ghosts import group_ghosts
+from dh2urdf.figures.solids.ghosts import Ghost, group_ghosts
 from dh2urdf.figures.solids.solid_paint import (
     BODY,
     floor_discs,
@@ -30,13 +32,16 @@ from dh2urdf.transforms import Array
 Style = Literal["bodies", "schematic"]
 
 HEIGHT = 420.0
-"""Height of the sheet [pt]."""
+"""Height of the sheet [pt] where the arm asks for it; less for a flat one."""
 
-NARROWEST, WIDEST = 250.0, 470.0
+NARROWEST, WIDEST = 200.0, 470.0
 """Width of the arm's panel [pt], as its shape asks."""
 
 MARGIN = 34.0
 """Free border around the arm [pt]; labels may stand in it."""
+
+FEW = 5
+"""Joints up to which the key gives the values of each ghost."""
 
 ARROW = 0.13
 """Length of an axis as a share of the picture's larger side."""
@@ -103,7 +108,7 @@ class _ArmPicture:
         self.q = robot.chain_configuration(asked)
         others = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
         self.ghosts = group_ghosts(self.arm, self.q, others, ghost_names)
-        self.key = [(ghost.colour, ghost.name) for ghost in self.ghosts if ghost.name]
+        self.key = [(ghost.colour, self._key_of(ghost)) for ghost in self.ghosts if ghost.name]
         self.style, self.show_frames = style, frames
         dh_frames = self.arm.frames(self.q)
         eye = None if view is None else finite_array(view, "view", "two angles", shape=(2,))
@@ -111,9 +116,18 @@ class _ArmPicture:
         self.parts = self._parts(self.q)
         self.floor = self._floor()
         self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]
-        notes = [pose_sentence(self.q, self.arm.chain.prismatic), *moved_sentence(self.arm.shifts)]
+        notes = [
+            f"pose drawn: {joint_values(self.q, self.arm.chain.prismatic)}",
+            *moved_sentence(self.arm.shifts),
+        ]
         self.panel = DHPanel(self.arm.table, notes, self.key) if table else None
         self._lay_out(dh_frames)
+
+    def _key_of(self, ghost: Ghost) -> str:
+        """Its name, and its joints where they are few."""
+        if self.arm.table.n > FEW or not ghost.is_drawn:
+            return ghost.name
+        return f"{ghost.name}: {joint_values(ghost.q, self.arm.chain.prismatic)}"
 
     def _parts(self, q: Array) -> list[Part]:
         return arm_parts(self.arm.bodies, self.arm.link_poses(q))
@@ -133,10 +147,11 @@ class _ArmPicture:
             flat = np.concatenate([flat, self.view.flat(tips.reshape(-1, 3))])
         low, high = flat.min(axis=0), flat.max(axis=0)
         span = np.maximum(high - low, 1e-3 * side)
-        height = max(HEIGHT, self.panel.height + 40.0 if self.panel else 0.0)
-        inner = height - 2 * MARGIN
+        beside = self.panel.height + 40.0 if self.panel else 0.0
+        inner = max(HEIGHT, beside) - 2 * MARGIN
         width = float(np.clip(inner * span[0] / span[1] + 2 * MARGIN, NARROWEST, WIDEST))
         self.scale = float(min(inner / span[1], (width - 2 * MARGIN) / span[0]))
+        height = max(self.scale * float(span[1]) + 2 * MARGIN, beside)
         middle, scale = (low + high) / 2, self.scale
         foot = 14.0 * len(self.key) if self.panel is None else 0.0
         centre = np.array([width / 2, height / 2 + foot])
@@ -157,7 +172,13 @@ class _ArmPicture:
             draw_schematic(self.canvas, self.arm, self.q, self.scale)
         if self.show_frames:
             seen = outlines(self.parts, self.view)
-            DHMarks(self.canvas, self.arm, self.q, self.arrow, seen).draw(self.bounds)
+            marks = DHMarks(self.canvas, self.arm, self.q, self.arrow, seen)
+            marks.draw()
+            if self.ghost_parts and is_planar(self.arm.frames(self.q), self.arm.chain):
+                draw_angles(marks, self.q, QUANTITY["theta"], 0)
+                for rank, ghost in enumerate((g for g in self.ghosts if g.is_drawn), 1):
+                    draw_angles(marks, ghost.q, ghost.colour, rank)
+            marks.write(self.bounds)
         if self.panel is None:
             draw_key(self.canvas, 14.0, 14.0 * len(self.key), self.key)
         else:

@@ -1,6 +1,7 @@
 """DH frames, the lengths d and a, and the joint axes, drawn over an arm with their labels."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,12 @@ LEADER = 13.0
 
 BROKEN = (2.2, 1.1)
 """Dashes of a measure whose frames were moved to the arm."""
+
+ROOM, SHORTEST = 0.66, 0.5
+"""Length of arrows against the way to the next frame in the picture; the least, against others."""
+
+SAME_SPOT = 0.1
+"""Distance in the picture, against the arrows' length, up to which frames stand on one spot."""
 
 OUTLINE = 0.16
 """How much a body's outline minds being covered by a label, against 1 for an arrow."""
@@ -59,6 +66,7 @@ class DHMarks:
     ) -> None:
         self.canvas, self.view, self.length = canvas, canvas.view, length
         self.arm, self.frames = arm, arm.frames(q)
+        self.lengths = self._lengths()
         self.rows = [row_picture(arm, q, i) for i in range(1, arm.table.n + 1)]
         self.lines = [
             Line(canvas.to(np.stack(edge)), OUTLINE)
@@ -66,16 +74,31 @@ class DHMarks:
             for edge in zip(outline, np.roll(outline, -1, axis=0), strict=True)
         ]
         self.labels: list[Label] = []
-        self.colours: list[str] = []
 
-    def draw(self, bounds: Array) -> None:
-        """Draw everything; labels stay within bounds (2, 2) [pt]."""
+    def draw(self) -> None:
+        """Draw everything but the labels."""
         self._joint_axes()
         self._measures()
         self._arrows()
         for frame in self.frames:
             self.canvas.dot(self.canvas.at(frame[:3, 3]), "#000000", 2.3)
-        self._texts(bounds)
+
+    def angle(self, points: Array, text: str, colour: str) -> None:
+        """Draw an arc (m, 2) [pt] that ends in an arrow, and ask a place for its label."""
+        self.canvas.line(points, "white", 3.6)
+        self.canvas.line(points[:-1], colour, 1.5)
+        self.canvas.arrow(points[max(len(points) - 6, 0)], points[-1], colour, 1.5)
+        self.lines += [Line(np.stack(pair)) for pair in pairwise(points)]
+        middle = points[[len(points) // 2, len(points) // 3, 2 * len(points) // 3]]
+        self._label(text, middle, middle[0] - points[[0, -1]].mean(axis=0), colour)
+
+    def _lengths(self) -> Array:
+        """Length of each frame's arrows [m], less where other frames are near in the picture."""
+        spots = self.view.flat(self.frames[:, :3, 3])
+        away = np.linalg.norm(spots[:, None] - spots[None], axis=2)
+        away[away < SAME_SPOT * self.length] = np.inf
+        room = ROOM * away.min(axis=1)
+        return np.asarray(np.clip(room, SHORTEST * self.length, self.length))
 
     def _joint_axes(self) -> None:
         """A dash-dotted line along each joint's axis, past what stands on it."""
@@ -118,7 +141,8 @@ class DHMarks:
         name = f"${measure.key}_{{{index}}}$"
         if measure.moved:
             name += f" = {number(float(f'{measure.value:.4g}'))} m"
-        self._label(name, points.mean(axis=0), np.array([-way[1], way[0]]), colour, True)
+        marks = points[0] + np.array([[0.5], [0.35], [0.65], [0.2], [0.8]]) * way
+        self._label(name, marks, np.array([-way[1], way[0]]), colour, True)
 
     def _arrows(self) -> None:
         """All axes, far ones first; y short and thin, without a name."""
@@ -130,7 +154,8 @@ class DHMarks:
 
     def _arrow(self, arrow: Arrow) -> None:
         thin = arrow.letter == "y"
-        colour, reach = AXIS[arrow.letter], self.length * (0.5 if thin else 1.0)
+        length = float(self.lengths[int(arrow.names[0][1:])])
+        colour, reach = AXIS[arrow.letter], length * (0.5 if thin else 1.0)
         start, end = self.canvas.at(np.stack([arrow.start, arrow.start + reach * arrow.direction]))
         shown = float(np.linalg.norm(self.view.flat(arrow.direction)))
         moved = [r"^{\prime}" if self.arm.shifts[int(n[1:])] else "" for n in arrow.names]
@@ -140,13 +165,14 @@ class DHMarks:
             if not thin:
                 toward = float(self.view.depth(arrow.direction)) > 0
                 self.canvas.axis_end(start, colour, 4.6, toward_eye=toward)
-                self._label(name, start, np.array([-1.0, -1.0]), colour)
+                self._label(name, start[None], np.array([-1.0, -1.0]), colour)
                 self.lines.append(Line(np.stack([start - 4, start + 4])))
             return
         self.canvas.arrow(start, end, colour, 1.1 if thin else 2.3)
         self.lines.append(Line(np.stack([start, end]), 0.6 if thin else 1.0))
         if not thin:
-            self._label(name, end, end - start, colour)
+            marks = end - np.array([[0.0], [0.25], [0.5]]) * (end - start)
+            self._label(name, marks, end - start, colour)
 
     def _merged(self, letters: str) -> list[Arrow]:
         """Axes of all frames; those that coincide are one arrow with several names."""
@@ -164,18 +190,19 @@ class DHMarks:
         return merged
 
     def _label(
-        self, text: str, anchor: Array, toward: Array, colour: str, both_ways: bool = False
+        self, text: str, marks: Array, toward: Array, colour: str, both_ways: bool = False
     ) -> None:
         size = np.array(text_size(text, LABEL))
-        self.labels.append(Label(text, size, anchor, toward, both_ways))
-        self.colours.append(colour)
+        self.labels.append(Label(text, size, marks, toward, both_ways, colour))
 
-    def _texts(self, bounds: Array) -> None:
+    def write(self, bounds: Array) -> None:
+        """Write the labels of all that is drawn, within bounds (2, 2) [pt]."""
         centres = place_labels(self.labels, self.lines, bounds)
-        for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
-            way, half = centre - label.anchor, label.size / 2
-            if float(np.hypot(*np.maximum(np.abs(way) - half, 0.0))) > LEADER:
-                edge = centre - np.clip(way, -half - 1.0, half + 1.0)
-                self.canvas.line(np.stack([edge, label.anchor]), mix(colour, 0.55), 0.7)
-        for label, colour, centre in zip(self.labels, self.colours, centres, strict=True):
-            self.canvas.label(centre, label.text, LABEL, colour)
+        for label, centre in zip(self.labels, centres, strict=True):
+            if float(label.gap(centre[None], label.marks)[0]) > LEADER:
+                nearest = np.argmin(np.linalg.norm(label.marks - centre, axis=1))
+                way, half = centre - label.marks[nearest], label.size / 2
+                ends = np.stack([centre - np.clip(way, -half - 1.0, half + 1.0), centre - way])
+                self.canvas.line(ends, mix(label.colour, 0.55), 0.7)
+        for label, centre in zip(self.labels, centres, strict=True):
+            self.canvas.label(centre, label.text, LABEL, label.colour)

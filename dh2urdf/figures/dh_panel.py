@@ -134,13 +134,13 @@ def draw_key(canvas: Canvas, left: float, top: float, key: list[tuple[str, str]]
         canvas.text((left + 14.0, y), name, SIZE - 2, ha="left")
 
 
-def pose_sentence(q: Array, slides: Iterable[bool]) -> str:
-    """``pose drawn: q = (30°, 40°, 250 mm)``."""
+def joint_values(q: Array, slides: Iterable[bool]) -> str:
+    """``q = (30°, 40°, 250 mm)``."""
     cells = [
         f"{number(round(v * 1000, 3))} mm" if s else f"{number(round(math.degrees(v), 3))}°"
         for v, s in zip(q.tolist(), slides, strict=True)
     ]
-    return f"pose drawn: $q$ = ({', '.join(cells)})"
+    return f"$q$ = ({', '.join(cells)})"
 
 
 def moved_sentence(shifts: Array) -> list[str]:

@@ -50,14 +50,14 @@ class View:
 
 def best_view(frames: Array, chain: SerialChain) -> View:
     """A view of an arm's DH frames (n + 1, 4, 4): from above for a planar one, else the widest."""
-    if _is_planar(frames, chain):
+    if is_planar(frames, chain):
         return View(-90.0, 90.0)
     points, axes = frames[:, :3, 3], frames[:, :3, [0, 2]].transpose(0, 2, 1).reshape(-1, 3)
     views = [View(float(az), ELEVATION) for az in AZIMUTHS]
     return max(views, key=lambda view: _worth(view, points, axes))
 
 
-def _is_planar(frames: Array, chain: SerialChain) -> bool:
+def is_planar(frames: Array, chain: SerialChain) -> bool:
     """Every joint turns about the vertical or slides across it, all frames at one height."""
     heights = frames[:, 2, 3]
     if float(np.ptp(heights)) > 1e-6 * chain.size:

@@ -19,7 +19,7 @@ from dh2urdf.conversions.write.bodies import Body
 from dh2urdf.drawing.arm import drawn_arm, table_of
 from dh2urdf.drawing.row import row_picture, row_words
 from dh2urdf.exceptions import ConfigurationError, OutputError, OutputExistsError
-from dh2urdf.figures import dh_marks, figure, picture_bytes, save_picture
+from dh2urdf.figures import branch_ghosts, dh_marks, figure, picture_bytes, save_picture
 from dh2urdf.figures.canvas import text_box
 from dh2urdf.figures.projection import View
 from dh2urdf.figures.solids.ghosts import group_ghosts
@@ -186,22 +186,46 @@ def test_row_says_its_case(name, row, words):
     assert words in row_words(arm.table, picture)
 
 
-@pytest.mark.parametrize("name", ARMS)
-def test_labels_stay_apart_and_on_the_sheet(name, monkeypatch):
-    """No two labels overlap, at zero and at a random configuration."""
-    placed = []
+@pytest.fixture
+def searched(monkeypatch):
+    """Labels, their centres and the bounds of each figure that is drawn."""
+    kept = []
     search = dh_marks.place_labels
 
-    def kept(labels, lines, bounds):
+    def place(labels, lines, bounds):
         centres = search(labels, lines, bounds)
-        placed.append((labels, centres, bounds))
+        kept.append((labels, centres, bounds))
         return centres
 
-    monkeypatch.setattr(dh_marks, "place_labels", kept)
+    monkeypatch.setattr(dh_marks, "place_labels", place)
+    return kept
+
+
+@pytest.mark.parametrize("name", ["ur5", "kuka_iiwa14", "franka_fer", "planar_rrr"])
+def test_labels_stand_beside_what_they_name(name, searched):
+    """At crowded wrists too, a name is nearer to its own arrow or length than to another's.
+
+    Those that run along one another, as a_3 and a_4 of a Panda, may have their names together.
+    """
+    figure(Robot.from_dh(name))
+    labels, centres, _ = searched.pop()
+    for label, centre in zip(labels, centres, strict=True):
+        own = label.gap(centre[None], label.marks)
+        assert own < 20.0
+        for other in labels:
+            along = np.linalg.norm(other.marks[:, None] - label.marks, axis=2).min() < 4.0
+            if other is not label and other.colour == label.colour and not along:
+                spare = label.gap(centre[None], other.marks) - own
+                assert spare > 1.0, f"{label.text} stands beside {other.text}"
+
+
+@pytest.mark.parametrize("name", ARMS)
+def test_labels_stay_apart_and_on_the_sheet(name, searched):
+    """No two labels overlap, at zero and at a random configuration."""
     robot = Robot.from_dh(name)
     for q in (None, robot.random_configuration(5)):
         figure(robot, q)
-        labels, centres, bounds = placed.pop()
+        labels, centres, bounds = searched.pop()
         assert len(labels) >= robot.n
         half = np.stack([label.size for label in labels]) / 2
         assert (centres - half >= bounds[0] - 1e-9).all()
@@ -266,6 +290,52 @@ def test_schematic_ghosts_and_bare_arm_are_drawn():
         {"view": (20, 30)},
     ):
         assert picture_bytes(robot.figure(q, **options), "png", dpi=50) != plain
+
+
+@pytest.mark.parametrize(
+    ("name", "filled"), [("planar_rr", 0.25), ("planar_rrr", 0.2), ("omron_cobra600", 0.4)]
+)
+def test_flat_arms_have_little_white_around(name, filled):
+    """The arm alone covers a good part of a sheet that is no higher than it needs."""
+    picture = figure(Robot.from_dh(name), table=False)
+    corners = np.concatenate([p.get_xy() for p in picture.axes[0].patches if hasattr(p, "get_xy")])
+    sheet = 72.0 * picture.get_size_inches()
+    assert (corners >= 0.0).all()
+    assert (corners <= sheet).all()
+    assert np.prod(np.ptp(corners, axis=0)) > filled * np.prod(sheet)
+    assert np.prod(sheet) < (0.45 if name.startswith("planar") else 0.9) * 470 * 420
+
+
+@pytest.mark.parametrize("task", [None, "position"])
+def test_both_elbows_of_the_first_lecture_are_drawn_with_their_angles(task):
+    """Two links at a bent pose: the other elbow is the mirror image, and the angles are written."""
+    robot = Robot.from_dh("planar_rr")
+    q, ghosts, names = branch_ghosts(robot, task=task)
+    assert len(ghosts) == len(names) == 2
+    np.testing.assert_allclose(ghosts[0], q, atol=1e-9)
+    np.testing.assert_allclose(robot.fk(ghosts[1])[:3, 3], robot.fk(q)[:3, 3], atol=1e-9)
+    assert ghosts[1][1] == pytest.approx(-q[1])
+    texts = [t.get_text() for t in figure(robot, q, ghosts=ghosts, ghost_names=names).axes[0].texts]
+    for each in ghosts:
+        for i, angle in enumerate(np.degrees(each), 1):
+            shown = f"{angle:.1f}".removesuffix(".0").replace("-", "\N{MINUS SIGN}")
+            assert rf"$\theta_{{{i}}}$ = {shown}°" in texts
+    assert "as drawn: elbow down" in texts
+    assert any(text.startswith("elbow up: ") for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("name", "count"), [("planar_rrr", 1), ("omron_cobra600", 1), ("xarm5", 3), ("gantry", 0)]
+)
+def test_arms_of_few_joints_have_their_ghosts(name, count):
+    """As many others reach the pose as the arm has; each is drawn or looks like another one."""
+    robot = Robot.from_dh(name)
+    q, ghosts, _ = branch_ghosts(robot)
+    assert len(ghosts) == count + 1
+    drawn = group_ghosts(drawn_arm(robot.table), q, ghosts, [])
+    assert sum(ghost.is_drawn for ghost in drawn) <= count
+    for each in ghosts:
+        np.testing.assert_allclose(robot.fk(each)[:3, 3], robot.fk(q)[:3, 3], atol=1e-9)
 
 
 def test_branches_that_look_alike_share_a_colour():

@@ -31,6 +31,7 @@ def figure_(
     deg: Deg = False,
     style: Literal["bodies", "schematic"] = "bodies",
     branches: bool = False,
+    task: Literal["pose", "position", "position+axis"] | None = None,
     frames: Annotated[bool, Parameter(negative="--no-frames")] = True,
     table: Annotated[bool, Parameter(negative="--no-table")] = True,
     view: Values = None,
@@ -50,7 +51,11 @@ def figure_(
     style
         Solid bodies, or the lines, cylinders and boxes of textbooks.
     branches
-        Draw every other configuration that reaches the same pose as a ghost.
+        Draw every other configuration that reaches the same pose as a ghost, in a planar arm with
+        its angles; without --q at a bent pose where zero has no other.
+    task
+        What of the pose the branches share: pose, position or position+axis (the tip's z);
+        default: as much as an arm of its kind can reach.
     frames
         Draw the DH frames and lengths.
     table
@@ -58,22 +63,18 @@ def figure_(
     view
         Azimuth and elevation of the eye in degrees; default: one that shows the arm.
     """
-    from dh2urdf.figures import figure, save_picture
+    from dh2urdf.figures import branch_ghosts, figure, save_picture
     from dh2urdf.figures.save import check_target
 
     check_target(output, force=force)
     arm = robot_of(robot, base, tip, reading)
     eye = parse_angles(view, "--view", 2, deg=True)
     config = parse_configuration(q, arm, deg=deg) if q else None
-    ghosts, names = list[Array](), list[str]()
+    ghosts, names, others = list[Array](), list[str](), 0
     if branches:
-        from dh2urdf.drawing.arm import zero_configuration
-
-        config = zero_configuration(arm, config)
-        found = arm.ik(arm.fk(config), seed=config, within_limits=False)
-        ghosts = list(found.q[1:])
-        names = [name or f"solution {k}" for k, name in enumerate(found.branch[1:], 2)]
-        if not ghosts:
+        config, ghosts, names = branch_ghosts(arm, config, task)
+        others = len(ghosts) - 1
+        if not others:
             note("this pose has one solution only: nothing to draw as a ghost")
     picture = figure(
         arm,
@@ -87,6 +88,6 @@ def figure_(
     )
     path = save_picture(picture, output, dpi=dpi, force=force)
     if json:
-        emit_json("figure", path=path, branches=len(ghosts))
+        emit_json("figure", path=path, branches=others)
     else:
         emit(str(path))
