@@ -159,6 +159,9 @@ Digits = Annotated[int | None, whole(0, 17)]
 
 _TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
 
+_NO_TABLE = "convention snap explain digits x_axis compact flip embedded"
+_FORMS = {f"format={form}": _NO_TABLE for form in ("opw", "screws", "kdl")}
+
 ALONE: dict[str, dict[str, str]] = {
     "show": {"json": "format", "format": "symbolic values q", "q": "values"},
     "fk": {"q": "values"},
@@ -170,7 +173,7 @@ ALONE: dict[str, dict[str, str]] = {
     },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
     "check": {"fix": "run"},
-    "extract": {"output=-": "force"},
+    "extract": {**_FORMS, "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
 """For each verb, options, and those that say nothing beside them.

@@ -13,11 +13,18 @@ from dh2urdf.dh_io.cells.document import Keys, Node, Report
 from dh2urdf.dh_io.cells.told import Told
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.formats.yaml import plain_values
-from dh2urdf.exceptions import TableError, TableFileError
+from dh2urdf.exceptions import TableError, TableFileError, UrdfError
 
 ROOM = "dh2urdf.conversions.forms"
 
-READERS = {"kinematics": "read_kinematics"}
+READERS = {
+    "kinematics": "read_kinematics",
+    "opw_kinematics_geometric_parameters": "read_opw",
+    "screws": "read_axes_form",
+    "axes": "read_axes_form",
+    "frames": "read_axes_form",
+    "segments": "read_kdl",
+}
 """By the key that such a file has: the reader in that room."""
 
 CONF = ".conf"
@@ -49,5 +56,6 @@ def _asked(reader: str, filename: str, told: Told, *given: Any) -> Read:
         raise TableFileError(f"{filename}: it is in metres and radians, and no convention applies")
     try:
         return getattr(import_module(ROOM), reader)(*given)  # type: ignore[no-any-return]
-    except TableError as error:
-        raise TableFileError([f"{filename}: {problem}" for problem in error.problems]) from None
+    except (TableError, UrdfError) as error:
+        problems = getattr(error, "problems", (str(error),))
+        raise TableFileError([f"{filename}: {problem}" for problem in problems]) from None

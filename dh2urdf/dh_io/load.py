@@ -43,8 +43,9 @@ def load_table(
     ----------
     path : path or str
         A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
-        package (``.urdf``: the table that it carries), or a name of :func:`list_tables`; UR's
-        ``calibration.yaml`` and ``calibration.conf``, too.
+        package (``.urdf``: the table that it carries), or a name of :func:`list_tables`; files of
+        OPW parameters, joint axes or KDL segments (YAML, JSON), UR's ``calibration.yaml`` and
+        ``calibration.conf``, too.
     convention, units : optional
         For a file that does not say them: ``"modified"``, ``"mm,deg"``. One that says otherwise
         is refused.

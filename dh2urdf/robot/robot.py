@@ -31,6 +31,7 @@ from dh2urdf.kernels.chain import (
     chain_jacobian,
     chain_jacobian_batch,
 )
+from dh2urdf.robot.forms import RobotForms
 from dh2urdf.robot.inverse import RobotIK
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
@@ -51,7 +52,7 @@ class _Working(threading.local):
         return _Working, (self.model,)
 
 
-class Robot(RobotIK, RobotPictures):
+class Robot(RobotIK, RobotPictures, RobotForms):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.
@@ -248,6 +249,9 @@ class Robot(RobotIK, RobotPictures):
                     f"the chain from {self.base} to {self.tip} differs from Pinocchio by "
                     f"{off.max():.3g} (allowed {allowed:.2g} rad, {allowed * size:.2g} m)"
                 )
+
+    def _called(self) -> str:
+        return self.table.name if self.table else self.model.name
 
     def __repr__(self) -> str:
         return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"

@@ -1,24 +1,43 @@
 """``dh2urdf extract``: the DH table of a robot description, verified."""
 
+from __future__ import annotations
+
 from dataclasses import asdict
 from json import loads
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
 from dh2urdf.cli.options import Digits, Force, Json, real
-from dh2urdf.cli.output import emit, emit_file, emit_json, stdin
+from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
-from dh2urdf.dh_io import WRITTEN, atomic_write, refuse_foreign, table_to_text, usual_units
+from dh2urdf.dh_io import (
+    WRITTEN,
+    atomic_write,
+    parse_table,
+    refuse_foreign,
+    table_to_text,
+    usual_units,
+)
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.exceptions import Dh2UrdfError, UrdfError
-from dh2urdf.extract import SIGNATURE, Extraction, extract_dh
+from dh2urdf.exceptions import Dh2UrdfError, UrdfError, VerificationError
+from dh2urdf.extract import CONFIGURATIONS, LARGEST_ERROR, SIGNATURE, Extraction, extract_dh
+from dh2urdf.transforms import pose_error
+
+if TYPE_CHECKING:
+    from dh2urdf.dh import DHTable
+    from dh2urdf.robot import Robot
 
 Format = Literal[
-    "yaml", "toml", "json", "csv", "markdown", "latex", "html", "rtb", "matlab", "matlab-rst"
-]
+    "yaml", "toml", "json", "csv", "markdown", "latex", "html", "rtb", "matlab", "matlab-rst",
+    "opw", "screws", "kdl",
+]  # fmt: skip
+
+FORMS = ("opw", "screws", "kdl")
+"""Formats that are no table, of any arm: tables and names of those that ship, too."""
 
 SUFFIXES = WRITTEN | {".py": "rtb", ".m": "matlab"}
 
@@ -65,7 +84,9 @@ def extract_(
         File to write; - for stdout. Its suffix tells the format, YAML on stdout.
     format
         Format of the output; rtb is Python for robotics-toolbox-python, matlab is for Corke's
-        toolbox, matlab-rst for the Robotics System Toolbox.
+        toolbox, matlab-rst for the Robotics System Toolbox. opw (parameters of ortho-parallel arms
+        with a spherical wrist), screws (axes and home pose) and kdl (segments) are YAML or JSON
+        files that every verb reads; of these, SOURCE may be a table, too.
     digits
         Decimals of the table's lengths and angles; default: as few as keep them exact.
     x_axis
@@ -77,6 +98,8 @@ def extract_(
     embedded
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
     """
+    if format in FORMS:
+        return _extract_form(source, base, tip, format, output, force=force, json=json)
     given, own = _stdin() if source == "-" else source, embedded and not explain
     found = extract_dh(
         given, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
@@ -113,6 +136,54 @@ def _stdin() -> str:
     if not text.lstrip().startswith("<"):
         raise UrdfError("<stdin>:1: not XML")
     return text
+
+
+def _extract_form(
+    source: str,
+    base: str | None,
+    tip: str | None,
+    form: str,
+    output: Path | None,
+    *,
+    force: bool,
+    json: bool,
+) -> None:
+    """An arm in another form, read back and compared, to a file or stdout."""
+    arm, to_stdout = robot_of(source, base, tip), str(output or "-") == "-"
+    suffix = ".yaml" if output is None or to_stdout else output.suffix.lower()
+    kind = {".json": "json", ".yaml": "yaml", ".yml": "yaml"}.get(suffix)
+    if kind is None:
+        raise Dh2UrdfError(f"{output}: {form} is written as .yaml or .json")
+    text, table, off = _checked_form(arm, source, form, kind)
+    if output is not None and not to_stdout:
+        if not force:
+            refuse_foreign(output, SIGNATURE, same=text.encode())
+        atomic_write(output, text)
+    elif not json:
+        emit_file(text)
+    if json:
+        told: dict[str, Any] = {"base": arm.base, "tip": arm.tip, "max_error": off}
+        told |= {"configurations": CONFIGURATIONS, "table": loads(table_to_text(table, "json"))}
+        told |= {"steps": [], "changes": [], "warnings": []}
+        emit_json("extract", **told, **({"text": text} if to_stdout else {}))
+    ends = f"{shown(arm.base)} to {shown(arm.tip)}"
+    note(f"{form}: {ends}, read back with a largest FK difference of {off:.2g} m or rad")
+
+
+def _checked_form(arm: Robot, source: str, form: str, kind: str) -> tuple[str, DHTable, float]:
+    """The text of a form, the table that it reads back as, and how far that is off [m or rad]."""
+    from dh2urdf.robot import Robot
+
+    try:
+        text = arm.to_form(form, kind)
+    except UrdfError as error:
+        raise UrdfError(f"{source}: {form}: {error}") from None
+    table = parse_table(text, kind).table
+    q = np.stack([arm.random_configuration(seed) for seed in range(CONFIGURATIONS)])
+    off = pose_error(Robot.from_dh(table).fk(q), arm.fk(q))
+    if not off <= LARGEST_ERROR * max(1.0, arm.chain.size):
+        raise VerificationError(f"{source}: {form} reads back as another arm, {off:.3g} off")
+    return text, table, off
 
 
 def _text(found: Extraction, output: Path | None, format: str | None, digits: int | None) -> str:

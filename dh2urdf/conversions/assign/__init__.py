@@ -5,7 +5,13 @@ common normal), `frame_directions`, `frame_ends` (frames 0 and n), `prismatic_ax
 sets numbers right, `explain` says why, `convention` changes it.
 """
 
-from dh2urdf.conversions.assign.assigned_table import chain_to_dh, flip_signs
+from dh2urdf.conversions.assign.assigned_table import (
+    chain_to_dh,
+    flip_signs,
+    tidy_angle,
+    tidy_length,
+    tidy_origin,
+)
 from dh2urdf.conversions.assign.axis_pairs import AxisCase, classify
 from dh2urdf.conversions.assign.convention import to_convention
 from dh2urdf.conversions.assign.explain import FrameStep, explain_frames

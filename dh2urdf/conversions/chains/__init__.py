@@ -21,3 +21,4 @@ from dh2urdf.conversions.chains.model_chain import (
     with_locked,
 )
 from dh2urdf.conversions.chains.referee import configurations, table_poses, turn_slide
+from dh2urdf.conversions.chains.typed_axes import axes_to_chain, typed_to_chain

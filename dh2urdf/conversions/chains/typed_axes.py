@@ -11,10 +11,12 @@ q = 0, in metres and radians::
     name: elbow_arm                         # else that of the file
     types: RR                               # for points and frames, if not all revolute
     tool: {xyz: [0.5, 0, 0.3], rpy: [0, 0, 0]}   # or a 4 x 4 matrix
+    lower: [-3.14, null]                    # bounds of the joints, if there are any; upper, too
 """
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -36,7 +38,7 @@ from dh2urdf.transforms import Array
 SUFFIXES = (".yaml", ".yml", ".json")
 
 LISTS = ("axes", "screws", "frames")
-OTHERS = ("types", "tool", "names", "name")
+OTHERS = ("types", "tool", "names", "name", "lower", "upper")
 AXIS_KEYS = ("axis", "point", "type", "name")
 
 PITCH = 1e-9
@@ -182,19 +184,39 @@ def read_axes(path: Path) -> tuple[SerialChain, str]:
         raise UrdfError(str(error)) from None
     if not isinstance(content, dict):
         raise UrdfError(f"{where}: expected keys such as {', '.join(LISTS)}, got {found(content)}")
+    try:
+        return axes_to_chain(content, path.stem)
+    except UrdfError as error:
+        raise UrdfError(f"{where}: {error}") from None
+
+
+def axes_to_chain(content: Mapping[str, Any], name: str) -> tuple[SerialChain, str]:
+    """The chain of a file's keys, and its name, else the given one; UrdfError names the key."""
     given = [key for key in LISTS if key in content]
     if len(given) != 1:
         hint = " (a DH table? `dh2urdf convert` reads those)" if "convention" in content else ""
-        raise UrdfError(f"{where}: needs one of the lists {', '.join(LISTS)}{hint}")
+        raise UrdfError(f"needs one of the lists {', '.join(LISTS)}{hint}")
     source, types, names = content[given[0]], content.get("types"), content.get("names")
     try:
         _check_keys(content, (*LISTS, *OTHERS))
         if given[0] == "axes":
             source, types, names = _axes(source, types, names)
-        name = text(content.get("name") or path.stem, "name", UrdfError)
-        return typed_to_chain(source, types, _tool(content.get("tool")), names), name
+        name = text(content.get("name") or name, "name", UrdfError)
+        chain = typed_to_chain(source, types, _tool(content.get("tool")), names)
+        lower, upper = (_bounds(content, key, chain.n) for key in ("lower", "upper"))
+        return replace(chain, lower=lower, upper=upper), name
     except (UrdfError, PoseError, TableError) as error:
-        raise UrdfError(f"{where}: {given[0]}: {error}") from None
+        raise UrdfError(f"{given[0]}: {error}") from None
+
+
+def _bounds(content: Mapping[str, Any], key: str, n: int) -> Array:
+    """Bounds of the joints [rad] or [m], infinite where there is none."""
+    none = math.inf if key == "upper" else -math.inf
+    cells = _list(content.get(key) or [None] * n, key, "numbers", n)
+    bounds = real_array([none if v is None else v for v in cells], key, "numbers", UrdfError)
+    if np.isnan(bounds).any():
+        raise UrdfError(f"{key}: expected numbers, got {found(cells)}")
+    return bounds
 
 
 def _check_keys(content: Mapping[str, Any], allowed: Sequence[str], what: str = "") -> None:

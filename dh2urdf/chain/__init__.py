@@ -1,0 +1,9 @@
+"""The serial chain, and the geometry that most industrial arms have.
+
+`serial_chain` is the one form that every conversion and every algorithm starts from;
+`ortho_parallel` the parameters of arms with an ortho-parallel base and a spherical wrist.
+"""
+
+from dh2urdf.chain.serial_chain import FARTHEST, SerialChain, settled_state
+
+__all__ = ["FARTHEST", "SerialChain", "settled_state"]
