@@ -157,7 +157,9 @@ def _origin(cells: Cells, key: str, context: Context) -> Origin:
     node = cells.get(key)
     if node is None:
         return Origin()
-    parts = Cells(node, key, ("xyz", "rpy"), context.report)
+    parts = Cells(node, key, ("xyz", "rpy", "name"), context.report)
+    if (name := parts.get("name")) is not None:
+        context.report.warn(name.mark, f"{key}.name", f"found {found(name)}; it is not read")
     xyz, rpy = parts.get("xyz"), parts.get("rpy")
     return parts.origin(
         context.numbers(xyz, f"{key}.xyz", Kind.LENGTH, 3, "x, y, z") if xyz else None,

@@ -15,7 +15,7 @@ from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, read_text, shown
 from dh2urdf.dh_io.formats.csv import read_csv
 from dh2urdf.dh_io.formats.json import read_json
-from dh2urdf.dh_io.formats.markdown import read_markdown
+from dh2urdf.dh_io.formats.markdown import read_markdown, read_page
 from dh2urdf.dh_io.formats.toml import read_toml
 from dh2urdf.dh_io.formats.yaml import read_yaml
 from dh2urdf.dh_io.forms import other_form
@@ -40,10 +40,12 @@ _READERS: dict[str, Callable[[str, Report], Node]] = {
     "json": read_json,
     "csv": read_csv,
     "markdown": read_markdown,
+    "text": read_page,
 }
 
 
 _SIGNS = {
+    "text": re.compile(r"[│┃║]|^\s*\+[-=]{2}|\A[^:=,;\t{\[|]*\Z", re.MULTILINE),
     "json": re.compile(r"\A\s*\{"),
     "markdown": re.compile(r"^\s*\|", re.MULTILINE),
     "yaml": re.compile(r"^(?:joints|convention|units|name)\s*:", re.MULTILINE),
@@ -78,13 +80,14 @@ def format_of_text(text: str) -> str:
 def read_table(
     path: str | os.PathLike[str], *, format: str | None = None, told: Told = NOTHING
 ) -> TableFile:
-    """Read a table from a YAML, TOML, JSON, CSV or Markdown file.
+    """Read a table from a YAML, TOML, JSON, CSV, Markdown or text file.
 
     Parameters
     ----------
     path : path
     format : str, optional
-        ``yaml``, ``toml``, ``json``, ``csv`` or ``markdown``; by the suffix where not given.
+        ``yaml``, ``toml``, ``json``, ``csv``, ``markdown`` or ``text`` (a table drawn with
+        bars or parted by spaces); by the suffix where not given.
     told : Told
         Convention and units, for a file that does not say them.
 
@@ -96,7 +99,7 @@ def read_table(
     where = path_of(path)
     kind = format
     if kind is None and not os.path.isdir(where):
-        kind = format_of(where)
+        kind = "text" if where.suffix.casefold() == ".txt" else format_of(where)
     try:
         text = read_text(where, TABLE_BYTES, TableFileError)
     except TableFileError as error:

@@ -8,14 +8,14 @@ from typing import Any, TypeVar
 from dh2urdf.dh import DHRow, JointType, Origin
 from dh2urdf.dh_io.cells.cells import Cells, Context, found
 from dh2urdf.dh_io.cells.document import Node, Scalar
-from dh2urdf.dh_io.cells.expressions import Lookup, to_float
+from dh2urdf.dh_io.cells.expressions import Lookup, plain_text, to_float
 from dh2urdf.dh_io.cells.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
 from dh2urdf.dh_io.cells.units import Kind
 from dh2urdf.dh_io.cells.values import ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 _VARIABLE = re.compile(
-    r"(?:(?P<angle>theta|Theta|th|θ|ϑ|t(?=_?\d))|(?P<length>d|[lsℓ](?=_?[\di]))|(?P<either>q))"
+    r"(?:(?P<angle>theta|Theta|th|θ|ϑ|t(?=_?\d))|(?P<length>d|[lsℓ](?=_?[\di]))|(?P<either>q|var(?:iable)?))"
     r"_?(?P<index>\d+|i)?"
 )
 _PARAMETERS = ("theta", "d", "a", "alpha")
@@ -153,7 +153,11 @@ class _Row:
         """One variable a row, in the cell that belongs to the type."""
         shown = [k for k in ("theta", "d") if (v := parts[k]) is not None and v.variable]
         if len(shown) == 2:
-            hint = "give the one that is constant a value under constants:"
+            cell = self.cells.get("d")
+            name = plain_text(cell.text) if isinstance(cell, Scalar) else ""
+            name = name if name.isidentifier() else f"d{self.joint}"
+            example = self.context.report.example("constants", **{name: "0.4"})
+            hint = f"give the one that is constant a value, as in {example}"
             self.fault("d", "theta and d both hold a joint variable; a joint has one", hint)
             return
         moving = {JointType.REVOLUTE: "theta", JointType.PRISMATIC: "d"}.get(self.type)

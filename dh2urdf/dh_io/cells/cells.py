@@ -1,14 +1,14 @@
 """Cells to values: the layer between the raw document and the rows."""
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
-from dh2urdf.dh import Origin
+from dh2urdf.dh import JointType, Origin
 from dh2urdf.dh.quoting import XML_FORBIDDEN
 from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.dh_io.cells.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
-from dh2urdf.dh_io.cells.schema import MISUSED_KEYS, canonical, did_you_mean, nearest
+from dh2urdf.dh_io.cells.schema import FLAGS, MISUSED_KEYS, TRUTHS, canonical, did_you_mean, nearest
 from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
 from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
@@ -153,6 +153,15 @@ def _slip(text: str) -> str:
     return f"did you mean {fixed}?" if right else ""
 
 
+def _typed(key: str, cell: Node) -> tuple[str, Node]:
+    """``R: true`` and ``prismatic: false`` as the type of a joint."""
+    truth = TRUTHS.get(cell.text.strip().casefold()) if isinstance(cell, Scalar) else None
+    if key not in FLAGS or truth is None or not isinstance(cell, Scalar):
+        return key, cell
+    other = {JointType.REVOLUTE: JointType.PRISMATIC, JointType.PRISMATIC: JointType.REVOLUTE}
+    return "type", replace(cell, text=str(FLAGS[key] if truth else other[FLAGS[key]]))
+
+
 class Cells:
     """The cells of one mapping by their canonical keys; unknown and doubled keys are faults."""
 
@@ -165,7 +174,9 @@ class Cells:
             report.fault(node.mark, path, f"found {found(node)}; expected the keys {keys}")
             return
         for key, cell in node.pairs:
-            name = canonical(key.text)
+            name, content = canonical(key.text), cell
+            if "type" in allowed:
+                name, content = _typed(name, cell)
             where = self.at(key.text[:40])
             if name not in allowed:
                 meant = nearest(name, allowed)
@@ -179,8 +190,8 @@ class Cells:
                 report.fault(key.mark, where, f"given twice, first in line {first.mark.line}{also}")
             else:
                 self.keys[name] = key
-                if not (isinstance(cell, Scalar) and not cell.text):
-                    self.cells[name] = cell
+                if not (isinstance(content, Scalar) and not content.text):
+                    self.cells[name] = content
 
     def at(self, key: str) -> str:
         """Path of one cell: ``joints[3].alpha``."""

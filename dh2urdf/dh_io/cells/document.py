@@ -105,13 +105,13 @@ class Report:
             report.stop(NOWHERE, "the file is empty")
         return report
 
-    def count(self, mark: Mark, depth: int = 0, cells: int = 1) -> None:
+    def count(self, mark: Mark, depth: int = 0, cells: int = 1, what: str = "") -> None:
         """Count cells as they are read, and stop at the bounds of a file."""
         self._cells += cells
         if self._cells > NODES:
-            self.stop(mark, f"more than {NODES} cells; a DH table is smaller")
+            self.stop(mark, f"{what}more than {NODES} cells; a DH table is smaller")
         if depth > DEPTH:
-            self.stop(mark, f"nested deeper than {DEPTH} levels")
+            self.stop(mark, f"{what}nested deeper than {DEPTH} levels")
 
     def fault(self, mark: Mark, path: str, message: str, hint: str = "") -> None:
         """Note a fault of the cell ``path`` at ``mark``."""

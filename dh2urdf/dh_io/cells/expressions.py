@@ -90,13 +90,25 @@ def evaluate(text: str, kind: Kind, units: Units, lookup: Lookup, *, free: bool 
 
 
 _LATEX = (
+    (re.compile(r"\\[()\[\]]"), " "),
+    (re.compile(r"\^\s*(?:\{\s*)?(?:\*|\\ast)(?:\s*\})?"), "*"),
+    (re.compile(r"\\[dt]?frac\s*\{([^{}]*)\}\s*\{([^{}]*)\}"), r"((\1)/(\2))"),
     (re.compile(r"\^\s*(?:\\circ\b|\{\s*(?:\\circ|o|°)\s*\}|o\b)"), "deg"),
     (re.compile(r"\\ell(?![a-zA-Z])"), " l"),
     (re.compile(r"\\(theta|pi|alpha|cdot|times)(?![a-zA-Z])"), r" \1"),
     (re.compile(r"_\{(\w+)\}"), r"_\1"),
     (re.compile(r"\\[,;! ]|\$"), " "),
 )
-_TYPED = str.maketrans("−–×·⋅∗÷", "--****/")
+_TYPED = str.maketrans(
+    {
+        **dict.fromkeys("−–‐‑‒—－", "-"),
+        **dict.fromkeys("×·⋅∗∙", "*"),
+        **dict.fromkeys("÷∕⁄", "/"),
+        **dict.fromkeys("˚∘", "°"),
+        **dict(zip("₀₁₂₃₄₅₆₇₈₉ᵢⱼ", "0123456789ij", strict=True)),
+        **{"½": "0.5", "¼": "0.25", "¾": "0.75"},
+    }
+)
 
 
 def plain_text(text: str) -> str:

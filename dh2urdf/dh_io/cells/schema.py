@@ -33,13 +33,24 @@ _ALIASES = {
     "d": ("link_offset",),
     "a": ("link_length",),
     "alpha": ("α", "al", "twist", "link_twist", "twist_angle"),
-    "type": ("joint_type", "kind", "sigma", "σ"),
+    "type": (
+        "joint_type",
+        "type_of_joint",
+        "kind",
+        "sigma",
+        "σ",
+        "r/p",
+        "p/r",
+        "rp",
+        "r_or_p",
+        "motion",
+    ),
     "sign": ("direction",),
-    "lower": ("min", "qmin", "q_min", "lower_limit", "limit_lower"),
-    "upper": ("max", "qmax", "q_max", "upper_limit", "limit_upper"),
+    "lower": ("min", "qmin", "q_min", "q_", "q-", "lower_limit", "limit_lower"),
+    "upper": ("max", "qmax", "q_max", "q+", "upper_limit", "limit_upper"),
     "velocity": ("max_velocity", "velocity_limit", "speed", "vmax"),
     "effort": ("max_effort", "effort_limit", "torque", "max_torque"),
-    "com": ("centre_of_mass", "center_of_mass", "cog"),
+    "com": ("centre_of_mass", "center_of_mass", "cog", "centre_of_gravity", "center_of_gravity"),
     "joints": ("rows",),
 }
 _CANONICAL = {alias: key for key, aliases in _ALIASES.items() for alias in aliases}
@@ -61,27 +72,35 @@ CONVENTIONS = {
     **dict.fromkeys(("modified", "mdh", "proximal", "craig", "khalil"), DHConvention.MODIFIED),
 }  # fmt: skip
 
-JOINT_TYPES = {
-    **dict.fromkeys(("revolute", "r", "rev", "rotary", "rotational", "hinge", "0"),
-                    JointType.REVOLUTE),
-    **dict.fromkeys(("prismatic", "p", "pris", "sliding", "slider", "linear", "1"),
-                    JointType.PRISMATIC),
-    **dict.fromkeys(("fixed", "f"), JointType.FIXED),
-}  # fmt: skip
+_TYPE_WORDS = {
+    JointType.REVOLUTE: "revolute r rev rotary rotational rotation rot hinge 0",
+    JointType.PRISMATIC: "prismatic p pris prism sliding slider linear translational trans 1",
+    JointType.FIXED: "fixed f",
+}
+JOINT_TYPES = {word: kind for kind, words in _TYPE_WORDS.items() for word in words.split()}
 
-_PREVIOUS = re.compile(r"_?(?:\(?i_?[-−]_?1\)?)$")
-_OWN = re.compile(r"_?\(?i\)?$")
+FLAGS = {
+    **dict.fromkeys(("r", "revolute", "is_revolute"), JointType.REVOLUTE),
+    **dict.fromkeys(("p", "prismatic", "is_prismatic"), JointType.PRISMATIC),
+}
+"""Keys whose true says the type of the joint, and whose false says the other."""
+
+TRUTHS = {"true": True, "yes": True, "false": False, "no": False}
+
+_PREVIOUS = re.compile(r"_?(?:\(?[ijkn]_?[-−]_?1\)?)$")
+_OWN = re.compile(r"_?\(?[ijkn]\)?$")
+_MARKS = str.maketrans({**dict.fromkeys("\\${}", ""), "⍺": "α", "ɑ": "α"})
 
 
 def _plain(text: str) -> str:
     """A word in small letters without LaTeX's signs, its subscripts on the line."""
-    return re.sub(r"[\\${}]", "", unicodedata.normalize("NFKC", text)).casefold()
+    return unicodedata.normalize("NFKC", text).translate(_MARKS).casefold()
 
 
 def canonical(text: str) -> str:
     r"""Key that a word stands for: ``$\alpha_{i-1}$``, ``Twist`` and ``alpha`` are one."""
-    clean = _plain(text).strip()
-    clean = re.sub(r"[\s-]+", "_", clean) if "i-1" not in clean else clean
+    clean = _plain(text).strip().replace("−", "-")
+    clean = re.sub(r"[\s-]+", "_", clean) if not re.search("[ijkn]-1", clean) else clean
     stem = _OWN.sub("", _PREVIOUS.sub("", clean)).strip("_ ")
     for word in (clean, stem):
         key = _CANONICAL.get(word, word)

@@ -1,46 +1,52 @@
-"""The DH table of a Markdown page to a document; the page's other lines are prose."""
+"""The DH table of a Markdown page or of a text drawn with bars to a document."""
 
 import re
 from itertools import pairwise
 
 from dh2urdf.dh_io.cells.document import Keys, Mark, Report, Scalar
-from dh2urdf.dh_io.formats.grid import Grid, grid_document, is_header, metadata
+from dh2urdf.dh_io.formats.csv import read_csv
+from dh2urdf.dh_io.formats.grid import grid_document, metadata
+from dh2urdf.dh_io.formats.layout import Line, find_table
 
-_RULE = re.compile(r"\s*\|?\s*:?-+:?\s*(\|\s*:?-+:?\s*)*\|?\s*")
+_RULE = re.compile(r"[\s|:+=\-\u2500-\u257f]*(?:--|==|[\u2500-\u257f])[\s|:+=\-\u2500-\u257f]*")
+_SHORT_RULE = re.compile(r"[\s|:-]*-[\s|:-]*")
+_BARS = str.maketrans("│┃║", "|||")
 _BAR = re.compile(r"(?<!\\)\|")
+_BOLD = re.compile(r"(\*\*|__|`)(.*)\1")
 
 
 def read_markdown(text: str, report: Report) -> Keys:
-    """Read a Markdown page with one pipe table whose header names theta, d, a and alpha."""
-    grid = Grid([], [], [])
-    lines = text.split("\n")
-    at = 0
-    while at < len(lines):
-        rule = at + 1 < len(lines) and "|" in lines[at + 1] and _RULE.fullmatch(lines[at + 1])
-        if "|" not in lines[at] or not rule:
-            if "|" not in lines[at] and (entry := metadata(lines[at], at + 1, report)):
-                grid.meta.append(entry)
-            at += 1
+    """Read a page with one table whose cells stand between bars, its other lines prose.
+
+    Pipe tables, ``+---+`` grids and box drawing; the header names theta, d, a and alpha.
+    """
+    meta, blocks = list[tuple[Scalar, Scalar]](), list[list[Line]]([[]])
+    for number, line in enumerate(text.translate(_BARS).split("\n"), 1):
+        under_header = len(blocks[-1]) == 1 and "|" in line
+        if _RULE.fullmatch(line) or (under_header and _SHORT_RULE.fullmatch(line)):
             continue
-        header = _cells(lines[at], at + 1)
-        wanted = is_header(header)
-        if wanted and grid.header:
-            report.stop(Mark(at + 1, 1), "a second DH table; a file holds one")
-        if wanted:
-            grid.header.extend(header)
-        at += 2
-        while at < len(lines) and "|" in lines[at]:
-            if wanted:
-                grid.rows.append(_cells(lines[at], at + 1))
-                report.count(Mark(at + 1, 1), cells=len(grid.rows[-1]))
-            at += 1
-    if not grid.header:
+        if "|" in line:
+            cells = _cells(line, number)
+            report.count(Mark(number, 1), cells=len(cells))
+            blocks[-1].append(cells)
+            continue
+        blocks.append([])
+        if entry := metadata(line, number, report):
+            meta.append(entry)
+    grid = find_table([block for block in blocks if block], meta, report)
+    if grid is None:
         hint = "| theta | d | a | alpha |, a line |---|---|---|---|, and one line a row"
         report.stop(Mark(), "no pipe table with the columns theta, d, a and alpha", hint)
     return grid_document(grid, report)
 
 
-def _cells(line: str, number: int) -> list[Scalar]:
+def read_page(text: str, report: Report) -> Keys:
+    """Read a text: cells between bars where there are any, else parted by spaces or signs."""
+    drawn = any("|" in line for line in text.translate(_BARS).split("\n"))
+    return read_markdown(text, report) if drawn else read_csv(text, report)
+
+
+def _cells(line: str, number: int) -> Line:
     """Cells between bars, each with the column where its text begins."""
     end = len(line.rstrip())
     bars = [m.start() for m in _BAR.finditer(line)]
@@ -52,5 +58,6 @@ def _cells(line: str, number: int) -> list[Scalar]:
     for left, right in pairwise(edges):
         raw = line[left + 1 : right]
         start = left + 2 + len(raw) - len(raw.lstrip())
-        out.append(Scalar(raw.strip().replace(r"\|", "|"), Mark(number, start)))
+        text = raw.strip().replace(r"\|", "|")
+        out.append(Scalar(_BOLD.sub(r"\2", text), Mark(number, start)))
     return out or [Scalar("", Mark(number, 1))]

@@ -1,4 +1,4 @@
-"""YAML 1.2 to a document, event by event: no objects, no tags, no aliases, bounded in size."""
+"""YAML 1.2 to a document, event by event: no objects, no tags, bounded in size, aliases too."""
 
 import re
 from collections.abc import Iterator
@@ -68,6 +68,7 @@ class _Builder:
 
     def __init__(self, events: Iterator[Any], report: Report) -> None:
         self.events, self.report = events, report
+        self.anchors: dict[str, tuple[Node, int, int]] = {}
 
     def document(self) -> Node:
         from ruamel.yaml import events as ev
@@ -87,18 +88,31 @@ class _Builder:
         mark = _mark(event)
         self.report.count(mark, depth)
         if isinstance(event, ev.AliasEvent):
-            self.report.stop(mark, f"alias *{event.anchor:.40}: not read; write the value out")
+            return self.again(str(event.anchor), mark, depth)
         if event.tag is not None:
             tag = str(event.tag).replace("tag:yaml.org,2002:", "!!")
             self.report.stop(mark, f"tag {tag:.60}: not read; write plain text and numbers")
+        node: Node
         if isinstance(event, ev.ScalarEvent):
             quoted = not event.implicit[0]
             empty = not quoted and event.value in _NULLS
-            return Scalar("" if empty else event.value, mark, quoted=quoted)
-        if isinstance(event, ev.SequenceStartEvent):
-            return Items(tuple(self.inside(ev.SequenceEndEvent, depth)), mark)
-        keys = self.inside(ev.MappingEndEvent, depth)
-        return Keys(tuple((self.key(key), next(keys)) for key in keys), mark)
+            node = Scalar("" if empty else event.value, mark, quoted=quoted)
+        elif isinstance(event, ev.SequenceStartEvent):
+            node = Items(tuple(self.inside(ev.SequenceEndEvent, depth)), mark)
+        else:
+            keys = self.inside(ev.MappingEndEvent, depth)
+            node = Keys(tuple((self.key(key), next(keys)) for key in keys), mark)
+        if event.anchor is not None:
+            self.anchors[str(event.anchor)] = (node, *_size(node))
+        return node
+
+    def again(self, name: str, mark: Mark, depth: int) -> Node:
+        """What an anchor above holds, counted once more."""
+        if name not in self.anchors:
+            self.report.stop(mark, f"alias *{name:.40}: nothing above is marked &{name:.40}")
+        node, cells, height = self.anchors[name]
+        self.report.count(mark, depth + height, cells - 1, f"alias *{name:.40}: ")
+        return node
 
     def inside(self, end: type, depth: int) -> Iterator[Node]:
         """Nodes up to the end of a sequence or mapping."""
@@ -109,6 +123,15 @@ class _Builder:
         if not isinstance(node, Scalar):
             self.report.stop(node.mark, "a key has to be a word")
         return node
+
+
+def _size(node: Node) -> tuple[int, int]:
+    """Cells of a node, and levels below it; an alias in it counts with all that it holds."""
+    if isinstance(node, Scalar):
+        return 1, 0
+    parts = node.values if isinstance(node, Items) else [n for pair in node.pairs for n in pair]
+    sizes = [_size(part) for part in parts]
+    return 1 + sum(n for n, _ in sizes), 1 + max((h for _, h in sizes), default=0)
 
 
 def _mark(event: Any) -> Mark:
