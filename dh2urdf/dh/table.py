@@ -42,6 +42,14 @@ def _rows(values: Any) -> tuple[DHRow, ...]:
     return rows
 
 
+def _column_names(rows: object) -> list[str] | None:
+    """Names of the columns of a data frame, a structured array or a dictionary; else None."""
+    names = getattr(getattr(rows, "dtype", None), "names", None) or getattr(rows, "columns", None)
+    if isinstance(rows, dict):
+        names = list(rows)
+    return None if names is None or callable(names) else [str(name) for name in names][:ROWS]
+
+
 @dataclass(frozen=True)
 class DHTable:
     """A DH table: convention, rows, base and tool.
@@ -109,6 +117,7 @@ class DHTable:
         Parameters
         ----------
         rows : array_like, shape (n, 4)
+            One with named columns, such as a data frame, has these four in any order.
         convention : DHConvention
         columns : str
             What the columns hold: theta, d, a and alpha in any order.
@@ -121,6 +130,14 @@ class DHTable:
         TableError
         """
         keys = text(columns, "columns", TableError).replace(",", " ").split()
+        if (names := _column_names(rows)) is not None:
+            if sorted(names) != sorted(PARAMETERS.split()):
+                raise TableError(
+                    f"rows: expected the columns {PARAMETERS}, got {' '.join(names)}; of other "
+                    "columns load_table(rows, convention, units) makes a table"
+                )
+            rows = np.stack([np.asarray(rows[key]) for key in names], -1)  # type: ignore[call-overload, index]
+            keys = names
         if sorted(keys) != sorted(PARAMETERS.split()):
             raise TableError(f"columns: expected {PARAMETERS} in any order, got {columns!r}")
         expected = f"an array of shape (n, 4), n at most {ROWS}"

@@ -68,9 +68,8 @@ def _convention(cells: Cells, report: Report, told: Told) -> DHConvention:
     meaning = "standard (distal: Paul, Spong) or modified (proximal: Craig, Khalil)"
     if cell is None:
         if told.convention is None and cells.is_missing("convention"):
-            example = report.example("convention", "standard")
-            hint = f"write {example}, or give --convention; there is no default: the two look"
-            hint += " alike and describe different arms"
+            hint = report.remedy("--convention", "convention", "standard")
+            hint += "; there is no default: the two look alike and describe different arms"
             report.fault(cells.mark_of("convention"), "convention", f"missing; {meaning}", hint)
         return told.convention or DHConvention.STANDARD
     word = cell.text.strip().casefold() if isinstance(cell, Scalar) else ""
@@ -93,7 +92,8 @@ def _units(cells: Cells, report: Report, told: Told) -> Units:
         if node is not None:
             report.fault(node.mark, "units", f"found {found(node)}; expected {meaning}", hint)
         elif cells.is_missing("units") and not (told.length and told.angle):
-            hint += ", or give --units mm,deg; there is no default"
+            hint = report.remedy("--units mm,deg", "units", length="mm", angle="deg")
+            hint += "; there is no default"
             report.fault(cells.mark_of("units"), "units", f"missing; {meaning}", hint)
         return Units(told.length or SI.length, told.angle or SI.angle)
     parts = Cells(node, "units", ("length", "angle"), report)

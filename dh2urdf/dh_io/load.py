@@ -1,28 +1,21 @@
 """A DH table by path or by name."""
 
-import difflib
 import os
 from collections.abc import Iterable
-from functools import lru_cache
-from pathlib import Path
+from typing import Any
 
 from dh2urdf.dh import DHConvention, DHTable
+from dh2urdf.dh_io.cells.document import Report
 from dh2urdf.dh_io.cells.told import NOTHING, Told, told
+from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, shown
+from dh2urdf.dh_io.formats.frame import is_frame, read_frame
 from dh2urdf.dh_io.forms import CONF, read_conf_file
+from dh2urdf.dh_io.names import FOLDER, list_tables, near_names, shipped_name
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError
 
-FOLDER = Path(__file__).parents[1] / "robots"
-"""Tables that ship, one YAML file an arm."""
-
 TableLike = DHTable | str | os.PathLike[str]
-
-
-@lru_cache(maxsize=1)
-def list_tables() -> tuple[str, ...]:
-    """Names of the tables that ship, sorted."""
-    return tuple(sorted(path.stem for path in FOLDER.glob("*.yaml")))
 
 
 def as_table(table: TableLike) -> DHTable:
@@ -31,21 +24,22 @@ def as_table(table: TableLike) -> DHTable:
 
 
 def load_table(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Any,
     convention: DHConvention | str | None = None,
     units: Iterable[str] | str | None = None,
     *,
     model: str | None = None,
 ) -> DHTable:
-    """A DH table from a file, or one that ships, by name.
+    """A DH table from a file, one that ships, by name, or one held in a data frame.
 
     Parameters
     ----------
-    path : path or str
+    path : path, str, or what has named columns
         A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
         package (``.urdf``: the table that it carries), or a name of :func:`list_tables`; files of
         OPW parameters, joint axes or KDL segments (YAML, JSON), UR's ``calibration.yaml`` and
-        ``calibration.conf``, too.
+        ``calibration.conf``, too. A data frame, a structured array or a dictionary of columns is
+        read as a CSV file is, headings with units included.
     convention, units : optional
         For a file that does not say them: ``"modified"``, ``"mm,deg"``. One that says otherwise
         is refused.
@@ -60,7 +54,11 @@ def load_table(
     NameNotFoundError
         Neither a file nor a name; the message lists the names that are near.
     """
-    return load_table_file(path, told(convention, units, model=model)).table
+    given = told(convention, units, model=model)
+    if is_frame(path):
+        report = Report("columns", "", "frame")
+        return check_document(read_frame(path, report), report, "robot", given)
+    return load_table_file(path, given).table
 
 
 def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> TableFile:
@@ -78,7 +76,8 @@ def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> Table
         return read_table(FOLDER / f"{path}.yaml", told=told)
     if where.suffix.lower() in FORMATS or os.path.exists(where):
         return read_table(where, told=told)
-    names = list_tables()
-    close = difflib.get_close_matches(where.name, names, 3, 0.5)
+    if (name := shipped_name(os.fsdecode(path))) is not None:
+        return read_table(FOLDER / f"{name}.yaml", told=told)
+    close = near_names(where.name)
     hint = f"did you mean {' or '.join(close)}?" if close else "`dh2urdf list` names them"
     raise NameNotFoundError(f"{shown(path)}: neither a file nor a table that ships; {hint}")

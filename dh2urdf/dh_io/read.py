@@ -66,7 +66,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
     suffix = Path(path).suffix.casefold()
     if suffix in FORMATS:
         return FORMATS[suffix]
-    message = f"{shown(path)}: not a table file by its name; known suffixes: {', '.join(FORMATS)}"
+    known = ", ".join([*FORMATS, ".txt"])
+    message = f"{shown(path)}: not a table file by its name; known suffixes: {known}"
     if suffix in (".urdf", ".xacro", ".xml", ".mjcf"):
         message += "\n  hint: to get a table from a robot description, extract it"
     raise TableFileError(message)

@@ -3,7 +3,7 @@
 from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json
 from dh2urdf.grids import grid_text
-from dh2urdf.robots import list_tables, load_table
+from dh2urdf.robots import list_tables, load_table, other_names
 
 
 def list_(*, json: Json = False) -> None:
@@ -15,6 +15,7 @@ def list_(*, json: Json = False) -> None:
             tables=[
                 {
                     "name": t.name,
+                    "other_names": other_names(t.name),
                     "joints": [str(row.joint_type) for row in t.joints],
                     "convention": str(t.convention),
                     "source": t.source,
@@ -27,10 +28,12 @@ def list_(*, json: Json = False) -> None:
     rows = []
     for t in tables:
         letters = "".join(str(row.joint_type)[0].upper() for row in t.joints)
-        rows.append([t.name, letters, str(t.convention), _short(t.source)])
-    emit(grid_text(["name", "joints", "convention", "source"], rows, left=(0, 1, 2, 3)))
+        names = ", ".join(other_names(t.name)[:3])
+        rows.append([t.name, names, letters, str(t.convention), _short(t.source)])
+    header = ["name", "also called", "joints", "convention", "source"]
+    emit(grid_text(header, rows, left=range(5)))
 
 
-def _short(source: str, width: int = 60) -> str:
+def _short(source: str, width: int = 40) -> str:
     line = " ".join(source.split())
     return line if len(line) <= width else line[: width - 1] + "…"

@@ -107,6 +107,7 @@ class Context:
         else:
             example = self.report.example("constants", **{f"{name:.20}": "0.4"})
             known = f"give its value, as in {example}"
+            known = "a number in its place" if self.report.format == "frame" else known
         return ExpressionError(
             f"{name!r} has no value", _slip(name) or did_you_mean(name, names) or known
         )

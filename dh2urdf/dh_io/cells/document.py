@@ -130,6 +130,8 @@ class Report:
 
     def example(self, key: str, word: str = "", **parts: str) -> str:
         """How the file's own format says so: ``units: {length: mm, angle: deg}``."""
+        if self.format == "frame":
+            return f'{key}="{word or ",".join(parts.values())}"'
         if self.format not in _EQUALS:
             start = "# " if self.format == "csv" else ""
             if key == "constants":
@@ -141,6 +143,11 @@ class Report:
         cells = {k: v if v[:1].isdigit() else f"{text}{v}{text}" for k, v in parts.items()}
         inside = ", ".join(f"{name}{k}{name}{equals}{v}" for k, v in cells.items())
         return f"{name}{key}{name}{equals}{{{inside}}}"
+
+    def remedy(self, option: str, key: str, word: str = "", **parts: str) -> str:
+        """What to write into the file, or to tell of it: ``write ..., or give --units``."""
+        example = self.example(key, word, **parts)
+        return f"give {example}" if self.format == "frame" else f"write {example}, or give {option}"
 
     def cell(self, key: str, value: str) -> str:
         """How a row's cell says so: ``a: 0``, or the value alone where columns have headings."""

@@ -14,7 +14,8 @@ from dh2urdf.dh_io import Kind, Units
 from dh2urdf.dh_io.cells.document import Report
 from dh2urdf.dh_io.cells.units import UNIT_SIZES
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.dh_io.formats.grid import INDEX, heading, metadata, separator, unit_words, without_name
+from dh2urdf.dh_io.formats.grid import metadata, separator, unit_words
+from dh2urdf.dh_io.formats.heading import INDEX, heading, without_name
 from dh2urdf.doors import found
 from dh2urdf.exceptions import PoseError
 from dh2urdf.poses import check_pose, rounded_off
