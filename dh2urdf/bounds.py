@@ -68,6 +68,12 @@ TEXT_CHARACTERS = 2_000
 APART_SECONDS = 7
 """Time that xacro or MuJoCo may take over a file; makers' largest take one second."""
 
+PACKAGE_FOLDERS = 2_000
+"""Folders of a workspace that are gone through for a package."""
+
+XACRO_ARGS = 100
+"""Arguments of a xacro; makers' files have up to forty."""
+
 APART_BYTES = 900_000_000
 """Memory that they may ask for, libraries apart."""
 

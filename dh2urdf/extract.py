@@ -1,7 +1,8 @@
 """From a robot description back to its DH table: the entry point."""
 
 import math
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -96,6 +97,8 @@ def extract_dh(
     joint_types: str | Sequence[JointType | str] | None = None,
     tool: Any = None,
     names: Sequence[str] | None = None,
+    xacro_args: Mapping[str, object] | None = None,
+    packages: Mapping[str, str | os.PathLike[str]] | None = None,
 ) -> Extraction:
     """The DH table of a chain, by the frame assignment of lecture notes section 4.
 
@@ -124,6 +127,8 @@ def extract_dh(
         is in the convention asked for; there are no steps then.
     joint_types, tool, names
         For typed axes only: ``"RRPR"``, ``T_base_tool`` at q = 0, joint names.
+    xacro_args, packages : dict, optional
+        Arguments of a xacro, and folders of ROS packages by name.
 
     Returns
     -------
@@ -138,10 +143,13 @@ def extract_dh(
         where a common normal is too far away for sixteen digits).
     """
     from dh2urdf.conversions.chains import carry, configurations, read_source, table_poses
+    from dh2urdf.conversions.read import xacro_given
 
     convention = convention_of(convention)
     tolerance = snap_tolerance(snap)
-    given = read_source(source, base, tip, joint_types=joint_types, tool=tool, names=names)
+    xacro = xacro_given(xacro_args, packages)
+    typed: dict[str, Any] = {"joint_types": joint_types, "tool": tool, "names": names}
+    given = read_source(source, base, tip, xacro, **typed)
     found, chain = given.found, given.found.chain
     size = references(chain.links).size
     qs = configurations(chain, CONFIGURATIONS, size)

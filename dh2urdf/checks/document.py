@@ -1,14 +1,22 @@
 """A URDF read leniently: whatever can be understood of it, faults and all."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 
 from lxml import etree
 
 from dh2urdf.bounds import NUMBER as LARGEST
-from dh2urdf.conversions.read import FLOAT, MOVING, count_elements, description_bytes
+from dh2urdf.conversions.read import (
+    FLOAT,
+    MOVING,
+    NOTHING,
+    Xacro,
+    count_elements,
+    description_bytes,
+)
 from dh2urdf.conversions.write import TENSOR
 from dh2urdf.dh_io.files import shown
 from dh2urdf.dh_io.xml import parse_xml
@@ -36,15 +44,19 @@ class Document:
         The ``<robot>``.
     path : Path
         Where it was read from; meshes are looked for from there.
+    packages : dict
+        Folders of ROS packages by name.
     """
 
-    def __init__(self, root: etree._Element, path: Path) -> None:
-        self.root, self.path = root, path
+    def __init__(
+        self, root: etree._Element, path: Path, packages: Mapping[str, str] = MappingProxyType({})
+    ) -> None:
+        self.root, self.path, self.packages = root, path, packages
         self.links = list(root.iterchildren("link"))
         self.joints = list(root.iterchildren("joint"))
 
     @classmethod
-    def read(cls, path: str | os.PathLike[str]) -> "Document":
+    def read(cls, path: str | os.PathLike[str], given: Xacro = NOTHING) -> "Document":
         """A file's robot.
 
         Raises
@@ -52,7 +64,7 @@ class Document:
         UrdfError
             No such file, not XML, entities, or no ``<robot>``.
         """
-        data, where = description_bytes(path)
+        data, where = description_bytes(path, given)
         root = parse_xml(data, where)
         if root.tag != "robot":
             tag = shown(str(etree.QName(root).localname))
@@ -60,7 +72,7 @@ class Document:
             raise UrdfError(f"{where}:{root.sourceline}: the root is <{tag}>, not <robot>{hint}")
         for tag in ("link", "joint"):
             count_elements(root, tag, where)
-        return cls(root, Path(path))
+        return cls(root, Path(path), given.packages)
 
     def end(self, joint: etree._Element, tag: str) -> str:
         """Name of a joint's ``parent`` or ``child`` link; empty where there is none."""

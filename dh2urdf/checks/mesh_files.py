@@ -2,11 +2,15 @@
 
 import os
 import re
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+from types import MappingProxyType
 from urllib.parse import unquote
 
 import numpy as np
 
+from dh2urdf.conversions.read import find_package
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import UrdfError
 
@@ -17,11 +21,13 @@ RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 """A triangle of a binary STL file."""
 
 
-def locate(filename: str, urdf: Path) -> Path | None:
+def locate(
+    filename: str, urdf: Path, packages: Mapping[str, str] = MappingProxyType({})
+) -> Path | None:
     """The file that a mesh's name means; None where there is none.
 
-    ``package://`` and ``model://`` are looked for in ``ROS_PACKAGE_PATH`` and in the folders
-    above the URDF, a plain path from the URDF's own folder.
+    ``package://`` and ``model://`` are looked for in the packages given, in ``ROS_PACKAGE_PATH``,
+    in the folders above the URDF and in packages beside it, a plain path from the URDF's folder.
     """
     scheme, rest = _split(filename)
     folders = list(urdf.resolve().parents)
@@ -31,6 +37,9 @@ def locate(filename: str, urdf: Path) -> Path | None:
         package, _, inside = rest.partition("/")
         candidates = [folder / rest for folder in (*search, *folders)]
         candidates += [folder / inside for folder in (*search, *folders) if folder.name == package]
+        if package in packages or not any(map(os.path.isfile, candidates)):
+            with suppress(UrdfError):
+                candidates.insert(0, find_package(package, urdf, packages) / inside)
     else:
         name = unquote(rest) if scheme == "file" else filename
         candidates = [folder / name for folder in (urdf.parent, folders[0])]

@@ -34,8 +34,41 @@ Values = Annotated[list[str] | None, Parameter(consume_multiple=(1, None))]
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
-class Reading:
-    """How files are read that leave something to be told."""
+class Description:
+    """How a robot description is read."""
+
+    xacro_arg: Annotated[tuple[str, ...], Parameter(show_default=False)] = ()
+    """Argument of a xacro, name:=value; repeat for several."""
+
+    package: Annotated[tuple[str, ...], Parameter(show_default=False)] = ()
+    """Folder of a ROS package, name=DIR; others by ROS_PACKAGE_PATH and beside the file."""
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """Arguments and packages, as `Robot.from_urdf` takes them."""
+        return {
+            "xacro_args": _named(self.xacro_arg, ":=", "--xacro-arg"),
+            "packages": _named(self.package, "=", "--package"),
+        }
+
+
+def _named(options: Iterable[str], sign: str, what: str) -> dict[str, str]:
+    """Names and values of an option that is given again and again."""
+    out: dict[str, str] = {}
+    for option in options:
+        name, found_sign, value = option.partition(sign)
+        if not found_sign or not name:
+            raise ArgumentError(f"{what}: expected NAME{sign}VALUE, got {found(option)}")
+        if name in out:
+            raise ArgumentError(f"{what}: {name} is given twice")
+        out[name] = value
+    return out
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Telling:
+    """What is told of a table file that does not say it."""
 
     convention: Literal["standard", "modified"] | None = None
     """Convention of a table file that does not say it."""
@@ -52,7 +85,15 @@ class Reading:
         return told(self.convention, self.units, model=self.model)
 
 
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Reading(Telling, Description):
+    """How a table or a robot description is read."""
+
+
+UNTOLD = Telling()
 DEFAULT = Reading()
+PLAIN = Description()
 
 
 Arm = Annotated[

@@ -18,7 +18,7 @@ from dh2urdf.cli.progress import note
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Told, Units
 from dh2urdf.dh_io.cells.told import NOTHING
-from dh2urdf.exceptions import ConfigurationError, TableError, UrdfError
+from dh2urdf.exceptions import ArgumentError, ConfigurationError, TableError, UrdfError
 from dh2urdf.grids import grid_matrix, number
 from dh2urdf.transforms import Array
 
@@ -136,12 +136,17 @@ def robot_of(
     if source == "-":
         text = _piped()
         if text.lstrip().startswith("<"):
-            return Robot.from_urdf(text, base, tip)
+            return Robot.from_urdf(text, base, tip, **reading.given)
         if base or tip:
             raise UrdfError("<stdin>:1: not XML; --base and --tip are links of a URDF")
         return Robot.from_dh(_noted(_table_of_text(text, reading.told)))
     if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
-        return Robot.from_urdf(source, base, tip)
+        return Robot.from_urdf(source, base, tip, **reading.given)
+    for option, named in reading.given.items():
+        if named:
+            raise ArgumentError(
+                f"--{option.replace('_args', '-arg').rstrip('s')} does nothing for a table"
+            )
     return Robot.from_dh(table_of(source, reading.told))
 
 

@@ -2,6 +2,7 @@
 
 import os
 import threading
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from dh2urdf.conversions.chains import (
     model_to_chain,
     with_locked,
 )
-from dh2urdf.conversions.read import TEXT, Mimic, read_description
+from dh2urdf.conversions.read import NOTHING, TEXT, Mimic, Xacro, read_description, xacro_given
 from dh2urdf.conversions.write import UrdfOptions, dh_to_chain, urdf_text_and_warnings
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
@@ -79,6 +80,7 @@ class Robot(RobotIK, RobotPictures, RobotForms):
     """
 
     source: Path | None = None
+    xacro: Xacro = NOTHING
     warnings: tuple[str, ...] = ()
     __getstate__ = settled_state
 
@@ -129,6 +131,8 @@ class Robot(RobotIK, RobotPictures, RobotForms):
         tip: str | None = None,
         *,
         strict: bool = False,
+        xacro_args: Mapping[str, object] | None = None,
+        packages: Mapping[str, str | os.PathLike[str]] | None = None,
     ) -> "Robot":
         """A robot of a URDF (``.xacro`` with the extra, MJCF) between two of its links.
 
@@ -139,18 +143,25 @@ class Robot(RobotIK, RobotPictures, RobotForms):
             Links anywhere in the tree. Without them: the root, and the end of the longest chain.
         strict : bool
             Refuse a file in which something had to be mended, which ``warnings`` tells.
+        xacro_args : dict, optional
+            Arguments of a xacro: ``{"ur_type": "ur5e"}``.
+        packages : dict, optional
+            Folders of ROS packages by name; others are looked for in ``ROS_PACKAGE_PATH`` and
+            beside the file.
 
         Raises
         ------
         UrdfError, NameNotFoundError
         """
-        found = read_description(path, base, tip, strict=flag(strict, "strict"))
+        given = xacro_given(xacro_args, packages)
+        found = read_description(path, base, tip, strict=flag(strict, "strict"), given=given)
         mimics = {joint.name: joint.mimic for joint in found.tree.joints if joint.mimic}
         robot = cls(found.model, found.base_frame, found.tip, mimics=mimics)
         coupled = robot._coupling.warnings if robot._coupling else ()
         if strict and coupled:
             raise UrdfError("\n".join(coupled))
         robot.source = None if found.tree.where == TEXT else Path(path)
+        robot.xacro = given
         robot.warnings = (*found.mends, *coupled)
         return robot
 

@@ -1,20 +1,24 @@
 """The visuals of a URDF, meshes included, where they are on disk."""
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pinocchio as pin
 
-from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.checks import locate
 from dh2urdf.conversions.chains import frame_id
+from dh2urdf.conversions.read import description_bytes
 from dh2urdf.conversions.write import Body
-from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.drawing.surfaces import Node, Surface, body_surface
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, moved, origin_matrix
+
+Find = Callable[[str], Path | None]
+"""The file that a mesh's name means."""
 
 GREY = (200, 204, 212)
 """Colour of a visual that has none."""
@@ -44,9 +48,10 @@ class UrdfDrawing:
 def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
     """The drawing of the robot's URDF, None where it has no visuals; and what is missing."""
     source = robot.source
-    if source is None or source.suffix.lower() != ".urdf":
+    if source is None or source.suffix.lower() not in (".urdf", ".xacro"):
         return None, []
-    root = parse_xml(read_bytes(source, ROBOT_BYTES), str(source))
+    root = parse_xml(*description_bytes(source, robot.xacro))
+    find = partial(locate, urdf=source, packages=robot.xacro.packages)
     missing: set[str] = set()
     nodes, notes = [], []
     known = {f.name for f in robot.model.frames if f.type == pin.FrameType.BODY}
@@ -56,13 +61,13 @@ def urdf_drawing(robot: Robot) -> tuple[UrdfDrawing | None, list[str]]:
         name = link.get("name", "")
         surfaces: list[Surface] = []
         for visual in link.iterfind("visual"):
-            surfaces += _visual(visual, colours, source, missing)
+            surfaces += _visual(visual, colours, find, missing)
         if surfaces and name in known:
             nodes.append(Node(name, tuple(surfaces)))
     if missing:
         names = ", ".join(sorted(missing)[:3])
         names += f" and {len(missing) - 3} more" if len(missing) > 3 else ""
-        where = "Set ROS_PACKAGE_PATH to their folder."
+        where = "Give --package NAME=DIR, or set ROS_PACKAGE_PATH to their folder."
         notes.append(f"Meshes not found or not readable: {names}. {where}")
     return (UrdfDrawing(robot, nodes) if nodes else None), notes
 
@@ -73,7 +78,7 @@ def _rgb(colour: Any) -> tuple[int, int, int]:
 
 
 def _visual(
-    visual: Any, colours: dict[str, tuple[int, int, int]], source: Path, missing: set[str]
+    visual: Any, colours: dict[str, tuple[int, int, int]], find: Find, missing: set[str]
 ) -> list[Surface]:
     """Surfaces of one ``<visual>`` in the frame of its link."""
     shape = visual.find("geometry/*")
@@ -88,7 +93,7 @@ def _visual(
         own = material.find("color")
         colour = _rgb(own) if own is not None else colours.get(material.get("name", ""))
     if shape.tag == "mesh":
-        return _mesh(shape, T_link_visual, colour, source, missing)
+        return _mesh(shape, T_link_visual, colour, find, missing)
     keys = {"box": ("size",), "cylinder": ("radius", "length"), "sphere": ("radius",)}
     if shape.tag not in keys:
         return []
@@ -104,12 +109,12 @@ def _mesh(
     shape: Any,
     T_link_visual: Array,
     colour: tuple[int, int, int] | None,
-    source: Path,
+    find: Find,
     missing: set[str],
 ) -> list[Surface]:
     """Surfaces of a mesh file, scaled and placed."""
     name = shape.get("filename", "")
-    path = locate(name, source)
+    path = find(name)
     scene = _load(path) if path else None
     if scene is None:
         missing.add(name)

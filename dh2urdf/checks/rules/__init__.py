@@ -1,7 +1,7 @@
 """Rules of URDF files, a module a subject: every public function of one is a rule."""
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from inspect import isfunction
 from types import ModuleType
@@ -10,6 +10,7 @@ from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.rounding import rounded_angle
 from dh2urdf.checks.rules import geometry, inertia, joints, reading, tree
+from dh2urdf.conversions.read import xacro_given
 
 Rule = Callable[[Document], Iterator[Finding]]
 
@@ -31,7 +32,12 @@ RULES: dict[str, Rule] = {
 """Every rule by its name; its docstring says what holds in a sound file."""
 
 
-def check_urdf(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
+def check_urdf(
+    path: str | os.PathLike[str],
+    *,
+    xacro_args: Mapping[str, object] | None = None,
+    packages: Mapping[str, str | os.PathLike[str]] | None = None,
+) -> tuple[Finding, ...]:
     """What the consumers of a URDF would break on, by rule, in the order of the file.
 
     No consumer needs to be installed for it; :func:`dh2urdf.checks.ask_all` asks those that are.
@@ -39,7 +45,9 @@ def check_urdf(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
     Parameters
     ----------
     path : path
-        Any URDF.
+        Any URDF, or a xacro.
+    xacro_args, packages : dict, optional
+        Arguments of a xacro, and folders of ROS packages by name.
 
     Returns
     -------
@@ -51,6 +59,6 @@ def check_urdf(path: str | os.PathLike[str]) -> tuple[Finding, ...]:
     UrdfError
         No such file, not XML, a document type or entities, or no ``<robot>``.
     """
-    doc = Document.read(path)
+    doc = Document.read(path, xacro_given(xacro_args, packages))
     found = [replace(item, rule=name) for name, rule in RULES.items() for item in rule(doc)]
     return tuple(sorted(found, key=lambda finding: finding.line))

@@ -73,7 +73,7 @@ def _meshes(doc: Document) -> Iterator[_Mesh]:
         for mesh in geometry.iterchildren("mesh"):
             name = mesh.get("filename", "")
             if not is_remote(name) and "${" not in name and "$(" not in name:
-                path = locate(name, doc.path)
+                path = locate(name, doc.path, doc.packages)
                 yield _Mesh(shell, mesh, name, path, doc.mujoco_reads(shell))
 
 
@@ -83,7 +83,7 @@ def mesh_missing(doc: Document) -> Iterator[Finding]:
         if mesh.path is None:
             mend = "mend the path; plain paths start at the URDF's folder"
             if mesh.name.startswith(("package://", "model://")):
-                mend = "put the package on ROS_PACKAGE_PATH, or beside the URDF's folder"
+                mend = "give --package NAME=DIR, or put its folder on ROS_PACKAGE_PATH"
             visual = mesh.shell.tag == "visual"
             yield finding(
                 mesh.element,

@@ -14,10 +14,10 @@ from cyclopts import Parameter
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.checks import Testimony, ask_all, check_urdf, installed, why_not_asked
 from dh2urdf.checks.findings import Effect, Finding, Severity, Verdict
-from dh2urdf.cli.options import Json
+from dh2urdf.cli.options import PLAIN, Description, Json
 from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.cli.progress import bar, note
-from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf
+from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf, xacro_given
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes
 from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
@@ -36,6 +36,7 @@ def check_(
     base: str | None = None,
     tip: str | None = None,
     force: bool = False,
+    reading: Description = PLAIN,
     json: Json = False,
 ) -> int:
     """Say what the consumers of a URDF would say of it, and how to mend it.
@@ -64,7 +65,7 @@ def check_(
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
     if fix is not None:
-        return _mend(files, fix, base, tip, force=force, json=json)
+        return _mend(files, fix, base, tip, reading, force=force, json=json)
     results, failed, done = [], [], count(1)
     total = len(files) * (1 + run * len(installed()))
     with bar("checking", total) as report:
@@ -74,7 +75,7 @@ def check_(
 
         for file in files:
             try:
-                results.append(_result(file, run, step))
+                results.append(_result(file, run, step, reading))
             except Dh2UrdfError as error:
                 failed.append({"path": file, "error": str(error)})
             step()
@@ -111,21 +112,29 @@ class _Result(NamedTuple):
     not_asked: str
 
 
-def _result(file: str, run: bool, answered: Callable[[], None]) -> _Result:
-    with _on_disk(file) as path:
-        findings = check_urdf(path if file == "-" else file)
+def _result(file: str, run: bool, answered: Callable[[], None], reading: Description) -> _Result:
+    with _on_disk(file, reading) as path:
+        findings = check_urdf(path if file == "-" else file, **reading.given)
         why = why_not_asked(path) if run else ""
         said = ask_all(path, None, answered) if run and not why else ()
     return _Result("<stdin>" if file == "-" else file, findings, said, why)
 
 
 def _mend(
-    files: tuple[str, ...], fix: Path, base: str | None, tip: str | None, *, force: bool, json: bool
+    files: tuple[str, ...],
+    fix: Path,
+    base: str | None,
+    tip: str | None,
+    reading: Description,
+    *,
+    force: bool,
+    json: bool,
 ) -> int:
     if len(files) != 1:
         raise ArgumentError(f"--fix: expected one file to mend, got {len(files)}")
-    with _on_disk(files[0]) as path:
-        text, mends = mended_urdf(path if files[0] == "-" else files[0], base, tip)
+    with _on_disk(files[0], reading) as path:
+        source = path if files[0] == "-" else files[0]
+        text, mends = mended_urdf(source, base, tip, xacro_given(**reading.given))
     if not force:
         refuse_foreign(fix, MENDED)
     atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
@@ -137,7 +146,7 @@ def _mend(
 
 
 @contextmanager
-def _on_disk(file: str) -> Iterator[Path]:
+def _on_disk(file: str, reading: Description) -> Iterator[Path]:
     """Path of a URDF; what comes by stdin, or of a xacro, is put into one."""
     piped = file == "-"
     if not piped and not is_xacro(file):
@@ -145,7 +154,8 @@ def _on_disk(file: str) -> Iterator[Path]:
         return
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"{'stdin' if piped else Path(file).stem}.urdf"
-        data = read_bytes(stdin(), ROBOT_BYTES) if piped else description_bytes(file)[0]
+        given = xacro_given(**reading.given)
+        data = read_bytes(stdin(), ROBOT_BYTES) if piped else description_bytes(file, given)[0]
         path.write_bytes(data)
         yield path
 

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Json, Reading, whole
+from dh2urdf.cli.options import UNTOLD, Json, Telling, whole
 from dh2urdf.cli.output import emit, emit_file, emit_json, read_source
 from dh2urdf.cli.progress import note, track
 from dh2urdf.conversions.write import UrdfOptions
@@ -26,7 +26,7 @@ def convert_(
     dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
     digits: Annotated[int | None, whole(0, 17)] = None,
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
-    reading: Reading = DEFAULT,
+    reading: Telling = UNTOLD,
     json: Json = False,
 ) -> int:
     """Turn DH tables into URDF files that Pinocchio has checked, or into tables of other formats.
@@ -93,7 +93,7 @@ def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
 
 
 def _convert(
-    source: str, reading: Reading, target: Path, options: UrdfOptions, force: bool
+    source: str, reading: Telling, target: Path, options: UrdfOptions, force: bool
 ) -> dict[str, Any]:
     """What was written, as JSON has it."""
     table, warnings = read_source(source, reading.told)
@@ -150,7 +150,7 @@ def _checked(result: dict[str, object]) -> str:
 
 def _convert_many(
     tables: tuple[str, ...],
-    reading: Reading,
+    reading: Telling,
     out_dir: Path,
     options: UrdfOptions,
     *,

@@ -11,7 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.options import Digits, Force, Json, real
+from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, real
 from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
 from dh2urdf.dh_io import (
@@ -59,6 +59,7 @@ def extract_(
     compact: Annotated[bool, Parameter(negative="--no-compact")] = True,
     flip: tuple[str, ...] = (),
     embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
+    reading: Description = PLAIN,
     json: Json = False,
 ) -> None:
     """Find the DH table of a URDF, xacro or MJCF, or of joint axes, by frame assignment.
@@ -101,9 +102,8 @@ def extract_(
     if format in FORMS:
         return _extract_form(source, base, tip, format, output, force=force, json=json)
     given, own = _stdin() if source == "-" else source, embedded and not explain
-    found = extract_dh(
-        given, base, tip, convention, snap, x_axis=x_axis, compact=compact, flip=flip, embedded=own
-    )
+    options = {"x_axis": x_axis, "compact": compact, "flip": flip, "embedded": own, **reading.given}
+    found = extract_dh(given, base, tip, convention, snap, **options)
     to_stdout = str(output or "-") == "-"
     asked = output is not None or format is not None
     text = _text(found, output, format, digits) if asked else ""

@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.options import DEFAULT, Deg, Digits, Json, Reading, Values
+from dh2urdf.cli.options import UNTOLD, Deg, Digits, Json, Telling, Values
 from dh2urdf.cli.output import (
     emit,
     emit_file,
@@ -32,7 +32,7 @@ def show_(
     symbolic: bool = False,
     format: Literal["text", "yaml", "toml", "json", "csv", "markdown", "latex", "html"] = "text",
     digits: Digits = None,
-    reading: Reading = DEFAULT,
+    reading: Telling = UNTOLD,
     json: Json = False,
 ) -> None:
     """Print a table, each of its transforms, their product, and its solver.

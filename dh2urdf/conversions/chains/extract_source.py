@@ -19,7 +19,7 @@ from dh2urdf.conversions.chains.referee import (
 )
 from dh2urdf.conversions.chains.tree_chain import ChainSource, tree_to_chain
 from dh2urdf.conversions.chains.typed_axes import SUFFIXES, read_axes, typed_to_chain
-from dh2urdf.conversions.read import Actuation, link_name, read_description
+from dh2urdf.conversions.read import NOTHING, Actuation, Xacro, link_name, read_description
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
@@ -40,6 +40,7 @@ def read_source(
     source: Any,
     base: str | None,
     tip: str | None,
+    given: Xacro = NOTHING,
     *,
     joint_types: str | Sequence[JointType | str] | None = None,
     tool: Any = None,
@@ -54,7 +55,7 @@ def read_source(
         if isinstance(source, pin.Model):
             found, path = model_source(source, link_name(base, "base"), link_name(tip, "tip"))
             return Source(found, model_referee(source, path.base, path.tip, found.chain.names))
-        return _from_file(source, base, tip)
+        return _from_file(source, base, tip, given)
     if base is not None or tip is not None:
         raise UrdfError("base and tip: typed axes go from the base frame to the tool")
     chain = source if isinstance(source, SerialChain) else typed_to_chain(source, **typed)
@@ -67,7 +68,9 @@ def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
     return Source(found, screw_referee(chain))
 
 
-def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None) -> Source:
+def _from_file(
+    source: str | os.PathLike[str], base: str | None, tip: str | None, xacro: Xacro
+) -> Source:
     """A path, or the text of a URDF."""
     if not (isinstance(source, str) and source.lstrip().startswith("<")):
         path = Path(source)
@@ -76,7 +79,7 @@ def _from_file(source: str | os.PathLike[str], base: str | None, tip: str | None
                 where = shown(source)
                 raise UrdfError(f"{where}: base and tip: typed axes go from the base to the tool")
             return _from_chain(*read_axes(path), path.name)
-    given = read_description(source, base, tip)
+    given = read_description(source, base, tip, given=xacro)
     found = tree_to_chain(given.tree, given.base, given.tip)
     found = replace(found, warnings=(*given.mends, *found.warnings))
     model, names = given.model, (found.base, found.tip)

@@ -1,11 +1,13 @@
 """Readers of other projects, which a file may drive anywhere: each in a process of its own.
 
 ``python -m dh2urdf.conversions.read.apart xacro arm.xacro folder`` leaves what it read in the
-folder, or a file ``error``. Time and memory are bounded; what a reader prints goes nowhere.
+folder, or a file ``error``; ``given`` in it tells what a xacro is given. Time and memory are
+bounded; what a reader prints goes nowhere.
 """
 
 import ast
 import contextlib
+import json
 import os
 import re
 import subprocess
@@ -18,6 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from dh2urdf.bounds import APART_BYTES, APART_SECONDS
+from dh2urdf.conversions.read.xacro_file import NOTHING, Xacro, expand
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import MissingExtraError, UrdfError
 
@@ -32,13 +35,14 @@ NEEDS = {"xacro": ("xacro", "xacro"), "mjcf": ("mujoco", "mjcf")}
 
 
 @contextmanager
-def read_apart(reader: str, source: Path) -> Iterator[Path]:
+def read_apart(reader: str, source: Path, given: Xacro = NOTHING) -> Iterator[Path]:
     """The folder in which a reader leaves what it read: ``text``, or ``mjb`` and ``pin``."""
     module, extra = NEEDS[reader]
     if find_spec(module) is None:
         raise MissingExtraError(extra, f"reading {source.name}")
     path = [str(Path(__file__).parents[3]), os.environ.get("PYTHONPATH", "")]
     with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "given").write_text(json.dumps(given), encoding="utf-8")
         try:
             run = subprocess.run(
                 [sys.executable, "-m", __name__, reader, os.path.abspath(source), folder],
@@ -69,8 +73,8 @@ def _xacro(source: str, folder: Path) -> None:
         return eval(expr.strip(), names, scope)
 
     xacro.safe_eval = substitution_args.eval = compute
-    text = xacro.process_file(source).toxml()
-    (folder / "text").write_text(text, encoding="utf-8")
+    given = Xacro(*json.loads((folder / "given").read_text(encoding="utf-8")))
+    (folder / "text").write_text(expand(source, given), encoding="utf-8")
 
 
 def check_expression(expr: str) -> None:

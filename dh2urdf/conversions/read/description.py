@@ -19,6 +19,7 @@ from dh2urdf.conversions.read.kinematic_tree import (
     link_name,
 )
 from dh2urdf.conversions.read.urdf_tree import read_urdf
+from dh2urdf.conversions.read.xacro_file import NOTHING, Xacro
 from dh2urdf.conversions.write import inertial_element
 from dh2urdf.dh_io.files import read_bytes, shown
 from dh2urdf.dh_io.xml import parse_xml
@@ -67,7 +68,7 @@ class Description(NamedTuple):
         return str(self.model.frames[0].name) if world else self.base
 
 
-def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
+def description_bytes(source: str | os.PathLike[str], given: Xacro = NOTHING) -> tuple[bytes, str]:
     """Bytes of a file, a xacro expanded, or of a text that is a URDF; and its name in messages."""
     if isinstance(source, str) and source.lstrip().startswith("<"):
         return source.encode(errors="replace"), TEXT
@@ -75,8 +76,11 @@ def description_bytes(source: str | os.PathLike[str]) -> tuple[bytes, str]:
         raise UrdfError(f"expected a path, got {found(source)}")
     data = read_bytes(source, ROBOT_BYTES, UrdfError)
     if is_xacro(source):
-        with read_apart("xacro", Path(source)) as folder:
+        folders = {name: os.path.abspath(folder) for name, folder in given.packages.items()}
+        with read_apart("xacro", Path(source), Xacro(given.args, folders)) as folder:
             data = read_bytes(folder / "text", ROBOT_BYTES, UrdfError)
+    elif given.args:
+        raise UrdfError(f"{shown(source)}: arguments are for a .xacro, which this is not")
     return data, shown(source)
 
 
@@ -86,7 +90,12 @@ def is_xacro(path: str | os.PathLike[str]) -> bool:
 
 
 def read_description(
-    source: str | os.PathLike[str], base: str | None, tip: str | None, *, strict: bool = False
+    source: str | os.PathLike[str],
+    base: str | None,
+    tip: str | None,
+    *,
+    strict: bool = False,
+    given: Xacro = NOTHING,
 ) -> Description:
     """The chain between two links of a URDF, xacro or MJCF.
 
@@ -100,7 +109,7 @@ def read_description(
     NameNotFoundError, MissingExtraError
     """
     base, tip = link_name(base, "base"), link_name(tip, "tip")
-    data, where = description_bytes(source)
+    data, where = description_bytes(source, given)
     root = parse_xml(data, where)
     if root.tag == "mujoco" and where != TEXT:
         return _from_mjcf(root, Path(source), base, tip)
@@ -183,7 +192,7 @@ def _plain(text: str) -> str:
 
 
 def mended_urdf(
-    source: str | os.PathLike[str], base: str | None, tip: str | None
+    source: str | os.PathLike[str], base: str | None, tip: str | None, given: Xacro = NOTHING
 ) -> tuple[str, tuple[str, ...]]:
     """The text of a URDF or xacro with all that has an obvious reading mended, and what that was.
 
@@ -194,11 +203,11 @@ def mended_urdf(
     VerificationError
         Read back, the text is not the same robot.
     """
-    given = read_description(source, base, tip)
-    text = etree.tostring(given.root.getroottree(), encoding="unicode")
-    again = read_description(text, given.base, given.tip, strict=True).model
-    again.lowerPositionLimit = given.model.lowerPositionLimit  # none is written as wide ones
-    again.upperPositionLimit = given.model.upperPositionLimit
-    if again != given.model:
-        raise VerificationError(f"{given.tree.where}: the mended file is not read as it was meant")
-    return text, given.mends
+    read = read_description(source, base, tip, given=given)
+    text = etree.tostring(read.root.getroottree(), encoding="unicode")
+    again = read_description(text, read.base, read.tip, strict=True).model
+    again.lowerPositionLimit = read.model.lowerPositionLimit  # none is written as wide ones
+    again.upperPositionLimit = read.model.upperPositionLimit
+    if again != read.model:
+        raise VerificationError(f"{read.tree.where}: the mended file is not read as it was meant")
+    return text, read.mends
