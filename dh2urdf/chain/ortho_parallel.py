@@ -168,7 +168,7 @@ def _frames(links: Array, q: list[float]) -> list[Array]:
 
 
 def _turn(axis: str, v: Array, both_ways: bool = False) -> float:
-    """Angle [rad] about z or y that takes a vector to y or to z; the smaller if ``-y`` does."""
+    """Angle [rad] about z or y that takes a vector to y or to z; the smaller one of both ways."""
     angle = math.atan2(v[0], v[1]) if axis == "z" else -math.atan2(v[0], v[2])
     if both_ways and abs(angle) > 0.5 * math.pi + EXACT:
         angle -= math.copysign(math.pi, angle)
@@ -193,7 +193,8 @@ def _offset(i: int, frames: list[Array], facing: bool) -> float:
         ahead = dot(_wrist_centre(frames) - frames[2][:3, 3], z[3])
         return _turn("y", z[3] * (1.0 if ahead > -EXACT else -1.0))
     if i == 4:
-        return _turn("y", z[5] * (math.copysign(1.0, dot(z[5], z[6])) if facing else 1.0))
+        outwards = math.copysign(1.0, dot(z[5], z[6])) if facing else 1.0
+        return _turn("y", z[5] * outwards, both_ways=not facing)
     return _turn("z", frames[6][:3, 1]) if facing else 0.0
 
 

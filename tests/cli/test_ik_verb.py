@@ -286,3 +286,34 @@ def test_solutions_farther_from_the_seed_than_allowed_are_left_out(run):
     assert f"{many} are farther from the seed than --seed-tolerance allows, the {by}" in err
     status, _, err = run("ik", "denso_vs6556", *POSE, "--seed-tolerance", "1")
     assert (status, err.strip()) == (2, "dh2urdf: --seed-tolerance does nothing without --seed")
+
+
+WORDS = {"kuka_kr6_r700": "kuka", "abb_irb140": "abb", "fanuc_lrmate200id": "fanuc"}
+
+
+@pytest.mark.parametrize(("name", "maker"), WORDS.items())
+def test_words_of_a_controller_stand_beside_the_solutions(run, tmp_path, name, maker):
+    """--words in the table before the branch, in JSON and CSV as word; all as IKSolutions.words."""
+    robot = dh2urdf.Robot.from_dh(name)
+    words = [str(word) for word in robot.ik(target()).words(maker)]
+    assert len(words) > 1
+    out = run("ik", name, *POSE, "--words", maker)[1]
+    branches = [f"{w}; {b}" for w, b in zip(words, robot.ik(target()).branch, strict=True)]
+    assert all(any(line.endswith(b) for line in out.splitlines()) for b in branches)
+    told = json.loads(run("ik", name, *POSE, "--words", maker, "--json")[1])
+    assert [solution["word"] for solution in told["solutions"]] == words
+    (tmp_path / "poses.csv").write_text("0.4,0,0.3,0,3.141592653589793,0\n")
+    rows = list(
+        csv.DictReader(io.StringIO(run("ik", name, "--csv", "poses.csv", "--words", maker)[1]))
+    )
+    assert [row["word"] for row in rows] == words
+    assert "word" not in run("ik", name, "--csv", "poses.csv")[1].splitlines()[0].split(",")
+
+
+def test_an_arm_without_that_shape_has_no_words(refused):
+    """One message with the option, the shape and what fails."""
+    err = refused("ik", "ur5e", *POSE, "--words", "kuka")
+    start = (
+        "dh2urdf: --words kuka: no ortho-parallel arm with a spherical wrist: axes 3 and 4 are not"
+    )
+    assert err.startswith(start)

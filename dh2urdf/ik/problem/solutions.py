@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from struct import Struct
-from typing import Protocol, overload
+from typing import NamedTuple, Protocol, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, as_configuration
+from dh2urdf.ik.problem.words import controller_words
 from dh2urdf.transforms import Array
 
 
@@ -134,6 +135,26 @@ class IKSolutions:
         found = self._problem.arranged(self, goal)
         found.pose_change = self.pose_change
         return found
+
+    def words(self, maker: str) -> tuple[NamedTuple, ...]:
+        """The word of each solution in the terms of a controller: its text is what that shows.
+
+        For arms of six axes with a spherical wrist; see :mod:`dh2urdf.ik.problem.words` for the
+        makers' definitions, and for how joint angles become the controller's.
+
+        Parameters
+        ----------
+        maker : {"kuka", "abb", "fanuc"}
+            ``S 2, T 35`` (status, turn), ``[0,-1,1,0]`` (cf1, cf4, cf6, cfx), or
+            ``N U T, 0, 0, 0`` (flip, elbow, side, turns of J1, J4 and J6).
+
+        Raises
+        ------
+        ArgumentError
+        NotOrthoParallelError
+            An arm of another geometry; the message has every condition that fails.
+        """
+        return controller_words(self._problem.chain, self.q, maker)
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""

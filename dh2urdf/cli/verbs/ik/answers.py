@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dh2urdf.exceptions import UrdfError
 from dh2urdf.grids import grid_text, number
 from dh2urdf.transforms import Array
 
@@ -32,9 +33,20 @@ def names_of(arm: Robot, over: Array) -> list[str]:
     return [arm.joint_names[j] for j in np.flatnonzero(over)]
 
 
-def as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
+def words_of(found: IKSolutions, maker: str | None) -> list[str]:
+    """A controller's word of each solution, or no text."""
+    if maker is None:
+        return [""] * len(found)
+    try:
+        return [str(word) for word in found.words(maker)]
+    except UrdfError as error:
+        raise UrdfError(f"--words {maker}: {error}") from None
+
+
+def as_data(arm: Robot, found: IKSolutions, maker: str | None = None) -> dict[str, Any]:
     """The solutions as plain values: metres and radians, full precision."""
     over_limits = outside(arm, found.q)
+    words = [{"word": word} if maker else {} for word in words_of(found, maker)]
     return {
         "base": arm.base,
         "tip": arm.tip,
@@ -48,23 +60,25 @@ def as_data(arm: Robot, found: IKSolutions) -> dict[str, Any]:
                 "branch": branch,
                 "free_joints": [arm.joint_names[i] for i in free],
                 "outside_limits": names_of(arm, over),
+                **word,
             }
-            for q, residual, branch, free, over in zip(
-                found.q, found.verify(), found.branch, found.free_joints, over_limits, strict=True
+            for q, residual, branch, free, over, word in zip(
+                *(found.q, found.verify(), found.branch, found.free_joints, over_limits, words),
+                strict=True,
             )
         ],
     }
 
 
-def solutions_text(arm: Robot, found: IKSolutions, *, deg: bool) -> str:
-    """Solutions for people: values, residual by Pinocchio, branch, remarks.
+def solutions_text(arm: Robot, found: IKSolutions, *, deg: bool, maker: str | None = None) -> str:
+    """Solutions for people: values, residual by Pinocchio, controller's word, branch, remarks.
 
     Where a terminal is too narrow for a line a solution, the values have fewer digits and the
     branch stands below them.
     """
     units = ["m" if slides else "deg" if deg else "rad" for slides in arm.slides]
     heads = [f"{name} [{unit}]" for name, unit in zip(arm.joint_names, units, strict=True)]
-    remarks = _remarks(arm, found, deg)
+    remarks = _remarks(arm, found, deg, maker)
     rows = [[*row, remark] for row, remark in zip(_rows(found, units, FINE), remarks, strict=True)]
     text = grid_text(["#", *heads, "residual", "branch"], rows, left={len(heads) + 2})
     width = shutil.get_terminal_size().columns if sys.stdout.isatty() else len(text)
@@ -95,14 +109,15 @@ def _rows(found: IKSolutions, units: list[str], digits: dict[str, int]) -> list[
     ]
 
 
-def _remarks(arm: Robot, found: IKSolutions, deg: bool) -> list[str]:
-    """Branch, free joints and joints outside their limits of each solution."""
+def _remarks(arm: Robot, found: IKSolutions, deg: bool, maker: str | None) -> list[str]:
+    """Controller's word, branch, free joints and joints outside their limits of each solution."""
     units = ["m" if slides else "deg" if deg else "rad" for slides in arm.slides]
     remarks = []
-    for branch, free, over in zip(
-        found.branch, found.free_joints, outside(arm, found.q), strict=True
+    words = words_of(found, maker)
+    for word, branch, free, over in zip(
+        words, found.branch, found.free_joints, outside(arm, found.q), strict=True
     ):
-        parts = [branch] if branch else []
+        parts = [part for part in (word, branch) if part]
         parts += [f"free: {', '.join(arm.joint_names[j] for j in free)}"] if free else []
         far = [
             f"{arm.joint_names[j]} by {_shown(over[j], units[j], FINE)}"

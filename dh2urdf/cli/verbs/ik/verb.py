@@ -12,7 +12,7 @@ from cyclopts import Parameter
 from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
-from dh2urdf.cli.verbs.ik.answers import as_data, names_of, outside, solutions_text
+from dh2urdf.cli.verbs.ik.answers import as_data, names_of, outside, solutions_text, words_of
 from dh2urdf.cli.verbs.ik.poses import Poses, pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.grids import grid_csv
@@ -47,6 +47,7 @@ def ik_(
     turns: Literal["nearest", "all"] = "nearest",
     within_limits: Annotated[bool, Parameter(negative="--no-within-limits")] = True,
     nearest: bool = False,
+    words: Literal["kuka", "abb", "fanuc"] | None = None,
     deg: bool = False,
     base: Link = None,
     tip: Link = None,
@@ -82,6 +83,9 @@ def ik_(
         Leave out solutions outside the joint limits, as `Robot.ik` does; else mark them.
     nearest
         Take the nearest rotation where that of a matrix is rounded, and tell how far it was.
+    words
+        Each solution's word in a controller's terms, for six axes with a spherical wrist: kuka
+        status and turn, abb cf1 cf4 cf6 cfx, fanuc N U T with turns of J1, J4, J6.
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
@@ -96,7 +100,7 @@ def ik_(
         near["seed_tolerance"] = most
     if csv is not None:
         poses = poses_of_csv(csv, deg=deg, nearest=nearest)
-        return _many(arm, poses, near, options, deg=deg, json=json)
+        return _many(arm, poses, near, options, words, deg=deg, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position", nearest=nearest)
     found = arm.ik(T, **near, **options)
     _tell_change(found.pose_change)
@@ -105,9 +109,9 @@ def ik_(
     reason = _reason(arm, T, found, near, options)
     if json:
         solver = arm.solver_for(locked=options["locked"], task=task)
-        emit_json("ik", **as_data(arm, found), solver=str(solver), reason=reason)
+        emit_json("ik", **as_data(arm, found, words), solver=str(solver), reason=reason)
     elif found:
-        emit(solutions_text(arm, found, deg=deg))
+        emit(solutions_text(arm, found, deg=deg, maker=words))
     if reason:
         hidden = within_limits and "outside the joint limits" in reason
         hint = "; --no-within-limits shows them" if hidden else ""
@@ -170,21 +174,29 @@ def _too_far(arm: Robot, q: Array, near: _Options) -> str:
 
 
 def _many(
-    arm: Robot, poses: Poses, near: _Options, options: _Options, *, deg: bool, json: bool
+    arm: Robot,
+    poses: Poses,
+    near: _Options,
+    options: _Options,
+    maker: str | None,
+    *,
+    deg: bool,
+    json: bool,
 ) -> int:
     """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
     missed: dict[int, IKSolutions | None] = {}
     change = 0.0
     data: list[dict[str, Any]] = []
     lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
+    lines[0] += ["word"] if maker else []
     for i, found in enumerate(_solved(arm, poses.T, near, options)):
         over, change = outside(arm, found.q), max(change, found.pose_change)
         if not (over == 0.0).all(axis=1).any():
             missed[i] = found if len(missed) < SHOWN else None
         if json:
-            data.append(as_data(arm, found))
+            data.append(as_data(arm, found, maker))
             continue
-        lines += _lines(arm, i, found, over, deg=deg)
+        lines += _lines(arm, i, found, over, maker, deg=deg)
         if len(lines) > CHUNK:
             emit(grid_csv(lines[0], lines[1:]))
             lines.clear()
@@ -218,12 +230,15 @@ def _solved(arm: Robot, Ts: Array, near: _Options, options: _Options) -> Iterato
             report(start + len(part), len(Ts))
 
 
-def _lines(arm: Robot, pose: int, found: IKSolutions, over: Array, *, deg: bool) -> list[list[str]]:
-    """One line a solution: pose, solution, joint values, residual, branch, outside limits."""
+def _lines(
+    arm: Robot, pose: int, found: IKSolutions, over: Array, maker: str | None, *, deg: bool
+) -> list[list[str]]:
+    """One line a solution: pose, solution, joint values, residual, branch, outside limits, word."""
     q = found.q * np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
     far = [" ".join(names_of(arm, one)) for one in over]
-    measured = zip(q.tolist(), found.verify(), found.branch, far, strict=True)
+    words = [[word] if maker else [] for word in words_of(found, maker)]
+    measured = zip(q.tolist(), found.verify(), found.branch, far, words, strict=True)
     return [
-        [f"{pose + 1}", f"{k + 1}", *map(repr, row), f"{residual:.1e}", branch, names]
-        for k, (row, residual, branch, names) in enumerate(measured)
+        [f"{pose + 1}", f"{k + 1}", *map(repr, row), f"{residual:.1e}", branch, names, *word]
+        for k, (row, residual, branch, names, word) in enumerate(measured)
     ]

@@ -1,0 +1,150 @@
+"""The word by which a maker's controller says which solution is meant.
+
+For arms with an ortho-parallel base and a spherical wrist, see
+:mod:`dh2urdf.chain.ortho_parallel`. Words speak of the controller's joint angles: joints 2 to 5 are
+counted from the maker's zero in the maker's direction, which the geometry tells; joints 1 and 6
+turn in the maker's direction about the base's and the flange's z, and their zero is the arm's own.
+For the tables that ship of these makers, the angles are q itself; FANUC's J3 is the angle of the
+forearm to the level, not to the upper arm.
+
+KUKA
+    Zero stretched out level, A1 and A6 clockwise. S, bit 0: the wrist centre is behind axis 1
+    (overhead area); bit 1: A3 at or beyond the angle where the arm is stretched, 0 if axes 3 and 4
+    meet; bit 2: A5 < 0. T, bits 0 to 5: A1 < 0 to A6 < 0. (Siemens, *SINUMERIK ONE NC programming*,
+    6FC5398-2EP40-0BA0, 12/2019, pages 710 and 713, of KUKA's S and T; A1's frame of KUKA's expert
+    programming manual. Some KUKA manuals print bit 2 the other way round; points that were taught
+    have A5 < 0.)
+ABB
+    Zero with the upper arm upright and the forearm level. cf1, cf4, cf6: quarter turns of axes 1, 4
+    and 6, 0 from 0 to 90 degrees, -1 from -90 to 0. cfx, bit 2: the wrist centre is behind axis 1;
+    bit 1: behind the lower arm, beyond the angle where the arm is stretched; bit 0: axis 5
+    negative. (*Technical reference manual: RAPID Instructions, Functions and Data types*,
+    confdata.) Arms with a parallel rod take no notice of cfx.
+FANUC
+    Zero as ABB's. F (flip) for J5 > 0, else N; U (up) or D for the elbow, where the arm is
+    stretched between them; T (front) or B (back) for the wrist centre; then full turns of J1, J4
+    and J6: 0 below 180 degrees, 1 from 180 to 539, -1 from -180 to -539. (*HandlingTool Operator's
+    Manual*, position data: configuration.)
+"""
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from dh2urdf.chain import SerialChain
+from dh2urdf.chain.ortho_parallel import OrthoParallel
+from dh2urdf.doors import choice
+from dh2urdf.transforms import Array
+
+EDGE = 1e-9
+"""Angle [rad] and, per m of arm, length on either side of a bound that is on it: rounding of
+solutions must not tell 0 from -0."""
+
+
+class KukaWord(NamedTuple):
+    """Status and turn of a KUKA controller."""
+
+    status: int
+    turn: int
+
+    def __str__(self) -> str:
+        return f"S {self.status}, T {self.turn}"
+
+
+class AbbWord(NamedTuple):
+    """``confdata`` of an ABB controller."""
+
+    cf1: int
+    cf4: int
+    cf6: int
+    cfx: int
+
+    def __str__(self) -> str:
+        return f"[{self.cf1},{self.cf4},{self.cf6},{self.cfx}]"
+
+
+class FanucWord(NamedTuple):
+    """Configuration of a FANUC controller."""
+
+    flip: str
+    elbow: str
+    side: str
+    turn1: int
+    turn4: int
+    turn6: int
+
+    def __str__(self) -> str:
+        letters = " ".join(self[:3])
+        return f"{letters}, {self.turn1}, {self.turn4}, {self.turn6}"
+
+
+class _Posture(NamedTuple):
+    """The controller's angles (6,) [rad], and where the arm is towards its singularities."""
+
+    angles: Array
+    behind: bool
+    stretched_over: bool
+
+
+def _kuka(p: _Posture) -> KukaWord:
+    negative = p.angles < -EDGE
+    status = p.behind + 2 * (not p.stretched_over) + 4 * bool(negative[4])
+    return KukaWord(status, int(negative @ 2 ** np.arange(6)))
+
+
+def _abb(p: _Posture) -> AbbWord:
+    cf1, cf4, cf6 = np.floor((p.angles[[0, 3, 5]] + EDGE) / (0.5 * np.pi)).astype(int).tolist()
+    return AbbWord(cf1, cf4, cf6, 4 * p.behind + 2 * p.stretched_over + bool(p.angles[4] < -EDGE))
+
+
+def _fanuc(p: _Posture) -> FanucWord:
+    flip, elbow = "F" if p.angles[4] > EDGE else "N", "D" if p.stretched_over else "U"
+    a = p.angles[[0, 3, 5]]
+    turns = np.sign(a) * np.floor((np.abs(a) + np.pi + EDGE) / (2.0 * np.pi))
+    return FanucWord(flip, elbow, "B" if p.behind else "T", *turns.astype(int).tolist())
+
+
+class _Maker(NamedTuple):
+    """Offsets [rad] and signs of the maker's angles, ``t = sign q - offset``, and its word."""
+
+    offsets: tuple[float, ...]
+    signs: tuple[int, ...]
+    word: Callable[[_Posture], NamedTuple]
+
+
+_H = 0.5 * np.pi
+
+MAKERS = {
+    "kuka": _Maker((0, -_H, 0, 0, 0, 0), (-1, 1, 1, -1, 1, -1), _kuka),
+    "abb": _Maker((0, 0, -_H, 0, 0, 0), (1, 1, 1, 1, 1, 1), _abb),
+    "fanuc": _Maker((0, 0, -_H, 0, 0, 0), (1, 1, -1, -1, -1, -1), _fanuc),
+}
+
+_of_chain = lru_cache(maxsize=16)(OrthoParallel.of_chain)
+
+
+def controller_words(chain: SerialChain, q: Array, maker: str) -> tuple[NamedTuple, ...]:
+    """The word of each configuration q (k, 6) of a chain, in the terms of a maker.
+
+    Raises
+    ------
+    NotOrthoParallelError
+        The arm has not the shape that these words speak of; the message says where, by how much.
+    """
+    chosen = MAKERS[choice(maker, "maker", MAKERS)]
+    arm = _of_chain(chain)
+    return tuple(chosen.word(_posture(arm, config, chosen)) for config in q)
+
+
+def _posture(arm: OrthoParallel, q: Array, maker: _Maker) -> _Posture:
+    """Angles of a configuration (6,) as the maker counts them, and the posture."""
+    signs = np.asarray(arm.signs)
+    t = signs * q - np.asarray(arm.offsets)
+    angles = np.asarray(maker.signs) * (t + np.asarray(maker.offsets))
+    angles[[0, 5]] = (np.asarray(maker.signs) * signs * q)[[0, 5]]
+    forearm, bend = np.hypot(arm.a2, arm.c3), np.arctan2(arm.a2, arm.c3)
+    reach = arm.a1 + arm.c2 * np.sin(t[1]) + forearm * np.sin(t[1] + t[2] + bend)
+    near = EDGE * max(1.0, arm.c2 + forearm)
+    return _Posture(angles, bool(reach < -near), bool(np.sin(t[2] + bend) < -EDGE))
