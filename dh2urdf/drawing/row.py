@@ -13,9 +13,10 @@ import numpy as np
 
 from dh2urdf.conversions.assign import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
-from dh2urdf.dh.print import degrees, plus
+from dh2urdf.dh.print import plus
+from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.arm import DrawnArm
-from dh2urdf.grids import number
+from dh2urdf.drawing.readings import TINY, UNITS, measured
 from dh2urdf.transforms import Array, rotation
 
 STUB = 0.15
@@ -159,30 +160,18 @@ def length_index(table: DHTable, i: int) -> int:
     return i if table.convention is DHConvention.STANDARD else i - 1
 
 
-def rounded_degrees(angle: float) -> str:
-    """An angle [rad] in degrees: as typed where that is short, else to a hundredth."""
-    text = degrees(angle)
-    return f"{number(round(math.degrees(angle), 2)) if len(text) > 7 else text}°"
-
-
-def rounded_length(length: float) -> str:
-    """A length [m] as typed where that is short, else to a micrometre."""
-    text = number(length)
-    return f"{number(round(length, 6)) if len(text) > 9 else text} m"
-
-
-def values(table: DHTable, picture: DHRowPicture) -> dict[str, str]:
+def values(table: DHTable, picture: DHRowPicture, units: Units = UNITS) -> dict[str, str]:
     """``θ₄ = −50°`` and so on, by key, for the labels of a picture."""
     i, j = picture.i, length_index(table, picture.i)
     return {
-        "theta": f"{subscript('θ', i)} = {rounded_degrees(picture.theta.value)}",
-        "d": f"{subscript('d', i)} = {rounded_length(picture.d.value)}",
-        "a": f"{subscript('a', j)} = {rounded_length(picture.a.value)}",
-        "alpha": f"{subscript('α', j)} = {rounded_degrees(picture.alpha.value)}",
+        "theta": f"{subscript('θ', i)} = {measured(picture.theta.value, Kind.ANGLE, units)}",
+        "d": f"{subscript('d', i)} = {measured(picture.d.value, Kind.LENGTH, units)}",
+        "a": f"{subscript('a', j)} = {measured(picture.a.value, Kind.LENGTH, units)}",
+        "alpha": f"{subscript('α', j)} = {measured(picture.alpha.value, Kind.ANGLE, units)}",
     }
 
 
-def row_words(table: DHTable, picture: DHRowPicture) -> str:
+def row_words(table: DHTable, picture: DHRowPicture, units: Units = UNITS) -> str:
     """What the row says, in a few sentences."""
     i, row = picture.i, table.joints[picture.i - 1]
     modified = table.convention is DHConvention.MODIFIED
@@ -192,8 +181,8 @@ def row_words(table: DHTable, picture: DHRowPicture) -> str:
     elif not modified and i == table.n:
         words = f"Last frame: free (step 4) as long as the four motions reach frame {i}."
     else:
-        words = _case_words(picture, before, after, subscript("x", length_index(table, i)))
-    words = f"{words} {_variable_words(row, i)}"
+        words = _case_words(picture, before, after, subscript("x", length_index(table, i)), units)
+    words = f"{words} {_variable_words(row, i, units)}"
     if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
         words += f" A fixed step leads from there to frame {i}."
     if picture.d.moved:
@@ -201,19 +190,20 @@ def row_words(table: DHTable, picture: DHRowPicture) -> str:
     return words
 
 
-def _case_words(picture: DHRowPicture, before: str, after: str, x: str) -> str:
+def _case_words(picture: DHRowPicture, before: str, after: str, x: str, units: Units) -> str:
     """The case of the notes' step 3."""
     a = picture.a.value
+    apart = measured(abs(a), Kind.LENGTH, units)
     if picture.case is AxisCase.SKEW:
         way = "away from" if a > 0 else "towards"
         return (
             f"Case 1: {before} and {after} are skew. One common normal joins them, "
-            f"{rounded_length(abs(a))} long; {x} lies on it, pointing {way} {before}."
+            f"{apart} long; {x} lies on it, pointing {way} {before}."
         )
     if picture.case is AxisCase.PARALLEL:
-        placed = "the one with d = 0" if picture.d.value == 0 else "one of them, fixed by d"
+        placed = "the one with d = 0" if abs(picture.d.value) < TINY else "one of them, fixed by d"
         return (
-            f"Case 2: {before} and {after} are parallel, {rounded_length(abs(a))} apart. "
+            f"Case 2: {before} and {after} are parallel, {apart} apart. "
             f"They have any number of common normals; {x} lies on {placed}."
         )
     if picture.case is AxisCase.INTERSECTING:
@@ -224,11 +214,11 @@ def _case_words(picture: DHRowPicture, before: str, after: str, x: str) -> str:
     return f"{before} and {after} are one line: a = 0, and {x} may point anywhere across it."
 
 
-def _variable_words(row: DHRow, i: int) -> str:
+def _variable_words(row: DHRow, i: int, units: Units) -> str:
     slides = row.joint_type == "prismatic"
     symbol = subscript("d" if slides else "θ", i)
     offset = row.d if slides else row.theta
-    shown = rounded_length(offset) if slides else rounded_degrees(offset)
+    shown = measured(offset, Kind.LENGTH if slides else Kind.ANGLE, units)
     sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
-    value = plus(f"{sign}{subscript('q', i)}", shown if offset else "0")
+    value = plus(f"{sign}{subscript('q', i)}", shown if abs(offset) >= TINY else "0")
     return f"The joint moves {symbol} = {value}."

@@ -6,6 +6,7 @@ import numpy as np
 
 from dh2urdf.conversions.write import Body, frame_along
 from dh2urdf.dh import DHConvention
+from dh2urdf.dh_io import Units
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb
 from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, axis_name, row_picture, values
@@ -27,6 +28,9 @@ BESIDE = 0.22
 
 CROWDED = 0.2
 """Distance up to which two axes' ends share one label, against the length of the axes."""
+
+FAR_OFF = 1e9
+"""Where axes without a label are put [m], so that they share none."""
 
 TUBE = 1.7
 """Radius of a measure against that of the arrows' shafts, which it covers."""
@@ -65,7 +69,8 @@ class FramesScene:
         self.server, self.arm = server, arm
         self.roots: list[Any] = []
         self.labels: list[Any] = []
-        self.named = False
+        self.axes = self.named = False
+        self.row = 0
 
     def _add(self) -> None:
         length = 0.8 * AXIS_LENGTH * self.arm.size
@@ -83,31 +88,43 @@ class FramesScene:
             return
         frames = self.arm.frames(q)
         set_poses(self.roots, frames)
-        self._name(frames)
+        apart = self._apart(frames)
+        for root, alone in zip(self.roots, apart, strict=True):
+            root.visible = bool(self.axes and alone)
+        self._name(frames, apart)
 
-    def _name(self, frames: Array) -> None:
+    def _apart(self, frames: Array) -> Array:
+        """Which frames (n + 1,) stand apart from those of the row explained, which it draws."""
+        if not self.row:
+            return np.ones(len(frames), bool)
+        places = frames[:, :3, 3]
+        own = places[self.row - 1 : self.row + 1]
+        away = np.linalg.norm(places[:, None] - own[None], axis=2).min(axis=1)
+        return np.asarray(away > BESIDE * AXIS_LENGTH * self.arm.size)
+
+    def _name(self, frames: Array, apart: Array) -> None:
         """Give names that would lie on one another to one label."""
         length = 1.15 * 0.8 * AXIS_LENGTH * self.arm.size
         ends = frames[:, :3, 3][:, None] + length * frames[:, :3, [0, 2]].transpose(0, 2, 1)
-        places = ends.reshape(-1, 3)
         names = [axis_name(self.arm, letter, i) for i in range(len(frames)) for letter in "xz"]
+        shown = np.repeat(apart, 2)
+        places = np.where(shown[:, None], ends.reshape(-1, 3), FAR_OFF)
         away = np.linalg.norm(places[:, None] - places[None], axis=2)
         first = np.argmax(away < CROWDED * length, axis=1)
         for k, label in enumerate(self.labels):
-            label.visible = self.named and first[k] == k
+            label.visible = bool(self.named and first[k] == k and shown[k])
             text = ", ".join(name for name, at in zip(names, first, strict=True) if at == k)
             if label.visible and label.text != text:
                 label.text = text
 
-    def set_visible(self, axes: bool, names: bool) -> None:
-        """Show the frames, and their names."""
+    def set_visible(self, axes: bool, names: bool, row: int) -> None:
+        """Show the frames and their names from the next :meth:`show` on.
+
+        Those of the row explained, 0 for none, stay away: it draws them itself.
+        """
+        self.axes, self.named, self.row = axes, axes and names, row
         if axes and not self.roots:
             self._add()
-        for root in self.roots:
-            root.visible = axes
-        self.named = axes and names
-        for label in self.labels:
-            label.visible = self.named
 
     def remove(self) -> None:
         """Take the frames out of the scene."""
@@ -118,8 +135,8 @@ class FramesScene:
 class RowScene:
     """Row i of the table between frames i - 1 and i: two measures, two arcs, their values."""
 
-    def __init__(self, server: Any, arm: DrawnArm, i: int) -> None:
-        self.server, self.arm, self.i = server, arm, i
+    def __init__(self, server: Any, arm: DrawnArm, i: int, units: Units) -> None:
+        self.server, self.arm, self.i, self.units = server, arm, i, units
         self.root = server.scene.add_frame("/row", show_axes=False)
         self.length = 1.6 * AXIS_LENGTH * arm.size
         self.ends = []
@@ -133,7 +150,7 @@ class RowScene:
         picture = row_picture(self.arm, q, self.i)
         self.picture = picture
         set_poses(self.ends, np.stack([picture.T_prev, picture.T_next]))
-        words = values(self.arm.table, picture)
+        words = values(self.arm.table, picture, self.units)
         self._axes(picture)
         for measure in (picture.d, picture.a):
             self._measure(measure, words[measure.key])

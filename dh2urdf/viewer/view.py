@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.dh import DHTable
+from dh2urdf.dh.print import title
+from dh2urdf.dh_io import Units
 from dh2urdf.drawing.arm import drawn_arm, table_of, zero_configuration
 from dh2urdf.drawing.surfaces import Drawing, TableDrawing
 from dh2urdf.robot import Robot
@@ -16,6 +18,7 @@ from dh2urdf.viewer.arm_scene import ArmScene
 from dh2urdf.viewer.door import LOOPBACK, by_visitor, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
+from dh2urdf.viewer.tabs.editor import page_title
 from dh2urdf.viewer.tabs.ik_tab import IKTab
 from dh2urdf.viewer.tabs.joints_tab import JointsTab
 from dh2urdf.viewer.tabs.table_tab import TableTab
@@ -26,6 +29,11 @@ CLOSE = 1.15
 
 SHADOWS_AFTER = 3.0
 """From a visitor's coming to the sun's shadows [s]; the first picture does not wait for them."""
+
+UNITS = {
+    f"{m}, {sign}": Units(m, a) for m in ("m", "mm") for a, sign in (("deg", "°"), ("rad", "rad"))
+}
+"""Units to choose from, by what they are called."""
 
 PANEL = 400
 """Width of the panel [px]."""
@@ -94,7 +102,8 @@ class ArmView:
         table_tab = tabs.add_tab("DH table")
         self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
         self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
-        self._show_frames, self._show_names, self._show_meshes = self._options()
+        self._titled = self._server.gui.add_html("")
+        self._options()
         light(self._server)
         with self._lock:
             self._build(robot, config)
@@ -128,16 +137,21 @@ class ArmView:
         if self._shadows is None:
             self._shadows = later(SHADOWS_AFTER, cast_shadows, self._server)
 
-    def _options(self) -> tuple[Any, Any, Any]:
-        """Switches of what the scene shows, under the tabs."""
+    def _options(self) -> None:
+        """Units of all tabs and switches of what the scene shows, under the tabs."""
         gui = self._server.gui
-        frames = gui.add_checkbox("DH frames", False)
-        names = gui.add_checkbox("Names of axes", True)
-        meshes = gui.add_checkbox("Meshes of the URDF", True, visible=False)
-        for handle in (frames, names):
+        self._choice = gui.add_dropdown("Units", tuple(UNITS), initial_value=next(iter(UNITS)))
+        self._show_frames = gui.add_checkbox("DH frames", False)
+        self._show_names = gui.add_checkbox("Names of axes", True)
+        self._show_meshes = gui.add_checkbox("Meshes of the URDF", True, visible=False)
+        self._choice.on_update(by_visitor(self._switch_units))
+        for handle in (self._show_frames, self._show_names):
             handle.on_update(by_visitor(self._switch_frames))
-        meshes.on_update(by_visitor(self._switch_meshes))
-        return frames, names, meshes
+        self._show_meshes.on_update(by_visitor(self._switch_meshes))
+
+    @property
+    def _units(self) -> Units:
+        return UNITS[self._choice.value]
 
     def _build(self, robot: Robot, q: Array) -> None:
         """Show another arm."""
@@ -152,15 +166,21 @@ class ArmView:
             self._scene = ArmScene(self._server, drawing)
             self._frames = FramesScene(self._server, arm)
             self._scenes = [self._scene, self._frames]
-            self._joints.build(robot, q)
-            self._table.build(arm.table)
-            self._ik.build(robot, drawing, q)
+            self._name()
+            self._joints.build(robot, q, self._units)
+            self._table.build(arm.table, self._units)
+            self._ik.build(robot, drawing, q, self._units)
             for note in notes:
                 self._table.say(note)
             self._stage = set_stage(self._server, robot, arm, drawing, q)
             self._show_row(self._table.row)
-            self._switch_frames()
             self._redraw()
+
+    def _name(self) -> None:
+        """Say in the title and over the tabs which arm it is, by which convention."""
+        name = title(self._arm.table).partition("\n")[0]
+        self._server.gui.set_panel_label(name)
+        self._titled.content = page_title(f"{name} · dh2urdf")
 
     def _moved(self, q: Array) -> None:
         """Move the arm to q (n,), whoever asked for it."""
@@ -171,8 +191,8 @@ class ArmView:
     def _redraw(self) -> None:
         q = self.robot.chain_configuration(self._q)  # of all joints of the table
         self._scene.show(q if isinstance(self._scene.drawing, TableDrawing) else self._q)
-        if self._show_frames.value:
-            self._frames.show(q)
+        self._frames.set_visible(self._show_frames.value, self._show_names.value, self._table.row)
+        self._frames.show(q)
         self._joints.show(self._q)
         self._ik.show(self._q)
         if self._row_scene:
@@ -209,16 +229,23 @@ class ArmView:
             self._row_scene.remove()
             self._row_scene = None
         if i:
-            self._row_scene = RowScene(self._server, self._arm, i)
+            self._row_scene = RowScene(self._server, self._arm, i, self._units)
         else:
             self._table.explain(None)
         self._scene.set_translucent(i > 0 or self._show_frames.value)
 
     def _switch_frames(self, _: Any = None) -> None:
-        with self._lock:
-            self._frames.set_visible(self._show_frames.value, self._show_names.value)
-            self._frames.show(self.robot.chain_configuration(self._q))
+        with self._lock, self._server.atomic():
             self._scene.set_translucent(self._table.row > 0 or self._show_frames.value)
+            self._redraw()
+
+    def _switch_units(self, _: Any = None) -> None:
+        with self._lock, self._server.atomic():
+            self._joints.build(self.robot, self._q, self._units)
+            self._table.build(self._arm.table, self._units)
+            self._ik.set_units(self._units)
+            self._show_row(self._table.row)
+            self._redraw()
 
     def _switch_meshes(self, _: Any) -> None:
         with self._lock:

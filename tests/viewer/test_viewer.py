@@ -19,6 +19,7 @@ from dh2urdf import DHConvention, DHRow, DHTable, JointType, Robot, load_table
 from dh2urdf.checks import locate
 from dh2urdf.conversions.write.bodies import Body
 from dh2urdf.drawing.arm import drawn_arm
+from dh2urdf.drawing.readings import UNITS
 from dh2urdf.drawing.surfaces import TableDrawing, body_surface
 from dh2urdf.exceptions import ConfigurationError, ServerError
 from dh2urdf.transforms import rot_x, rot_y, trans
@@ -132,7 +133,7 @@ def test_configuration_is_set_and_read(view):
     """The view's q moves sliders and read-out; a bad one raises and moves nothing."""
     view.q = [0.5, -0.25]
     assert view._joints.sliders[0].value == pytest.approx(math.degrees(0.5), abs=0.006)
-    assert f"{1000 * view.robot.fk(view.q)[0, 3]:.3f}" in view._joints.readout.content
+    assert f"{view.robot.fk(view.q)[0, 3]:.6f}" in view._joints.readout.content
     with pytest.raises(ConfigurationError, match="joint_1, joint_2"):
         view.q = [1.0]
     np.testing.assert_array_equal(view.q, [0.5, -0.25])
@@ -210,7 +211,7 @@ def test_row_edit_rebuilds_the_arm(view):
     assert row.joint_type is JointType.PRISMATIC
     assert (row.d, row.a, row.alpha, row.lower, row.upper) == (0.1, 0.0, math.pi / 2, 0.0, 0.5)
     assert len(view._joints.sliders) == 2
-    assert view._joints.sliders[1].max == pytest.approx(500.0)
+    assert view._joints.sliders[1].max == pytest.approx(0.5)
 
 
 def test_rows_are_added_and_removed(view):
@@ -336,7 +337,7 @@ def test_singular_joints_are_named_and_underlined():
     q = np.array([0.3, 0.4, -0.2, 0.5, 0.0, 0.1])
     found = answer(robot, robot.fk(q), q, task="pose", within=False, locked=None)
     assert "Singular: joint_4, joint_6" in found.words
-    assert "underline" in branch_table(found, robot)
+    assert "underline" in branch_table(found, robot, UNITS)
 
 
 @pytest.mark.parametrize(

@@ -3,12 +3,11 @@
 import math
 import socket
 import urllib.request
-from contextlib import ExitStack, closing
 
 import numpy as np
 import pinocchio as pin
 import pytest
-from browser import ARGUMENTS, Visitor, chromium, still, wait_for
+from browser import Visitor, chromium, still, wait_for
 
 import dh2urdf
 from dh2urdf import DHTable, Robot
@@ -21,31 +20,6 @@ pytestmark = [
 START = np.radians([20.0, -105.0, 83.0, -51.0, -71.0, 22.0])
 
 
-@pytest.fixture(scope="module")
-def browser():
-    """One browser for the module."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
-    with sync_api.sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
-        yield browser
-        browser.close()
-
-
-@pytest.fixture
-def shown(browser):
-    """Views with a visitor each, closed after the test; nothing may have left the machine."""
-    with ExitStack() as stack:
-        visitors = []
-
-        def show(robot, q=None, **size):
-            view = stack.enter_context(robot.view(q, port=0))
-            visitors.append(stack.enter_context(closing(Visitor(browser, view, **size))))
-            return view, visitors[-1]
-
-        yield show
-    assert [url for visitor in visitors for url in visitor.outside] == []
-
-
 def test_page_comes_up_and_a_slider_moves_the_arm(shown):
     """A slider dragged in the page moves that joint of the arm and no other."""
     view, visitor = shown(Robot.from_dh("ur5e"), START)
@@ -55,7 +29,7 @@ def test_page_comes_up_and_a_slider_moves_the_arm(shown):
     visitor.drag((x, y), (x + 40, y))
     wait_for(lambda: abs(view.q[0] - START[0]) > 0.3)
     np.testing.assert_allclose(view.q[1:], START[1:], atol=1e-12)
-    readout = f"{view.robot.fk(view.q)[0, 3] * 1000:.3f}".rstrip("0").replace("-", "−")
+    readout = f"{view.robot.fk(view.q)[0, 3]:.6f}".rstrip("0").replace("-", "−")
     visitor.page.get_by_text(readout).wait_for()
 
 
@@ -167,7 +141,7 @@ def test_second_visitor_sees_and_moves_the_same_arm(shown, browser):
     try:
         second.button("Zero").click()
         wait_for(lambda: np.abs(view.q).max() == 0.0)
-        first.page.get_by_text("1700").first.wait_for()
+        first.page.get_by_text("1.7", exact=True).first.wait_for()
         view.q = [math.pi / 2, 0.0]
         for visitor in (first, second):
             wait_for(lambda v=visitor: "90" in v.values())

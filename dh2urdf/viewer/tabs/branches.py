@@ -6,17 +6,21 @@ from typing import Self
 
 import numpy as np
 
+from dh2urdf.dh_io import Units
 from dh2urdf.drawing.colours import BRANCH_COLOURS
+from dh2urdf.drawing.readings import MINUS, Reading, reading, scale_of, sign_of
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-from dh2urdf.viewer.tabs.html import FAINT, MARKED, NUMBERS, STYLE
+from dh2urdf.viewer.tabs.html import FAINT, MARKED, NUMBERS, STYLE, number
+from dh2urdf.viewer.tabs.joints_tab import kinds_of
 
 SAME = 1e-4
 """Difference [rad or m] up to which the arm stands at a solution."""
 
 TIGHT = "text-align:right;padding:1px 3px;white-space:nowrap;font-size:11px;"
-MINUS = "\N{MINUS SIGN}"
+COLUMN_DIGITS = {"m": 4, "mm": 1, "deg": 1, "rad": 3}
+"""Digits after the point of joint values, by unit."""
 
 TO_BUTTON = (
     "[...document.querySelectorAll('button')].find(b => b.textContent.trim() === '{0}')?.click()"
@@ -102,28 +106,48 @@ def initials(branch: str) -> str:
     return " ".join(part[1][0].upper() for part in parts if len(part) > 1)
 
 
-def branch_table(found: Answer, robot: Robot) -> str:
+def _legend(robot: Robot, units: Units, branch: tuple[str, ...]) -> str:
+    """Units of the joints' values, and what the letters of the branches mean."""
+    kinds = kinds_of(robot)
+    said = []
+    for kind in sorted(set(kinds)):
+        names = [f"q{i}" for i, own in enumerate(kinds, 1) if own is kind]
+        said.append(f"{', '.join(names) if len(set(kinds)) > 1 else 'q'} in {sign_of(units, kind)}")
+    said += branch_letters(branch)
+    return f'<div style="{STYLE}color:#46505f">{" · ".join(said)}</div>'
+
+
+def branch_letters(branch: tuple[str, ...]) -> list[str]:
+    """What the letters mean: ``shoulder Left Right``, ``elbow Up Down``, initials in bold."""
+    words: dict[str, dict[str, None]] = {}
+    for part in (part for name in branch for part in name.split(", ") if " " in part):
+        what, _, which = part.partition(" ")
+        words.setdefault(what, {})[which] = None
+    return [
+        f"{escape(what)} "
+        + " ".join(f"<b>{escape(w[0].upper())}</b>{escape(w[1:])}" for w in which)
+        for what, which in words.items()
+    ]
+
+
+def branch_table(found: Answer, robot: Robot, units: Units) -> str:
     """A line a solution: colour, branch, joint values, residual; the arm's own is marked.
 
     Values outside the limits are red, joints that are free at a singularity underlined.
     """
     named = any(found.branch)
-    joints = [f"q{i} [{'mm' if slides else '°'}]" for i, slides in enumerate(robot.slides, 1)]
+    joints = [f"q{i}" for i in range(1, robot.n + 1)]
     head = ["", *(["branch"] if named else []), *joints, "residual"]
     header = "".join(f'<th style="{TIGHT}font-weight:600">{h}</th>' for h in head)
-    lines = [_line(found, robot, k, named=named) for k in range(len(found.q))]
+    lines = [_line(found, robot, units, k, named=named) for k in range(len(found.q))]
     return (
         f'<div style="{STYLE}"><table style="border-collapse:collapse" data-ik="branches">'
         f"<thead><tr>{header}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
+        f"{_legend(robot, units, found.branch)}"
     )
 
 
-def _shown(value: float, is_length: bool) -> float:
-    """Degrees or millimetres, without a negative zero."""
-    return round(value * 1000 if is_length else float(np.degrees(value)), 1) + 0.0
-
-
-def _line(found: Answer, robot: Robot, k: int, *, named: bool) -> str:
+def _line(found: Answer, robot: Robot, units: Units, k: int, *, named: bool) -> str:
     colour = BRANCH_COLOURS[k % len(BRANCH_COLOURS)]
     square = (
         f'<span style="display:inline-block;width:10px;height:10px;background:{colour}"></span>'
@@ -132,12 +156,15 @@ def _line(found: Answer, robot: Robot, k: int, *, named: bool) -> str:
     if named:
         branch = escape(found.branch[k])
         cells.append(f'<td style="{TIGHT}" title="{branch}">{initials(found.branch[k])}</td>')
-    for j, value in enumerate(found.q[k]):
+    for j, (value, kind) in enumerate(zip(found.q[k], kinds_of(robot), strict=True)):
         outside = not robot.lower[j] - 1e-9 <= value <= robot.upper[j] + 1e-9
         style = "color:#b3261e;" if outside else ""
         style += "text-decoration:underline;" if j in found.free[k] else ""
-        text = f"{_shown(float(value), bool(robot.slides[j])):.1f}".replace("-", MINUS)
-        cells.append(f'<td style="{TIGHT}{NUMBERS}{style}">{text}</td>')
+        places = COLUMN_DIGITS[units.of(kind)]
+        rounded = round(float(value) * scale_of(units, kind), places) + 0.0
+        text = f"{rounded:.{places}f}".replace("-", MINUS)
+        cell = number(Reading(text, reading(float(value), kind, units).exact))
+        cells.append(f'<td style="{TIGHT}{NUMBERS}{style}">{cell}</td>')
     residual = f"{found.residual[k]:.0e}".replace("-", MINUS)
     cells.append(f'<td style="{TIGHT}{NUMBERS}color:{FAINT}">{residual}</td>')
     marked = MARKED if k == found.current else ""

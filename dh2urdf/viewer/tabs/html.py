@@ -1,12 +1,14 @@
 """Small pieces of HTML for the panel; everything that is not ours is escaped."""
 
-import math
+import re
 from html import escape
 
-from dh2urdf.dh import DHTable
-from dh2urdf.dh.print import table_grid
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
+from dh2urdf.dh.print import plus
+from dh2urdf.dh.row import Origin
+from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.colours import QUANTITY
-from dh2urdf.grids import number
+from dh2urdf.drawing.readings import DIGITS, MINUS, Reading, reading, sign_of
 from dh2urdf.transforms import Array, matrix_to_rpy
 from dh2urdf.viewer.arm_scene import quaternions
 
@@ -15,60 +17,87 @@ CELL = "text-align:right;padding:1px 7px;white-space:nowrap;"
 NUMBERS = "font-variant-numeric:tabular-nums;"
 FAINT = "#b0b0b0"
 MARKED = "background:#e6eef7;font-weight:600;"
-KINDS = {"info": ("#46505f", ""), "good": ("#1c7c45", "✓ "), "bad": ("#b3261e", "✗ ")}
+KINDS_OF = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
+SYMBOLS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
+QUOTED = re.compile(r"\s*\d* \| ")
+"""Lines of a message that quote a file, or stand with a caret under one."""
+
+CODE = "font-family:ui-monospace,'DejaVu Sans Mono',monospace;white-space:pre"
+NOTES = {"info": ("#46505f", ""), "good": ("#1c7c45", "✓ "), "bad": ("#b3261e", "✗ ")}
 
 
 def message(text: str, kind: str = "info") -> str:
     """A note in the panel: plain, good or bad; lines are kept."""
-    colour, mark = KINDS[kind]
+    colour, mark = NOTES[kind]
     role = "alert" if kind == "bad" else "status"
-    return (
-        f'<div role="{role}" style="{STYLE}color:{colour};white-space:pre-wrap">'
-        f"{mark}{escape(text)}</div>"
-    )
+    lines = [
+        f'<span style="{CODE}">{escape(line)}\n</span>'
+        if QUOTED.match(line)
+        else f"{escape(line)}\n"
+        for line in text.split("\n")
+    ]
+    style = f"{STYLE}color:{colour};white-space:pre-wrap"
+    return f'<div role="{role}" style="{style}">{mark}{"".join(lines)}</div>'
 
 
-def pose(T: Array, what: str) -> str:
-    """A pose: xyz in millimetres, rpy in degrees, quaternion with w last."""
+def number(read: Reading, text: str = "") -> str:
+    """A number whose digits that are not shown appear on hover; zeros are faint.
+
+    ``text`` is shown instead, such as the number behind a variable.
+    """
+    hover = f' title="{read.exact}"' if read.exact != read.text else ""
+    line = "border-bottom:1px dotted #888;" if read.is_noise else ""
+    faint = f"color:{FAINT};" if (text or read.text) == "0" else ""
+    style = f' style="{faint}{line}"' if faint or line else ""
+    return f"<span{hover}{style}>{escape(text or read.text)}</span>"
+
+
+def pose(T: Array, what: str, units: Units) -> str:
+    """A pose: xyz, rpy and the quaternion with w last."""
     w, x, y, z = quaternions(T[:3, :3])
     rows = (
-        ("xyz [mm]", [round(v * 1000, 3) for v in T[:3, 3]]),
-        ("rpy [°]", [round(math.degrees(v), 3) for v in matrix_to_rpy(T)]),
-        ("quaternion xyzw", [round(float(v), 6) for v in (x, y, z, w)]),
+        ("xyz", Kind.LENGTH, T[:3, 3]),
+        ("rpy", Kind.ANGLE, matrix_to_rpy(T)),
+        ("quaternion xyzw", Kind.NUMBER, (x, y, z, w)),
     )
     body = ""
-    for name, values in rows:
-        cells = "".join(f'<td style="{CELL}{NUMBERS}">{number(v + 0.0)}</td>' for v in values)
-        body += f'<tr><td style="{CELL}text-align:left;color:#6b7280">{name}</td>{cells}</tr>'
+    for name, kind, values in rows:
+        digits = 6 if kind is Kind.NUMBER else DIGITS[units.of(kind)]
+        readings = [reading(v, kind, units, digits) for v in values]
+        sign = sign_of(units, kind)
+        head = f"{name} [{sign}]" if sign else name
+        cells = "".join(f'<td style="{CELL}{NUMBERS}">{number(r)}</td>' for r in readings)
+        body += f'<tr><td style="{CELL}text-align:left;color:#6b7280">{head}</td>{cells}</tr>'
     return f'<div style="{STYLE}"><b>{escape(what)}</b><table>{body}</table></div>'
 
 
-def matrix(T: Array, name: str) -> str:
-    """A (4, 4) matrix, four digits after the point."""
+def matrix(T: Array, name: str, units: Units) -> str:
+    """A (4, 4) matrix, four digits after the point, lengths in their unit."""
     body = ""
-    for row in T.tolist():
-        faint = [f"color:{FAINT}" if abs(v) < 5e-5 else "" for v in row]
-        texts = zip(faint, (number(round(v, 4) + 0.0) for v in row), strict=True)
-        body += "<tr>" + "".join(f'<td style="{CELL}{NUMBERS}{f}">{t}</td>' for f, t in texts)
+    for i, row in enumerate(T.tolist()):
+        kinds = [Kind.NUMBER] * 3 + [Kind.LENGTH if i < 3 else Kind.NUMBER]
+        digits = [4 if units.of(kind) != "mm" else 2 for kind in kinds]
+        readings = map(reading, row, kinds, [units] * 4, digits)
+        body += "<tr>" + "".join(f'<td style="{CELL}{NUMBERS}">{number(r)}</td>' for r in readings)
         body += "</tr>"
     border = "border-left:1.5px solid #888;border-right:1.5px solid #888;border-radius:4px"
-    return f'<div style="{STYLE}"><b>{name}</b> =<table style="{border}">{body}</table></div>'
+    unit = f' <span style="color:#6b7280">(lengths in {units.length})</span>'
+    return f'<div style="{STYLE}"><b>{name}</b> ={unit}<table style="{border}">{body}</table></div>'
 
 
-def table(dh: DHTable, row: int = 0) -> str:
-    """The DH table, quantities in their colours, one row marked."""
-    keys, header, rows = _without_names(*table_grid(dh))
-    head = "".join(
-        f'<th style="{CELL}color:{QUANTITY.get(k, "inherit")}">{escape(h)}</th>'
-        for k, h in zip(keys, header, strict=True)
-    )
-    body = ""
-    for cells in rows:
-        body += f'<tr style="{MARKED if cells[0] == str(row) else ""}">'
-        for key, text in zip(keys, cells, strict=True):
-            colour = FAINT if text in {"0", "0°"} else QUANTITY.get(key, "inherit")
-            body += f'<td style="{CELL}{NUMBERS}color:{colour}">{escape(text)}</td>'
-        body += "</tr>"
+def table(dh: DHTable, row: int, units: Units) -> str:
+    """The DH table, quantities in their colours, row ``row`` marked, 0 for none."""
+    modified = dh.convention is DHConvention.MODIFIED
+    head = f'<th style="{CELL}">i</th>'
+    for key, kind in KINDS_OF.items():
+        index = "i−1" if modified and key[0] == "a" else "i"
+        name = f"{SYMBOLS[key]}<sub>{index}</sub> [{sign_of(units, kind)}]"
+        head += f'<th style="{CELL}color:{QUANTITY[key]}">{name}</th>'
+    body, joint = "", 0
+    for given in dh.rows:
+        joint += given.is_joint
+        marked = MARKED if given.is_joint and joint == row else ""
+        body += f'<tr style="{marked}">{_cells(given, joint, units)}</tr>'
     return (
         f'<div style="{STYLE}"><table style="border-collapse:collapse" data-dh="table">'
         f'<thead><tr style="border-bottom:1px solid #999">{head}</tr></thead>'
@@ -76,11 +105,24 @@ def table(dh: DHTable, row: int = 0) -> str:
     )
 
 
-def _without_names(
-    keys: list[str], header: list[str], rows: list[list[str]]
-) -> tuple[list[str], list[str], list[list[str]]]:
-    """The grid without names and limits, which the joints' sliders show; fixed rows keep theirs."""
-    kept = [k for k, key in enumerate(keys) if key not in {"name", "limits"}]
-    name = keys.index("name")
-    cells = [[row[k] or (row[name] if k == 0 else "") for k in kept] for row in rows]
-    return [keys[k] for k in kept], [header[k] for k in kept], cells
+def _cells(row: DHRow, i: int, units: Units) -> str:
+    """Cells of one row; a step that DH motions cannot make is said in words."""
+    first = f'<td style="{CELL}">{i if row.is_joint else "fixed"}</td>'
+    if row.origin is not None:
+        return f'{first}<td colspan="4" style="{CELL}">{_step(row.origin, units)}</td>'
+    moved = ("d" if row.joint_type is JointType.PRISMATIC else "theta") if row.is_joint else ""
+    cells = first
+    for key, kind in KINDS_OF.items():
+        read = reading(getattr(row, key), kind, units)
+        text = plus(f"{MINUS if row.sign < 0 else ''}q{i}", read.text) if key == moved else ""
+        cells += f'<td style="{CELL}{NUMBERS}color:{QUANTITY[key]}">{number(read, text)}</td>'
+    return cells
+
+
+def _step(origin: Origin, units: Units) -> str:
+    """A fixed step in words, in the units chosen."""
+    parts = []
+    for name, kind, values in (("xyz", Kind.LENGTH, origin.xyz), ("rpy", Kind.ANGLE, origin.rpy)):
+        numbers = ", ".join(number(reading(v, kind, units)) for v in values)
+        parts.append(f"{name} ({numbers}) {sign_of(units, kind)}")
+    return ", ".join(parts if any(origin.rpy) else parts[:1])

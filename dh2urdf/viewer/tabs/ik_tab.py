@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.dh_io import Units
 from dh2urdf.drawing.surfaces import Drawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
@@ -60,9 +61,9 @@ class IKTab:
             handle.on_update(by_visitor(self._switched))
         self.go.on_click(by_visitor(lambda _: self._go(int(self.go.value) - 1)))
 
-    def build(self, robot: Robot, drawing: Drawing, q: Array) -> None:
+    def build(self, robot: Robot, drawing: Drawing, q: Array, units: Units) -> None:
         """Prepare for another arm."""
-        self.robot, self.q = robot, np.array(q)
+        self.robot, self.q, self.units = robot, np.array(q), units
         for old in (self.ghosts, self.target):
             if old:
                 old.remove()
@@ -73,12 +74,18 @@ class IKTab:
         self.target = controls("/target", scale=scale, active_axes=axes, **style)
         self.target.on_update(self._dragged)
         self.task.value = default_task(robot)
-        self.redundancy.build(robot, q)
+        self.redundancy.build(robot, q, units)
         self._place_target(robot.fk(q))
         self._show_answer(None)
         self.target.visible = self.active.value
         if self.active.value:
             self.solve(robot.fk(q))
+
+    def set_units(self, units: Units) -> None:
+        """Show the same in other units."""
+        self.units = units
+        self.redundancy.build(self.robot, self.q, units)
+        self._show_answer(self.answer)
 
     def show(self, q: Array) -> None:
         """Follow the arm to q (n,), which some other tab moved."""
@@ -122,7 +129,7 @@ class IKTab:
         if len(rows):
             self.go.options = tuple(str(k + 1) for k in range(len(rows)))
         self.status.content = html.message(found.words, "info" if len(rows) else "bad")
-        self.listed.content = branch_table(found, self.robot) if len(rows) else ""
+        self.listed.content = branch_table(found, self.robot, self.units) if len(rows) else ""
 
     def _place_target(self, T: Array) -> None:
         self._T = np.array(T)

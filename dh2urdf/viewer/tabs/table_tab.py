@@ -1,26 +1,29 @@
 """The DH table: a row explained, cells edited, the URDF to take away."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 from dh2urdf.conversions.write import verified_urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
-from dh2urdf.dh.print import degrees
 from dh2urdf.dh_io import Kind, Units, parse_cell, parse_table, table_to_text
+from dh2urdf.dh_io.cells.units import decimal_text
+from dh2urdf.drawing.readings import UNITS, sign_of
 from dh2urdf.drawing.row import DHRowPicture, length_index, row_words, subscript
 from dh2urdf.exceptions import Dh2UrdfError, TableError
-from dh2urdf.grids import number
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
+from dh2urdf.viewer.tabs.editor import caret, editor
+from dh2urdf.viewer.tabs.html import KINDS_OF, SYMBOLS
 
 NOTHING = "none"
-UNITS = Units("m", "deg")
-"""Units of the cells: bare lengths are metres, bare angles degrees."""
 
-KINDS = {"theta": Kind.ANGLE, "d": Kind.LENGTH, "a": Kind.LENGTH, "alpha": Kind.ANGLE}
-SHOWN = {Kind.LENGTH: number, Kind.ANGLE: degrees}
-SIGNS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
+EDITOR_HEIGHT = 300
+"""Of the YAML field [px]; its corner drags it taller."""
+
+PLACE = re.compile(r"table:(\d+):(\d+):")
+"""Where the first fault of a text stands."""
 
 
 class TableTab:
@@ -39,7 +42,7 @@ class TableTab:
     ) -> None:
         self.gui, self.on_explain, self.on_table = gui, on_explain, on_table
         self.table = new_table()
-        self.row = 0
+        self.row, self.units, self.faults = 0, UNITS, 0
         with tab:
             self.shown = gui.add_html("")
             self.choice = gui.add_dropdown("Explain row", (NOTHING,), initial_value=NOTHING)
@@ -47,7 +50,7 @@ class TableTab:
             with gui.add_folder("Edit the row", expand_by_default=False) as self.row_folder:
                 self.cells = self._cells()
             with gui.add_folder("Edit the whole table", expand_by_default=False):
-                self.text = gui.add_text("YAML", "", multiline=True)
+                self.text = editor(gui, "yaml", "YAML", EDITOR_HEIGHT)
                 self.rebuild = gui.add_button("Rebuild the arm")
             self.note = gui.add_html("")
             self.save_urdf = gui.add_button("Save the URDF")
@@ -63,20 +66,20 @@ class TableTab:
         gui = self.gui
         cells = {
             "joint_type": gui.add_dropdown("joint", ("revolute", "prismatic")),
-            **{k: gui.add_text(f"{SIGNS[k]} [{UNITS.of(KINDS[k])}]", "") for k in SIGNS},
+            **{key: gui.add_text(SYMBOLS[key], "") for key in SYMBOLS},
             "sign": gui.add_dropdown("sign of q", ("+1", "-1")),
-            "lower": gui.add_text("lower [deg or m]", ""),
-            "upper": gui.add_text("upper [deg or m]", ""),
+            "lower": gui.add_text("lower", ""),
+            "upper": gui.add_text("upper", ""),
         }
         self.apply = gui.add_button("Apply to the row")
         self.rows = gui.add_button_group("Rows", ("Add below", "Remove"))
         return cells
 
-    def build(self, table: DHTable) -> None:
-        """Show another table; the row stays chosen where it still exists."""
-        self.table = table
+    def build(self, table: DHTable, units: Units) -> None:
+        """Show another table, or other units; the row stays chosen where it still exists."""
+        self.table, self.units = table, units
         self.choice.options = (NOTHING, *[str(i) for i in range(1, table.n + 1)])
-        self.text.value = table_to_text(table, "yaml", UNITS)
+        self.text.value = table_to_text(table, "yaml", units)
         self.choose(min(self.row, table.n))
 
     def explain(self, picture: DHRowPicture | None) -> None:
@@ -85,8 +88,8 @@ class TableTab:
             self.words.content = html.message("Choose a row to see what its numbers measure.")
             return
         name = f"T<sub>{picture.i - 1},{picture.i}</sub>"
-        words = html.message(row_words(self.table, picture))
-        self.words.content = words + html.matrix(picture.T_prev_next, name)
+        words = html.message(row_words(self.table, picture, self.units))
+        self.words.content = words + html.matrix(picture.T_prev_next, name, self.units)
 
     def choose(self, row: int) -> None:
         """Choose a row, 0 for none, as a visitor would."""
@@ -99,24 +102,31 @@ class TableTab:
         self.note.content = html.message(text, kind) if text else ""
 
     def _refresh(self) -> None:
-        self.shown.content = html.table(self.table, self.row)
+        self.shown.content = html.table(self.table, self.row, self.units)
         self.row_folder.visible = self.row > 0
         if not self.row:
             return
         row = self.table.joints[self.row - 1]
-        bound = SHOWN[Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE]
+        bound = Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE
         shown = {
             "joint_type": str(row.joint_type),
-            **{key: SHOWN[kind](getattr(row, key)) for key, kind in KINDS.items()},
+            **{key: self._typed(getattr(row, key), kind) for key, kind in KINDS_OF.items()},
             "sign": f"{row.sign:+d}",
-            "lower": "" if row.lower is None else bound(row.lower),
-            "upper": "" if row.upper is None else bound(row.upper),
+            "lower": "" if row.lower is None else self._typed(row.lower, bound),
+            "upper": "" if row.upper is None else self._typed(row.upper, bound),
         }
         for key, text in shown.items():
-            self.cells[key].value = text.replace("\N{MINUS SIGN}", "-")
-        for key, sign in SIGNS.items():
+            self.cells[key].value = text
+        for key, sign in SYMBOLS.items():
             index = length_index(self.table, self.row) if key[0] == "a" else self.row
-            self.cells[key].label = f"{subscript(sign, index)} [{UNITS.of(KINDS[key])}]"
+            unit = sign_of(self.units, KINDS_OF[key])
+            self.cells[key].label = f"{subscript(sign, index)} [{unit}]"
+        for key in ("lower", "upper"):
+            self.cells[key].label = f"{key} [{sign_of(self.units, bound)}]"
+
+    def _typed(self, value: float, kind: Kind) -> str:
+        """All digits of a number, as one would type it."""
+        return decimal_text(value, self.units.of(kind))
 
     def _chosen(self, event: Any) -> None:
         self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
@@ -130,6 +140,9 @@ class TableTab:
             self.on_table(table, visitor)
         except Dh2UrdfError as error:
             self.say(f"{error}\nNothing was changed.", "bad")
+            if place := PLACE.match(str(error)):
+                line, column = map(int, place.groups())
+                self.note.content += caret("yaml", line, column, self.rebuild.label)
         else:
             self.say(f"The arm was rebuilt: {table.n} joints.", "good")
 
@@ -138,11 +151,11 @@ class TableTab:
         bound = Kind.LENGTH if slides else Kind.ANGLE
         found: dict[str, float | None] = {"lower": None, "upper": None}
         problems: list[str] = []
-        for key in (*KINDS, *found):
+        for key in (*KINDS_OF, *found):
             text = self.cells[key].value.strip()
             try:
-                if text or key in KINDS:
-                    found[key] = parse_cell(text, KINDS.get(key, bound), UNITS)
+                if text or key in KINDS_OF:
+                    found[key] = parse_cell(text, KINDS_OF.get(key, bound), self.units)
             except TableError as error:
                 problems.append(f"{self.cells[key].label}: {text!r}: {error}")
         if problems:
