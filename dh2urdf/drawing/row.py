@@ -186,7 +186,7 @@ def row_words(table: DHTable, picture: DHRowPicture, units: Units = UNITS) -> st
     if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
         words += f" A fixed step leads from there to frame {i}."
     if picture.d.moved:
-        words += f" d leads {rounded_length(abs(picture.d.value))} away: {MOVED}"
+        words += f" d leads {measured(abs(picture.d.value), Kind.LENGTH, units)} away: {MOVED}"
     return words
 
 

@@ -133,3 +133,12 @@ def test_fault_in_the_text_is_pointed_at(view):
     assert tab.text.value.split("\n")[line - 1][column - 1 :].startswith("nought")
     assert f"&quot;line&quot;: {line}, &quot;column&quot;: {column}" in tab.note.content
     assert 'white-space:pre">' in tab.note.content
+
+
+def test_quoted_lines_begin_near_their_caret():
+    """A fault far to the right of a long line is in sight in the narrow panel."""
+    text = f"table:5:60: wrong\n    5 | {'x' * 60}apple, a: 0\n      | {' ' * 60}^\n  hint: no"
+    head, line, caret, hint = html.narrowed(text).split("\n")
+    assert line.index("apple") == caret.index("^") < 40
+    assert (head, hint) == ("table:5:60: wrong", "  hint: no")
+    assert html.narrowed("plain | text\n  no caret") == "plain | text\n  no caret"
