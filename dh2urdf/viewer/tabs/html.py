@@ -22,6 +22,11 @@ SYMBOLS = {"theta": "θ", "d": "d", "a": "a", "alpha": "α"}
 QUOTED = re.compile(r"\s*\d* \| ")
 """Lines of a message that quote a file, or stand with a caret under one."""
 
+CARET = re.compile(r"(?m)^(\s*\d+ \| .*\n)(\s*\| (?P<before> *)\^)")
+
+BEFORE = 22
+"""Characters that are shown before the place of a fault."""
+
 CODE = "font-family:ui-monospace,'DejaVu Sans Mono',monospace;white-space:pre"
 NOTES = {"info": ("#46505f", ""), "good": ("#1c7c45", "✓ "), "bad": ("#b3261e", "✗ ")}
 
@@ -34,10 +39,20 @@ def message(text: str, kind: str = "info") -> str:
         f'<span style="{CODE}">{escape(line)}\n</span>'
         if QUOTED.match(line)
         else f"{escape(line)}\n"
-        for line in text.split("\n")
+        for line in narrowed(text).split("\n")
     ]
     style = f"{STYLE}color:{colour};white-space:pre-wrap"
     return f'<div role="{role}" style="{style}">{mark}{"".join(lines)}</div>'
+
+
+def narrowed(text: str) -> str:
+    """A message whose quoted lines begin near the place their caret points at."""
+    return CARET.sub(lambda found: "".join(_cut(line, found) for line in found.groups()[:2]), text)
+
+
+def _cut(line: str, found: re.Match[str]) -> str:
+    head, mark, quoted = line.partition("| ")
+    return f"{head}{mark}{quoted[max(0, len(found['before']) - BEFORE) :]}"
 
 
 def number(read: Reading, text: str = "") -> str:
