@@ -1,5 +1,6 @@
 """Tables as students paste them from spreadsheets, slides, PDFs, chats and toolboxes."""
 
+import dataclasses
 import io
 import math
 
@@ -197,6 +198,46 @@ def test_the_format_of_a_pasted_table_shows_in_its_text(name):
     given = told(convention, units)
     by_name = parse_table(text, "text" if name.endswith(".txt") else format_of(name), "arm", given)
     assert parse_table(text, format_of_text(text), "arm", given).table == by_name.table
+
+
+@pytest.mark.parametrize("name", list_tables())
+def test_what_show_prints_reads_back(name):
+    """The text for people, pasted into a file: rows, names and limits to its digits."""
+    table = load_table(name)
+    if any(row.origin for row in table.rows) or not (table.base.is_identity):
+        return
+    plain = dataclasses.replace(table, tool=Origin(), rows=tuple(
+        dataclasses.replace(row, sign=1) for row in table.rows))  # fmt: skip
+    text = f"{plain}\n\nsource: a || b\n\nH_1^0 =\n  1  0  0  0\n  0  1  0  0\n"
+    found = parse_table(text, "text", "arm", told(None, "m,deg")).table
+    for one, other in zip(found.rows, plain.rows, strict=True):
+        assert one.name == (other.name or one.name)
+        for key in ("theta", "d", "a", "alpha"):
+            assert getattr(one, key) == pytest.approx(getattr(other, key), abs=1e-12)
+        for key in ("lower", "upper"):
+            value = getattr(other, key)
+            digits = 1e-12 if other.joint_type is P else math.radians(0.5)
+            assert value is None or getattr(one, key) == pytest.approx(value, abs=digits)
+    assert found.convention is plain.convention
+
+
+@pytest.mark.parametrize(
+    ("cell", "lower", "upper"),
+    [
+        ("±170°", -170, 170),
+        ("+170/-160", -160, 170),
+        ("[-170, 160.5]", -170, 160.5),
+        ("−170° ~ 160°", -170, 160),
+        ("-pi/2 to pi/2", -90, 90),
+        ("-170 – 160 deg", -170, 160),
+        ("0...45", 0, 45),
+    ],
+)
+def test_a_range_in_one_column_is_both_limits(cell, lower, upper):
+    """As data sheets and this package write it."""
+    page = f"|θ|d|a|α|Range|\n|-|-|-|-|-|\n|0|1|0|0|{cell}|\n"
+    row = parse_table(page, "markdown", "a", told("standard", "m,deg")).table.rows[0]
+    assert (row.lower, row.upper) == pytest.approx((math.radians(lower), math.radians(upper)))
 
 
 def _close(row):

@@ -9,9 +9,11 @@ from dh2urdf.dh_io.formats.heading import (
     EMPTY,
     INDEX,
     LABELS,
+    LIMITS,
     PARAMETERS,
     checked_unit,
     column,
+    limits,
     without_name,
 )
 from dh2urdf.dh_io.formats.layout import Line
@@ -36,6 +38,8 @@ def columns_of(header: Line, rows: list[Line], report: Report) -> list[tuple[str
             out.append((key, ""))
         elif key == "offset" and {"theta", "d"} <= {column(c)[0] for c in header}:
             out.append((key, unit))
+        elif key in LIMITS and all(limits(text) or text in EMPTY for text in texts):
+            out.append(("limits", checked_unit(cell, "lower", unit, report)))
         elif key not in ROW_KEYS:
             out.append((_unknown(cell, key, texts, taken, report), ""))
         elif key in taken:
@@ -45,7 +49,7 @@ def columns_of(header: Line, rows: list[Line], report: Report) -> list[tuple[str
             out.append((key, checked_unit(cell, key, unit, report)))
     _refuse_nameless(header, rows, report)
     present = {k for k, _ in out}
-    unclear = any(column(cell)[0] in MISUSED_KEYS for cell in header)
+    unclear = any(column(cell)[0] in MISUSED_KEYS.keys() - LIMITS for cell in header)
     missing = [k for k in PARAMETERS if k not in present]
     if missing and not unclear:
         mark = header[0].mark if header else Mark()

@@ -11,6 +11,7 @@ from dh2urdf.dh_io.formats.layout import Grid, Line, find_table
 SPACES = ("  ", " ")
 """Cells parted by two spaces or more, or by one where that is all there is."""
 
+_RULE = re.compile(r"[\s\u2500-\u257f]*(?:[\u2500-\u257f]|--|==)[\s=\-\u2500-\u257f]*")
 _JOINED = re.compile(
     r"\b((?:link|joint|axis|frame)|\d)[ ]+(?=(?:[ijn#]|no\.?|deg|rad|mm|cm|m|°)(?:\s|$))"
     r"|[ ]+(?=[(\[][^)\]]*[)\]])|[ ]*([+*/])[ ]*|(?<=\w)[ ]+([-−–])[ ]+(?=\w)",
@@ -27,7 +28,7 @@ def read_csv(text: str, report: Report) -> Keys:
         if line.lstrip().startswith("#") and not heads:
             if entry := metadata(line, number, report):
                 meta.append(entry)
-        elif line.strip():
+        elif line.strip() and not _RULE.fullmatch(line):
             lines.append((number, line))
     return grid_document(_table(lines, meta, report), report)
 
@@ -41,6 +42,7 @@ def _table(lines: list[tuple[int, str]], meta: list[tuple[Scalar, Scalar]], repo
         if not any(map(is_header, [*block, *columns])):
             continue
         block = [_cells(line, number, delimiter, report) for number, line in lines]
+        block = _paragraph(block) if delimiter in SPACES else block
         for line in block:
             report.count(line[0].mark, cells=len(line))
         above = lines if delimiter in SPACES else []
@@ -51,6 +53,15 @@ def _table(lines: list[tuple[int, str]], meta: list[tuple[Scalar, Scalar]], repo
     report.stop(
         Mark(lines[0][0], 1) if lines else Mark(), "no header row with theta, d, a and alpha", hint
     )
+
+
+def _paragraph(block: list[Line]) -> list[Line]:
+    """The lines up to the first empty one below a row of the table."""
+    top = next((k for k, line in enumerate(block) if is_header(line)), 0)
+    for k in range(top + 2, len(block)):
+        if block[k][0].mark.line > block[k - 1][0].mark.line + 1:
+            return block[:k]
+    return block
 
 
 def _prose(lines: list[tuple[int, str]], report: Report) -> list[tuple[Scalar, Scalar]]:

@@ -19,12 +19,12 @@ from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.dh_io.cells.schema import CONVENTIONS, TABLE_KEYS, canonical, nearest, of_previous_link
 from dh2urdf.dh_io.cells.units import Kind, unit_kind, unit_name
 from dh2urdf.dh_io.formats.columns import columns_of
-from dh2urdf.dh_io.formats.heading import EMPTY, PARAMETERS, heading
+from dh2urdf.dh_io.formats.heading import EMPTY, PARAMETERS, heading, limits
 from dh2urdf.dh_io.formats.layout import Grid, Line
 
 _META = re.compile(r"[\s#>*+`-]*([\w.]+)[*`]*\s*[:=]\s*[*`]*\s*(\S.*?)\s*$")
-_TOOLBOX = re.compile(r"(?:DHRobot:|.*::).*\b(standard |modified |std|mod)DH\b")
-"""What robotics toolboxes print above a table."""
+_TOOLBOX = re.compile(r"(?:DHRobot:|.*::|\S+: \d+ joints?,).*\b(standard |modified |std|mod)DH\b")
+"""What robotics toolboxes, and this package, print above a table."""
 
 _STEP = re.compile(r"\D*(?:0(?:\.0*)?\D+)*")
 _GROUPS = ("units", "base", "tool", "constants")
@@ -99,7 +99,10 @@ def _pairs(columns: list[tuple[str, str]], header: Line, cells: Line) -> list[tu
             with contextlib.suppress(ValueError):
                 text = str(json.loads(text))
         given[key] = text
-        if key not in ("", "offset"):
+        if key == "limits":
+            ends = zip(("lower", "upper"), limits(text), strict=False)
+            pairs += [(Scalar(k, head.mark), Scalar(v, cell.mark, unit)) for k, v in ends]
+        elif key not in ("", "offset"):
             pairs.append((Scalar(key, head.mark), Scalar(text, cell.mark, unit)))
     if given.get("offset", "0") not in ("", "0"):
         pairs = [_with_offset(key, cell, given) for key, cell in pairs]

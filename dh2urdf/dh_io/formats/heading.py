@@ -11,6 +11,17 @@ INDEX = ("", "i", "j", "#", "no", "no.", "nr", "nr.", "n", "row", "index")
 LABELS = ("joint", "link", "axis", "frame")
 EMPTY = ("", "-", "–", "—", "−", "n/a")
 
+LIMITS = {"limits", "limit", "limits_of_q", "joint_limits", "qlim", "range", "motion_range"}
+"""Columns of both limits: ``-170 to 170 deg``, ``±170°``, ``[-2.9, 2.9]``."""
+
+_DECIMAL = r"(?:\d+(?:\.\d+)?|\.\d+)"
+_NUMBER = rf"[-+−–]?\s*(?:(?:{_DECIMAL}\s*\*?\s*)?(?:pi|π)(?:/\d+)?|{_DECIMAL})"
+_RANGE = re.compile(
+    rf"[\[(]?\s*(?P<one>{_NUMBER})\s*(?P<unit>[a-z°]*?)"
+    rf"(?:\s*(?:to|\.\.\.?|…|/|~|,|;|÷)\s*|\s+[-–]\s+)"
+    rf"(?P<two>{_NUMBER})\s*(?P<last>[a-z°]*)\s*[\])]?"
+    rf"|(?:±|\+/?-)\s*(?P<both>{_NUMBER}\s*[a-z°]*)"
+)
 _UNIT = re.compile(
     r"(.+?)\s*(?:\[(.*)\]|\((.*)\)|(?:/\s*|,\s*|\sin\s+|(?=[°º]))([a-zA-Z°º]+))$"
     r"|(.+)_(mm|cm|m|deg|rad)$"
@@ -55,6 +66,23 @@ def column(cell: Scalar) -> tuple[str, str]:
 def is_header(cells: list[Scalar]) -> bool:
     """Tell whether a row names at least two of theta, d, a and alpha, or an ambiguous column."""
     return len({column(cell)[0] for cell in cells} & {*PARAMETERS, "r"}) >= 2
+
+
+def limits(text: str) -> tuple[str, ...]:
+    """Lower and upper limit that a cell holds, the smaller first; nothing where it holds none."""
+    match = _RANGE.fullmatch(text.strip())
+    if match is None:
+        return ()
+    if match["both"]:
+        return f"-({match['both']})", match["both"]
+    last = match["last"]
+    ends = [
+        match["one"] + " " + (match["unit"] or last),
+        match["two"] + " " + (last or match["unit"]),
+    ]
+    if match["two"].lstrip()[0] in "-−–" and match["one"].lstrip()[0] not in "-−–":
+        ends.reverse()  # +170/-170
+    return tuple(ends)
 
 
 def unit_alone(text: str) -> str:

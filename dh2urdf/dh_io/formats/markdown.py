@@ -42,8 +42,8 @@ def read_markdown(text: str, report: Report) -> Keys:
 
 def read_page(text: str, report: Report) -> Keys:
     """Read a text: cells between bars where there are any, else parted by spaces or signs."""
-    drawn = any("|" in line for line in text.translate(_BARS).split("\n"))
-    return read_markdown(text, report) if drawn else read_csv(text, report)
+    drawn = [line for line in text.translate(_BARS).split("\n") if line.count("|") > 2]
+    return read_markdown(text, report) if len(drawn) > 1 else read_csv(text, report)
 
 
 def _cells(line: str, number: int) -> Line:
