@@ -102,6 +102,7 @@ def _main(reader: str, source: str, folder: str) -> int:
         {"xacro": _xacro, "mjcf": _mjcf}[reader](source, Path(folder))
     except Exception as error:
         words = " ".join(str(error).rpartition("message:")[2].split()) or type(error).__name__
+        words = re.sub(r"<class '[\w.]+'>: (.+) \1", r"\1", words)  # xacro says some twice
         cause = error
         while isinstance(inner := getattr(cause, "exc", None), Exception):  # xacro wraps them
             cause = inner

@@ -189,6 +189,23 @@ def test_a_yaml_file_runs_nothing(tmp_path, yaml, says):
 
 
 @pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ('<link name="$(env NOT_SET)"/>', "xacro: environment variable 'NOT_SET' is not set"),
+        ('<link name="$(eval 1+)"/>', r"xacro: invalid syntax \(<unknown>, line 1\)"),
+        ('<xacro:include filename="none.xacro"/>', "none.xacro: No such file or directory"),
+        ("<xacro:none/>", "xacro: unknown macro name: xacro:none"),
+    ],
+)
+def test_other_faults_are_told_once(tmp_path, line, says):
+    """In the words of the package, without the names of its classes."""
+    path = tmp_path / "a.xacro"
+    path.write_text(f'{ROBOT} name="a">{line}</robot>')
+    with pytest.raises(UrdfError, match=f"{says}$"):
+        description_bytes(path)
+
+
+@pytest.mark.parametrize(
     ("args", "packages", "says"),
     [
         ({"a": None}, None, "xacro_args: expected a text, got None for 'a'"),
