@@ -209,6 +209,7 @@ ALONE: dict[str, dict[str, str]] = {
     "ik": {
         "csv": "xyz rpy matrix",
         "csv=-": "robot=-",
+        "best": "turns=all",
         "matrix": "xyz rpy",
         "task=position": "rpy",
     },
@@ -225,7 +226,13 @@ An option stands for itself, for one value (``task=position``) or for the suffix
 
 NEEDED: dict[str, dict[str, str]] = {
     "show": {"deg": "values q"},
-    "ik": {"nearest": "matrix csv", "seed_tolerance": "seed"},
+    "ik": {
+        "best": "csv",
+        "output": "csv",
+        "force": "output",
+        "nearest": "matrix csv",
+        "seed_tolerance": "seed",
+    },
     "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},
     "view": {"base": "robot", "tip": "robot", "deg": "q"},

@@ -51,9 +51,13 @@ def emit_file(text: str) -> None:
 
 def emit_json(verb: str, **values: Any) -> None:
     """One JSON object on stdout: full precision, metres and radians."""
-    data = {"schema": SCHEMA, "verb": verb, **values}
+    sys.stdout.write(to_json({"schema": SCHEMA, "verb": verb, **values}) + "\n")
+
+
+def to_json(data: dict[str, Any], indent: int | None = 2) -> str:
+    """JSON that stdout can take."""
     spelt = "utf" not in (sys.stdout.encoding or "").lower()
-    sys.stdout.write(json.dumps(data, default=_plain, ensure_ascii=spelt, indent=2) + "\n")
+    return json.dumps(data, default=_plain, ensure_ascii=spelt, indent=indent)
 
 
 def emit_error(verb: str, error: Exception) -> None:

@@ -5,10 +5,11 @@ import errno
 import os
 import stat
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from dh2urdf.dh_io.files import path_of, shown
-from dh2urdf.exceptions import OutputError, OutputExistsError
+from dh2urdf.exceptions import Dh2UrdfError, OutputError, OutputExistsError
 
 _REASONS = {
     errno.ENOENT: "there is no such folder",
@@ -24,13 +25,14 @@ _REASONS = {
 }
 
 
-def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
+def atomic_write(path: str | os.PathLike[str], content: str | bytes | Iterable[bytes]) -> Path:
     """Write a file so that nobody ever sees half of it.
 
-    The content goes to a temporary file in the same folder, which then takes the place of the
-    old one. Text is written as UTF-8. An older file keeps its permissions, and stays as it was
-    where anything fails. A symbolic link is followed, not replaced. A device or pipe, such as
-    ``/dev/stdout``, is written to directly; a named pipe behind a link must have a reader.
+    The content goes to a temporary file in the same folder, which then takes the place of the old
+    one. Text is written as UTF-8, parts of bytes as they come. An older file keeps its permissions,
+    and stays as it was where anything fails. A symbolic link is followed, not replaced. A device or
+    pipe, such as ``/dev/stdout``, is written to directly; a named pipe behind a link must have a
+    reader.
 
     Returns
     -------
@@ -45,10 +47,11 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
     """
     where = path_of(path)
     try:
-        data = content.encode() if isinstance(content, str) else content
+        whole = content.encode() if isinstance(content, str) else content
     except UnicodeEncodeError as error:
         sign = error.object[error.start]
         raise OutputError(f"{shown(where)}: cannot write {sign!r} as UTF-8") from None
+    data = [whole] if isinstance(whole, bytes) else whole
     try:
         mode = None
         with contextlib.suppress(FileNotFoundError):
@@ -58,10 +61,12 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes) -> Path:
         if mode is not None and not stat.S_ISREG(mode):
             opener = _with_reader if where.is_symlink() and stat.S_ISFIFO(mode) else None
             with open(where, "wb", opener=opener) as stream:
-                stream.write(data)
+                stream.writelines(data)
             return where
         _replace(Path(os.path.realpath(where)), data, mode)
     except (OSError, ValueError) as error:
+        if isinstance(error, Dh2UrdfError):  # of who made the content
+            raise
         raise OutputError(f"{where}: cannot write: {_reason(error)}") from None
     return where
 
@@ -93,14 +98,14 @@ def _with_reader(path: str, flags: int) -> int:
     return handle
 
 
-def _replace(target: Path, data: bytes, mode: int | None) -> None:
+def _replace(target: Path, data: Iterable[bytes], mode: int | None) -> None:
     """Write data beside the target, then move it into place."""
     if mode is not None and not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, "")
     handle, temporary = tempfile.mkstemp(prefix=".dh2urdf-", suffix=".tmp", dir=target.parent)
     try:
         with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
+            stream.writelines(data)
         if mode is None:
             os.umask(mask := os.umask(0o077))  # the system only tells it when it is set
             mode = 0o666 & ~mask

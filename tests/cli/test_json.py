@@ -36,6 +36,8 @@ ANSWERS = {
     "ik out of reach": ["ik", "denso_vs6556", "--xyz=9,0,0", "--rpy=0,0,0"],
     "ik singular": ["ik", "puma560", "--xyz=0.4,-0.15,0.3", "--rpy=0,pi,0"],
     "ik csv": ["ik", "denso_vs6556", "--csv", "poses.csv"],
+    "ik csv best": ["ik", "denso_vs6556", "--csv", "poses.csv", "--best"],
+    "ik csv to a file": ["ik", "denso_vs6556", "--csv", "poses.csv", "-o", "joints.csv"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
 }

@@ -8,11 +8,12 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.arm import IntArray, Outputs
+from dh2urdf.ik.arm import IntArray, Outputs, as_configuration, turned_to
 from dh2urdf.ik.problem.solutions import Answering, IKSolutions
+from dh2urdf.kernels.numbers import pad_solutions
 
 if TYPE_CHECKING:
     from dh2urdf.transforms import Array
@@ -62,6 +63,46 @@ class IKBatch:
         found = IKSolutions.of(self.problem, self.targets[i], q, residual, *codes)
         found.pose_change = float(self.pose_change[i])
         return found
+
+    def nearest(self, q: ArrayLike, *, follow: bool = False, within_limits: bool = True) -> IKBatch:
+        """Of each pose of a plain row the solution with the least joint motion from q (n,).
+
+        It is turned to q and moved along singular families, as by :meth:`IKSolutions.nearest`.
+        With ``follow`` the solution found takes the place of q for the pose after it.
+
+        Returns
+        -------
+        IKBatch
+            With up to one solution for each pose.
+        """
+        problem, m = self.problem, len(self)
+        goal = as_configuration(q, problem.chain.prismatic, "q")
+        out, families = Outputs.of(m, 1, len(goal)), (self.free_mask != 0).any(axis=1).tolist()
+        for i in range(m):
+            k = self.count[i]
+            if k and (families[i] or problem.sampled):
+                found = problem.arranged(self.solutions(i), goal, within_limits)
+                rows = found.q, found.residual, *found.codes
+                k, best = len(found), 0
+            elif k:
+                near = turned_to(problem.chain, self.q[i, :k], goal)
+                rows = near, self.residual[i], self.branch_code[i], self.free_mask[i]
+                best = int(np.square(near - goal).sum(axis=1).argmin())
+            out.counts[i] = min(k, 1)
+            if k:
+                out.q[i, 0], out.residual[i, 0], out.branch[i, 0], out.free[i, 0] = (
+                    row[best] for row in rows
+                )
+                goal = out.q[i, 0] if follow else goal
+        pad_solutions(out, np.nan)
+        return replace(
+            self,
+            q=out.q,
+            residual=out.residual,
+            count=out.counts,
+            branch_code=out.branch,
+            free_mask=out.free,
+        )
 
     @cached_property
     def solved(self) -> NDArray[np.bool_]:

@@ -83,6 +83,11 @@ class Problem:
         self._rooms: list[Room] = []
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
 
+    @property
+    def sampled(self) -> bool:
+        """Whether there are solutions between those that are listed."""
+        return isinstance(self.solver, RedundantChain)
+
     def at(self, values: Array) -> "Problem":
         """The same problem with its joints held at other values."""
         other = object.__new__(Problem)

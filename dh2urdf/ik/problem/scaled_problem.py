@@ -26,6 +26,11 @@ class ScaledProblem(Problem):
         self.inner, self.unit = inner, inner.chain.unit
         self.scale = np.where(chain.prismatic, self.unit, 1.0)
 
+    @property
+    def sampled(self) -> bool:
+        """As :attr:`Problem.sampled`."""
+        return self.inner.sampled
+
     def at(self, values: Array) -> "ScaledProblem":
         """The same problem with its joints held at other values."""
         assert isinstance(self.solver, HeldSolver)

@@ -37,7 +37,11 @@ class Answering(Protocol):
     chain: SerialChain
     branch_words: BranchWords
 
-    def arranged(self, found: IKSolutions, seed: Array) -> IKSolutions:
+    @property
+    def sampled(self) -> bool:
+        """Whether there are solutions between those that are listed."""
+
+    def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The solutions towards a seed, nearest first."""
 
     def measure(self, q: Array, T: Array) -> Array:

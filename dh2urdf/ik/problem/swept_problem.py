@@ -37,6 +37,7 @@ class SweptProblem(Problem):
     """A problem whose solver sweeps a joint."""
 
     solver: SweptJoint
+    sampled = True
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The nearest members to the seed (n,) on all self-motions, then the samples."""

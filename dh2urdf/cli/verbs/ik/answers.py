@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dh2urdf.cli.progress import note
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.grids import grid_text, number
 from dh2urdf.transforms import Array
@@ -131,3 +132,41 @@ def _remarks(arm: Robot, found: IKSolutions, deg: bool, maker: str | None) -> li
 def _shown(value: float, unit: str, digits: dict[str, int]) -> str:
     """A joint value in its unit, with so many decimals."""
     return number(round(math.degrees(value) if unit == "deg" else value, digits[unit]))
+
+
+def reason_of(
+    arm: Robot,
+    T: Array,
+    near: dict[str, Any],
+    options: dict[str, Any],
+    found: IKSolutions | None = None,
+) -> str:
+    """Why there is no solution within the limits; empty if there is one."""
+    found = arm.ik(T, **near, **options) if found is None else found
+    if found and (outside(arm, found.q) == 0.0).all(axis=1).any():
+        return ""
+    if not found and "seed_tolerance" in near:
+        others = arm.ik(T, **{**near, **options, "seed_tolerance": None})
+        if others:
+            return _too_far(arm, others.q, near)
+    return arm.why_unreachable(T, **{**options, "within_limits": True})
+
+
+def _too_far(arm: Robot, q: Array, near: dict[str, Any]) -> str:
+    """By how much the nearest of solutions (k, n) is farther from the seed than is allowed."""
+    from dh2urdf.ik.arm import seed_gaps
+
+    excess = seed_gaps(arm.chain, q, near["seed"]) - near["seed_tolerance"]
+    nearest = excess[excess.max(axis=1).argmin()]
+    worst = int(nearest.argmax())
+    by = f"{nearest[worst]:.4g} {'m' if arm.slides[worst] else 'rad'}"
+    return (
+        f"all {len(q)} solutions are farther from the seed than --seed-tolerance allows, the "
+        f"nearest by {by} at {arm.joint_names[worst]}"
+    )
+
+
+def tell_change(change: float) -> None:
+    """Say how far rotations were from the nearest ones."""
+    if change:
+        note(f"--nearest: the rotation was off by {change:.2g} rad")

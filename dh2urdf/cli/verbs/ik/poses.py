@@ -2,7 +2,8 @@
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -30,7 +31,7 @@ LAYOUTS = ((*PLACE, *TURN), (*PLACE, *QUATERNION), MATRIX[:12], MATRIX)
 """Columns that make a pose, in the order in which they are read."""
 
 NAMELESS = (LAYOUTS[0], *LAYOUTS[2:])
-"""Those that a file may hold without a header."""
+"""Those that a file may hold without a header; of positions alone there is no other."""
 
 SURE = min(LARGEST.values())
 """Up to here a number is within the bounds of every kind."""
@@ -83,14 +84,16 @@ def pose_of(
     return origin_matrix(position, angles)
 
 
-def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
+def poses_of_csv(
+    source: str, *, deg: bool, nearest: bool = False, position_only: bool = False
+) -> Poses:
     """The poses of a CSV file, a line each; commas, semicolons or tabs part its cells.
 
     A header line names the columns in any order, with their units where these are not metres and
     radians (``x [mm]``, ``yaw_deg``), as in table files: x y z with roll pitch yaw or with the
-    quaternion qx qy qz qw, or the matrix t00 ... t23 or t33. Without one the columns are x y z
-    roll pitch yaw, or 12 or 16 matrix entries. Empty lines and lines that begin with # are
-    skipped, but for ``# units: mm, deg``.
+    quaternion qx qy qz qw, or the matrix t00 ... t23 or t33; with ``position_only`` x y z alone
+    will do. Without one the columns are x y z roll pitch yaw, or 12 or 16 matrix entries. Empty
+    lines and lines that begin with # are skipped, but for ``# units: mm, deg``.
 
     Raises
     ------
@@ -98,35 +101,56 @@ def poses_of_csv(source: str, *, deg: bool, nearest: bool = False) -> Poses:
         The message names file and line.
     """
     text = read_text(stdin() if source == "-" else source, POSES_BYTES, PoseError)
-    file = "<stdin>" if source == "-" else shown(source)
-    units, columns = Units("m", "deg" if deg else "rad"), list[_Column]()
-    nameless = list[int]()
-    poses, at, lines = list[Array](), list[int](), text.split("\n")
+    file, lines = "<stdin>" if source == "-" else shown(source), text.split("\n")
+    units = Units("m", "deg" if deg else "rad")
     first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
-    rows = csv.reader(lines, delimiter=separator(first), skipinitialspace=True, strict=True)
-    try:
-        for row in rows:
-            cells, where = [cell.strip() for cell in row], f"{file}:{rows.line_num}"
-            if not any(cells):
-                continue
-            if cells[0].startswith("#") and cells[0] != "#":
-                units = _stated(units, lines[rows.line_num - 1], where, late=bool(columns))
-                continue
-            if not columns:
-                columns = _columns(cells, units, where)
-                if columns[0].named:
-                    nameless = [k for k, cell in enumerate(cells) if not cell]
-                    continue
-            filled = [k for k in nameless if k < len(cells) and cells[k]]
-            if filled not in ([], [0]):
-                raise PoseError(f"{where}: {without_name(filled)}")
-            poses.append(_pose(cells, columns, where, nearest))
-            at.append(rows.line_num)
-    except csv.Error as error:
-        raise PoseError(f"{file}: not CSV: {error}") from None
+    part = separator(first)
+    rows = _rows(lines, part, file)
+    for cells, number in rows:
+        if not _is_comment(cells):
+            break
+        units = _stated(units, lines[number - 1], f"{file}:{number}", late=False)
+    else:
+        raise PoseError(f"{file}: holds no poses")
+    columns = _columns(cells, units, f"{file}:{number}", position_only)
+    named = columns[0].named
+    numbers = [n for n in range(number - (not named), len(lines)) if lines[n].strip()]
+    T = _all_at_once([lines[n] for n in numbers], part, columns, nearest)
+    if T is not None:
+        return Poses(T, file, [n + 1 for n in numbers])
+    unnamed = [k for k, cell in enumerate(cells) if named and not cell]
+    begin = [] if named else [(cells, number)]
+    at, poses = list[int](), list[Array]()
+    for cells, number in chain(begin, rows):
+        where = f"{file}:{number}"
+        if _is_comment(cells):
+            _stated(units, lines[number - 1], where, late=True)
+            continue
+        filled = [k for k in unnamed if k < len(cells) and cells[k]]
+        if filled not in ([], [0]):
+            raise PoseError(f"{where}: {without_name(filled)}")
+        poses.append(_pose(cells, columns, where, nearest))
+        at.append(number)
     if not poses:
         raise PoseError(f"{file}: holds no poses")
     return Poses(np.stack(poses), file, at)
+
+
+def _rows(lines: list[str], part: str, file: str) -> Iterator[tuple[list[str], int]]:
+    """Cells of each line that has any, and its number."""
+    reader = csv.reader(lines, delimiter=part, skipinitialspace=True, strict=True)
+    try:
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            if any(cells):
+                yield cells, reader.line_num
+    except csv.Error as error:
+        raise PoseError(f"{file}: not CSV: {error}") from None
+
+
+def _is_comment(cells: list[str]) -> bool:
+    """Whether a line is none of a pose; a heading ``#`` is that of a count."""
+    return cells[0].startswith("#") and cells[0] != "#"
 
 
 class _Column(NamedTuple):
@@ -152,10 +176,12 @@ def _stated(units: Units, comment: str, where: str, *, late: bool) -> Units:
     return units._replace(**{kind.text: getattr(unit, "text", "") for kind, unit in words})
 
 
-def _columns(cells: list[str], units: Units, where: str) -> list[_Column]:
+def _columns(cells: list[str], units: Units, where: str, position_only: bool) -> list[_Column]:
     """The columns that a first row names, or those of so many numbers, in the order of a layout."""
     named = not any(cell[:1] in "+-.0123456789" for cell in cells if cell)
-    head = cells if named else next((n for n in NAMELESS if len(n) == len(cells)), None)
+    layouts = (*LAYOUTS, PLACE) if position_only else LAYOUTS
+    nameless = (*NAMELESS, PLACE) if position_only else NAMELESS
+    head = cells if named else next((n for n in nameless if len(n) == len(cells)), None)
     if head is None:
         quaternion = "; name the columns of a quaternion" if len(cells) == 7 else ""
         raise PoseError(f"{where}: 6 or 12 or 16 numbers are needed, got {len(cells)}{quaternion}")
@@ -175,7 +201,7 @@ def _columns(cells: list[str], units: Units, where: str) -> list[_Column]:
         one, parts = sizes.get(own.of(KINDS[name]), (1, 1))
         size = float(parts) / float(one)
         columns[name] = _Column(name, place, len(cells), own, size, named)
-    for layout in LAYOUTS:
+    for layout in layouts:
         if set(layout) == set(columns):
             return [columns[name] for name in layout]
     raise PoseError(f"{where}: columns {KNOWN} are needed, got {', '.join(columns)}")
@@ -197,12 +223,56 @@ def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -
         ]
     if columns[0].name == MATRIX[0]:
         return _of_matrix(values, where, nearest)
+    T: Array = _stack(np.array([values]), columns, where, nearest)[0]
+    return T
+
+
+def _all_at_once(
+    lines: list[str], part: str, columns: list[_Column], nearest: bool
+) -> Array | None:
+    """The poses of lines that hold nothing but numbers, shape (m, 4, 4); None of any other."""
+    if not lines:
+        return None
+    try:
+        cells = np.loadtxt(lines, delimiter=part, comments=None, ndmin=2)
+        if cells.shape[1] != columns[0].width:
+            return None
+        sizes = np.array([column.size for column in columns])
+        values: Array = cells[:, [column.place for column in columns]] / sizes
+        if not (np.abs(values) <= SURE).all():
+            return None
+        return _stack(values, columns, "", nearest)
+    except (ValueError, PoseError):  # to be told with its line
+        return None
+
+
+def _stack(values: Array, columns: list[_Column], where: str, nearest: bool) -> Array:
+    """Poses of numbers in the order of a layout, shape (m, 4, 4)."""
+    if columns[0].name == MATRIX[0]:
+        T = np.broadcast_to(np.eye(4), (len(values), 4, 4)).copy()
+        T[:, : values.shape[1] // 4] = values.reshape(len(values), -1, 4)
+        check_pose(rounded_off(T)[0] if nearest else T, what=where)
+        return T
+    position, turn = values[:, :3], values[:, 3:]
+    if columns[-1].name == "z":
+        return pose(np.broadcast_to(np.eye(3), (len(values), 3, 3)), position)
     if columns[-1].name == "yaw":
-        return origin_matrix(values[:3], values[3:])
-    norm = math.hypot(*values[3:])
-    if abs(norm - 1.0) > OFF_UNIT:
-        raise PoseError(f"{where}: the norm of the quaternion is {norm:.3g}; expected 1")
-    return pose(quaternion_to_matrix(np.array(values[3:]) / norm), values[:3])
+        return pose(_rotations(turn), position)
+    norm = np.linalg.norm(turn, axis=1, keepdims=True)
+    if np.abs(norm - 1.0).max() > OFF_UNIT:
+        raise PoseError(f"{where}: the norm of the quaternion is {norm[0, 0]:.3g}; expected 1")
+    return pose(quaternion_to_matrix(turn / norm), position)
+
+
+def _rotations(rpy: Array) -> Array:
+    """``Rz(yaw) Ry(pitch) Rx(roll)`` of angles (m, 3), shape (m, 3, 3)."""
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy.T), np.sin(rpy.T)
+    rows = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    return np.moveaxis(np.array(rows), -1, 0)
 
 
 def _of_matrix(entries: list[float], what: str, nearest: bool) -> Array:

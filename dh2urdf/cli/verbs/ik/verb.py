@@ -2,34 +2,23 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
+from dh2urdf.cli.options import DEFAULT, Arm, Force, Json, Link, Reading, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
-from dh2urdf.cli.progress import bar, note
-from dh2urdf.cli.verbs.ik.answers import as_data, names_of, outside, solutions_text, words_of
-from dh2urdf.cli.verbs.ik.poses import Poses, pose_of, poses_of_csv
+from dh2urdf.cli.progress import note
+from dh2urdf.cli.verbs.ik.answers import as_data, outside, reason_of, solutions_text, tell_change
+from dh2urdf.cli.verbs.ik.poses import pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
-from dh2urdf.grids import grid_csv
-from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
-    from dh2urdf.ik.problem import IKSolutions
     from dh2urdf.robot import Robot
 
-
 _Options = dict[str, Any]
-
-CHUNK = 1_000
-"""Poses that are solved, and lines that are written, at once."""
-
-SHOWN = 5
-"""Poses without a solution whose reason is told."""
 
 
 def ik_(
@@ -40,6 +29,8 @@ def ik_(
     rpy: Values = None,
     matrix: Values = None,
     csv: str | None = None,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    best: bool = False,
     seed: Values = None,
     seed_tolerance: Values = None,
     locked: Values = None,
@@ -52,6 +43,7 @@ def ik_(
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
+    force: Force = False,
     json: Json = False,
 ) -> int:
     """Find every configuration that reaches a pose, each measured by Pinocchio.
@@ -65,9 +57,16 @@ def ik_(
     matrix
         The pose as 16 or 12 numbers, row by row.
     csv
-        A file (- for stdin) of many poses: columns x y z roll pitch yaw, x y z qx qy qz qw, or
-        matrix entries t00 ... t23 or t33; a header line may order them and give units, as in
-        "x [mm]" or "yaw (deg)". The answer is CSV, too.
+        A file (- for stdin) of many poses: columns x y z roll pitch yaw, x y z qx qy qz qw (the
+        quaternion's scalar last), or matrix entries t00 ... t23 or t33; for --task position x y z
+        will do. A header line may order them and give units, as in "x [mm]" or "yaw (deg)". The
+        answer is CSV, too, with residuals measured on the arm's chain; of one pose in 2000
+        Pinocchio measures them again.
+    output
+        The CSV file to write; - for stdout, the default.
+    best
+        One line for each pose: the solution nearest to --seed, or without it to the line before
+        (the first to the middle of the limits); a pose without a solution has empty cells.
     seed
         Joint values to be near to: sorts the solutions, picks turns and members of families.
     seed_tolerance
@@ -99,14 +98,17 @@ def ik_(
         most = parse_configuration(each, arm, deg=deg, what="--seed-tolerance")
         near["seed_tolerance"] = most
     if csv is not None:
-        poses = poses_of_csv(csv, deg=deg, nearest=nearest)
-        return _many(arm, poses, near, options, words, deg=deg, json=json)
+        from dh2urdf.cli.verbs.ik.many import Asked, solve_file
+
+        poses = poses_of_csv(csv, deg=deg, nearest=nearest, position_only=task == "position")
+        asked = Asked(near, options, best, deg, words)
+        return solve_file(arm, poses, asked, output, force=force, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position", nearest=nearest)
     found = arm.ik(T, **near, **options)
-    _tell_change(found.pose_change)
+    tell_change(found.pose_change)
     if goal is None:
         found = found.select(np.argsort(outside(arm, found.q).any(axis=1), kind="stable"))
-    reason = _reason(arm, T, found, near, options)
+    reason = reason_of(arm, T, near, options, found)
     if json:
         solver = arm.solver_for(locked=options["locked"], task=task)
         emit_json("ik", **as_data(arm, found, words), solver=str(solver), reason=reason)
@@ -117,12 +119,6 @@ def ik_(
         hint = "; --no-within-limits shows them" if hidden else ""
         note(f"no solution{' within limits' if found else ''}: {reason}{hint}")
     return 1 if reason else 0
-
-
-def _tell_change(change: float) -> None:
-    """Say how far rotations were from the nearest ones."""
-    if change:
-        note(f"--nearest: the rotation was off by {change:.2g} rad")
 
 
 def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float] | None:
@@ -146,99 +142,3 @@ def _held(cells: list[str] | None, arm: Robot, *, deg: bool) -> dict[str, float]
         q = parse_configuration(row, arm, deg=deg, what="--locked")
         held[name] = float(q[arm.joint_names.index(name)])
     return held
-
-
-def _reason(arm: Robot, T: Array, found: IKSolutions, near: _Options, options: _Options) -> str:
-    """Why there is no solution within the limits; empty if there is one."""
-    if found and (outside(arm, found.q) == 0.0).all(axis=1).any():
-        return ""
-    if not found and "seed_tolerance" in near:
-        others = arm.ik(T, **{**near, **options, "seed_tolerance": None})
-        if others:
-            return _too_far(arm, others.q, near)
-    return arm.why_unreachable(T, **{**options, "within_limits": True})
-
-
-def _too_far(arm: Robot, q: Array, near: _Options) -> str:
-    """By how much the nearest of solutions (k, n) is farther from the seed than is allowed."""
-    from dh2urdf.ik.arm import seed_gaps
-
-    excess = seed_gaps(arm.chain, q, near["seed"]) - near["seed_tolerance"]
-    nearest = excess[excess.max(axis=1).argmin()]
-    worst = int(nearest.argmax())
-    by = f"{nearest[worst]:.4g} {'m' if arm.slides[worst] else 'rad'}"
-    return (
-        f"all {len(q)} solutions are farther from the seed than --seed-tolerance allows, the "
-        f"nearest by {by} at {arm.joint_names[worst]}"
-    )
-
-
-def _many(
-    arm: Robot,
-    poses: Poses,
-    near: _Options,
-    options: _Options,
-    maker: str | None,
-    *,
-    deg: bool,
-    json: bool,
-) -> int:
-    """All solutions of many poses, as CSV or JSON; 1 if any pose has none within the limits."""
-    missed: dict[int, IKSolutions | None] = {}
-    change = 0.0
-    data: list[dict[str, Any]] = []
-    lines = [["pose", "solution", *arm.joint_names, "residual", "branch", "outside"]]
-    lines[0] += ["word"] if maker else []
-    for i, found in enumerate(_solved(arm, poses.T, near, options)):
-        over, change = outside(arm, found.q), max(change, found.pose_change)
-        if not (over == 0.0).all(axis=1).any():
-            missed[i] = found if len(missed) < SHOWN else None
-        if json:
-            data.append(as_data(arm, found, maker))
-            continue
-        lines += _lines(arm, i, found, over, maker, deg=deg)
-        if len(lines) > CHUNK:
-            emit(grid_csv(lines[0], lines[1:]))
-            lines.clear()
-    reasons = {
-        i: _reason(arm, poses.T[i], first, near, options)
-        for i, first in missed.items()
-        if first is not None
-    }
-    if json:
-        emit_json("ik", poses=data, unreached=list(missed), reasons=reasons)
-    elif lines:
-        emit(grid_csv(lines[0], lines[1:]))
-    _tell_change(change)
-    for i, reason in reasons.items():
-        note(f"{poses.name(i)}: no solution within limits: {reason}")
-    if len(missed) > SHOWN:
-        note(f"... and {len(missed) - SHOWN} more of {len(poses.T)} poses without a solution")
-    return 1 if missed else 0
-
-
-def _solved(arm: Robot, Ts: Array, near: _Options, options: _Options) -> Iterator[IKSolutions]:
-    """The solutions of one pose after the other, telling how far it has come."""
-    with bar("solving", len(Ts)) as report:
-        for start in range(0, len(Ts), CHUNK):
-            part = Ts[start : start + CHUNK]
-            if near["seed"] is None and near["turns"] == "nearest":
-                batch = arm.ik_batch(part, **options)
-                yield from (batch[i] for i in range(len(batch)))
-            else:
-                yield from (arm.ik(T, **near, **options) for T in part)
-            report(start + len(part), len(Ts))
-
-
-def _lines(
-    arm: Robot, pose: int, found: IKSolutions, over: Array, maker: str | None, *, deg: bool
-) -> list[list[str]]:
-    """One line a solution: pose, solution, joint values, residual, branch, outside limits, word."""
-    q = found.q * np.where(arm.slides | (not deg), 1.0, 180.0 / math.pi)
-    far = [" ".join(names_of(arm, one)) for one in over]
-    words = [[word] if maker else [] for word in words_of(found, maker)]
-    measured = zip(q.tolist(), found.verify(), found.branch, far, words, strict=True)
-    return [
-        [f"{pose + 1}", f"{k + 1}", *map(repr, row), f"{residual:.1e}", branch, names, *word]
-        for k, (row, residual, branch, names, word) in enumerate(measured)
-    ]
