@@ -70,7 +70,8 @@ def extract_(
     ----------
     source
         The file; - for a URDF on stdin. A YAML or JSON file holds joint axes: a list ``axes`` of
-        {axis: [x, y, z], point: [x, y, z]}, ``screws`` or ``frames``, and the ``tool``.
+        {axis: [x, y, z], point: [x, y, z]}, ``screws`` or ``frames``, and the ``tool``; or OPW
+        parameters, KDL segments or UR's calibration.
     base, tip
         Links between which the table runs, anywhere in the tree. Default: the root and the end of
         the longest chain.

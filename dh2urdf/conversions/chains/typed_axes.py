@@ -28,14 +28,17 @@ from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, JOINTS, LENGTH, TABLE_BYTES, TEXT_CHARACTERS
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.chains.tree_chain import frame_with_z
+from dh2urdf.conversions.write import dh_to_chain
 from dh2urdf.dh import JointType
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.formats.yaml import yaml_values
+from dh2urdf.dh_io.forms import CONF, READERS
+from dh2urdf.dh_io.load import load_table
 from dh2urdf.doors import found, real_array, text
 from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
 from dh2urdf.transforms import Array
 
-SUFFIXES = (".yaml", ".yml", ".json")
+SUFFIXES = (".yaml", ".yml", ".json", CONF)
 
 LISTS = ("axes", "screws", "frames")
 OTHERS = ("types", "tool", "names", "name", "lower", "upper")
@@ -176,18 +179,34 @@ def _frame(i: int, axis: Array, point: Array) -> Array:
 
 
 def read_axes(path: Path) -> tuple[SerialChain, str]:
-    """The chain of a file of joint axes, and its name; UrdfError names the key that is wrong."""
+    """The chain of a file of joint axes or in another form, and its name.
+
+    Raises
+    ------
+    UrdfError, TableFileError
+        With the key that is wrong.
+    """
     where = shown(path)
+    if path.suffix.lower() == CONF:
+        return _chain_of_table(path)
     try:
         content = yaml_values(read_text(path, TABLE_BYTES, UrdfError), where)
     except TableFileError as error:
         raise UrdfError(str(error)) from None
     if not isinstance(content, dict):
         raise UrdfError(f"{where}: expected keys such as {', '.join(LISTS)}, got {found(content)}")
+    if not any(key in content for key in LISTS) and any(key in content for key in READERS):
+        return _chain_of_table(path)
     try:
         return axes_to_chain(content, path.stem)
     except UrdfError as error:
         raise UrdfError(f"{where}: {error}") from None
+
+
+def _chain_of_table(path: Path) -> tuple[SerialChain, str]:
+    """The chain of a file that is read as a table, and its name."""
+    table = load_table(path)
+    return dh_to_chain(table), table.name
 
 
 def axes_to_chain(content: Mapping[str, Any], name: str) -> tuple[SerialChain, str]:

@@ -23,12 +23,12 @@ from typing import Any
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign import chain_to_dh
+from dh2urdf.conversions.forms.parts import Read, mapping, number
 from dh2urdf.conversions.write import dh_to_chain
 from dh2urdf.dh import DHTable, JointType
-from dh2urdf.dh_io import as_table
+from dh2urdf.dh_io import Kind, as_table
 from dh2urdf.doors import choice, finite_array, found
 from dh2urdf.exceptions import TableError
 from dh2urdf.transforms import Array
@@ -46,8 +46,6 @@ NEAR = 0.03
 CLEAR = 4.0
 """How many times farther from its nominal arm the next model is, where one alone fits."""
 
-Read = tuple[DHTable, tuple[str, ...]]
-
 
 def read_kinematics(content: Mapping[str, Any], name: str) -> Read:
     """The table of the driver's ``kinematics``, and what there is to say of it.
@@ -56,11 +54,7 @@ def read_kinematics(content: Mapping[str, Any], name: str) -> Read:
     ------
     TableError
     """
-    links = content["kinematics"]
-    if not isinstance(links, Mapping):
-        raise TableError(f"kinematics: expected {', '.join(LINKS)}, got {found(links)}")
-    for key in links:
-        choice(key, "kinematics", (*LINKS, "hash"), TableError)
+    links = mapping(content["kinematics"], "kinematics", (*LINKS, "hash"))
     numbers = [_numbers(links, link) for link in LINKS]
     chain, urdf = (_chain([_step(row, order) for row in numbers]) for order in ("xyz", "zyx"))
     notes = []
@@ -83,14 +77,10 @@ def read_kinematics(content: Mapping[str, Any], name: str) -> Read:
 
 def _numbers(links: Mapping[str, Any], link: str) -> list[float]:
     """x, y, z [m] and roll, pitch, yaw [rad] of a link."""
-    what, cells = f"kinematics.{link}", links.get(link)
-    if not isinstance(cells, Mapping) or set(cells) != set(CELLS):
-        got = "nothing" if cells is None else found(dict(cells) if cells else cells)
-        raise TableError(f"{what}: expected {', '.join(CELLS)}, got {got}")
-    row = finite_array([cells[key] for key in CELLS], what, "six numbers", TableError)
-    if not (np.abs(row) <= [LENGTH] * 3 + [ANGLE] * 3).all():
-        raise TableError(f"{what}: a length beyond {LENGTH:g} m or an angle beyond {ANGLE:g} rad")
-    return row.tolist()  # type: ignore[no-any-return]
+    what = f"kinematics.{link}"
+    cells = mapping(links.get(link), what, CELLS)
+    kinds = [Kind.LENGTH] * 3 + [Kind.ANGLE] * 3
+    return [number(cells.get(c), f"{what}.{c}", k) for c, k in zip(CELLS, kinds, strict=True)]
 
 
 def _step(numbers: Sequence[float], order: str) -> Array:

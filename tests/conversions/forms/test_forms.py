@@ -2,6 +2,7 @@
 
 import json
 import math
+import random
 
 import modern_robotics
 import numpy as np
@@ -266,6 +267,39 @@ def test_files_with_faults_are_refused(form, change, message):
         read(content("puma560", form) | change, "f")
     assert str(caught.value).startswith("f.json: ")
     assert message in str(caught.value)
+
+
+JUNK = (None, True, "x", "", -1, 0, 1e308, 1e12, [], {}, [1, 2], {"a": 1}, "deg(1e9)", "pi/0", [[]])
+
+
+def spots(node, path=()):
+    """Paths to all values of a document."""
+    if not isinstance(node, (dict, list)):
+        return [path]
+    below = node.items() if isinstance(node, dict) else enumerate(node)
+    return [path, *(p for key, value in below for p in spots(value, (*path, key)))]
+
+
+@given(st.sampled_from(FORMS), SEEDS)
+def test_mutated_files_are_read_or_refused(form, seed):
+    """Values replaced or left out anywhere: a table, or a TableFileError with the file's name."""
+    rng, given = random.Random(seed), content("puma560", form)
+    for _ in range(rng.randint(1, 3)):
+        *way, last = rng.choice([path for path in spots(given) if path])
+        node = given
+        for key in way:
+            node = node[key]
+        if rng.random() < 0.2:
+            del node[last]
+        else:
+            node[last] = rng.choice(JUNK)
+    try:
+        table = parse_table(json.dumps(given), "json", "f.json").table
+    except TableFileError as error:
+        unnamed = [problem for problem in error.problems if not problem.startswith("f.json")]
+    else:
+        unnamed = [] if np.isfinite(table.fk([0.1] * table.n)).all() else [table]
+    assert unnamed == []
 
 
 def test_options_of_tables_say_nothing_beside_a_form(refused):

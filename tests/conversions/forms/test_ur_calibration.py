@@ -192,6 +192,23 @@ def test_all_solutions_of_a_calibrated_arm_from_the_command_line(run, tmp_path, 
     assert "warning: calibration: " in err
 
 
+@pytest.mark.parametrize("name", ["calibration.conf", "calibration.yaml"])
+def test_extract_assigns_frames_near_the_arm(run, tmp_path, name):
+    """In both conventions, without frames hundreds of metres away."""
+    p = parameters(MEASURED[2])
+    more = "model = ur10"
+    text = conf(MEASURED[2], more) if name.endswith("conf") else json.dumps(kinematics(p))
+    (tmp_path / name).write_text(text)
+    for convention in ("standard", "modified"):
+        assert run("extract", name, "--convention", convention, "-o", "arm.yaml")[0] == 0
+        table = load_table(tmp_path / "arm.yaml")
+        assert table.convention == convention
+        assert table.length < 10.0
+        np.testing.assert_allclose(
+            Robot.from_dh(table).fk(draws()), poses(p, draws()), atol=1e-11, rtol=0
+        )
+
+
 def test_the_model_is_asked_for_where_more_than_one_fits(refused, tmp_path):
     """A UR10's deltas say nothing of e-Series or not; the message has how near both are."""
     (tmp_path / "calibration.conf").write_text(conf(MEASURED[2]))
@@ -244,15 +261,12 @@ GOOD = {link: dict.fromkeys(CELLS, 0.1) for link in LINKS}
 @pytest.mark.parametrize(
     ("kinematics", "message"),
     [
-        ("none", "kinematics: expected shoulder, upper_arm, forearm, "),
-        ({k: v for k, v in GOOD.items() if k != "forearm"}, "kinematics.forearm: expected x, y, z"),
-        (GOOD | {"elbow": {}}, "kinematics: expected 'shoulder' or "),
-        (
-            GOOD | {"wrist_1": {"x": 1}},
-            "kinematics.wrist_1: expected x, y, z, roll, pitch, yaw, got",
-        ),
-        (GOOD | {"wrist_1": dict.fromkeys(CELLS, "a")}, "kinematics.wrist_1: expected six numbers"),
-        (GOOD | {"wrist_1": dict.fromkeys(CELLS, 1e12)}, "kinematics.wrist_1: a length beyond"),
+        ("none", "kinematics: expected keys shoulder, upper_arm, "),
+        ({k: v for k, v in GOOD.items() if k != "forearm"}, "kinematics.forearm: expected keys "),
+        (GOOD | {"elbow": {}}, "kinematics: 'elbow' is not known; allowed: shoulder, "),
+        (GOOD | {"wrist_1": {"x": 1}}, "kinematics.wrist_1.y: expected a number, got None"),
+        (GOOD | {"wrist_1": dict.fromkeys(CELLS, "a")}, "kinematics.wrist_1.x: 'a': "),
+        (GOOD | {"wrist_1": dict.fromkeys(CELLS, 1e12)}, "wrist_1.x: expected a number up to "),
     ],
 )
 def test_a_calibration_that_is_none_is_refused(kinematics, message):
