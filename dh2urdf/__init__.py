@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from dh2urdf import transforms
     from dh2urdf.chain import SerialChain
     from dh2urdf.checks.rules import check_urdf
+    from dh2urdf.comparison import Comparison, compare
     from dh2urdf.conversions.assign import to_convention
     from dh2urdf.conversions.write import ConversionReport, UrdfOptions, urdf_text, write_urdf
     from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
@@ -38,6 +39,7 @@ _LATE = {
     for module, names in {
         "chain": "SerialChain",
         "checks.rules": "check_urdf",
+        "comparison": "Comparison compare",
         "conversions.assign": "to_convention",
         "conversions.write": "ConversionReport UrdfOptions urdf_text write_urdf",
         "dh": "DHConvention DHRow DHTable JointType Origin dh_factors dh_transform",
@@ -54,6 +56,7 @@ _LATE |= {"save_table": ("dh2urdf.dh_io", "write_table"), "transforms": ("dh2urd
 """Public names whose modules are imported when they are first asked for."""
 
 __all__ = [
+    "Comparison",
     "ConversionReport",
     "DHConvention",
     "DHRow",
@@ -69,6 +72,7 @@ __all__ = [
     "SerialChain",
     "UrdfOptions",
     "check_urdf",
+    "compare",
     "dh_factors",
     "dh_parameters",
     "dh_transform",

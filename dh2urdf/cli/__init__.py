@@ -23,6 +23,7 @@ VERBS = {
     "convert": "Turn DH tables into URDF files that Pinocchio has checked.",
     "extract": "Find the DH table of a URDF by frame assignment.",
     "check": "Say what the consumers of a URDF would say of it.",
+    "compare": "Say whether two arms are the same, up to what, and where they differ.",
     "show": "Print a table, its transforms and the solver of its inverse kinematics.",
     "list": "List the tables that ship with the package.",
     "fk": "Place the tip: forward kinematics of a table or a URDF.",

@@ -31,6 +31,8 @@ ANSWERS = {
     "check": ["check", "arm.urdf", "bad.urdf", "nowhere.urdf", "--no-run"],
     "check asked": ["check", "arm.urdf"],
     "check --fix": ["check", "bad.urdf", "--fix", "mended.urdf"],
+    "compare": ["compare", "ur5", "ur5e", "rpr_new_frame", "ur5", "nowhere"],
+    "compare tools": ["compare", "franka_fer", "kuka_iiwa14"],
     "ik": ["ik", "denso_vs6556", *POSE],
     "ik marked": ["ik", "denso_vs6556", *POSE, "--no-within-limits"],
     "ik out of reach": ["ik", "denso_vs6556", "--xyz=9,0,0", "--rpy=0,0,0"],

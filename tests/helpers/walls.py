@@ -7,13 +7,15 @@ class Walls(Contract):
     """Whoever stands outside a room imports names from its ``__init__`` only."""
 
     packages = fields.ListField(subfield=fields.StringField())
+    rooms = fields.ListField(subfield=fields.StringField(), required=False, default=[])
 
     def check(self, graph, verbose):
         """Find the imports of a room's files from outside."""
+        rooms = [r for package in self.packages for r in graph.find_children(package)]
+        rooms += self.rooms
         through = [
             (importer, file)
-            for package in self.packages
-            for room in graph.find_children(package)
+            for room in rooms
             for file in graph.find_descendants(room)
             for importer in graph.find_modules_that_directly_import(file)
             if importer != room and not importer.startswith(f"{room}.")
