@@ -4,13 +4,17 @@ Reach is decided by inverse kinematics at every point of a grid, never by the de
 configurations, which says where an arm lingers, not what it reaches.
 """
 
-from dh2urdf.workspace.maps import branch_counts, dexterity, held_values
+from dh2urdf.workspace.maps import branch_counts, counts_at, dexterity, held_values, shares_at
+from dh2urdf.workspace.nominal import mapped_robot
 from dh2urdf.workspace.planar import PlanarArm, planar_arm
+from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
 from dh2urdf.workspace.task import (
     Task,
     common_axis,
     default_orientation,
+    orientations,
+    solved,
     task_of,
     uniform_rotations,
 )

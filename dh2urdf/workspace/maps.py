@@ -1,6 +1,6 @@
 """Maps over a section: how many branches, and from how many sides."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,17 +10,20 @@ from dh2urdf.doors import finite_array, flag, instance, integer
 from dh2urdf.ik.redundant import SweptJoint, sample_values
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, pose
-from dh2urdf.workspace.section import Section
+from dh2urdf.workspace.refine import Index, Progress, refined
+from dh2urdf.workspace.section import Section, reach_ball, turns_in_plane
 from dh2urdf.workspace.task import orientations, task_of
-
-Progress = Callable[[int, int], None]
-"""Called with the number of poses done and their total."""
 
 CHUNK = 60_000
 """Poses solved at a time: some 100 MB of solutions."""
 
 HELD = 24
 """Values at which the joint to spare of an arm of seven is held."""
+
+SMOOTH = 0.02
+"""Share of orientations by which a place may be off what its neighbours foretell."""
+
+Held = dict[int, Array]
 
 
 def branch_counts(
@@ -33,17 +36,40 @@ def branch_counts(
 ) -> NDArray[np.int64]:
     """Number of solutions at each point of a section with the tip turned to R (3, 3).
 
+    Worked out where it changes from point to point, and filled in between.
+
     Raises
     ------
     NoSolverError
     """
-    task = task_of(robot)
     turn = finite_array(R, "R", "numbers of shape (3, 3)", shape=(3, 3))
-    counts = [
-        robot.ik_batch(part, within_limits=within_limits, task=task.name).count
-        for part in _parts(grid, turn[None], progress)
-    ]
-    return np.concatenate(counts).reshape(len(grid.v), len(grid.u))
+    points = _checked(grid, progress).points
+
+    def values_at(rows: Index, columns: Index, tell: Progress) -> Array:
+        return counts_at(robot, points[rows, columns], turn, within_limits, tell).astype(float)
+
+    counts = refined(values_at, points.shape[:2], progress=progress)
+    return counts.round().astype(np.int64)
+
+
+def counts_at(
+    robot: Robot,
+    points: Array,
+    R: Array,
+    within_limits: bool = True,
+    progress: Progress | None = None,
+) -> NDArray[np.int64]:
+    """Number of solutions at points (m, 3) with the tip turned to R (3, 3), shape (m,)."""
+    task = task_of(robot).name
+    counts = np.zeros(len(points), np.int64)
+    near = _within_reach(robot, points)
+    for start in range(0, len(near), CHUNK):
+        part = near[start : start + CHUNK]
+        Ts = pose(R, points[part])
+        counts[part] = robot.ik_batch(Ts, within_limits=within_limits, task=task).count
+        if progress is not None:
+            progress(start + len(part), len(near))
+    return counts
 
 
 def dexterity(
@@ -52,17 +78,19 @@ def dexterity(
     count: int = 200,
     *,
     within_limits: bool = True,
-    held: dict[int, Array] | None = None,
+    held: Held | None = None,
     progress: Progress | None = None,
 ) -> Array:
     """Share of orientations in which each point of a section is reached, 0 to 1.
+
+    Worked out where it changes from point to point, and filled in between.
 
     Parameters
     ----------
     robot : Robot
     grid : Section
     count : int
-        Orientations tried, evenly spread.
+        Orientations tried at least, evenly spread.
     within_limits : bool
     held : mapping of int to array, optional
         For an arm with a joint to spare: values at which that joint is held; a pose counts as
@@ -72,26 +100,69 @@ def dexterity(
     ------
     NoSolverError
     """
-    task = task_of(robot)
-    turns = orientations(robot, task, integer(count, "count", 1, ORIENTATIONS))
-    tries: list[dict[int | str, float] | None] = [None]
-    if held is not None:
-        rows = instance(held, "held", dict).items()
-        tries = [
-            {k: v} for k, vs in rows for v in finite_array(vs, "held", "numbers").flat
-        ] or tries
-    reached = []
-    for part in _parts(grid, turns, progress):
-        hit = np.zeros(len(part), np.bool_)
+    within_limits = flag(within_limits, "within_limits")
+    turns = orientations(
+        robot, task_of(robot), integer(count, "count", 1, ORIENTATIONS), within_limits=within_limits
+    )
+    points = _checked(grid, progress).points
+    mirrored = task_of(robot).sides == "rotations" and turns_in_plane(robot, grid, within_limits)
+
+    def values_at(rows: Index, columns: Index, tell: Progress) -> Array:
+        if mirrored:  # joint 1 turns the arm over to the other side of its axis
+            columns = np.maximum(columns, points.shape[1] - 1 - columns)
+        spots, back = np.unique(np.stack([rows, columns]), axis=1, return_inverse=True)
+        reached = shares_at(robot, points[tuple(spots)], turns, within_limits, held, tell)
+        return np.asarray(reached[back.ravel()])
+
+    return refined(values_at, points.shape[:2], tolerance=SMOOTH, progress=progress)
+
+
+def shares_at(
+    robot: Robot,
+    points: Array,
+    turns: Array,
+    within_limits: bool = True,
+    held: Held | None = None,
+    progress: Progress | None = None,
+) -> Array:
+    """Share of the orientations ``turns`` (k, 3, 3) in which points (m, 3) are reached, (m,)."""
+    task, tries = task_of(robot).name, _tries(held)
+    shares, near = np.zeros(len(points)), _within_reach(robot, points)
+    step = max(1, CHUNK // len(turns))
+    for start in range(0, len(near), step):
+        part = near[start : start + step]
+        Ts = pose(turns, points[part, None]).reshape(-1, 4, 4)
+        hit = np.zeros(len(Ts), np.bool_)
         for locked in tries:
             left = np.flatnonzero(~hit)
-            found = robot.ik_batch(
-                part[left], within_limits=within_limits, task=task.name, locked=locked
-            )
+            found = robot.ik_batch(Ts[left], within_limits=within_limits, task=task, locked=locked)
             hit[left] = found.count > 0
-        reached.append(hit.reshape(-1, len(turns)).mean(axis=1))
-    share: Array = np.concatenate(reached)
-    return share.reshape(len(grid.v), len(grid.u))
+        shares[part] = hit.reshape(len(part), -1).mean(axis=1)
+        if progress is not None:
+            progress(start + len(part), len(near))
+    return shares
+
+
+def _tries(held: Held | None) -> list[dict[int | str, float] | None]:
+    """The ways of holding the joint to spare, one after the other."""
+    if held is None:
+        return [None]
+    rows = instance(held, "held", dict).items()
+    values = ((k, finite_array(vs, "held", "numbers").flat) for k, vs in rows)
+    return [{k: v} for k, vs in values for v in vs] or [None]
+
+
+def _within_reach(robot: Robot, points: Array) -> Index:
+    """Indices of the points (m, 3) that the arm's lengths do not rule out."""
+    centre, radius = reach_ball(robot)
+    return np.flatnonzero(np.linalg.norm(points - centre, axis=1) <= radius * (1.0 + 1e-9))
+
+
+def _checked(grid: Section, progress: Progress | None) -> Section:
+    if progress is not None:
+        instance(progress, "progress", Callable)
+    checked: Section = instance(grid, "grid", Section)
+    return checked
 
 
 def held_values(
@@ -105,16 +176,3 @@ def held_values(
     inside = flag(within_limits, "within_limits")
     values = sample_values(robot.chain, solver.joint, count, inside)
     return {solver.joint: values}
-
-
-def _parts(grid: Section, turns: Array, progress: Progress | None) -> Iterator[Array]:
-    """Poses in chunks, each point turned in all ways (k, 3, 3), telling how far it has come."""
-    if progress is not None:
-        instance(progress, "progress", Callable)
-    points, each = instance(grid, "grid", Section).points.reshape(-1, 3), len(turns)
-    step = max(1, CHUNK // each)
-    for start in range(0, len(points), step):
-        part = points[start : start + step, None]
-        yield pose(turns, part).reshape(-1, 4, 4)
-        if progress is not None:
-            progress((start + len(part)) * each, len(points) * each)

@@ -57,6 +57,12 @@ class Section:
         out[..., self.plane.v] = self.v[:, None]
         return out
 
+    def at_places(self, spots: Array) -> Array:
+        """Points in base (m, 3) of places (m, 2) in the plane [m]."""
+        out = np.full((len(spots), 3), self.at)
+        out[:, [self.plane.u, self.plane.v]] = spots
+        return out
+
     @property
     def name(self) -> str:
         """``y = 0``, ``z = 0.2 m``."""
@@ -99,6 +105,23 @@ def _middle(robot: Robot) -> Array:
     q = np.zeros(robot.n)
     q[bounded] = (robot.lower[bounded] + robot.upper[bounded]) / 2
     return q
+
+
+STRAIGHT = 1e-3
+"""Tilt [rad] and distance [sizes] of axis 1 from a plane below which no picture shows them."""
+
+
+def turns_in_plane(robot: Robot, grid: Section, within_limits: bool) -> bool:
+    """Tell whether joint 1 turns all around an axis through the middle of a section, upright in it.
+
+    Then the arm reaches the same on both sides of it.
+    """
+    chain = robot.chain
+    axis, centre = chain.axes[0], reach_ball(robot)[0]
+    in_plane = abs(float(axis[grid.plane.v])) > 1.0 - STRAIGHT**2 / 2
+    through = abs(float(centre[grid.plane.normal]) - grid.at) < STRAIGHT * chain.size
+    free = not within_limits or float(robot.upper[0] - robot.lower[0]) >= 2 * math.pi - 1e-9
+    return not chain.prismatic[0] and in_plane and through and free
 
 
 def reach_ball(robot: Robot) -> tuple[Array, float]:

@@ -80,11 +80,52 @@ def uniform_rotations(count: int) -> Array:
     return quaternion_to_matrix(np.stack([x, y, z, w], axis=-1))
 
 
-def orientations(robot: Robot, task: Task, count: int) -> Array:
-    """Orientations of the tip to try at each point, shape (m, 3, 3)."""
+def rolls_about(robot: Robot, within_limits: bool) -> Array | None:
+    """The axis in the tip's frame about which the last joint turns the tip on the spot, (3,).
+
+    Where it turns all around, a place is reached in all or none of those orientations. None where
+    it does not.
+    """
+    T_joint_tip = robot.chain.links[-1]
+    off = float(np.hypot(*T_joint_tip[:2, 3]))
+    free = not within_limits or float(robot.upper[-1] - robot.lower[-1]) >= 2 * math.pi - 1e-9
+    if robot.chain.prismatic[-1] or off > 1e-9 * robot.chain.size or not free:
+        return None
+    return np.asarray(T_joint_tip[2, :3])
+
+
+def directions(count: int) -> Array:
+    """Unit vectors spread evenly over the sphere (count, 3), along a Fibonacci spiral."""
+    k = np.arange(count) + 0.5
+    z, turn = 1.0 - 2.0 * k / count, k * math.pi * (3.0 - math.sqrt(5.0))
+    r = np.sqrt(1.0 - z * z)
+    return np.stack([r * np.cos(turn), r * np.sin(turn), z], axis=1)
+
+
+def solved(robot: Robot, task: Task, count: int, *, within_limits: bool = True) -> int:
+    """How many of so many orientations have to be solved, see :func:`orientations`."""
+    rolls = task.sides == "rotations" and rolls_about(robot, within_limits) is not None
+    return _pointing(count) if rolls else count
+
+
+def _pointing(count: int) -> int:
+    """Directions among so many rotations, the others being turns about them."""
+    return math.ceil(math.pow(count, 2 / 3))
+
+
+def orientations(robot: Robot, task: Task, count: int, *, within_limits: bool = True) -> Array:
+    """Orientations of the tip to try at each point, shape (m, 3, 3).
+
+    One for each direction where the last joint turns the tip about it: the others of that
+    direction are reached just when it is.
+    """
     at_zero = robot.chain.tool[:3, :3]
     if task.sides == "rotations":
-        return uniform_rotations(count)
+        axis = rolls_about(robot, within_limits)
+        if axis is None:
+            return uniform_rotations(count)
+        pointing = directions(_pointing(count))
+        return np.stack([frame_along(way) for way in pointing]) @ frame_along(axis).T
     if task.sides == "turns":
         axis = np.zeros(3)
         axis[task.axis] = 1.0

@@ -4,21 +4,29 @@ import math
 
 import numpy as np
 import pytest
+from strategies import FACTORY
 
 from dh2urdf import DHRow, DHTable, Robot
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.figures import workspace_figure
+from dh2urdf.figures.workspaces import workspace
+from dh2urdf.figures.workspaces.edges import regions
 from dh2urdf.transforms import pose
 from dh2urdf.workspace import (
     branch_counts,
+    counts_at,
     dexterity,
     held_values,
+    mapped_robot,
+    orientations,
     planar_arm,
     reach_ball,
     section,
+    shares_at,
     task_of,
     uniform_rotations,
 )
+from dh2urdf.workspace.refine import refined
 
 
 def planar(*lengths, **limits):
@@ -178,3 +186,93 @@ def test_seven_joints_are_mapped_with_the_spare_one_held():
         assert share[v, u] == pytest.approx(hits / 12)
     assert share.max() > 0.5
     assert held_values(Robot.from_dh("ur5e")) is None
+
+
+@pytest.mark.parametrize("name", ["puma560", "ur5e"])
+def test_maps_filled_in_between_are_those_of_every_point(name):
+    """Counts differ at almost no point from those worked out there, shares by little."""
+    robot = Robot.from_dh(name)
+    grid, down = section(robot, count=81), np.diag([1.0, -1.0, -1.0])
+    every = counts_at(robot, grid.points.reshape(-1, 3), down).reshape(81, 81)
+    counts = branch_counts(robot, grid, down)
+    assert (counts != every).mean() < 1e-3
+    share = dexterity(robot, grid, 2000)
+    spots = np.random.default_rng(0).integers(0, 81, (2, 300))
+    turns = orientations(robot, task_of(robot), 2000)
+    exact = shares_at(robot, grid.points[tuple(spots)], turns)
+    off = np.abs(share[tuple(spots)] - exact)
+    assert off.mean() < 0.01
+    assert np.quantile(off, 0.99) < 0.04
+
+
+def test_only_points_where_the_map_changes_are_worked_out():
+    """A disc on a fine grid costs a small part of its points, and comes out right at each."""
+    asked = []
+
+    def disc(rows, columns, _):
+        asked.append(len(rows))
+        return 3.0 * (np.hypot(rows - 200.0, columns - 210.0) < 120.0)
+
+    found = refined(disc, (401, 401))
+    assert sum(asked) < 0.13 * 401**2
+    rows, columns = np.indices((401, 401))
+    np.testing.assert_array_equal(found, disc(rows, columns, None))
+
+
+def test_edges_of_a_planar_arm_are_those_of_the_annulus():
+    """Every point of the edge lies on one of the two rims, to a ten-thousandth of the reach."""
+    robot = planar(1.0, 0.7, lower=-math.pi, upper=math.pi)
+    grid = section(robot, "xy", 0.0, 61)
+    counts = branch_counts(robot, grid, np.eye(3), within_limits=False)
+
+    def at(spots):
+        return counts_at(robot, grid.at_places(spots), np.eye(3), within_limits=False)
+
+    ((outer, inner),) = regions(grid.u, grid.v, counts, at, 8)[2]
+    for ring, radius in ((outer, 1.7), (inner, 0.3)):
+        np.testing.assert_allclose(np.hypot(*ring.T), radius, atol=1.7e-4)
+
+
+def test_one_orientation_a_direction_stands_for_all_its_turns():
+    """Where the last joint turns all around, shares are those of uniform rotations."""
+    robot = Robot.from_dh("ur5e")
+    few = orientations(robot, task_of(robot), 2000)
+    assert len(few) < 200
+    grid = np.random.default_rng(3).uniform(-0.9, 0.9, (40, 3))
+    np.testing.assert_allclose(
+        shares_at(robot, grid, few), shares_at(robot, grid, uniform_rotations(2000)), atol=0.03
+    )
+    assert len(orientations(Robot.from_dh("stanford"), task_of(robot), 2000)) == 2000
+
+
+def test_both_maps_follow_the_points_asked_for(monkeypatch):
+    """Points along a side are those of both maps; without them, 2000 orientations at least."""
+    drawn = []
+    monkeypatch.setattr(workspace, "section_picture", lambda *args, **_: drawn.append(args))
+    robot = Robot.from_dh("ur5e")
+    workspace.workspace_figure(robot, points=23, orientations=40)
+    workspace.workspace_figure(robot)
+    (_, counts, shares, _), (_, fine, full, _) = drawn
+    assert len(counts.grid.u) == len(shares.grid.u) == 23
+    assert shares.tried >= 40
+    assert len(fine.grid.u) == len(full.grid.u) > 150
+    assert full.tried >= 2000
+
+
+def test_a_calibrated_arm_is_mapped_on_its_nominal_one():
+    """It has a closed form, is near the arm asked for, and the caption says how near."""
+    robot = Robot.from_dh(FACTORY)
+    nominal, off = mapped_robot(robot)
+    rng = np.random.default_rng(2)
+    Q = rng.uniform(-3.0, 3.0, (200, 6))
+    gap = np.linalg.norm(nominal.fk(Q)[:, :3, 3] - robot.fk(Q)[:, :3, 3], axis=1).max()
+    assert 0.0 < gap < 2.0 * off < 0.004 * robot.chain.size
+    assert nominal.solver.kmax == 8
+    places = rng.uniform(-0.5, 0.5, (20, 3))
+    turns = orientations(robot, task_of(robot), 60)
+    near = shares_at(nominal, places, turns) - shares_at(robot, places, turns)
+    assert np.abs(near).max() < 0.1
+    picture = workspace.workspace_figure(robot, points=15, orientations=10)
+    assert f"nominal arm, up to {1000 * off:.2g} mm off" in picture.texts[0].get_text()
+    ordinary = Robot.from_dh("ur5e")
+    assert mapped_robot(ordinary) == (ordinary, 0.0)

@@ -58,9 +58,10 @@ def workspace_(
     deg
         rpy is in degrees.
     points
-        Points along a side of the map of branches.
+        Points along a side of the maps, worked out where the maps change; default: 161, or less
+        where a point takes long.
     orientations
-        Orientations tried at each point; default: 150.
+        Orientations tried at each point at least; default: 2000, or 5000 where that takes no time.
     limits
         Keep the joint limits.
     """

@@ -1,25 +1,21 @@
 """A section through an arm's reach: how many branches, and from how many sides."""
 
 import textwrap
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from dh2urdf.drawing.arm import arm_points, zero_configuration
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
+from dh2urdf.figures.workspaces.edges import Counts, Regions, Rings
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, pose
 from dh2urdf.workspace import Section, Task, caption, task_of
 
-Counts = NDArray[np.int64]
-
 LEVELS = (0.25, 0.5, 0.75, 0.95)
 """Shares at which white contours are drawn."""
-
-SEEN = 0.02
-"""Least share that has a colour; between the points of the grid the share is interpolated."""
 
 EMPTY = "#f1f2f4"
 """Colour of no solution."""
@@ -31,10 +27,27 @@ GRADUAL = 0.15
 """Share of the places reached from some sides only above which lines are drawn between them."""
 
 
+class Branches(NamedTuple):
+    """Number of solutions at the points of a section, and where there are at least so many."""
+
+    grid: Section
+    values: Counts
+    regions: Regions
+
+
+class Shares(NamedTuple):
+    """Share of orientations at the points of a section, where it is any, and how many are tried."""
+
+    grid: Section
+    values: Array
+    edge: list[Rings]
+    tried: int
+
+
 def section_picture(
     robot: Robot,
-    counts: tuple[Section, Counts] | None,
-    shares: tuple[Section, Array, int] | None,
+    counts: Branches | None,
+    shares: Shares | None,
     R: Array,
     *,
     within_limits: bool = True,
@@ -42,8 +55,8 @@ def section_picture(
 ) -> Picture:
     """Draw the maps of a section side by side.
 
-    ``counts`` are the branches with the tip turned to R (3, 3), ``shares`` those of orientations
-    reached and how many were tried; ``tried`` tells in the caption of a joint to spare.
+    ``counts`` are the branches with the tip turned to R (3, 3); ``tried`` tells in the caption how
+    the maps were made.
     """
     panels = [p for p in (counts, shares) if p is not None]
     with mpl.rc_context(RC):
@@ -53,11 +66,10 @@ def section_picture(
             left = k * width
             axes = figure.add_axes((left + 0.145 * width, 0.15, 0.67 * width, 0.75))
             bar = figure.add_axes((left + 0.835 * width, 0.22, 0.03 * width, 0.61))
-            if panel is counts:
-                _counts(axes, bar, *counts, task_of(robot), R)
+            if isinstance(panel, Branches):
+                _counts(axes, bar, panel, task_of(robot), R)
             else:
-                assert shares is not None
-                _shares(axes, bar, *shares, task_of(robot))
+                _shares(axes, bar, panel, task_of(robot))
             _frame(axes, panel[0], _used(panels))
             if k == 0:
                 _silhouette(axes, robot, panel[0], R, within_limits)
@@ -93,19 +105,30 @@ def _frame(axes: Any, grid: Section, corners: Array) -> None:
     axes.axhline(0.0, color=INK, lw=0.6, ls=":", alpha=0.6)
 
 
-def _counts(axes: Any, bar: Any, grid: Section, counts: Counts, task: Task, R: Array) -> None:
-    """One colour a number of branches, white lines between them."""
-    from matplotlib.colors import BoundaryNorm, ListedColormap
+def _outline(polygons: list[Rings]) -> Any:
+    """Polygons with holes as one path."""
+    from matplotlib.path import Path
 
+    rings = [Path(ring, closed=True) for polygon in polygons for ring in polygon]
+    return Path.make_compound_path(*rings)
+
+
+def _counts(axes: Any, bar: Any, branches: Branches, task: Task, R: Array) -> None:
+    """One colour a number of branches, white lines between them."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    from matplotlib.patches import PathPatch
+
+    counts, regions = branches.values, branches.regions
     numbers = np.unique(np.concatenate([[0], counts.ravel()]))
     blues = mpl.colormaps["Blues"](np.linspace(0.28, 0.92, max(len(numbers) - 1, 1)))
     colours = ListedColormap([EMPTY, *blues[: len(numbers) - 1]])
-    index = np.searchsorted(numbers, counts)
+    style: Any = {"edgecolor": "white", "linewidth": 1.2}
+    for number, colour in zip(numbers[1:].tolist(), blues, strict=False):
+        axes.add_patch(PathPatch(_outline(regions[number]), facecolor=colour, **style))
     norm = BoundaryNorm(np.arange(len(numbers) + 1) - 0.5, len(numbers))
-    mesh = axes.pcolormesh(grid.u, grid.v, index, cmap=colours, norm=norm, rasterized=True)
-    for number in numbers[1:]:
-        axes.contour(grid.u, grid.v, counts >= number, levels=[0.5], colors="white", linewidths=1.2)
-    drawn = _key(mesh, bar, np.arange(len(numbers)), [str(n) for n in numbers])
+    key = ScalarMappable(norm, colours)
+    drawn = _key(key, bar, np.arange(len(numbers)), [str(n) for n in numbers])
     drawn.ax.tick_params(length=0, which="both")
     axes.set_title(f"IK branches, {_turned(task, R)}", weight="bold", size=11, loc="left")
 
@@ -120,20 +143,38 @@ def _turned(task: Task, R: Array) -> str:
     return "tool turned as at q = 0" if task.sides == "turns" else "tool turned as asked"
 
 
-def _shares(axes: Any, bar: Any, grid: Section, share: Array, tried: int, task: Task) -> None:
+def _shares(axes: Any, bar: Any, shares: Shares, task: Task) -> None:
     """Filled contours of the share, white lines at a few of them."""
-    steps = [SEEN, *np.linspace(0.05, 1.0, 20)]
-    filled = axes.contourf(grid.u, grid.v, share, levels=steps, cmap="viridis")
-    filled.set_rasterized(True)
-    reached = share[share > SEEN]
+    grid, share = shares.grid, shares.values
+    field, steps = _carried_on(share), np.linspace(0.0, 1.0, 21)
+    drawn = [axes.contourf(grid.u, grid.v, field, levels=steps, cmap="viridis")]
+    drawn[0].set(edgecolor="face", linewidth=0.3)
+    reached = share[share > 0.0]
     if len(reached) and np.mean(reached < LEVELS[-1]) > GRADUAL:
-        lines = axes.contour(grid.u, grid.v, share, levels=LEVELS, colors="white", linewidths=1.1)
+        lines = axes.contour(grid.u, grid.v, field, levels=LEVELS, colors="white", linewidths=1.1)
         axes.clabel(lines, fmt=lambda level: f"{100 * level:.0f}%", fontsize=8, inline=True)
-    shown = [SEEN, 0.25, 0.5, 0.75, 1.0]
-    drawn = _key(filled, bar, shown, [f"{100 * share:g}" for share in shown])
-    drawn.set_label("orientations reached / %")
+        drawn.append(lines)
+    for part in drawn if shares.edge else ():
+        part.set_clip_path(_outline(shares.edge), axes.transData)
+    key = _key(drawn[0], bar, steps[::5], [f"{100 * share:g}" for share in steps[::5]])
+    key.set_label("orientations reached / %")
     what = "turns" if task.sides == "turns" else "uniform rotations"
-    axes.set_title(f"Dexterity ({tried} {what})", weight="bold", size=11, loc="left")
+    axes.set_title(f"Dexterity ({shares.tried} {what})", weight="bold", size=11, loc="left")
+
+
+def _carried_on(share: Array) -> Array:
+    """The share carried on past its edge, where it would drop to zero between two points."""
+    out = np.where(share > 0.0, share, np.nan)
+    for _ in range(2):
+        wide = np.pad(out, 1, constant_values=np.nan)
+        rows, columns = wide.shape
+        around = np.stack(
+            [wide[i : i + rows - 2, j : j + columns - 2] for i in range(3) for j in range(3)]
+        )
+        known = np.isfinite(around)
+        mean = np.where(known, around, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1)
+        out = np.where(np.isnan(out) & known.any(axis=0), mean, out)
+    return out
 
 
 def _key(drawn: Any, bar: Any, ticks: ArrayLike, names: list[str]) -> Any:

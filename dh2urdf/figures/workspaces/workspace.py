@@ -1,8 +1,10 @@
 """Pictures of what an arm reaches, chosen by its kind."""
 
+import math
 from collections.abc import Callable
 from functools import partial
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf import workspace as reach
@@ -10,16 +12,35 @@ from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
 from dh2urdf.doors import finite_array, integer, number
 from dh2urdf.exceptions import ArgumentError, UnreachedError
 from dh2urdf.figures.style import Picture
+from dh2urdf.figures.workspaces.edges import Counts, above, regions
 from dh2urdf.figures.workspaces.planar_workspace import planar_picture
-from dh2urdf.figures.workspaces.section_workspace import section_picture
+from dh2urdf.figures.workspaces.section_workspace import Branches, Shares, section_picture
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, rpy_to_matrix
+from dh2urdf.workspace import Section
 
-FINE, COARSE = 221, 75
-"""Points along a side of the map of branches and of the map of orientations."""
+FINE, COARSE, COARSEST = 161, 81, 61
+"""Points along a side of a map; where each point has orientations by the thousand; and where the
+arm has no closed form, or a joint to spare."""
 
-TRIED = 150
-"""Orientations tried at each point."""
+TRIED = (2_000, 5_000)
+"""Orientations tried at each point, and where that takes no time."""
+
+QUICK = 400
+"""Poses at a point up to which they take no time with a closed form."""
+
+CLOSED = 8
+"""Most solutions of an arm with a closed form."""
+
+HALVINGS = (6, 1)
+"""How often the way between two points is halved to find the edge of a number of branches, and
+for an arm without a closed form."""
+
+HALVINGS_OF_SHARES = (3, 2)
+"""The same for the edge of what is reached at all, where that takes no time."""
+
+SEEN = 0.01
+"""Elsewhere the share at which that edge is drawn, between the points of the grid."""
 
 
 def workspace_figure(
@@ -48,9 +69,10 @@ def workspace_figure(
     rpy : array_like, shape (3,), optional
         Orientation in which branches are counted [rad]; the tool pointing down.
     points : int, optional
-        Points along a side of the map of branches; the other map has a third of them.
+        Points along a side of the maps, worked out where the maps change; 161, or less where a
+        point takes long.
     orientations : int
-        Orientations tried at each point, 150.
+        Orientations tried at each point at least; 2000, or 5000 where that takes no time.
     within_limits : bool
     progress : callable, optional
         Called with what is computed, the number of poses done, and their total.
@@ -79,27 +101,82 @@ def workspace_figure(
         return planar_picture(robot, flat, within_limits=within_limits)
 
     R = _orientation(robot, task, rpy)
-    counts = shares = None
+    mapped, off = reach.mapped_robot(robot)
     told = [partial(progress, what) if progress else None for what in ("branches", "orientations")]
-    held = reach.held_values(robot, within_limits=within_limits) if robot.n > 6 else None
+    grid = partial(reach.section, robot, plane, at)
+    counts = shares = None
     if robot.n <= 6:
-        grid = reach.section(robot, plane, at, points or FINE)
-        count = reach.branch_counts(robot, grid, R, within_limits=within_limits, progress=told[0])
-        counts = grid, count
-    if task.sides != "none":
-        grid = reach.section(robot, plane, at, max(9, round(points / 3)) if points else COARSE)
-        tries = orientations or TRIED
-        share = reach.dexterity(
-            robot, grid, tries, within_limits=within_limits, held=held, progress=told[1]
+        counts = _branches(
+            mapped,
+            grid(points or (FINE if _is_quick(mapped) else COARSEST)),
+            R,
+            within_limits,
+            told[0],
         )
-        shares = grid, share, tries
+    held = reach.held_values(robot, within_limits=within_limits) if robot.n > 6 else None
+    if task.sides != "none":
+        shares = _shares(mapped, grid, points, orientations, within_limits, held, told[1])
     if not any(panel[1].any() for panel in (counts, shares) if panel):
         name = f"{robot.tip} of {robot.model.name}"
-        raise UnreachedError(f"the section {grid.name} misses everything that {name} reaches")
+        raise UnreachedError(f"the section {grid(2).name} misses everything that {name} reaches")
     tried = [f"{robot.joint_names[k]} held at {len(v)} values" for k, v in (held or {}).items()]
+    if off:
+        tried.append(f"mapped on its nominal arm, up to {1000 * off:.2g} mm off")
     return section_picture(
-        robot, counts, shares, R, within_limits=within_limits, tried=", ".join(tried)
+        robot, counts, shares, R, within_limits=within_limits, tried="; ".join(tried)
     )
+
+
+def _is_quick(robot: Robot, poses: int = 1) -> bool:
+    """Tell whether so many poses at each point of a map take no time."""
+    return robot.n <= 6 and poses <= QUICK and robot.solver.kmax <= CLOSED
+
+
+def _branches(
+    robot: Robot, grid: Section, R: Array, within_limits: bool, progress: reach.Progress | None
+) -> Branches:
+    """The map of branches, and its regions with their edges found between the points."""
+    counts = reach.branch_counts(robot, grid, R, within_limits=within_limits, progress=progress)
+
+    def counts_at(spots: Array) -> Counts:
+        return reach.counts_at(robot, grid.at_places(spots), R, within_limits)
+
+    halvings = HALVINGS[0 if _is_quick(robot) else 1]
+    return Branches(grid, counts, regions(grid.u, grid.v, counts, counts_at, halvings))
+
+
+def _shares(
+    robot: Robot,
+    grid: Callable[[int], Section],
+    points: int | None,
+    orientations: int | None,
+    within_limits: bool,
+    held: dict[int, Array] | None,
+    progress: reach.Progress | None,
+) -> Shares:
+    """The map of orientations, and the region in which any is reached."""
+    task, limits = reach.task_of(robot), {"within_limits": within_limits}
+    sides = next(
+        n
+        for n in (orientations, TRIED[1], TRIED[0])
+        if n and (n != TRIED[1] or _is_quick(robot, reach.solved(robot, task, n, **limits)))
+    )
+    each = reach.solved(robot, task, sides, **limits)
+    side = FINE if _is_quick(robot, each) else COARSE if _is_quick(robot) else COARSEST
+    section = grid(points or side)
+    share = reach.dexterity(robot, section, sides, held=held, progress=progress, **limits)
+    turns = reach.orientations(robot, task, sides, **limits)
+
+    def reached_at(spots: Array) -> Counts:
+        found = reach.shares_at(robot, section.at_places(spots), turns, within_limits, held)
+        return (found > 0.0).astype(np.int64)
+
+    if each <= QUICK:
+        any_, halvings = (share > 0.0).astype(np.int64), HALVINGS_OF_SHARES[side < FINE]
+        edge = regions(section.u, section.v, any_, reached_at, halvings).get(1, [])
+    else:
+        edge = above(section.u, section.v, share, SEEN)
+    return Shares(section, share, edge, each * math.ceil(sides / each))
 
 
 def _orientation(robot: Robot, task: reach.Task, rpy: ArrayLike | None) -> Array:

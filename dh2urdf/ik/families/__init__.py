@@ -6,6 +6,7 @@ that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `n
 """
 
 from dh2urdf.ik.families.general_6r import General6R
+from dh2urdf.ik.families.near_family import NearFamily
 from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
 from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
 from dh2urdf.ik.families.short import search_short
