@@ -214,6 +214,7 @@ ALONE: dict[str, dict[str, str]] = {
         "task=position": "rpy",
     },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
+    "workspace": {"envelope": "plane at rpy points orientations"},
     "check": {"fix": "run"},
     "extract": {**_FORMS, "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},

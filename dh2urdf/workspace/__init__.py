@@ -4,6 +4,7 @@ Reach is decided by inverse kinematics at every point of a grid, never by the de
 configurations, which says where an arm lingers, not what it reaches.
 """
 
+from dh2urdf.workspace.envelope import Envelope, envelope
 from dh2urdf.workspace.maps import branch_counts, counts_at, dexterity, held_values, shares_at
 from dh2urdf.workspace.nominal import mapped_robot
 from dh2urdf.workspace.planar import PlanarArm, planar_arm

@@ -173,6 +173,8 @@ USAGE = [
     (["workspace", "ur5", "-o", "x.png", "--deg"], "--rpy"),
     (["workspace", "planar_rr", "-o", "x.png", "--orientations", "9"], "orientations"),
     (["workspace", "franka_fer", "-o", "x.png", "--rpy", "0", "0", "0"], "rpy"),
+    (["workspace", "ur5", "-o", "x.png", "--envelope", "--plane", "xz"], "--plane"),
+    (["figure", "planar_rr", "-o", "x.png", "--task", "position"], "--branches"),
     (["view", "--tip", "x"], "ROBOT"),
     (["extract", "x.urdf", "--force"], "--output"),
     (["fk", "planar_rr", "0", "--q", "0"], "--q"),
@@ -189,6 +191,13 @@ def test_bad_usage_and_options_that_do_nothing_together_are_refused(argv, word):
     assert not out or "--json" in argv
     assert word in err
     assert "Traceback" not in err
+
+
+def test_a_plane_that_meets_a_planar_arm_in_a_line_is_status_1():
+    """It is said which plane the arm moves in, and no picture of a line is written."""
+    status, out, err, left = call("workspace", "planar_rr", "-o", "x.png", "--plane", "xz")
+    assert (status, out, left) == (1, "", [])
+    assert "moves in a plane xy: the plane xz meets it in a line only" in err
 
 
 def test_a_section_beside_the_workspace_is_status_1():

@@ -35,6 +35,7 @@ def workspace_(
     points: Annotated[int | None, whole(*POINTS)] = None,
     orientations: Annotated[int | None, whole(1, ORIENTATIONS)] = None,
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
+    envelope: bool = False,
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
@@ -64,6 +65,8 @@ def workspace_(
         Orientations tried at each point at least; default: 2000, or 5000 where that takes no time.
     limits
         Keep the joint limits.
+    envelope
+        Draw the boundary of all that is reached, in the round, a quarter of it cut out.
     """
     from dh2urdf.figures import save_picture, workspace_figure
     from dh2urdf.figures.save import check_target
@@ -79,6 +82,7 @@ def workspace_(
             points=points,
             orientations=orientations,
             within_limits=limits,
+            envelope=envelope,
             progress=lambda _, done, total: report(done, total),
         )
     path = save_picture(picture, output, dpi=dpi, force=force)

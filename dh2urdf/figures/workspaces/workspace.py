@@ -9,10 +9,11 @@ from numpy.typing import ArrayLike
 
 from dh2urdf import workspace as reach
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.doors import finite_array, integer, number
+from dh2urdf.doors import finite_array, flag, integer, number
 from dh2urdf.exceptions import ArgumentError, UnreachedError
 from dh2urdf.figures.style import Picture
 from dh2urdf.figures.workspaces.edges import Counts, above, regions
+from dh2urdf.figures.workspaces.envelope_workspace import EYE, envelope_picture
 from dh2urdf.figures.workspaces.planar_workspace import planar_picture
 from dh2urdf.figures.workspaces.section_workspace import Branches, Shares, section_picture
 from dh2urdf.robot import Robot
@@ -25,6 +26,9 @@ arm has no closed form, or a joint to spare."""
 
 TRIED = (2_000, 5_000)
 """Orientations tried at each point, and where that takes no time."""
+
+TURNED = 360
+"""Turns tried at each point of a planar or SCARA arm, a degree apart."""
 
 QUICK = 400
 """Poses at a point up to which they take no time with a closed form."""
@@ -52,6 +56,7 @@ def workspace_figure(
     points: int | None = None,
     orientations: int | None = None,
     within_limits: bool = True,
+    envelope: bool = False,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Picture:
     """Draw what an arm reaches.
@@ -74,6 +79,8 @@ def workspace_figure(
     orientations : int
         Orientations tried at each point at least; 2000, or 5000 where that takes no time.
     within_limits : bool
+    envelope : bool
+        Draw the boundary of all that is reached, in the round, instead.
     progress : callable, optional
         Called with what is computed, the number of poses done, and their total.
 
@@ -85,7 +92,7 @@ def workspace_figure(
     ------
     NoSolverError, ArgumentError
     UnreachedError
-        The section misses everything that the arm reaches.
+        The section misses everything that the arm reaches, or meets a planar arm in a line.
     """
     if at is not None:
         number(at, "at", -LENGTH, LENGTH, unit="m")
@@ -93,6 +100,9 @@ def workspace_figure(
         integer(points, "points", *POINTS)
     if orientations is not None:
         integer(orientations, "orientations", 1, ORIENTATIONS)
+    if flag(envelope, "envelope"):
+        _alone(plane=plane or None, at=at, rpy=rpy, points=points, orientations=orientations)
+        return _envelope(robot, within_limits, progress)
     task = reach.task_of(robot)
     if orientations is not None and task.sides == "none":
         raise ArgumentError(f"orientations: they change nothing for {robot.model.name}")
@@ -100,6 +110,7 @@ def workspace_figure(
     if flat is not None and not plane and rpy is at is points is None:
         return planar_picture(robot, flat, within_limits=within_limits)
 
+    _check_plane(robot, plane)
     R = _orientation(robot, task, rpy)
     mapped, off = reach.mapped_robot(robot)
     told = [partial(progress, what) if progress else None for what in ("branches", "orientations")]
@@ -127,6 +138,38 @@ def workspace_figure(
     )
 
 
+def _alone(**options: object) -> None:
+    """Refuse what says nothing beside an envelope."""
+    for name, value in options.items():
+        if value is not None:
+            raise ArgumentError(f"{name}: it changes nothing beside envelope")
+
+
+def _envelope(
+    robot: Robot, within_limits: bool, progress: Callable[[str, int, int], None] | None
+) -> Picture:
+    """The boundary of all that is reached."""
+    mapped, off = reach.mapped_robot(robot)
+    held = reach.held_values(robot, within_limits=within_limits) if robot.n > 6 else None
+    told = partial(progress, "envelope") if progress else None
+    towards = math.radians(EYE.azimuth)
+    found = reach.envelope(mapped, towards, within_limits=within_limits, held=held, progress=told)
+    if not len(found.quads):
+        raise UnreachedError(f"no place is reached by {robot.tip} of {robot.model.name}")
+    tried = ["" if not off else f"mapped on its nominal arm, up to {1000 * off:.2g} mm off"]
+    return envelope_picture(robot, found, within_limits=within_limits, tried=tried[0])
+
+
+def _check_plane(robot: Robot, plane: str) -> None:
+    """Refuse a plane that a planar arm can meet in a line only."""
+    axis, flat = reach.common_axis(robot)
+    if plane in reach.PLANES and flat and axis is not None and reach.PLANES[plane].normal != axis:
+        own = next(name for name, each in reach.PLANES.items() if each.normal == axis)
+        raise UnreachedError(
+            f"{robot.model.name} moves in a plane {own}: the plane {plane} meets it in a line only"
+        )
+
+
 def _is_quick(robot: Robot, poses: int = 1) -> bool:
     """Tell whether so many poses at each point of a map take no time."""
     return robot.n <= 6 and poses <= QUICK and robot.solver.kmax <= CLOSED
@@ -145,6 +188,14 @@ def _branches(
     return Branches(grid, counts, regions(grid.u, grid.v, counts, counts_at, halvings))
 
 
+def _sides(robot: Robot, task: reach.Task, within_limits: bool) -> int:
+    """Orientations tried where none are asked for."""
+    if task.sides == "turns":
+        return TURNED
+    poses = reach.solved(robot, task, TRIED[1], within_limits=within_limits)
+    return TRIED[1 if _is_quick(robot, poses) else 0]
+
+
 def _shares(
     robot: Robot,
     grid: Callable[[int], Section],
@@ -156,11 +207,7 @@ def _shares(
 ) -> Shares:
     """The map of orientations, and the region in which any is reached."""
     task, limits = reach.task_of(robot), {"within_limits": within_limits}
-    sides = next(
-        n
-        for n in (orientations, TRIED[1], TRIED[0])
-        if n and (n != TRIED[1] or _is_quick(robot, reach.solved(robot, task, n, **limits)))
-    )
+    sides = orientations or _sides(robot, task, within_limits)
     each = reach.solved(robot, task, sides, **limits)
     side = FINE if _is_quick(robot, each) else COARSE if _is_quick(robot) else COARSEST
     section = grid(points or side)
