@@ -109,9 +109,13 @@ def _piped() -> str:
 def _table_of_text(text: str, told: Told) -> TableFile:
     """The table of a text in any format, also one that a URDF carries."""
     from dh2urdf.dh_io import parse_table
+    from dh2urdf.dh_io.forms import CONF_SIGN, read_conf_text, refuse_model
     from dh2urdf.dh_io.read import format_of_text
     from dh2urdf.dh_io.xml import embedded_table
 
+    if CONF_SIGN.search(text) and len(text) <= TABLE_BYTES:
+        return TableFile(*read_conf_text(text, "<stdin>", told, "calibration"))
+    refuse_model(told, "<stdin>")
     if text.lstrip().startswith("<"):
         return TableFile(embedded_table(io.BytesIO(text.encode())), ())
     if len(text) > TABLE_BYTES:

@@ -3,6 +3,7 @@
 The room that reads them assigns frames and stands above this one, so it is asked for by name.
 """
 
+import re
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -13,7 +14,7 @@ from dh2urdf.dh_io.cells.document import Keys, Node, Report
 from dh2urdf.dh_io.cells.told import Told
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.dh_io.formats.yaml import plain_values
-from dh2urdf.exceptions import TableError, TableFileError, UrdfError
+from dh2urdf.exceptions import ArgumentError, TableError, TableFileError, UrdfError
 
 ROOM = "dh2urdf.conversions.forms"
 
@@ -29,6 +30,9 @@ READERS = {
 
 CONF = ".conf"
 """Suffix of UR's calibration.conf."""
+
+CONF_SIGN = re.compile(r"^\s*delta_theta\s*=\s*\[", re.MULTILINE)
+"""By which its text is known."""
 
 Read = tuple[DHTable, tuple[str, ...]]
 
@@ -46,8 +50,20 @@ def other_form(root: Node, report: Report, name: str, told: Told) -> Read | None
 
 def read_conf_file(path: Path, told: Told) -> Read:
     """The table of a calibration.conf."""
-    text = read_text(path, TABLE_BYTES, TableFileError)
-    return _asked("read_conf", shown(path), told, text, path.stem, told.model)
+    return read_conf_text(
+        read_text(path, TABLE_BYTES, TableFileError), shown(path), told, path.stem
+    )
+
+
+def read_conf_text(text: str, filename: str, told: Told, name: str) -> Read:
+    """The table of the text of a calibration.conf."""
+    return _asked("read_conf", filename, told, text, name, told.model)
+
+
+def refuse_model(told: Told, filename: str) -> None:
+    """Refuse a model for anything but a calibration.conf."""
+    if told.model is not None:
+        raise ArgumentError(f"model: only a calibration.conf needs it, not {filename}")
 
 
 def _asked(reader: str, filename: str, told: Told, *given: Any) -> Read:

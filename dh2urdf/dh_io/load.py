@@ -10,10 +10,10 @@ from dh2urdf.dh_io.cells.told import NOTHING, Told, told
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.dh_io.formats.frame import is_frame, read_frame
-from dh2urdf.dh_io.forms import CONF, read_conf_file
+from dh2urdf.dh_io.forms import CONF, read_conf_file, refuse_model
 from dh2urdf.dh_io.names import FOLDER, list_tables, near_names, shipped_name
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
-from dh2urdf.exceptions import ArgumentError, NameNotFoundError
+from dh2urdf.exceptions import NameNotFoundError
 
 TableLike = DHTable | str | os.PathLike[str]
 
@@ -66,8 +66,7 @@ def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> Table
     where = path_of(path, "table", "a DHTable, a path or the name of a table that ships")
     if where.suffix.lower() == CONF:
         return TableFile(*read_conf_file(where, told))
-    if told.model is not None:
-        raise ArgumentError(f"model: only a calibration.conf needs it, not {shown(where)}")
+    refuse_model(told, shown(where))
     if where.suffix.lower() == ".urdf":
         from dh2urdf.dh_io.xml import embedded_table
 

@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 from dh2urdf import Robot, SerialChain
 from dh2urdf.chain.ortho_parallel import NotOrthoParallelError, OrthoParallel
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.problem.words import AbbWord, FanucWord, KukaWord, controller_words
+from dh2urdf.ik.problem.words import (
+    MAKERS,
+    AbbWord,
+    FanucWord,
+    KukaWord,
+    _posture,
+    controller_words,
+)
 
 H = math.pi / 2
 NONE = np.full(6, math.inf)
@@ -181,6 +188,21 @@ def test_words_do_not_depend_on_zeros_directions_and_ends_of_the_model(maker, se
     axes = (other.fk(turned[0])[:3, 2], own.fk(q[0])[:3, 2])
     np.testing.assert_allclose(*axes, atol=1e-12)
     assert controller_words(other, turned, maker) == controller_words(own, q, maker)
+
+
+@pytest.mark.parametrize(
+    ("name", "maker"),
+    [
+        *((f"kuka_{name}", "kuka") for name in ("kr5_arc", "kr6_r700", "kr16_2")),
+        *((f"abb_{name}", "abb") for name in ("irb120", "irb140", "irb140_modified")),
+        ("fanuc_lrmate200id", "fanuc"),
+    ],
+)
+def test_shipped_tables_of_a_maker_have_the_angles_of_its_controller(name, maker):
+    """q is what the display shows, turns and all, but for FANUC's J3."""
+    arm = OrthoParallel.of_chain(Robot.from_dh(name).chain)
+    for q in np.random.default_rng(0).uniform(-9, 9, (5, 6)):
+        np.testing.assert_allclose(_posture(arm, q, MAKERS[maker]).angles, q, atol=1e-14)
 
 
 def test_rounding_at_zero_does_not_turn_a_word():

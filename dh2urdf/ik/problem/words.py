@@ -10,21 +10,22 @@ forearm to the level, not to the upper arm.
 KUKA
     Zero stretched out level, A1 and A6 clockwise. S, bit 0: the wrist centre is behind axis 1
     (overhead area); bit 1: A3 at or beyond the angle where the arm is stretched, 0 if axes 3 and 4
-    meet; bit 2: A5 < 0. T, bits 0 to 5: A1 < 0 to A6 < 0. (Siemens, *SINUMERIK ONE NC programming*,
-    6FC5398-2EP40-0BA0, 12/2019, pages 710 and 713, of KUKA's S and T; A1's frame of KUKA's expert
-    programming manual. Some KUKA manuals print bit 2 the other way round; points that were taught
-    have A5 < 0.)
+    meet; bit 2: A5 < 0. T, bits 0 to 5: A1 < 0 to A6 < 0. (KUKA's expert programming manual,
+    "Status and Turn"; the same words are STAT and TU of Siemens, *SINUMERIK ONE NC programming*,
+    6FC5398-2EP40-0BA0, 12/2019, pages 710 and 713. Some KUKA manuals print bit 2 the other way
+    round; points that were taught have A5 < 0.)
 ABB
     Zero with the upper arm upright and the forearm level. cf1, cf4, cf6: quarter turns of axes 1, 4
     and 6, 0 from 0 to 90 degrees, -1 from -90 to 0. cfx, bit 2: the wrist centre is behind axis 1;
     bit 1: behind the lower arm, beyond the angle where the arm is stretched; bit 0: axis 5
-    negative. (*Technical reference manual: RAPID Instructions, Functions and Data types*,
-    confdata.) Arms with a parallel rod take no notice of cfx.
+    negative. (*RAPID reference manual part 2, Functions and data types A-Z*, 3HAC16581-1 rev. B,
+    confdata; tested on answers of RobotStudio.) Arms with a parallel rod take no notice of cfx.
 FANUC
     Zero as ABB's. F (flip) for J5 > 0, else N; U (up) or D for the elbow, where the arm is
     stretched between them; T (front) or B (back) for the wrist centre; then full turns of J1, J4
     and J6: 0 below 180 degrees, 1 from 180 to 539, -1 from -180 to -539. (*HandlingTool Operator's
-    Manual*, position data: configuration.)
+    Manual*, position data: configuration; tested on answers of ROBOGUIDE for an arm with these
+    three turn numbers, which a controller may assign to other axes.)
 """
 
 from collections.abc import Callable

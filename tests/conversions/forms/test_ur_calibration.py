@@ -3,6 +3,7 @@
 The referee is the DH product of elementary matrices, with the nominal numbers typed here.
 """
 
+import io
 import json
 import math
 
@@ -207,6 +208,22 @@ def test_extract_assigns_frames_near_the_arm(run, tmp_path, name):
         np.testing.assert_allclose(
             Robot.from_dh(table).fk(draws()), poses(p, draws()), atol=1e-11, rtol=0
         )
+
+
+@pytest.mark.parametrize(
+    "text", [conf(MEASURED[0], "model = ur10"), json.dumps(kinematics(parameters(MEASURED[0])))]
+)
+def test_calibrations_come_on_stdin_too(run, monkeypatch, text):
+    """Both files in a pipe; a model for the one that has its own lengths is refused."""
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(text.encode())))
+    status, out, _ = run("fk", "-", *"000000", "--json")
+    T = poses(parameters(MEASURED[0]), np.zeros((1, 6)))[0]
+    assert status == 0
+    np.testing.assert_allclose(json.loads(out)["T_base_tip"], T, atol=1e-12)
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(text.encode())))
+    status, _, err = run("fk", "-", *"000000", "--model", "ur10")
+    told = "model: only a calibration.conf needs it, not <stdin>"
+    assert (status, told in err) == ((2, True) if text.startswith("{") else (0, False))
 
 
 def test_the_model_is_asked_for_where_more_than_one_fits(refused, tmp_path):
