@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.forms import kdl, opw, screws
 from dh2urdf.conversions.forms.kdl import read_kdl
-from dh2urdf.conversions.forms.opw import read_opw
+from dh2urdf.conversions.forms.opw import OPW_KEYS, read_opw
 from dh2urdf.conversions.forms.parts import form_text
 from dh2urdf.conversions.forms.screws import read_axes_form, screw_axes
 from dh2urdf.conversions.forms.ur_calibration import read_conf, read_kinematics

@@ -31,6 +31,7 @@ from dh2urdf.exceptions import TableError
 LENGTHS = "opw_kinematics_geometric_parameters"
 OFFSETS = "opw_kinematics_joint_offsets"
 SIGNS = "opw_kinematics_joint_sign_corrections"
+OPW_KEYS = (LENGTHS, OFFSETS, SIGNS)
 OTHERS = ("name", "joint_names", "lower", "upper", "base", "tool", "dof")
 
 HEAD = """\
@@ -64,7 +65,7 @@ def read_opw(content: Mapping[str, Any], name: str) -> Read:
     ------
     TableError
     """
-    check_keys(content, (LENGTHS, OFFSETS, SIGNS, *OTHERS))
+    check_keys(content, (*OPW_KEYS, *OTHERS))
     given = mapping(content[LENGTHS], LENGTHS, LETTERS)
     lengths = {key: number(given.get(key), f"{LENGTHS}.{key}", Kind.LENGTH) for key in LETTERS}
     offsets = numbers(content.get(OFFSETS, [0] * 6), OFFSETS, Kind.ANGLE, 6)

@@ -17,7 +17,7 @@ from scipy.spatial.transform import RigidTransform, Rotation
 from dh2urdf import Robot, SerialChain, list_tables, load_table
 from dh2urdf.chain.ortho_parallel import LETTERS, NotOrthoParallelError, OrthoParallel
 from dh2urdf.dh_io import parse_table
-from dh2urdf.exceptions import TableFileError, UrdfError
+from dh2urdf.exceptions import ArgumentError, TableError, TableFileError, UrdfError
 
 ARMS = {name: Robot.from_dh(name) for name in list_tables()}
 FORMS = ("opw", "screws", "kdl")
@@ -82,6 +82,27 @@ def test_py_opw_kinematics_has_the_same_arm(name):
         ours = arm.ik(T, within_limits=False).q
         for found in theirs.inverse(RigidTransform.from_matrix(T)):
             assert np.abs(np.exp(1j * ours) - np.exp(1j * np.array(found))).max(axis=1).min() < 1e-7
+
+
+def test_robots_are_made_of_numbers():
+    """OPW parameters of a KR 6 R700 as opw_kinematics' examples have them; screws of any arm."""
+    quarter, shipped = math.pi / 2, ARMS["kuka_kr6_r700"]
+    lengths = {"a1": 0.025, "a2": -0.035, "b": 0, "c1": 0.4, "c2": 0.315, "c3": 0.365, "c4": 0.08}
+    signs = np.array([-1, 1, 1, -1, 1, -1])
+    arm = Robot.from_opw(**lengths, offsets=(0, -quarter, 0, 0, 0, 0), signs=signs, name="kr6")
+    np.testing.assert_allclose(arm.fk(draws(shipped)), shipped.fk(draws(shipped)), atol=1e-15)
+    assert (arm.table.name, arm.joint_names[0]) == ("kr6", "joint_1")
+    for name in ("xarm7", "stanford"):
+        again = Robot.from_screws(*ARMS[name].screw_axes(), names=ARMS[name].joint_names)
+        q = draws(ARMS[name])
+        np.testing.assert_allclose(again.fk(q), ARMS[name].fk(q), atol=2e-15)
+        assert again.joint_names == ARMS[name].joint_names
+    with pytest.raises(TableError, match="expected 1 or -1 for each joint"):
+        Robot.from_opw(**lengths, signs=signs * 0.5)
+    with pytest.raises(ArgumentError, match="a1: expected a number"):
+        Robot.from_opw(**lengths | {"a1": "x"})
+    with pytest.raises(UrdfError, match="joint axes of shape"):
+        Robot.from_screws(np.zeros((6, 5)), np.eye(4))
 
 
 @pytest.mark.parametrize("name", ["puma560", "ur5", "stanford", "kuka_iiwa14", "omron_cobra600"])
@@ -157,12 +178,6 @@ opw_kinematics_joint_sign_corrections: [1, 1, -1, -1, -1, -1]
     assert [getattr(p, key) for key in LETTERS] == pytest.approx(
         [0.05, -0.035, 0, 0.33, 0.33, 0.335, 0.08], abs=1e-15
     )
-
-
-def turned(links, k, T):
-    out = links.copy()
-    out[k] = out[k] @ T
-    return out
 
 
 @given(
