@@ -1,6 +1,7 @@
 """``python -m benchmarks.one_call``: what one call costs, and what comes before the first answer.
 
-Of each arm, medians over interleaved rounds: ``robot.ik(T)`` within the limits, ``robot.fk(q)`` and
+Of each arm, medians over interleaved rounds: ``robot.ik(T)`` within the limits, the same with a
+seed, or with a joint of an arm of seven held (``franka_fer:6``), ``robot.fk(q)`` and
 ``robot.jacobian(q)`` in this process; and over processes of their own, the time to import the
 package, build the robot and solve the first pose, and that of ``dh2urdf ik`` as a whole.
 """
@@ -9,6 +10,7 @@ import argparse
 import subprocess
 import sys
 import time
+from functools import partial
 
 import numpy as np
 
@@ -17,7 +19,7 @@ from benchmarks.compare import table
 from dh2urdf import Robot
 
 ARMS = ("puma560", "denso_vs060", "stanford", "kuka_kr6_r700", "ur5", "ur10e", "planar_rr")
-ARMS += ("omron_cobra600", "fanuc_crx10ia")
+ARMS += ("omron_cobra600", "fanuc_crx10ia", "franka_fer:6", "kuka_iiwa7:2")
 
 FIRST = """
 import sys, time
@@ -41,22 +43,30 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=5)
     given = parser.parse_args()
     blocks: dict[str, Block] = {}
-    for name in given.arms:
+    for arm in given.arms:
+        name, _, held = arm.partition(":")
         robot, rng = Robot.from_dh(name), np.random.default_rng(0)
         lower, upper = np.maximum(robot.lower, -np.pi), np.minimum(robot.upper, np.pi)
         q = rng.uniform(lower, upper, (200, robot.n))
-        robot.ik(robot.fk(q[0]))  # which builds the solver
-        blocks[f"{name} ik"] = each(robot.ik, robot.fk(q))
-        blocks[f"{name} fk"] = each(robot.fk, q)
-        blocks[f"{name} jacobian"] = each(robot.jacobian, q)
+        locked = None
+        if held:
+            q[:, int(held)], locked = 0.3, {int(held): 0.3}
+        solve = partial(robot.ik, locked=locked)
+        solve(robot.fk(q[0]))  # which builds the solver
+        blocks[f"{arm} ik"] = each(solve, robot.fk(q))
+        blocks[f"{arm} seeded"] = each(partial(solve, seed=q[0]), robot.fk(q))
+        blocks[f"{arm} fk"] = each(robot.fk, q)
+        blocks[f"{arm} jacobian"] = each(robot.jacobian, q)
     found = interleaved(blocks, given.seconds, most=400)
     rows = []
-    for name in given.arms:
-        calls = [f"{1e6 * found[f'{name} {what}'].median:.2f}" for what in ("ik", "fk", "jacobian")]
+    for arm in given.arms:
+        name, asked = arm.partition(":")[0], ("ik", "seeded", "fk", "jacobian")
+        calls = [f"{1e6 * found[f'{arm} {what}'].median:.2f}" for what in asked]
         first = [_first(name) for _ in range(given.processes)]
         whole = [_whole(name) for _ in range(given.processes)]
-        rows.append([name, *calls, *(f"{np.median(t):.2f}" for t in (first, whole))])
-    head = ["arm", "ik, us", "fk, us", "jacobian, us", "first ik in Python, s", "dh2urdf ik, s"]
+        rows.append([arm, *calls, *(f"{np.median(t):.2f}" for t in (first, whole))])
+    head = ["arm", "ik, us", "with a seed, us", "fk, us", "jacobian, us"]
+    head += ["first ik in Python, s", "dh2urdf ik, s"]
     print(table(head, rows))
 
 

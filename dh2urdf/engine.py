@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 Kernel = Callable[..., Any]
-AtOnce = Callable[[Any], bytes | None]
+AtOnce = Callable[..., bytes | None]
 
 Step = tuple[Kernel, tuple[Any, ...], bool]
 """An entry, its arguments, and what it has to answer: nothing and zero are false."""
@@ -96,19 +96,20 @@ def entry(**lengths: int) -> Callable[[Kernel], Kernel]:
     return mark
 
 
-def at_once(memory: Any, *steps: Step) -> AtOnce:
+def at_once(memory: Any, *steps: Step, more: Any = None) -> AtOnce:
     """The function of a pose (4, 4) that calls entries one after the other.
 
     It copies the pose to the beginning of ``memory``, of which all arrays that change are a part,
-    and answers a copy of the memory. It answers None where a step does not answer what it has to,
-    where the pose is no usual array, and if a kernel is interpreted.
+    and answers a copy of the memory. With an array ``more`` (k,) it takes k numbers after the pose
+    that it copies there. It answers None where a step does not answer what it has to, where the
+    pose or the numbers are no usual arrays, and if a kernel is interpreted.
     """
     if any(getattr(_COMPILED, step[0].__name__, None) is not step[0] for step in steps):
         return nothing_at_once
     named = tuple((kernel.__name__, *rest) for kernel, *rest in steps)
-    function: AtOnce = _COMPILED.at_once(memory, named)
+    function: AtOnce = _COMPILED.at_once(memory, more, named)
     return function
 
 
-def nothing_at_once(T: Any) -> None:
+def nothing_at_once(*given: Any) -> None:
     """What calls nothing."""

@@ -31,6 +31,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.problem import (
     ForwardKinematics,
+    HeldCalls,
     IKBatch,
     IKPath,
     IKSolutions,
@@ -39,8 +40,10 @@ from dh2urdf.ik.problem import (
     Progress,
     ScaledProblem,
     SweptProblem,
+    call_of,
     find_path,
     held_values,
+    seeded_call_of,
 )
 from dh2urdf.ik.redundant import SweptJoint, at_any_value, select_held
 from dh2urdf.transforms import Array
@@ -64,7 +67,8 @@ class InverseKinematics:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
-        self._at_once: tuple[AtOnce, AtOnce] = nothing_at_once, nothing_at_once
+        self._at_once: tuple[AtOnce, ...] = (nothing_at_once,) * 4
+        self._held = HeldCalls()
 
     def __getstate__(self) -> dict[str, Any]:
         return InverseKinematics(self.chain, self.referee).__dict__
@@ -86,18 +90,16 @@ class InverseKinematics:
     ) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         task, locked, within_limits, samples, nearest = asked
-        plain = task is FULL_POSE and locked is None and samples is None
-        unseeded = seed is None and tolerance is None
-        usual = plain and unseeded and nearest is False and turns is NEAREST
+        plain = task is FULL_POSE and samples is None and tolerance is None
+        usual = plain and nearest is False and turns is NEAREST
         if usual and (within_limits is True or within_limits is False):
-            memory = self._at_once[within_limits](T)
-            if memory is not None:
-                assert self._plain
-                return IKSolutions(self._plain, memory)
+            answer = self._in_one_call(T, seed, locked, within_limits)
+            if answer is not None:
+                return answer
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside, samples)
-        if plain and self._plain is None:
-            self._plain, self._at_once = problem, (problem.at_once(False), problem.at_once(True))
+        if usual:
+            self._learn(problem, locked, inside)
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
         if most is not None and goal is None:
@@ -117,6 +119,28 @@ class InverseKinematics:
         if change:
             found.pose_change = change
         return found
+
+    def _in_one_call(
+        self, T: ArrayLike, seed: ArrayLike | None, locked: Locked | None, within_limits: bool
+    ) -> IKSolutions | None:
+        """The answer if all is of the usual kind and there is a function for it."""
+        memory, problem = None, self._plain
+        if locked is None and seed is None:
+            memory = self._at_once[within_limits](T)
+        elif locked is None:
+            memory = self._at_once[2 + within_limits](T, seed)
+        elif seed is None and (held := self._held.answer(T, locked, within_limits)):
+            problem, memory = held
+        return None if memory is None or problem is None else IKSolutions(problem, memory)
+
+    def _learn(self, problem: Problem, locked: Locked | None, within_limits: bool) -> None:
+        """Make functions that answer in one call what was asked."""
+        if locked is not None:
+            self._held.learn(problem, locked, within_limits)
+        elif self._plain is None:
+            both = False, True
+            calls = [make(problem, limits) for make in (call_of, seeded_call_of) for limits in both]
+            self._plain, self._at_once = problem, tuple(calls)
 
     def solve_batch(
         self,

@@ -9,9 +9,9 @@ typedef struct {
 } Step;
 
 /* The steps, and the memory that they share, of which the pose is the beginning and a copy the
- * answer. */
+ * answer; the array to which numbers go that are given with the pose. */
 typedef struct {
-    PyObject *kept, *memory;
+    PyObject *kept, *memory, *more;
     Py_ssize_t count;
     Step *steps;
 } Steps;
@@ -45,12 +45,48 @@ static int copy_pose(PyObject *T, char *to)
     return 1;
 }
 
+/* Copy a number, or an array or list of as many as there is room for, of the usual kinds. */
+static int copy_numbers(PyObject *given, PyArrayObject *room)
+{
+    double *to = PyArray_DATA(room);
+    const npy_intp count = PyArray_SIZE(room);
+    if (PyFloat_CheckExact(given)) {
+        *to = PyFloat_AsDouble(given);
+        return count == 1;
+    }
+    if (PyList_CheckExact(given) && PyList_Size(given) == count) {
+        for (npy_intp i = 0; i < count; i++) {
+            PyObject *number = PyList_GetItem(given, i);
+            if (!PyFloat_CheckExact(number)) {
+                return 0;
+            }
+            to[i] = PyFloat_AsDouble(number);
+        }
+        return 1;
+    }
+    PyArrayObject *array = (PyArrayObject *)given;
+    if (!PyArray_CheckExact(given) || PyArray_TYPE(array) != NPY_DOUBLE ||
+        PyArray_NDIM(array) != 1 || PyArray_DIM(array, 0) != count ||
+        !PyArray_ISNOTSWAPPED(array)) {
+        return 0;
+    }
+    for (npy_intp i = 0; i < count; i++) {
+        memcpy(to + i, PyArray_BYTES(array) + i * PyArray_STRIDE(array, 0), 8);
+    }
+    return 1;
+}
+
 /* The memory after all steps, or None where one of them answers something else. */
-static PyObject *solve(PyObject *capsule, PyObject *T)
+static PyObject *solve(PyObject *capsule, PyObject *const *args, Py_ssize_t count)
 {
     const Steps *all = PyCapsule_GetPointer(capsule, NULL);
     PyArrayObject *memory = (PyArrayObject *)all->memory;
-    int go_on = copy_pose(T, PyArray_BYTES(memory));
+    if (count != (all->more == Py_None ? 1 : 2)) {
+        PyErr_SetString(PyExc_TypeError, "at_once: a pose, and numbers if there is room for them");
+        return NULL;
+    }
+    int go_on = copy_pose(args[0], PyArray_BYTES(memory)) &&
+        (count == 1 || copy_numbers(args[1], (PyArrayObject *)all->more));
     for (Py_ssize_t i = 0; go_on && i < all->count; i++) {
         const Step *step = all->steps + i;
         PyObject *found = step->door->call(step->lengths, step->given);
@@ -97,14 +133,15 @@ static int prepare(PyObject *given, Step *step)
     return take_all(*door, items, count, step->given, step->lengths);
 }
 
-/* at_once(memory, steps): the function of a pose that goes through the steps. All arrays of their
- * arguments are in memory, or in what the caller does not change. */
+/* at_once(memory, more, steps): the function of a pose, and of numbers for more if it is not None,
+ * that goes through the steps. All arrays of their arguments are in these two, or in what the
+ * caller does not change. */
 static PyObject *at_once(PyObject *self, PyObject *args)
 {
-    static PyMethodDef method = {"solve", solve, METH_O, NULL};
-    PyObject *memory, *given;
+    static PyMethodDef method = {"solve", (PyCFunction)(void (*)(void))solve, METH_FASTCALL, NULL};
+    PyObject *memory, *more, *given;
     (void)self;
-    if (!PyArg_ParseTuple(args, "O!O!", &PyArray_Type, &memory, &PyTuple_Type, &given)) {
+    if (!PyArg_ParseTuple(args, "O!OO!", &PyArray_Type, &memory, &more, &PyTuple_Type, &given)) {
         return NULL;
     }
     Steps *all = calloc(1, sizeof *all);
@@ -114,7 +151,7 @@ static PyObject *at_once(PyObject *self, PyObject *args)
         free(steps);
         return PyErr_NoMemory();
     }
-    *all = (Steps){Py_NewRef(args), memory, PyTuple_Size(given), steps};
+    *all = (Steps){Py_NewRef(args), memory, more, PyTuple_Size(given), steps};
     PyObject *capsule = PyCapsule_New(all, NULL, forget);
     for (Py_ssize_t i = 0; capsule && i < all->count; i++) {
         if (!prepare(PyTuple_GetItem(given, i), steps + i)) {

@@ -2,13 +2,15 @@
 
 import copy
 import pickle
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 import pinocchio as pin
 import pytest
 
-from dh2urdf import Robot, engine, list_tables
-from dh2urdf.exceptions import PoseError
+from dh2urdf import DHRow, JointType, Robot, engine, list_tables, load_table
+from dh2urdf.exceptions import ConfigurationError, NameNotFoundError, PoseError
 from dh2urdf.kernels.numbers import any_family, is_pose
 
 pytestmark = pytest.mark.skipif(engine._COMPILED is None, reason="the kernels are interpreted")
@@ -53,6 +55,106 @@ def test_one_call_answers_as_the_calls_in_turn_do(name):
                 np.testing.assert_array_equal(a, b)
             assert apart.T.tobytes() == together.T.tobytes() == T.tobytes()
     assert some > 20
+
+
+def same_answers(a, b):
+    """Bit by bit."""
+    for x, y in zip(
+        (a.q, a.residual, *a.codes, a.T), (b.q, b.residual, *b.codes, b.T), strict=True
+    ):
+        np.testing.assert_array_equal(x, y)
+
+
+@pytest.mark.parametrize("name", ["puma560", "ur5", "fanuc_crx10ia", "omron_cobra600", "stanford"])
+def test_one_call_with_a_seed_answers_as_the_calls_in_turn_do(name):
+    """Turned and sorted; seeds are arrays, lists, and what only Python takes."""
+    robot, rng = Robot.from_dh(name), np.random.default_rng(1)
+    assert taken(robot)
+    some = 0
+    for T in poses(robot, 60):
+        seed = rng.uniform(-7.0, 7.0, robot.n)
+        for inside in (False, True):
+            problem = robot._ik.problem()
+            apart = problem.arranged(problem.solve_one(T, inside), seed, inside)
+            for given in (seed, seed.tolist(), tuple(seed), np.repeat(seed, 2)[::2]):
+                same_answers(robot.ik(T, seed=given, within_limits=inside), apart)
+            some += robot._ik._at_once[2 + inside](T, seed) is not None
+    assert some > 20
+
+
+def test_seeds_that_are_none_are_refused_at_the_first_call_and_later():
+    """The check is part of the call."""
+    robot = Robot.from_dh("puma560")
+    T, good = robot.fk(np.full(6, 0.3)), np.zeros(6)
+    for bad in ([np.nan] * 6, [2e5, 0, 0, 0, 0, 0.0], np.zeros(5), [0.0] * 7, "seed", 1.0):
+        for _ in range(2):
+            with pytest.raises(ConfigurationError):
+                robot.ik(T, seed=bad)
+            assert len(robot.ik(T, seed=good))
+    same_answers(robot.ik(T, seed=[0] * 6), robot.ik(T, seed=good))
+
+
+def on_rail(name):
+    """An arm on a rail: what is left where the rail is held is the arm itself."""
+    table = load_table(name)
+    rail = DHRow(0.0, 0.0, 0.0, 0.5 * np.pi, JointType.PRISMATIC, lower=-2.0, upper=2.0)
+    return Robot.from_dh(replace(table, rows=(rail, *table.rows), name=f"{name}_on_rail"))
+
+
+HOLDS = [("franka_fer", 6), ("kuka_iiwa7", 2), ("xarm7", 6), ("kinova_gen3", 2), ("ur5", 0)]
+
+
+@pytest.mark.parametrize(("name", "joint"), HOLDS)
+def test_one_call_with_a_joint_held_answers_as_the_calls_in_turn_do(name, joint):
+    """Also beside and at values that line two axes up, at limits, by index and by name."""
+    robot = on_rail(name) if name == "ur5" else Robot.from_dh(name)
+    rng = np.random.default_rng(2)
+    lower, upper = robot.lower[joint], robot.upper[joint]
+    special = np.radians([-180.0, -90.0, 0.0, 90.0, 180.0])
+    beside = (special[:, None] + [0.0, 5e-5, 1.5e-4, -3e-4]).ravel()
+    values = np.concatenate([beside, [lower, upper], rng.uniform(-3.0, 3.0, 20)])
+    some = 0
+    for value in values[(lower <= values) & (values <= upper)].tolist():
+        q = rng.uniform(-1.5, 1.5, robot.n)
+        q[joint] = value
+        T = robot.fk(q)
+        for inside in (False, True):
+            apart = robot._ik.problem("pose", {joint: value}, inside).solve_one(T, inside)
+            for locked in ({joint: value}, {robot.chain.names[joint]: value}):
+                for _ in range(2):
+                    same_answers(robot.ik(T, locked=locked, within_limits=inside), apart)
+                answer = robot._ik._held.answer(T, locked, inside)
+                some += answer is not None and answer[1] is not None
+    assert some > 40
+
+
+def test_a_held_value_that_is_none_is_refused_at_the_first_call_and_later():
+    """Neither limits nor kinds of keys are passed by."""
+    robot = Robot.from_dh("franka_fer")
+    T = robot.fk(np.array([0.1, 0.2, 0.3, -1.5, 0.4, 1.6, 0.3]))
+    for locked in ({6: 3.0}, {6: np.nan}, {True: 0.3}, {7: 0.3}, {"7": 0.3}, {6: "0.3"}):
+        for _ in range(2):
+            with pytest.raises((ConfigurationError, NameNotFoundError)):
+                robot.ik(T, locked=locked)
+            assert len(robot.ik(T, locked={6: 0.3}))
+            assert len(robot.ik(T, locked={1: 0.2}))
+
+
+def test_threads_do_not_mix_poses_seeds_and_held_values():
+    """What a call is given and what it answers belong together."""
+    puma, panda = Robot.from_dh("puma560"), Robot.from_dh("franka_fer")
+    rng = np.random.default_rng(3)
+
+    def work(seed):
+        q = rng.uniform(-1.0, 1.0, 6)
+        found = puma.ik(puma.fk(q), seed=q, within_limits=False)
+        near = np.abs(found.q[0] - q).max() < 1e-9
+        q = np.array([0.1, 0.2, 0.3, -1.5, 0.4, 1.6, seed / 1000])
+        found = panda.ik(panda.fk(q), locked={6: float(q[6])})
+        return near and (found.q[:, 6] == q[6]).all() and len(found) > 0
+
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(work, range(400)))
 
 
 def test_a_pose_comes_as_an_array_in_any_order_as_a_list_or_as_of_pinocchio():

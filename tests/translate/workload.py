@@ -159,6 +159,21 @@ def numbers() -> Iterator[tuple[str, Answer]]:
     yield "roots", roots
     planar = [dh2urdf.planar_rr_ik(1.0, 0.5, k / 8, 0.625) for k in range(12)]
     yield "planar", planar
+    yield "towards a seed", [x for k in range(4) for x in _towards_seed(robot_of("puma560"), k)]
+
+
+def _towards_seed(robot: dh2urdf.Robot, k: int) -> Answer:
+    """Solutions arranged as in one call with the pose; the last seed is too far away."""
+    from dh2urdf.kernels.certificate import arrange_plain
+
+    q = configurations(robot, 8, "seeds")
+    T, seed = robot.fk(q[k]), np.where(k == 3, 1e9, q[k + 1])
+    found = robot.ik(T)
+    out = found.q[None].copy(), found.residual[None].copy(), np.array([len(found)])
+    out += tuple(code[None].copy() for code in found.codes)
+    largest, distance = np.full(6, 1e5), np.zeros(len(found))
+    done = arrange_plain(robot.chain.tables, largest, 1e-12, 0, T[None], seed, out, distance)
+    return [np.array([done]), *out, distance]
 
 
 def answers(arm: str, count: int) -> Iterator[tuple[str, Answer]]:

@@ -202,6 +202,19 @@ class HeldSolver:
         """
         raise NotImplementedError
 
+    def steps(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """Kernels that solve poses with one held joint at values (m,), see :class:`SolverBase`."""
+        return ()
+
+    def clear_about(self, value: float) -> tuple[float, float]:
+        """Between which values of the one held joint `steps` are right, about one at which it is.
+
+        An interval that is empty says that they are not.
+        """
+        return -np.inf, np.inf
+
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the one held joint, (k, n).
 

@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import NEAR, NOMINAL, AxisLines, DHForm, Others, Outputs, Task, pose_along
 from dh2urdf.ik.families.closed_form import not_six_revolute
 from dh2urdf.ik.families.general_6r import Arm, blank_general_6r
@@ -59,10 +60,17 @@ class TwoParallel(Refereed):
             record = self._idle.pop()
         except IndexError:
             record = self.record.copy()
-        solve_two_parallel(self.chain.tables, self.form, record, self.exact, Ts, within_limits, out)
+        tables = self.chain.tables
+        doubts = solve_two_parallel(tables, self.form, record, self.exact, Ts, within_limits, out)
         self._idle.append(record)
-        if (out.counts < 0).any():
+        if doubts:
             out.put(*self.in_doubt(Ts, within_limits, out))
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernel alone, where its lines are the chain's and it has no doubt."""
+        arguments = self.chain.tables, self.form, self.record.copy(), self.exact
+        solve: Step = solve_two_parallel, (*arguments, Ts, within_limits, out), False
+        return (solve,) if self.exact else ()
 
 
 @lru_cache(maxsize=4)

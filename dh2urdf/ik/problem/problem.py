@@ -7,7 +7,6 @@ import numpy as np
 
 from dh2urdf.bounds import TURNS
 from dh2urdf.chain import SerialChain
-from dh2urdf.engine import AtOnce, Step, at_once, nothing_at_once
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik.arm import (
     ACCEPT,
@@ -17,7 +16,6 @@ from dh2urdf.ik.arm import (
     Outputs,
     Room,
     Solver,
-    SolverBase,
     Task,
     all_turns,
     branch_words_of,
@@ -34,7 +32,7 @@ from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import RedundantChain
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
-from dh2urdf.kernels.numbers import any_family, is_pose, pad_solutions
+from dh2urdf.kernels.numbers import any_family, pad_solutions
 from dh2urdf.transforms import Array, length
 
 ForwardKinematics = Callable[[Array], Array]
@@ -109,17 +107,6 @@ class Problem:
         singular = within_limits and any_family(room.out.counts, room.out.free)
         self._rooms.append(room)
         return self._families_inside(found) if singular else found
-
-    def at_once(self, within_limits: bool) -> AtOnce:
-        """What solves a pose in one call, if it is of the usual kind: the memory of an answer."""
-        room = Room(self.solver.kmax, self.chain.n)
-        solver, steps = self.solver, tuple[Step, ...]()
-        if isinstance(solver, SolverBase) and type(self) is Problem:
-            steps = solver.steps(room.Ts, within_limits, room.out)
-        families = (any_family, (room.out.counts, room.out.free), False)
-        more = [families] if within_limits else []
-        is_one: Step = is_pose, (room.Ts[0],), True
-        return at_once(room.memory, is_one, *steps, *more) if steps else nothing_at_once
 
     def solve_many(
         self,

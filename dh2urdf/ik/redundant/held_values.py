@@ -5,11 +5,13 @@ from collections.abc import Mapping
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.exceptions import ConfigurationError, NoSolverError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Outputs,
     Solver,
+    SolverBase,
     Task,
     branch_words_of,
     hold,
@@ -92,6 +94,19 @@ class HeldEnd(HeldSolver):
         q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(out.free)
         self.inner.solve_batch(poses, within_limits, out._replace(q=q, free=free))
         insert_held_batch(joint, values[:, 0], q, free, out.q, out.counts, out.free)
+
+    def steps(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """The same in kernels, for values (m,)."""
+        joint, poses = self.held[0], np.empty_like(Ts)
+        q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(out.free)
+        if not isinstance(self.inner, SolverBase):
+            return ()
+        middle = self.inner.steps(poses, within_limits, out._replace(q=q, free=free))
+        before = held_poses, (self.chain.links, self.slides, joint, values, Ts, poses), False
+        after = insert_held_batch, (joint, values, q, free, out.q, out.counts, out.free), False
+        return (before, *middle, after) if middle else ()
 
 
 class HeldOneByOne(HeldSolver):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     SLACK,
     SNAP,
@@ -112,7 +113,8 @@ class HeldWrist(HeldSolver):
         self.frames = np.concatenate([*fixed, oriented.sides(ends), factors])
         which = [joint, chain.prismatic[joint], oriented.reversed, oriented.joint, j]
         self.which = np.array(which, np.int64)
-        self.joints = np.delete(chain.tables[1], joint, axis=0)
+        joints = np.delete(chain.tables[1], joint, axis=0)
+        self.constants = self.frames, self.which, self.rows, joints, SLACK
 
     @classmethod
     def of(cls, chain: SerialChain, joint: int) -> "HeldWrist | None":
@@ -152,13 +154,18 @@ class HeldWrist(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one call."""
-        constants = self.frames, self.which, self.rows, self.joints, SLACK
-        self.kernel(constants, values.ravel(), Ts, within_limits, out)
+        self.kernel(self.constants, values.ravel(), Ts, within_limits, out)
+
+    def steps(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """The kernel of poses Ts (m, 4, 4), each with its held value (m,)."""
+        return ((self.kernel, (self.constants, values, Ts, within_limits, out), False),)
 
     def points_on_curves(self, T: Array, values: Array) -> Array:
         """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
         chain, out = self.chain, Outputs.of(len(values), self.kmax, self.chain.n)
-        arm = self.frames, self.which, self.rows, self.joints, MISS
+        arm = *self.constants[:4], MISS
         points_on_curves(arm, chain.tables, (POSE, T, chain.size), values, out)
         points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
         return points

@@ -9,9 +9,11 @@ from functools import cached_property
 
 import numpy as np
 
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     SPARE_RANK,
     TRIALS,
+    TWO_PI,
     HeldSolver,
     IntArray,
     Outputs,
@@ -63,6 +65,21 @@ class HeldAtAnyValue(HeldSolver):
             self.one_by_one.solve_held(poses, values[rows], within_limits, found)
             for whole, part in zip(out, found, strict=True):
                 whole[rows] = part
+
+    def steps(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """Kernels that solve poses Ts (m, 4, 4), each with its held value (m,)."""
+        return self.inner.steps(Ts, values, within_limits, out)
+
+    def clear_about(self, value: float) -> tuple[float, float]:
+        """The values between two special ones, up to full turns."""
+        ways = self.values - value
+        if not self.chain.prismatic[self.held[0]]:
+            ways = np.concatenate([ways, np.mod(ways, TWO_PI), np.mod(ways, TWO_PI) - TWO_PI])
+        above = ways[ways >= 0.0].min(initial=np.inf) - 2.0 * BESIDE
+        below = ways[ways <= 0.0].max(initial=-np.inf) + 2.0 * BESIDE
+        return (value + below, value + above) if below < 0.0 < above else (value, value)
 
     def _special(self, values: Array) -> IntArray:
         """Rows of the values (m,) at which the rest has a joint to spare."""

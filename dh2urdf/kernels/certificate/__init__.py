@@ -7,7 +7,13 @@ for; `arrange` turns solutions to a seed; `numeric` searches from any start, `va
 hardly moves the tool, in the singular vectors of `directions`.
 """
 
-from dh2urdf.kernels.certificate.arrange import distance2, measure_all, measure_and_sort, turn_to
+from dh2urdf.kernels.certificate.arrange import (
+    arrange_plain,
+    distance2,
+    measure_all,
+    measure_and_sort,
+    turn_to,
+)
 from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,

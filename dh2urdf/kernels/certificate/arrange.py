@@ -5,9 +5,9 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import TWO_PI
+from dh2urdf.kernels.certificate.certify import ACCEPT, TWO_PI
 from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, pose_residual
-from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.numbers import any_family, entry
 from dh2urdf.kernels.shapes import (
     Chain,
     Configuration,
@@ -15,6 +15,7 @@ from dh2urdf.kernels.shapes import (
     Floats,
     Found,
     Joints,
+    Outputs,
     Pose,
     Poses,
     Sizes,
@@ -33,20 +34,25 @@ def turn_to(joints: Joints, slack: float, reference: Annotated[Floats, "referenc
     of a full turn, is put onto it.
     """
     for k in range(q.shape[0]):
-        for i in range(q.shape[1]):
-            lower, upper = joints[i, 1], joints[i, 2]
-            if joints[i, 0] == 0.0:
-                value = q[k, i]
-                turns = np.rint((reference[min(k, len(reference) - 1), i] - value) / TWO_PI)
-                most = np.floor((upper + slack - value) / TWO_PI)
-                least = np.ceil((lower - slack - value) / TWO_PI)
-                if least <= most:
-                    turns = min(max(turns, least), most)
-                q[k, i] = value + TWO_PI * turns
-            if q[k, i] > upper and q[k, i] - upper <= slack:
-                q[k, i] = upper
-            elif q[k, i] < lower and lower - q[k, i] <= slack:
-                q[k, i] = lower
+        _turn(joints, slack, reference[min(k, len(reference) - 1)], q[k])
+
+
+def _turn(joints, slack, reference, q):
+    """Bring each angle of q (n,) into the turn nearest to the reference (n,), in place."""
+    for i in range(len(q)):
+        lower, upper = joints[i, 1], joints[i, 2]
+        if joints[i, 0] == 0.0:
+            value = q[i]
+            turns = np.rint((reference[i] - value) / TWO_PI)
+            most = np.floor((upper + slack - value) / TWO_PI)
+            least = np.ceil((lower - slack - value) / TWO_PI)
+            if least <= most:
+                turns = min(max(turns, least), most)
+            q[i] = value + TWO_PI * turns
+        if q[i] > upper and q[i] - upper <= slack:
+            q[i] = upper
+        elif q[i] < lower and lower - q[i] <= slack:
+            q[i] = lower
 
 
 def _swap(rows, distance, a, b):
@@ -92,12 +98,50 @@ def measure_and_sort(
 
     In place; the task is one of :mod:`dh2urdf.kernels.newton.damped`.
     """
+    damped = make_damped(found[0].shape[1])
+    for k in range(found[0].shape[0]):
+        _sort_in(chain, task, T, seed, found, distance, k, damped)
+
+
+def _sort_in(chain, task, T, seed, found, distance, k, damped):
+    """Measure row k and move it to its place among the rows before it."""
     q, residual, _, _ = found
-    damped = make_damped(q.shape[1])
-    for k in range(q.shape[0]):
-        residual[k] = _measure(chain, task, T, q[k], damped)
-        distance[k] = math.sqrt(distance2(q[k], seed))
-        row = k
-        while row > 0 and distance[row] < distance[row - 1]:
-            _swap(found, distance, row, row - 1)
-            row -= 1
+    residual[k] = _measure(chain, task, T, q[k], damped)
+    distance[k] = math.sqrt(distance2(q[k], seed))
+    while k > 0 and distance[k] < distance[k - 1]:
+        _swap(found, distance, k, k - 1)
+        k -= 1
+
+
+@entry()
+def arrange_plain(
+    chain: Chain,
+    largest: Configuration,
+    slack: float,
+    task: int,
+    Ts: Poses,
+    seed: Configuration,
+    outputs: Outputs,
+    distance: Sizes,
+):
+    """Turn and sort the solutions of one pose, Ts (1, 4, 4), towards a seed (n,), in place.
+
+    Returns whether all is well: the seed is no larger than ``largest`` (n,), no solution has free
+    joints, and all have the residual of a solution. ``slack`` is that of :func:`turn_to`.
+    """
+    q, residual, counts, branch, free = outputs
+    for i in range(len(seed)):
+        if not abs(seed[i]) <= largest[i]:
+            return False
+    if any_family(counts, free):
+        return False
+    damped = make_damped(len(seed))
+    well = True
+    for k in range(counts[0]):
+        _turn(chain[1], slack, seed, q[0, k])
+        _sort_in(
+            chain, task, Ts[0], seed, (q[0], residual[0], branch[0], free[0]), distance, k, damped
+        )
+    for k in range(counts[0]):
+        well = well and residual[0, k] <= ACCEPT
+    return well

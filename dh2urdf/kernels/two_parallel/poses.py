@@ -219,9 +219,10 @@ def solve_two_parallel(
     """Poses Ts (m, 4, 4), by the lines of an arm and its record ``arms`` (1,).
 
     A count is -1 minus that of the candidates where there may be other solutions, as everywhere if
-    the lines are not exactly the chain's.
+    the lines are not exactly the chain's. Returns the number of such poses.
     """
     q, residual, count, branch, free = outputs
+    doubts = 0
     arm, D, seen = arms[0], np.empty((4, 4)), np.empty((9, 3))
     branches = np.empty((4, SEEDS, LANES))
     for i in range(Ts.shape[0]):
@@ -235,3 +236,5 @@ def solve_two_parallel(
             rows = q[i], residual[i], branch[i], free[i]
             found = turn_inside(chain, Ts[i], within_limits, *rows, found)
         count[i] = found
+        doubts += 1 if found < 0 else 0
+    return doubts

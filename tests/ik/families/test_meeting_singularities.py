@@ -57,7 +57,7 @@ def lost(chain, q):
         found = batch.q[i, : batch.count[i]]
         if len(found) and ref.gaps(chain, found, q[i]).min() < 1e-6:
             continue
-        seeded = ik.solve(T, q[i], "nearest", ANYWHERE)
+        seeded = ik.solve(T, q[i], None, "nearest", ANYWHERE)
         assert seeded.residual.max(initial=0.0) <= 1e-9
         if not any(
             ref.gaps(chain, p, q[i]) < 1e-6

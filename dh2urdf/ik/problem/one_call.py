@@ -1,0 +1,111 @@
+"""A pose of the usual kind solved by one call into the extension: what it goes through.
+
+All others go through Python, which says what is wrong with them. The functions answer the memory of
+:class:`~dh2urdf.ik.problem.IKSolutions`, or None.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dh2urdf.bounds import ANGLE, LENGTH
+from dh2urdf.engine import AtOnce, Step, at_once, nothing_at_once
+from dh2urdf.ik.arm import LIMIT_SLACK, HeldSolver, Room, SolverBase
+from dh2urdf.ik.problem.locked import Locked
+from dh2urdf.ik.problem.problem import Problem
+from dh2urdf.ik.redundant import RedundantChain
+from dh2urdf.kernels.certificate import arrange_plain
+from dh2urdf.kernels.numbers import any_family, is_pose
+from dh2urdf.transforms import Array
+
+
+def call_of(problem: Problem, within_limits: bool) -> AtOnce:
+    """The function of a pose."""
+    room = _room(problem)
+    return _call(room, _steps(problem, room, within_limits), within_limits)
+
+
+def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
+    """The function of a pose and a seed (n,); a singular family is nothing for it."""
+    chain, room = problem.chain, _room(problem)
+    seed, distance = np.empty(chain.n), np.empty(problem.solver.kmax)
+    largest = np.where(chain.prismatic, LENGTH, ANGLE)
+    arguments = chain.tables, largest, LIMIT_SLACK, problem.task.number
+    steps = _steps(problem, room, within_limits)
+    if not steps or isinstance(problem.solver, RedundantChain):
+        return nothing_at_once
+    arrange: Step = arrange_plain, (*arguments, room.Ts, seed, room.out, distance), True
+    return _call(room, (*steps, arrange), False, seed)
+
+
+class HeldCall(NamedTuple):
+    """The function of a pose and the value of one held joint, between two values."""
+
+    call: AtOnce
+    low: float
+    high: float
+    problem: Problem
+
+    @classmethod
+    def of(cls, problem: Problem, value: float, within_limits: bool) -> "HeldCall":
+        """That of a problem of one held joint, for values about the one that it is held at."""
+        assert isinstance(problem.solver, HeldSolver)
+        chain, room, held = problem.chain, _room(problem), np.empty(1)
+        steps = problem.solver.steps(room.Ts, held, within_limits, room.out)
+        joint, (low, high) = problem.solver.held[0], problem.solver.clear_about(value)
+        bound = LENGTH if chain.prismatic[joint] else ANGLE
+        lower, upper = (
+            (chain.lower[joint], chain.upper[joint]) if within_limits else (-bound, bound)
+        )
+        low, high = max(low, float(lower), -bound), min(high, float(upper), bound)
+        return cls(_call(room, steps, within_limits, held), low, high, problem)
+
+
+class HeldCalls(dict[tuple[int | str, type, bool], HeldCall]):
+    """The latest function for each joint that was held, as it was named, with limits or without."""
+
+    def answer(
+        self, T: ArrayLike, locked: Locked, within_limits: bool
+    ) -> tuple[Problem, bytes | None] | None:
+        """A problem, and the memory of its answer to a pose, if there is a function for it."""
+        if type(locked) is not dict or len(locked) != 1:
+            return None
+        [(key, value)] = locked.items()
+        held = self.get((key, type(key), within_limits))
+        if not held or type(value) is not float or not held.low < value < held.high:
+            return None
+        return held.problem, held.call(T, value)
+
+    def learn(self, problem: Problem, locked: Locked, within_limits: bool) -> None:
+        """Make the function for what is held, if that is one joint at one value."""
+        if type(problem) is not Problem or len(locked) != 1 or problem.values is None:
+            return
+        [key] = locked
+        name = key, type(key), within_limits
+        useless = name in self and self[name].call is nothing_at_once
+        if problem.values.shape == (1, 1) and type(key) in (int, str) and not useless:
+            self[name] = HeldCall.of(problem, float(problem.values[0, 0]), within_limits)
+
+
+def _room(problem: Problem) -> Room:
+    return Room(problem.solver.kmax, problem.chain.n)
+
+
+def _steps(problem: Problem, room: Room, within_limits: bool) -> tuple[Step, ...]:
+    """The kernels that solve; none where Python helps."""
+    if type(problem) is not Problem or not isinstance(problem.solver, SolverBase):
+        return ()
+    return problem.solver.steps(room.Ts, within_limits, room.out)
+
+
+def _call(
+    room: Room, steps: tuple[Step, ...], within_limits: bool, more: Array | None = None
+) -> AtOnce:
+    """The function that checks a pose and goes through steps; none if there are none."""
+    if not steps:
+        return nothing_at_once
+    is_one: Step = is_pose, (room.Ts[0],), True
+    families: Step = any_family, (room.out.counts, room.out.free), False
+    last = (families,) if within_limits else ()
+    return at_once(room.memory, is_one, *steps, *last, more=more)
