@@ -11,7 +11,7 @@ import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, real
+from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, Reading, real
 from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
 from dh2urdf.dh_io import (
@@ -101,7 +101,8 @@ def extract_(
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
     """
     if format in FORMS:
-        return _extract_form(source, base, tip, format, output, force=force, json=json)
+        arm = robot_of(source, base, tip, Reading(**vars(reading)))
+        return _extract_form(arm, source, format, output, force=force, json=json)
     given, own = _stdin() if source == "-" else source, embedded and not explain
     options = {"x_axis": x_axis, "compact": compact, "flip": flip, "embedded": own, **reading.given}
     found = extract_dh(given, base, tip, convention, snap, **options)
@@ -140,17 +141,10 @@ def _stdin() -> str:
 
 
 def _extract_form(
-    source: str,
-    base: str | None,
-    tip: str | None,
-    form: str,
-    output: Path | None,
-    *,
-    force: bool,
-    json: bool,
+    arm: Robot, source: str, form: str, output: Path | None, *, force: bool, json: bool
 ) -> None:
     """An arm in another form, read back and compared, to a file or stdout."""
-    arm, to_stdout = robot_of(source, base, tip), str(output or "-") == "-"
+    to_stdout = str(output or "-") == "-"
     suffix = ".yaml" if output is None or to_stdout else output.suffix.lower()
     kind = {".json": "json", ".yaml": "yaml", ".yml": "yaml"}.get(suffix)
     if kind is None:

@@ -70,6 +70,14 @@ def test_every_verb_that_reads_a_urdf_takes_arguments(top, verb, capsys, tmp_pat
     assert "left_" in said.out or verb in ("ik", "figure")
 
 
+def test_other_forms_are_extracted_of_a_xacro(top, capsys):
+    """Segments of the model that was chosen."""
+    given = ["--xacro-arg", "arm_type:=mini5"]
+    code, said = run(capsys, "extract", top, "--format", "kdl", *given)
+    assert code == 0
+    assert "0.5" in said.out
+
+
 def test_extraction_takes_arguments_and_packages(alone):
     """Base and tip by the prefix, joints by the model."""
     top, package = alone
