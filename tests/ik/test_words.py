@@ -16,7 +16,7 @@ from dh2urdf.ik.problem.words import (
     AbbWord,
     FanucWord,
     KukaWord,
-    _posture,
+    _postures,
     controller_words,
 )
 
@@ -201,8 +201,8 @@ def test_words_do_not_depend_on_zeros_directions_and_ends_of_the_model(maker, se
 def test_shipped_tables_of_a_maker_have_the_angles_of_its_controller(name, maker):
     """q is what the display shows, turns and all, but for FANUC's J3."""
     arm = OrthoParallel.of_chain(Robot.from_dh(name).chain)
-    for q in np.random.default_rng(0).uniform(-9, 9, (5, 6)):
-        np.testing.assert_allclose(_posture(arm, q, MAKERS[maker]).angles, q, atol=1e-14)
+    q = np.random.default_rng(0).uniform(-9, 9, (5, 6))
+    np.testing.assert_allclose(_postures(arm, q, MAKERS[maker]).angles, q, atol=1e-14)
 
 
 def test_rounding_at_zero_does_not_turn_a_word():

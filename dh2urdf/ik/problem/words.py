@@ -28,11 +28,12 @@ FANUC
     three turn numbers, which a controller may assign to other axes.)
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.chain.ortho_parallel import OrthoParallel
@@ -81,38 +82,40 @@ class FanucWord(NamedTuple):
         return f"{letters}, {self.turn1}, {self.turn4}, {self.turn6}"
 
 
-class _Posture(NamedTuple):
-    """The controller's angles (6,) [rad], and where the arm is towards its singularities."""
+class _Postures(NamedTuple):
+    """The controller's angles (k, 6) [rad], and where the arm is towards its singularities (k,)."""
 
     angles: Array
-    behind: bool
-    stretched_over: bool
+    behind: NDArray[np.bool_]
+    stretched_over: NDArray[np.bool_]
 
 
-def _kuka(p: _Posture) -> KukaWord:
+def _kuka(p: _Postures) -> Iterator[KukaWord]:
     negative = p.angles < -EDGE
-    status = p.behind + 2 * (not p.stretched_over) + 4 * bool(negative[4])
-    return KukaWord(status, int(negative @ 2 ** np.arange(6)))
+    status = p.behind + 2 * ~p.stretched_over + 4 * negative[:, 4]
+    return map(KukaWord, status.tolist(), (negative @ 2 ** np.arange(6)).tolist())
 
 
-def _abb(p: _Posture) -> AbbWord:
-    cf1, cf4, cf6 = np.floor((p.angles[[0, 3, 5]] + EDGE) / (0.5 * np.pi)).astype(int).tolist()
-    return AbbWord(cf1, cf4, cf6, 4 * p.behind + 2 * p.stretched_over + bool(p.angles[4] < -EDGE))
+def _abb(p: _Postures) -> Iterator[AbbWord]:
+    quarters = np.floor((p.angles[:, [0, 3, 5]] + EDGE) / (0.5 * np.pi)).astype(int)
+    cfx = 4 * p.behind + 2 * p.stretched_over + (p.angles[:, 4] < -EDGE)
+    return map(AbbWord, *quarters.T.tolist(), cfx.tolist())
 
 
-def _fanuc(p: _Posture) -> FanucWord:
-    flip, elbow = "F" if p.angles[4] > EDGE else "N", "D" if p.stretched_over else "U"
-    a = p.angles[[0, 3, 5]]
+def _fanuc(p: _Postures) -> Iterator[FanucWord]:
+    flip = np.where(p.angles[:, 4] > EDGE, "F", "N").tolist()
+    elbow, side = np.where(p.stretched_over, "D", "U"), np.where(p.behind, "B", "T")
+    a = p.angles[:, [0, 3, 5]]
     turns = np.sign(a) * np.floor((np.abs(a) + np.pi + EDGE) / (2.0 * np.pi))
-    return FanucWord(flip, elbow, "B" if p.behind else "T", *turns.astype(int).tolist())
+    return map(FanucWord, flip, elbow.tolist(), side.tolist(), *turns.astype(int).T.tolist())
 
 
 class _Maker(NamedTuple):
-    """Offsets [rad] and signs of the maker's angles, ``t = sign q - offset``, and its word."""
+    """Offsets [rad] and signs of the maker's angles, ``t = sign q - offset``, and its words."""
 
     offsets: tuple[float, ...]
     signs: tuple[int, ...]
-    word: Callable[[_Posture], NamedTuple]
+    words: Callable[[_Postures], Iterator[NamedTuple]]
 
 
 _H = 0.5 * np.pi
@@ -135,17 +138,17 @@ def controller_words(chain: SerialChain, q: Array, maker: str) -> tuple[NamedTup
         The arm has not the shape that these words speak of; the message says where, by how much.
     """
     chosen = MAKERS[choice(maker, "maker", MAKERS)]
-    arm = _of_chain(chain)
-    return tuple(chosen.word(_posture(arm, config, chosen)) for config in q)
+    return tuple(chosen.words(_postures(_of_chain(chain), q, chosen)))
 
 
-def _posture(arm: OrthoParallel, q: Array, maker: _Maker) -> _Posture:
-    """Angles of a configuration (6,) as the maker counts them, and the posture."""
+def _postures(arm: OrthoParallel, q: Array, maker: _Maker) -> _Postures:
+    """Angles of configurations (k, 6) as the maker counts them, and the postures."""
     signs = np.asarray(arm.signs)
     t = signs * q - np.asarray(arm.offsets)
     angles = np.asarray(maker.signs) * (t + np.asarray(maker.offsets))
-    angles[[0, 5]] = (np.asarray(maker.signs) * signs * q)[[0, 5]]
+    angles[:, [0, 5]] = (np.asarray(maker.signs) * signs * q)[:, [0, 5]]
     forearm, bend = np.hypot(arm.a2, arm.c3), np.arctan2(arm.a2, arm.c3)
-    reach = arm.a1 + arm.c2 * np.sin(t[1]) + forearm * np.sin(t[1] + t[2] + bend)
+    upper, lower = t[:, 1], t[:, 1] + t[:, 2] + bend
+    reach = arm.a1 + arm.c2 * np.sin(upper) + forearm * np.sin(lower)
     near = EDGE * max(1.0, arm.c2 + forearm)
-    return _Posture(angles, bool(reach < -near), bool(np.sin(t[2] + bend) < -EDGE))
+    return _Postures(angles, reach < -near, np.sin(t[:, 2] + bend) < -EDGE)
