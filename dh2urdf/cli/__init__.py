@@ -28,11 +28,15 @@ VERBS = {
     "list": "List the tables that ship with the package.",
     "fk": "Place the tip: forward kinematics of a table or a URDF.",
     "ik": "Find every configuration that reaches a pose.",
+    "path": "Find one joint motion through a file of poses.",
     "figure": "Draw an arm with its DH frames.",
     "workspace": "Draw what an arm can reach.",
     "view": "Look at an arm in the browser.",
 }
 """Each is the function ``<verb>_`` of ``dh2urdf.cli.verbs.<verb>``, loaded when it is called."""
+
+ROOMS = {"path": "ik.path"}
+"""Modules of verbs that stand in a folder."""
 
 PLAIN = {"\u2212": "-", "\u2500": "-", "\u2026": "...", "\u00b0": "deg", "\u03c0": "pi"}
 """Signs of ours as a terminal without them shows them."""
@@ -117,7 +121,11 @@ def _run(tokens: list[str]) -> int:
         help_epilogue="--debug shows the traceback of an error.",
     )
     for verb, summary in VERBS.items():
-        app.command(f"dh2urdf.cli.verbs.{verb}:{verb}_", name=verb, help=summary)
+        place = f"dh2urdf.cli.verbs.{ROOMS.get(verb, verb)}:{verb}_"
+        own = (
+            {} if verb in tokens[:1] else {"help": summary}
+        )  # else its docstring, read when loaded
+        app.command(place, name=verb, **own)
     app.register_install_completion_command()
     try:
         command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)

@@ -236,6 +236,7 @@ NEEDED: dict[str, dict[str, str]] = {
     },
     "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},
+    "path": {"force": "output figure", "dpi": "figure"},
     "view": {"base": "robot", "tip": "robot", "deg": "q"},
     "check": {"base": "fix", "tip": "fix", "force": "fix"},
     "extract": {"force": "output"},

@@ -40,6 +40,8 @@ ANSWERS = {
     "ik csv": ["ik", "denso_vs6556", "--csv", "poses.csv"],
     "ik csv best": ["ik", "denso_vs6556", "--csv", "poses.csv", "--best"],
     "ik csv to a file": ["ik", "denso_vs6556", "--csv", "poses.csv", "-o", "joints.csv"],
+    "path": ["path", "denso_vs6556", "poses.csv"],
+    "path to a file": ["path", "denso_vs6556", "poses.csv", "-o", "q.csv", "--figure", "q.svg"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
 }

@@ -20,11 +20,14 @@ MOST_STATES = 512
 BREAK = 1e9
 """Cost of one break [rad or m]: more than any motion without one."""
 
+SHOWN = 5
+"""Breaks, and poses out of reach, that are printed."""
+
 UNWOUND = 1e-6
 """Cost of a beginning per distance from the middle of the limits: decides between equals only."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class IKPath:
     """A joint path, and where it cannot be continuous.
 
@@ -67,20 +70,51 @@ class IKPath:
     def __len__(self) -> int:
         return len(self.q)
 
+    @property
+    def summary(self) -> str:
+        """One line: poses, motion, breaks, poses out of reach."""
+        counts = {"break": len(self.breaks), "out of reach": len(self.unreachable)}
+        found = [
+            f"{k} {what}{'s' * (k > 1 and what == 'break')}" for what, k in counts.items() if k
+        ]
+        return ", ".join([f"{len(self)} poses, joint motion {self.motion:.4g}", *found])
+
+    @property
+    def gaps(self) -> tuple[tuple[int, int], ...]:
+        """First and last of each run of poses out of reach."""
+        missing = np.array(self.unreachable, int)
+        runs = np.split(missing, np.flatnonzero(np.diff(missing) > 1) + 1)
+        return tuple((int(run[0]), int(run[-1])) for run in runs if len(run))
+
+    def jump(self, i: int) -> tuple[int, int, float]:
+        """Of pose i of ``breaks``: the pose before, the joint that jumps most, by how much."""
+        before = i - 1
+        while np.isnan(self.q[before, 0]):
+            before -= 1
+        step = self.q[i] - self.q[before]
+        joint = int(np.abs(step).argmax())
+        return before, joint, float(step[joint])
+
     def __str__(self) -> str:
-        lines = [f"{len(self)} poses, joint motion {self.motion:.4g}"]
-        lines += [f"pose {i} is out of reach" for i in self.unreachable]
-        for i in self.breaks:
-            before = i - 1
-            while before in self.unreachable:
-                before -= 1
-            step = self.q[i] - self.q[before]
-            j = int(np.abs(step).argmax())
-            lines.append(
-                f"break between poses {before} and {i}: {self.joint_names[j]} "
-                f"would have to move by {step[j]:.4g}"
-            )
-        return "\n".join(lines)
+        lines = [
+            f"poses {first} to {last} are out of reach"
+            if first < last
+            else f"pose {first} is out of reach"
+            for first, last in self.gaps[:SHOWN]
+        ]
+        more = len(self.gaps) - SHOWN
+        lines += [f"... and {more} more gaps"] if more > 0 else []
+        for i in self.breaks[:SHOWN]:
+            before, joint, by = self.jump(i)
+            name = self.joint_names[joint]
+            move = f"{name} would have to move by {by:.4g}"
+            lines.append(f"break between poses {before} and {i}: {move}")
+        more = len(self.breaks) - SHOWN
+        lines += [f"... and {more} more breaks"] if more > 0 else []
+        return "\n".join([self.summary, *lines])
+
+    def __repr__(self) -> str:
+        return f"<IKPath: {self.summary}>"
 
 
 @dataclass(frozen=True)
