@@ -204,7 +204,7 @@ _NO_TABLE = "convention snap explain digits x_axis compact flip embedded"
 _FORMS = {f"format={form}": _NO_TABLE for form in ("opw", "screws", "kdl")}
 
 ALONE: dict[str, dict[str, str]] = {
-    "show": {"json": "format", "format": "symbolic values q", "q": "values"},
+    "show": {"format": "symbolic values q", "q": "values"},
     "fk": {"q": "values"},
     "ik": {
         "csv": "xyz rpy matrix",

@@ -48,7 +48,7 @@ def path_figure(robot: Robot, path: IKPath, *, width: float = 7.5) -> Picture:
         panels[-1].set_xlim(0.5, len(path) + 0.5)
         text = f"{plain(robot.model.name)}: {len(path)} poses, joint motion {path.motion:.4g}"
         figure.text(LEFT / width, 1 - 0.24 / high, text, size=10, weight="bold", va="center")
-        _legend(figure, path, 1 - RIGHT / width, 1 - 0.24 / high)
+        _legend(figure, path, 1 - RIGHT / width, 0.16 / high)
         return figure
 
 

@@ -177,7 +177,12 @@ class InverseKinematics:
         return batch if len(shape) == 1 else batch.shaped(shape)
 
     def solve_path(
-        self, Ts: ArrayLike, start: ArrayLike | None, max_jump: float | None, asked: Asked
+        self,
+        Ts: ArrayLike,
+        start: ArrayLike | None,
+        max_jump: float | None,
+        asked: Asked,
+        tell: Progress | None = None,
     ) -> IKPath:
         """A continuous joint path through a sequence of poses, see :func:`find_path`."""
         task, locked, within_limits, _, nearest = asked
@@ -188,7 +193,10 @@ class InverseKinematics:
             raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
         _check_held(problem, len(poses))
         origin = None if start is None else as_configuration(start, self.chain.prismatic, "start")
-        return replace(find_path(problem, poses, origin, inside, max_jump), pose_change=change)
+        if tell is not None:
+            instance(tell, "progress", Callable)
+        found = find_path(problem, poses, origin, inside, max_jump, tell)
+        return replace(found, pose_change=change)
 
     def why_none(self, T: ArrayLike, asked: Asked) -> str:
         """Say why a pose has no solution, and by how much; empty if it has one."""

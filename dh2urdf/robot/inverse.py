@@ -146,6 +146,7 @@ class RobotIK(RobotConfigurations):
         task: Task | str = "pose",
         max_jump: float | None = None,
         nearest: bool = False,
+        progress: Progress | None = None,
     ) -> IKPath:
         """A joint path through a sequence of poses: fewest breaks, then least joint motion.
 
@@ -162,9 +163,11 @@ class RobotIK(RobotConfigurations):
         max_jump : float, optional
             Motion of a joint between neighbouring poses that counts as a break [rad or m];
             0.5 without it.
+        progress : callable, optional
+            Called with the number of poses done and their total.
         """
         asked = task, locked, within_limits, None, nearest
-        return self._ik.solve_path(Ts, start, max_jump, asked)
+        return self._ik.solve_path(Ts, start, max_jump, asked, progress)
 
     def ik_intervals(
         self, T: ArrayLike, *, within_limits: bool = True, nearest: bool = False

@@ -22,6 +22,7 @@ ANSWERS = {
     "fk": ["fk", "ur5", "0", "-1", "1", "0", "0", "7"],
     "show": ["show", "planar_rr", "--symbolic", "--q", "1", "2"],
     "show a hole": ["show", "rpr_new_frame"],
+    "show a format": ["show", "ur5", "--format", "csv"],
     "convert": ["convert", "ur5", "-o", "ur5.urdf"],
     "convert to stdout": ["convert", "ur5", "-o", "-"],
     "convert many": ["convert", "ur5", "nowhere", "--out-dir", "."],

@@ -37,7 +37,9 @@ def test_the_motion_goes_through_all_poses_without_a_jump(run, tmp_path, arm):
     poses_file(tmp_path / "in.csv", T)
     status, out, err = run("path", arm, "in.csv", "-o", "out.csv", "--figure", "q.png")
     q, breaks = answer(tmp_path / "out.csv", robot)
-    path = robot.ik_path(T)
+    done = list[tuple[int, int]]()
+    path = robot.ik_path(T, progress=lambda *counts: done.append(counts))
+    assert done == [(i, 30) for i in range(1, 31)]
     assert (status, err, set(breaks)) == (0, "", {"0"})
     assert out == f"out.csv: {path.summary}\nq.png\n"
     assert np.abs(robot.fk(q) - T).max() < 1e-8

@@ -57,8 +57,9 @@ def show_(
     dh = arm.table
     assert dh is not None
     units = Units("m", "deg") if format == "text" else usual_units(dh, format, None)
-    if format != "text":
-        emit_file(table_to_text(dh, format, units, digits))
+    text = table_to_text(dh, format, units, digits)
+    if format != "text" and not json:
+        emit_file(text)
         return
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
@@ -81,9 +82,10 @@ def show_(
             solver_explained=why,
             table=loads(table_to_text(dh, "json")),
             **(_symbols(dh) if symbolic else {}),
+            **({"text": text} if format != "text" else {}),
         )
         return
-    emit(table_to_text(dh, format, units, digits))
+    emit(text)
     for label, text in (("source", dh.source), ("checked", dh.checked)):
         if text:
             emit(f"\n{label}: {' '.join(one_line(text).split())}")

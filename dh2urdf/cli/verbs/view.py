@@ -28,8 +28,8 @@ def view_(
     Parameters
     ----------
     robot
-        A table file, the name of a table that ships, or a URDF; without it, a table with one
-        joint to build on.
+        A table file, the name of a table that ships, or a URDF, - for stdin; without it, a table
+        with one joint to build on.
     q
         Configuration to start from: --q=0,-pi/2,90deg.
     host

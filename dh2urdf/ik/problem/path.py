@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.doors import number
 from dh2urdf.ik.arm import PATH_JUMP, TWO_PI, Family, middle, turn_counts, turned_to
-from dh2urdf.ik.problem.problem import Problem
+from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.transforms import Array
 
 MOST_STATES = 512
@@ -144,7 +144,9 @@ class PathFinder:
         start: Array | None,
         within_limits: bool,
         max_jump: float | None,
+        tell: Progress | None = None,
     ) -> None:
+        self.tell = tell
         self.jump = PATH_JUMP if max_jump is None else number(max_jump, "max_jump", 1e-9, np.inf)
         self.problem, self.chain, self.Ts = problem, problem.chain, Ts
         self.origin, self.within_limits = start, within_limits
@@ -156,6 +158,8 @@ class PathFinder:
         stages: list[Stage] = []
         for i in np.flatnonzero(reached).tolist():
             stages.append(self.next(stages[-1], i) if stages else self.first(i))
+            if self.tell:
+                self.tell(i + 1, len(self.Ts))
         q = np.full((len(self.Ts), self.chain.n), np.nan)
         if stages:
             q[reached] = self.best(stages)

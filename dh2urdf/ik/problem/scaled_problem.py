@@ -91,14 +91,19 @@ class ScaledProblem(Problem):
 
 
 def find_path(
-    problem: Problem, Ts: Array, start: Array | None, within_limits: bool, max_jump: float | None
+    problem: Problem,
+    Ts: Array,
+    start: Array | None,
+    within_limits: bool,
+    max_jump: float | None,
+    tell: Progress | None = None,
 ) -> IKPath:
     """The path of least joint motion through poses Ts (m, 4, 4), see :class:`.PathFinder`."""
     if isinstance(problem, ScaledProblem):
         origin = None if start is None else start / problem.scale
         poses = lengths_in(Ts, problem.unit)
-        found = find_path(problem.inner, poses, origin, within_limits, max_jump)
+        found = find_path(problem.inner, poses, origin, within_limits, max_jump, tell)
         return replace(found, q=found.q * problem.scale)
     if isinstance(problem, SweptProblem):
-        return SweptPath(problem, Ts, start, within_limits, max_jump).find()
-    return PathFinder(problem, Ts, start, within_limits, max_jump).find()
+        return SweptPath(problem, Ts, start, within_limits, max_jump, tell).find()
+    return PathFinder(problem, Ts, start, within_limits, max_jump, tell).find()

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from dh2urdf.cli.options import DEFAULT, Arm, Dpi, Force, Json, Link, Reading, Values, real
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
-from dh2urdf.cli.progress import note
+from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.verbs.ik.answers import tell_change
 from dh2urdf.cli.verbs.ik.poses import Poses, poses_of_csv
 from dh2urdf.dh_io import atomic_write, refuse_foreign
@@ -86,14 +86,16 @@ def path_(
     arm = robot_of(robot, base, tip, reading)
     read = poses_of_csv(poses, deg=deg, nearest=nearest, position_only=task == "position")
     begin = parse_configuration(start, arm, deg=deg, what="--start") if start else None
-    found = arm.ik_path(
-        read.T,
-        start=begin,
-        within_limits=within_limits,
-        task=task,
-        max_jump=max_jump,
-        nearest=nearest,
-    )
+    with bar("following the poses", len(read.T)) as report:
+        found = arm.ik_path(
+            read.T,
+            start=begin,
+            within_limits=within_limits,
+            task=task,
+            max_jump=max_jump,
+            nearest=nearest,
+            progress=report,
+        )
     text = _csv(arm, found, deg=deg)
     if to_file:
         assert output is not None
