@@ -38,8 +38,8 @@ def load_table(
         A table file (``.yaml``, ``.toml``, ``.json``, ``.csv``, ``.md``), a URDF written by this
         package (``.urdf``: the table that it carries), or a name of :func:`list_tables`; files of
         OPW parameters, joint axes or KDL segments (YAML, JSON), UR's ``calibration.yaml`` and
-        ``calibration.conf``, too. A data frame, a structured array or a dictionary of columns is
-        read as a CSV file is, headings with units included.
+        ``calibration.conf``, too. A data frame, a structured array, a dictionary of columns
+        or a list of dictionaries is read as a CSV file is, headings with units included.
     convention, units : optional
         For a file that does not say them: ``"modified"``, ``"mm,deg"``. One that says otherwise
         is refused.

@@ -50,6 +50,11 @@ def structured(columns):
     return np.array(list(zip(*columns.values(), strict=True)), dtype=kinds)
 
 
+def records(columns):
+    """A dictionary a row."""
+    return [dict(zip(columns, row, strict=True)) for row in zip(*columns.values(), strict=True)]
+
+
 HOLDERS = [PandasLike, PolarsLike, structured, dict]
 ARMS = [name for name in list_tables() if all(r.origin is None for r in load_table(name).rows)]
 
@@ -65,7 +70,7 @@ def test_named_columns_in_any_order_are_the_array(holder, order):
     assert made.rows == plain.rows
 
 
-@pytest.mark.parametrize("holder", HOLDERS)
+@pytest.mark.parametrize("holder", [*HOLDERS, records])
 @pytest.mark.parametrize("arm", ARMS)
 def test_a_frame_with_kinds_names_and_limits_is_the_table(holder, arm):
     """Every shipped table through a frame whose headings tell the units."""
@@ -107,6 +112,9 @@ def test_a_frame_in_millimetres_and_degrees_with_flags():
         ({"theta": [0], "d": [0], "a": [0], "alpha": [0]}, {}, 'give units="mm,deg"'),
         ({"x": [0], "y": [0]}, {"convention": "standard"}, "no columns theta, d, a and alpha"),
         ({}, {"convention": "standard"}, "among none"),
+        ([{"theta": 0, "d": 0, "a": 0, "alpha": 0}, {"theta": 0}],
+         {"convention": "standard", "units": "m,rad"}, r"joints\[2\].d: missing"),
+        ([{"x": 1}, 3], {}, "no columns theta, d, a and alpha among 'x'"),
         ({"theta": ["x"], "d": [0], "a": [0], "alpha": [0]},
          {"convention": "standard", "units": "m,rad"}, r"joints\[1\].theta: found 'x'"),
         ({"theta": [0] * 501, "d": [0], "a": [0], "alpha": [0]},

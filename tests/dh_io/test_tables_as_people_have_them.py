@@ -5,6 +5,7 @@ import io
 import math
 
 import pytest
+from hostile import hostile, outcome
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rich import box
@@ -238,6 +239,47 @@ def test_a_range_in_one_column_is_both_limits(cell, lower, upper):
     page = f"|θ|d|a|α|Range|\n|-|-|-|-|-|\n|0|1|0|0|{cell}|\n"
     row = parse_table(page, "markdown", "a", told("standard", "m,deg")).table.rows[0]
     assert (row.lower, row.upper) == pytest.approx((math.radians(lower), math.radians(upper)))
+
+
+BITS = [
+    *(
+        "|",
+        "│",
+        "-",
+        "--",
+        "\n",
+        "\n\n",
+        ";",
+        "\t",
+        ",",
+        "  ",
+        "#",
+        "**",
+        "─",
+        "=",
+        ":",
+        "{",
+        "]",
+        '"',
+    ),
+    *("θ", "d", "(deg)", "[mm]", "1,5", "q1", "R", "true", "tool: 3", "±170", "range", "offset"),
+    *("\\frac{a}{b}", "*a", "&a", "i-1", "₋₁", "units: mm", "convention: x", "½", "⁻"),
+]
+
+
+@hostile(
+    name=st.sampled_from(list(PASTED)),
+    edits=st.lists(st.tuples(st.integers(0, 600), st.integers(0, 9), st.sampled_from(BITS))),
+    format=st.sampled_from(["text", "csv", "markdown", ""]),
+)
+def test_a_damaged_paste_is_read_or_refused(name, edits, format):
+    """Whatever was typed over it, in whatever format it is taken."""
+    text = PASTED[name][0]
+    for at, length, bit in edits:
+        text = text[:at] + bit + text[at + length :]
+    given = told("standard", "m,deg")
+    got = outcome(parse_table, text, format or format_of_text(text), "arm", given)
+    assert isinstance(got, tuple | TableFileError)
 
 
 def _close(row):

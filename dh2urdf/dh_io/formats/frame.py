@@ -15,9 +15,10 @@ from dh2urdf.doors import found
 
 
 def is_frame(data: object) -> bool:
-    """Tell whether an object has named columns: a data frame, a structured array, a mapping."""
+    """Tell whether an object has named columns: a frame, a structured array, mappings."""
     return (
         isinstance(data, Mapping)
+        or (isinstance(data, list | tuple) and any(isinstance(row, Mapping) for row in data))
         or getattr(getattr(data, "dtype", None), "names", None) is not None
         or (hasattr(data, "columns") and not callable(data.columns))
     )
@@ -37,6 +38,10 @@ def read_frame(data: Any, report: Report) -> Keys:
 
 def _parts(data: Any) -> tuple[list[Any], list[tuple[Any, ...]]]:
     """Names of the columns, and the rows, of which there are no more than a table may have."""
+    if isinstance(data, list | tuple):
+        records = [row if isinstance(row, Mapping) else {} for row in data[: ROWS + 1]]
+        keys = list(dict.fromkeys(key for record in records for key in record))
+        return keys, [tuple(record.get(key) for key in keys) for record in records]
     if isinstance(data, Mapping):
         columns = [np.atleast_1d(np.asarray(c, dtype=object)).tolist() for c in data.values()]
         return list(data), list(islice(zip_longest(*columns), ROWS + 1))
