@@ -106,6 +106,9 @@ Force = Annotated[bool, Parameter(help="Replace a file that dh2urdf did not writ
 PicturePath = Annotated[
     Path, Parameter(name=["--output", "-o"], help="The picture to write: .png, .svg or .pdf.")
 ]
+PagePath = Annotated[
+    Path | None, Parameter(name=["--output", "-o"], help="Write one page instead: .html.")
+]
 
 LARGEST = {Kind.LENGTH: LENGTH, Kind.ANGLE: ANGLE, Kind.NUMBER: NUMBER}
 
@@ -216,6 +219,7 @@ ALONE: dict[str, dict[str, str]] = {
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
     "workspace": {"envelope": "plane at rpy points orientations"},
     "check": {"fix": "run"},
+    "view": {"output": "host port open"},
     "extract": {**_FORMS, "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
@@ -237,7 +241,7 @@ NEEDED: dict[str, dict[str, str]] = {
     "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},
     "path": {"force": "output figure", "dpi": "figure"},
-    "view": {"base": "robot", "tip": "robot", "deg": "q"},
+    "view": {"base": "robot", "tip": "robot", "deg": "q", "output": "robot", "force": "output"},
     "check": {"base": "fix", "tip": "fix", "force": "fix"},
     "extract": {"force": "output"},
 }

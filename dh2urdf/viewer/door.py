@@ -58,6 +58,27 @@ def by_visitor(call: Callable[[Any], object]) -> Callable[[Any], object]:
     return lambda event: None if event.client is None else call(event)
 
 
+def send(visitor: Any, title: str, suffix: str, data: bytes) -> str:
+    """Send a visitor a file named after a title, with only what file systems take; its name."""
+    kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in title)
+    name = f"{kept.strip('_') or 'robot'}.{suffix}"
+    visitor.send_file_download(name, data, save_immediately=True)
+    return name
+
+
+def png(visitor: Any, patience: float) -> bytes:
+    """The scene as a visitor sees it, as a PNG; ServerError where his browser sends none."""
+    import imageio.v3 as imageio
+
+    camera = visitor.camera
+    size = {"height": int(camera.image_height), "width": int(camera.image_width)}
+    try:
+        pixels = visitor.get_render(**size, transport_format="png", timeout=patience)
+    except TimeoutError:
+        raise ServerError("the browser sent no picture") from None
+    return bytes(imageio.imwrite("<bytes>", pixels, extension=".png"))
+
+
 def later(seconds: float, call: Callable[..., object], *values: Any) -> threading.Timer:
     """A call in the background after some time; it does not keep the program running."""
     timer = threading.Timer(seconds, call, values)

@@ -1,5 +1,6 @@
 """DH frames, and one row of the table explained, in the scene."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ from dh2urdf.dh import DHConvention
 from dh2urdf.dh_io import Units
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.colours import AXIS, QUANTITY, rgb
+from dh2urdf.drawing.lesson import Motion, motions, staged
 from dh2urdf.drawing.row import Arc, DHRowPicture, Measure, axis_name, row_picture, values
 from dh2urdf.drawing.surfaces import body_surface
 from dh2urdf.transforms import Array
@@ -28,6 +30,9 @@ BESIDE = 0.22
 
 CROWDED = 0.2
 """Distance up to which two axes' ends share one label, against the length of the axes."""
+
+NEAR = 1e-6
+"""Distance up to which two names are in one place [m]; the first is shown."""
 
 FAR_OFF = 1e9
 """Where axes without a label are put [m], so that they share none."""
@@ -137,6 +142,9 @@ class RowScene:
 
     def __init__(self, server: Any, arm: DrawnArm, i: int, units: Units) -> None:
         self.server, self.arm, self.i, self.units = server, arm, i, units
+        self.step: int | None = None
+        self.steps: list[Motion] = []
+        self.done: set[str] = set()
         self.root = server.scene.add_frame("/row", show_axes=False)
         self.length = 1.6 * AXIS_LENGTH * arm.size
         self.ends = []
@@ -147,8 +155,11 @@ class RowScene:
 
     def show(self, q: Array) -> None:
         """Draw the row at q (n,)."""
-        picture = row_picture(self.arm, q, self.i)
-        self.picture = picture
+        picture = self.picture = row_picture(self.arm, q, self.i)
+        self.steps = motions(self.arm.table, self.i, float(q[self.i - 1]))
+        self.done = {motion.key for motion in self.steps[: self.step]}
+        if self.step is not None:
+            picture = staged(picture, self.steps, self.step)
         set_poses(self.ends, np.stack([picture.T_prev, picture.T_next]))
         words = values(self.arm.table, picture, self.units)
         self._axes(picture)
@@ -168,7 +179,8 @@ class RowScene:
             [T[:3, 3] - reach * T[:3, 2], T[:3, 3] + reach * T[:3, 2]]
             for T in (picture.T_prev, picture.T_reached)
         ]
-        lines.append([start - 0.5 * reach * x, end + 0.7 * reach * x])
+        if "a" in self.done:
+            lines.append([start - 0.5 * reach * x, end + 0.7 * reach * x])
         self._segments("axes", np.array(lines), "#8a93a3", 1.2)
 
     def _measure(self, measure: Measure, text: str) -> None:
@@ -177,7 +189,8 @@ class RowScene:
         length = float(np.linalg.norm(end - start))
         pose = np.eye(4)
         pose[:3, 3] = (start + end) / 2
-        if shown := length > 1e-9:
+        shown = length > 1e-9 and measure.key in self.done
+        if length > 1e-9:
             pose[:3, :3] = frame_along((end - start) / length)
         size = (TUBE * 0.7 * SHAFT * self.arm.size, max(length, 1e-6))
         tube = body_surface(Body("cylinder", size, pose, "link"), rgb(QUANTITY[measure.key]))
@@ -187,7 +200,7 @@ class RowScene:
     def _arc(self, arc: Arc, text: str) -> None:
         """An arc with its value, from a thin line in its starting direction."""
         radius = (0.72 if arc.key == "theta" else 0.86) * self.length
-        shown = abs(arc.value) > 1e-9
+        shown = abs(arc.value) > 1e-9 and arc.key in self.done
         points = arc.points(radius)
         pairs = np.stack([points[:-1], points[1:]], axis=1)
         self._segments(arc.key, pairs, QUANTITY[arc.key], THICK, visible=shown)
@@ -198,15 +211,19 @@ class RowScene:
         self._label(arc.key, text, out, visible=shown)
 
     def _names(self, picture: DHRowPicture) -> None:
-        i = self.i
+        i, taken = self.i, list[Array]()
+        under_way = self.step is not None and self.step < len(self.steps)
+        self.ends[1].visible = self.step != 0
         for T, k in ((picture.T_prev, i - 1), (picture.T_next, i)):
             for letter, direction in (("x", 0), ("z", 2)):
                 place = T[:3, 3] + 1.12 * self.length * T[:3, direction]
                 if letter == "x" and _on(picture.a.segment, place):
                     place = place - BESIDE * self.length * T[:3, 2]
-                self._label(
-                    f"{letter}{'prev' if k < i else 'next'}", axis_name(self.arm, letter, k), place
-                )
+                shown = self.step is None or all(math.dist(place, p) > NEAR for p in taken)
+                taken.append(place)
+                text = f"{letter}′" if under_way and k == i else axis_name(self.arm, letter, k)
+                name = f"{letter}{'prev' if k < i else 'next'}"
+                self._label(name, text, place, visible=shown)
 
     def _segments(
         self, name: str, points: Array, colour: str, width: float, *, visible: bool = True

@@ -9,14 +9,14 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.print import title
-from dh2urdf.dh_io import Units
 from dh2urdf.drawing.arm import drawn_arm, table_of, zero_configuration
 from dh2urdf.drawing.surfaces import Drawing, TableDrawing
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.viewer.arm_scene import ArmScene
-from dh2urdf.viewer.door import LOOPBACK, by_visitor, later, quietly, start_server
+from dh2urdf.viewer.door import LOOPBACK, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
+from dh2urdf.viewer.options import Options
 from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
 from dh2urdf.viewer.tabs.editor import page_title
 from dh2urdf.viewer.tabs.ik_tab import IKTab
@@ -29,11 +29,6 @@ CLOSE = 1.15
 
 SHADOWS_AFTER = 3.0
 """From a visitor's coming to the sun's shadows [s]; the first picture does not wait for them."""
-
-UNITS = {
-    f"{m}, {sign}": Units(m, a) for m in ("m", "mm") for a, sign in (("deg", "°"), ("rad", "rad"))
-}
-"""Units to choose from, by what they are called."""
 
 PANEL = 400
 """Width of the panel [px]."""
@@ -103,7 +98,13 @@ class ArmView:
         self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
         self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
         self._titled = self._server.gui.add_html("")
-        self._options()
+        self._options = Options(
+            self._server.gui,
+            self._switch_units,
+            self._switch_frames,
+            self._switch_meshes,
+            lambda: (self.robot, self.q),
+        )
         light(self._server)
         with self._lock:
             self._build(robot, config)
@@ -137,39 +138,23 @@ class ArmView:
         if self._shadows is None:
             self._shadows = later(SHADOWS_AFTER, cast_shadows, self._server)
 
-    def _options(self) -> None:
-        """Units of all tabs and switches of what the scene shows, under the tabs."""
-        gui = self._server.gui
-        self._choice = gui.add_dropdown("Units", tuple(UNITS), initial_value=next(iter(UNITS)))
-        self._show_frames = gui.add_checkbox("DH frames", False)
-        self._show_names = gui.add_checkbox("Names of axes", True)
-        self._show_meshes = gui.add_checkbox("Meshes of the URDF", True, visible=False)
-        self._choice.on_update(by_visitor(self._switch_units))
-        for handle in (self._show_frames, self._show_names):
-            handle.on_update(by_visitor(self._switch_frames))
-        self._show_meshes.on_update(by_visitor(self._switch_meshes))
-
-    @property
-    def _units(self) -> Units:
-        return UNITS[self._choice.value]
-
     def _build(self, robot: Robot, q: Array) -> None:
         """Show another arm."""
         arm = drawn_arm(table_of(robot))
         own, notes = urdf_drawing(robot)
-        drawing: Drawing = own if own and self._show_meshes.value else TableDrawing(arm)
+        drawing: Drawing = own if own and self._options.meshes.value else TableDrawing(arm)
         with self._server.atomic():
             for scene in self._scenes:
                 scene.remove()
             self.robot, self._arm, self._q = robot, arm, q
-            self._show_meshes.visible = own is not None
+            self._options.meshes.visible = own is not None
             self._scene = ArmScene(self._server, drawing)
             self._frames = FramesScene(self._server, arm)
             self._scenes = [self._scene, self._frames]
             self._name()
-            self._joints.build(robot, q, self._units)
-            self._table.build(arm.table, self._units)
-            self._ik.build(robot, drawing, q, self._units)
+            self._joints.build(robot, q, self._options.units)
+            self._table.build(arm.table, self._options.units)
+            self._ik.build(robot, drawing, q, self._options.units)
             for note in notes:
                 self._table.say(note)
             self._stage = set_stage(self._server, robot, arm, drawing, q)
@@ -191,13 +176,15 @@ class ArmView:
     def _redraw(self) -> None:
         q = self.robot.chain_configuration(self._q)  # of all joints of the table
         self._scene.show(q if isinstance(self._scene.drawing, TableDrawing) else self._q)
-        self._frames.set_visible(self._show_frames.value, self._show_names.value, self._table.row)
+        self._frames.set_visible(
+            self._options.frames.value, self._options.names.value, self._table.row
+        )
         self._frames.show(q)
         self._joints.show(self._q)
         self._ik.show(self._q)
         if self._row_scene:
             self._row_scene.show(q)
-            self._table.explain(self._row_scene.picture)
+            self._table.explain(self._row_scene.picture, self._row_scene.steps)
 
     def _explain(self, i: int, visitor: Any = None) -> None:
         """Explain row i, 0 for none, and bring the eye of who asked near to it."""
@@ -229,25 +216,26 @@ class ArmView:
             self._row_scene.remove()
             self._row_scene = None
         if i:
-            self._row_scene = RowScene(self._server, self._arm, i, self._units)
+            self._row_scene = RowScene(self._server, self._arm, i, self._options.units)
+            self._row_scene.step = self._table.step
         else:
             self._table.explain(None)
-        self._scene.set_translucent(i > 0 or self._show_frames.value)
+        self._scene.set_translucent(i > 0 or self._options.frames.value)
 
-    def _switch_frames(self, _: Any = None) -> None:
+    def _switch_frames(self) -> None:
         with self._lock, self._server.atomic():
-            self._scene.set_translucent(self._table.row > 0 or self._show_frames.value)
+            self._scene.set_translucent(self._table.row > 0 or self._options.frames.value)
             self._redraw()
 
-    def _switch_units(self, _: Any = None) -> None:
+    def _switch_units(self) -> None:
         with self._lock, self._server.atomic():
-            self._joints.build(self.robot, self._q, self._units)
-            self._table.build(self._arm.table, self._units)
-            self._ik.set_units(self._units)
+            self._joints.build(self.robot, self._q, self._options.units)
+            self._table.build(self._arm.table, self._options.units)
+            self._ik.set_units(self._options.units)
             self._show_row(self._table.row)
             self._redraw()
 
-    def _switch_meshes(self, _: Any) -> None:
+    def _switch_meshes(self) -> None:
         with self._lock:
             self._build(self.robot, self._q)
 

@@ -177,6 +177,8 @@ USAGE = [
     (["workspace", "ur5", "-o", "x.png", "--envelope", "--plane", "xz"], "--plane"),
     (["figure", "planar_rr", "-o", "x.png", "--task", "position"], "--branches"),
     (["view", "--tip", "x"], "ROBOT"),
+    (["view", "-o", "x.html"], "ROBOT"),
+    (["view", "ur5", "--force"], "--output"),
     (["extract", "x.urdf", "--force"], "--output"),
     (["fk", "planar_rr", "0", "--q", "0"], "--q"),
     (["convert", "ur5", "-o", "x.yaml", "--no-dh-frames"], ".yaml"),

@@ -45,6 +45,7 @@ ANSWERS = {
     "path to a file": ["path", "denso_vs6556", "poses.csv", "-o", "q.csv", "--figure", "q.svg"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
+    "view -o": ["view", "planar_rr", "-o", "rr.html"],
 }
 
 REFUSALS = {

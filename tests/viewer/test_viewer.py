@@ -149,7 +149,7 @@ def test_scene_stands_where_the_robot_does(view):
 def test_frames_are_drawn_where_the_table_puts_them(view):
     """The DH frames appear once asked for, at the frames of the table, and follow the arm."""
     assert view._frames.roots == []
-    view._show_frames.value = True
+    view._options.frames.value = True
     view._switch_frames()
     for q in ([0.0, 0.0], [0.7, 0.4]):
         view.q = q
@@ -161,7 +161,7 @@ def test_frames_are_drawn_where_the_table_puts_them(view):
 def test_names_of_axes_that_coincide_share_a_label():
     """At a straight wrist x4, x5 and x6 have one label; where they part, each name shows once."""
     with Robot.from_dh("puma560").view([0.3, 0.4, -0.2, 0.0, 0.0, 0.0], port=0) as shown:
-        shown._show_frames.value = True
+        shown._options.frames.value = True
         shown._switch_frames()
         assert shown._scene.translucent
         for q5, names in ((0.0, {"z₅, z₆", "x₄, x₅, x₆"}), (1.2, {"z₅, z₆", "x₄", "x₅, x₆"})):

@@ -67,8 +67,8 @@ def press(view, key, value):
         tab._save_urdf(EVENT)
         tab._save_table(EVENT)
     elif key == "frames":
-        view._show_frames.value = value
-        view._switch_frames(EVENT)
+        view._options.frames.value = value
+        view._switch_frames()
     elif key == "solve":
         view._ik.solve(view.robot.fk(view.q) @ trans(0.1 * value, 0, 0), follow=True)
     else:

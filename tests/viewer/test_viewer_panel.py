@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from dh2urdf import DHConvention, DHRow, DHTable, JointType, Robot
 from dh2urdf.dh_io import Kind, Units, parse_cell
 from dh2urdf.drawing.readings import TINY, measured, reading
+from dh2urdf.viewer.options import UNITS
 from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.branches import branch_letters
-from dh2urdf.viewer.view import UNITS
 
 KINDS = st.sampled_from([Kind.LENGTH, Kind.ANGLE])
 CHOSEN = st.sampled_from(list(UNITS.values()))
@@ -66,7 +66,7 @@ def test_units_are_chosen_once_for_all_tabs(view):
     """In millimetres and radians every label says so, and every number follows."""
     view._table.choose(2)
     view._explain(2)
-    view._choice.value = "mm, rad"
+    view._options.choice.value = "mm, rad"
     view._switch_units()
     labels = [slider.label for slider in view._joints.sliders]
     assert labels == ["turn [rad]", "slide [mm]"]
@@ -88,7 +88,7 @@ def test_units_are_chosen_once_for_all_tabs(view):
 def test_numbers_typed_in_other_units_mean_these_units(view):
     """120 typed as d in millimetres is 0.12 m in the arm."""
     view._table.choose(2)
-    view._choice.value = "mm, °"
+    view._options.choice.value = "mm, °"
     view._switch_units()
     view._table.cells["d"].value = "120"
     view._table._try(view._table._with_row_cells)
@@ -112,7 +112,7 @@ def test_letters_of_the_branches_are_explained():
 def test_explained_row_draws_its_frames_once():
     """The set of all frames leaves out those of the row and those that stand in them."""
     with Robot.from_dh("puma560").view([0.3, 0.4, -0.2, 0.6, 0.7, 0.0], port=0) as shown:
-        shown._show_frames.value = True
+        shown._options.frames.value = True
         shown._table.choose(5)
         shown._explain(5)
         seen = [root.visible for root in shown._frames.roots]

@@ -7,6 +7,7 @@ import pytest
 from browser import chromium, wait_for
 
 from dh2urdf import Robot
+from dh2urdf.transforms import trans
 
 pytestmark = [
     pytest.mark.browser,
@@ -62,3 +63,57 @@ def test_fault_in_the_text_takes_the_caret(shown):
     assert field.evaluate("e => e.scrollLeft") > 100
     assert field.bounding_box()["height"] >= 300
     visitor.screenshot("view-fault-in-text")
+
+
+def test_target_is_typed_and_copied(shown):
+    """A pose pasted into the field moves the arm; what is copied out is where it stands."""
+    robot = Robot.from_dh("ur5e")
+    view, visitor = shown(robot, START)
+    visitor.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    T = robot.fk(START) @ trans(0.0, 0.04, -0.03)
+    visitor.tab("IK")
+    visitor.page.get_by_text("Target as text").click()
+    visitor.choose("Written as", "4 × 4")
+    text = str(T.tolist())
+    visitor.page.locator("textarea:visible").fill(text)
+    wait_for(lambda: view._ik.field.field.value == text)
+    visitor.button("Set the target").click()
+    wait_for(lambda: np.abs(view.q - START).max() > 0.0)
+    np.testing.assert_allclose(view.robot.fk(view.q), T, atol=1e-8)
+    visitor.screenshot("view-target-as-text")
+    visitor.button("Copy").click()
+    visitor.button("Copied").wait_for()
+    copied = visitor.page.evaluate("navigator.clipboard.readText()")
+    back = np.array([float(v) for v in copied.split()]).reshape(4, 4)
+    np.testing.assert_allclose(back, T, atol=2e-8)
+
+
+def test_lesson_goes_motion_by_motion(shown):
+    """Next shows one motion more, in the scene and in words with the matrix so far."""
+    view, visitor = shown(Robot.from_dh("ur5e"), START)
+    visitor.tab("DH table")
+    visitor.choose("Explain row", "4")
+    for k in range(4):
+        visitor.button("Next ›").click()
+        wait_for(lambda k=k: view._table.step == k)
+        visitor.frames(2)
+        visitor.screenshot(f"view-lesson-{k}")
+    visitor.page.get_by_text("motion 3 of 4: move along x₄ by a₄ = 0 m").wait_for()
+    visitor.page.get_by_text("so far").wait_for()
+
+
+def test_picture_and_page_are_saved(shown, tmp_path):
+    """The scene as a PNG of its size, and the page of the arm as it stands."""
+    view, visitor = shown(Robot.from_dh("planar_rr"), [0.5, 0.25], width=800, height=500)
+    with visitor.page.expect_download() as download:
+        visitor.button("Picture").click()
+    download.value.save_as(tmp_path / "arm.png")
+    head = (tmp_path / "arm.png").read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    camera = next(iter(view._server.get_clients().values())).camera
+    assert int.from_bytes(head[16:20], "big") == camera.image_width
+    with visitor.page.expect_download() as download:
+        visitor.button("Page").click()
+    assert download.value.suggested_filename == "planar_rr.html"
+    download.value.save_as(tmp_path / "arm.html")
+    assert '"start": [0.5, 0.25]' in (tmp_path / "arm.html").read_text(encoding="utf-8")

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Deg, Link, Reading, Values, whole
+from dh2urdf.cli.options import DEFAULT, Deg, Force, Link, PagePath, Reading, Values, whole
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
 
@@ -18,12 +18,16 @@ def view_(
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
+    output: PagePath = None,
+    force: Force = False,
     host: str = "127.0.0.1",
     port: Annotated[int | None, whole(0, 65_535)] = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
     json: bool = False,
 ) -> None:
     """Look at an arm in the browser; Ctrl-C ends it.
+
+    With -o, write a page that needs neither dh2urdf nor a network: for a course page or a mail.
 
     Parameters
     ----------
@@ -39,8 +43,16 @@ def view_(
     open
         Open the page in the browser.
     json
-        One JSON object with the address instead of text.
+        One JSON object with the address, or the path, instead of text.
     """
+    if output is not None:
+        from dh2urdf.page import save_page
+
+        arm = robot_of(robot or "", base, tip, reading)
+        start = parse_configuration(q, arm, deg=deg) if q else None
+        path = save_page(arm, output, start, force=force)
+        emit_json("view", path=path) if json else emit(str(path))
+        return
     from dh2urdf.robot import Robot
     from dh2urdf.viewer import view
     from dh2urdf.viewer.tabs.table_tab import new_table

@@ -1,13 +1,18 @@
 """Small pieces of HTML for the panel; everything that is not ours is escaped."""
 
 import re
+from collections.abc import Sequence
+from functools import reduce
 from html import escape
+
+import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh.print import plus
 from dh2urdf.dh.row import Origin
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.colours import QUANTITY
+from dh2urdf.drawing.lesson import Motion
 from dh2urdf.drawing.readings import DIGITS, MINUS, Reading, reading, sign_of
 from dh2urdf.transforms import Array, matrix_to_rpy
 from dh2urdf.viewer.arm_scene import quaternions
@@ -98,6 +103,19 @@ def matrix(T: Array, name: str, units: Units) -> str:
     border = "border-left:1.5px solid #888;border-right:1.5px solid #888;border-radius:4px"
     unit = f' <span style="color:#6b7280">(lengths in {units.length})</span>'
     return f'<div style="{STYLE}"><b>{name}</b> ={unit}<table style="{border}">{body}</table></div>'
+
+
+def lesson(said: str, i: int, steps: Sequence[Motion], count: int, units: Units) -> str:
+    """What motion was made, the product that it belongs to, and the matrix so far."""
+    styles = ["font-weight:700" if k < count else f"color:{FAINT}" for k in range(len(steps))]
+    factors = [
+        f'<span style="{style}">{escape(motion.factor)}</span>'
+        for motion, style in zip(steps, styles, strict=True)
+    ]
+    T = reduce(np.matmul, [motion.T for motion in steps[:count]], np.eye(4))
+    pair = f"T<sub>{i - 1},{i}</sub>"
+    product = f'<div style="{STYLE}">{pair} = {" · ".join(factors)}</div>'
+    return message(said) + product + matrix(T, pair if count == len(steps) else "so far", units)
 
 
 def table(dh: DHTable, row: int, units: Units) -> str:

@@ -15,6 +15,7 @@ from dh2urdf.viewer.arm_scene import Ghosts, set_poses
 from dh2urdf.viewer.door import by_visitor
 from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.branches import Answer, answer, branch_table
+from dh2urdf.viewer.tabs.pose_field import PoseField
 from dh2urdf.viewer.tabs.redundancy import Redundancy
 from dh2urdf.workspace import common_axis, task_of
 
@@ -53,6 +54,7 @@ class IKTab:
             self.show_ghosts = gui.add_checkbox("Ghosts", True)
             self.within = gui.add_checkbox("Within limits", True)
             self.task = gui.add_dropdown("Reach", ("pose", "position+axis", "position"))
+            self.field = PoseField(gui, self._typed)
             self.redundancy = Redundancy(gui, self._held)
             self.status = gui.add_html(html.message("Switch the target on and drag it."))
             self.listed = gui.add_html("")
@@ -85,6 +87,7 @@ class IKTab:
         """Show the same in other units."""
         self.units = units
         self.redundancy.build(self.robot, self.q, units)
+        self.field.show(self._T, units)
         self._show_answer(self.answer)
 
     def show(self, q: Array) -> None:
@@ -99,6 +102,7 @@ class IKTab:
     def solve(self, T: Array, *, follow: bool = False) -> None:
         """Solve for a target, show what there is; the arm follows to the nearest."""
         self._T = T
+        self.field.show(T, self.units)
         if self.answer is None:
             self.status.content = html.message("Solving. The first time takes some seconds.")
         task, within, locked = self.task.value, self.within.value, self.redundancy.locked
@@ -133,7 +137,17 @@ class IKTab:
 
     def _place_target(self, T: Array) -> None:
         self._T = np.array(T)
+        self.field.show(self._T, self.units)
         set_poses([self.target], T[None])
+
+    def _typed(self, T: Array, visitor: Any) -> None:
+        """Bring the target, switched on where it was not, to a pose that was typed."""
+        with self.lock, self.server.atomic():
+            if not self.active.value:
+                self.active.value = self.target.visible = True
+                self.on_target(visitor)
+            self._place_target(T)
+            self.solve(T, follow=True)
 
     def _switched(self, event: Any) -> None:
         with self.lock:

@@ -1,7 +1,7 @@
 """The DH table: a row explained, cells edited, the URDF to take away."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -9,15 +9,19 @@ from dh2urdf.conversions.write import verified_urdf
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh_io import Kind, Units, parse_cell, parse_table, table_to_text
 from dh2urdf.dh_io.cells.units import decimal_text
+from dh2urdf.drawing.lesson import Motion, lesson_words, walked
 from dh2urdf.drawing.readings import UNITS, sign_of
 from dh2urdf.drawing.row import DHRowPicture, length_index, row_words, subscript
 from dh2urdf.exceptions import Dh2UrdfError, TableError
-from dh2urdf.viewer.door import by_visitor
+from dh2urdf.viewer.door import by_visitor, send
 from dh2urdf.viewer.tabs import html
 from dh2urdf.viewer.tabs.editor import caret, editor
 from dh2urdf.viewer.tabs.html import KINDS_OF, SYMBOLS
 
 NOTHING = "none"
+
+WAYS = {"‹ Previous": -1, "Next ›": 1, "All at once": 0}
+"""Buttons of the lesson that goes motion by motion."""
 
 EDITOR_HEIGHT = 300
 """Of the YAML field [px]; its corner drags it taller."""
@@ -42,10 +46,12 @@ class TableTab:
     ) -> None:
         self.gui, self.on_explain, self.on_table = gui, on_explain, on_table
         self.table = new_table()
-        self.row, self.units, self.faults = 0, UNITS, 0
+        self.row, self.units = 0, UNITS
+        self.step: int | None = None
         with tab:
             self.shown = gui.add_html("")
             self.choice = gui.add_dropdown("Explain row", (NOTHING,), initial_value=NOTHING)
+            self.walk = gui.add_button_group("Motions", tuple(WAYS))
             self.words = gui.add_html("")
             with gui.add_folder("Edit the row", expand_by_default=False) as self.row_folder:
                 self.cells = self._cells()
@@ -56,6 +62,7 @@ class TableTab:
             self.save_urdf = gui.add_button("Save the URDF")
             self.save_table = gui.add_button("Save the table")
         self.choice.on_update(by_visitor(self._chosen))
+        self.walk.on_click(by_visitor(self._walked))
         self.apply.on_click(by_visitor(lambda event: self._try(self._with_row_cells, event.client)))
         self.rows.on_click(by_visitor(lambda event: self._try(self._with_rows, event.client)))
         self.rebuild.on_click(by_visitor(lambda event: self._try(self._with_text, event.client)))
@@ -77,23 +84,32 @@ class TableTab:
 
     def build(self, table: DHTable, units: Units) -> None:
         """Show another table, or other units; the row stays chosen where it still exists."""
+        kept = self.step if table == self.table else None
         self.table, self.units = table, units
         self.choice.options = (NOTHING, *[str(i) for i in range(1, table.n + 1)])
         self.text.value = table_to_text(table, "yaml", units)
         self.choose(min(self.row, table.n))
+        self.step = kept
 
-    def explain(self, picture: DHRowPicture | None) -> None:
-        """Say what a row says, with its matrix; None says nothing."""
+    def explain(self, picture: DHRowPicture | None, steps: Sequence[Motion] = ()) -> None:
+        """Say what a row says, with its matrix, or which motion is made; None says nothing."""
         if picture is None:
-            self.words.content = html.message("Choose a row to see what its numbers measure.")
+            self.words.content = html.message(
+                "Choose a row to see what its numbers measure, "
+                "or Next to go through the table motion by motion."
+            )
             return
         name = f"T<sub>{picture.i - 1},{picture.i}</sub>"
+        if self.step is not None:
+            said = lesson_words(self.table, picture, steps, self.step, self.units)
+            self.words.content = html.lesson(said, picture.i, steps, self.step, self.units)
+            return
         words = html.message(row_words(self.table, picture, self.units))
         self.words.content = words + html.matrix(picture.T_prev_next, name, self.units)
 
     def choose(self, row: int) -> None:
         """Choose a row, 0 for none, as a visitor would."""
-        self.row = row
+        self.row, self.step = row, None
         self.choice.value = str(row) if row else NOTHING
         self._refresh()
 
@@ -128,7 +144,16 @@ class TableTab:
         """All digits of a number, as one would type it."""
         return decimal_text(value, self.units.of(kind))
 
+    def _walked(self, event: Any) -> None:
+        """Go on or back by one motion, or see all of the row's at once."""
+        before, way = self.row, WAYS[self.walk.value]
+        row, step = walked(self.table, self.row, self.step, way) if way else (self.row, None)
+        self.choose(row)
+        self.step = step
+        self.on_explain(row, event.client if row != before else None)
+
     def _chosen(self, event: Any) -> None:
+        self.step = None
         self.row = 0 if self.choice.value == NOTHING else int(self.choice.value)
         self._refresh()
         self.on_explain(self.row, event.client)
@@ -190,21 +215,15 @@ class TableTab:
         except Dh2UrdfError as error:
             self.say(str(error), "bad")
             return
-        name = self._send(event, "urdf", text)
+        name = send(event.client, self.table.name, "urdf", text.encode())
         notes = "".join(f"\n{warning}" for warning in warnings)
         checked = f"largest difference between Pinocchio and the DH product {max_error:.1e}"
         self.say(f"{name}: {checked}{notes}", "good")
 
     def _save_table(self, event: Any) -> None:
-        name = self._send(event, "yaml", table_to_text(self.table, "yaml"))
+        text = table_to_text(self.table, "yaml")
+        name = send(event.client, self.table.name, "yaml", text.encode())
         self.say(f"{name} was sent to your browser.", "good")
-
-    def _send(self, event: Any, suffix: str, text: str) -> str:
-        """Send a file named after the table, with only what file systems take; its name."""
-        kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in self.table.name)
-        name = f"{kept.strip('_') or 'robot'}.{suffix}"
-        event.client.send_file_download(name, text.encode(), save_immediately=True)
-        return name
 
 
 def new_table() -> DHTable:
