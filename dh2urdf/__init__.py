@@ -22,7 +22,13 @@ if TYPE_CHECKING:
     from dh2urdf.checks.rules import check_urdf
     from dh2urdf.comparison import Comparison, compare
     from dh2urdf.conversions.assign import to_convention
-    from dh2urdf.conversions.write import ConversionReport, UrdfOptions, urdf_text, write_urdf
+    from dh2urdf.conversions.write import (
+        ConversionReport,
+        UrdfOptions,
+        urdf_text,
+        write_mjcf,
+        write_urdf,
+    )
     from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
     from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
@@ -41,7 +47,7 @@ _LATE = {
         "checks.rules": "check_urdf",
         "comparison": "Comparison compare",
         "conversions.assign": "to_convention",
-        "conversions.write": "ConversionReport UrdfOptions urdf_text write_urdf",
+        "conversions.write": "ConversionReport UrdfOptions urdf_text write_mjcf write_urdf",
         "dh": "DHConvention DHRow DHTable JointType Origin dh_factors dh_transform",
         "dh.reach": "dh_parameters",
         "extract": "Extraction extract_dh",
@@ -88,6 +94,7 @@ __all__ = [
     "transforms",
     "urdf_text",
     "wrist_centre",
+    "write_mjcf",
     "write_urdf",
 ]
 

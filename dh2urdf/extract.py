@@ -87,7 +87,7 @@ def extract_dh(
     source: Any,
     base: str | None = None,
     tip: str | None = None,
-    convention: DHConvention | str = DHConvention.STANDARD,
+    convention: DHConvention | str | None = DHConvention.STANDARD,
     snap: float | bool | None = None,
     *,
     x_axis: XRule | str = XRule.AUTO,
@@ -111,6 +111,7 @@ def extract_dh(
     base, tip : str, optional
         Links anywhere in the tree. Without them the root and the end of the longest chain.
     convention : DHConvention
+        None for that of the table that a file carries, standard where it carries none.
     snap : float or True, optional
         Set angles [rad] and lengths [m] right that miss a multiple of 15 degrees or zero by no
         more than this; True for 2e-5. Nothing is changed without it.
@@ -145,7 +146,7 @@ def extract_dh(
     from dh2urdf.conversions.chains import carry, configurations, read_source, table_poses
     from dh2urdf.conversions.read import xacro_given
 
-    convention = convention_of(convention)
+    wanted = None if convention is None else convention_of(convention)
     tolerance = snap_tolerance(snap)
     xacro = xacro_given(xacro_args, packages)
     typed: dict[str, Any] = {"joint_types": joint_types, "tool": tool, "names": names}
@@ -157,12 +158,13 @@ def extract_dh(
     allowed = LARGEST_ERROR * max(1.0, size)
     warnings = list(found.warnings)
     written = given.embedded if embedded and tolerance == 0 and not flip else None
-    if written is not None and written.convention == convention:
+    if written is not None and wanted in (None, written.convention):
         fits = written.n == chain.n
         error = pose_error(table_poses(written, qs), truth) if fits else math.inf
         if error <= allowed:
             return Extraction(written, found.base, found.tip, error, len(qs), ())
         warnings.append(_assigned_anew(written, error))
+    convention = wanted or DHConvention.STANDARD
     signs = flip_signs(chain, flip)
     changes: list[Change] = []
     if tolerance > 0:

@@ -63,10 +63,10 @@ def grid_markdown(header: Sequence[str], rows: Grid) -> str:
     return "\n".join(lines)
 
 
-def grid_csv(header: Sequence[str], rows: Grid) -> str:
-    """Comma-separated values with a header line."""
+def grid_csv(header: Sequence[str], rows: Grid, delimiter: str = ",") -> str:
+    """Values separated by commas, or by another sign, with a header line."""
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([header, *rows])
+    csv.writer(out, delimiter=delimiter, lineterminator="\n").writerows([header, *rows])
     return out.getvalue()
 
 

@@ -165,7 +165,9 @@ def test_written_html_shows_the_name(name):
 
 
 @hostile(
-    name=NAMES, source=NAMES, format=st.sampled_from(["yaml", "toml", "json", "csv", "markdown"])
+    name=NAMES,
+    source=NAMES,
+    format=st.sampled_from(["yaml", "toml", "json", "csv", "tsv", "markdown"]),
 )
 def test_written_tables_are_read_back_and_render_as_text(name, source, format):
     """A table file gives the same name back; as a Markdown page it has no markup of its own."""

@@ -15,7 +15,8 @@ from typing import Annotated, Any, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ANGLE, DPI, LENGTH, NUMBER
-from dh2urdf.dh_io import FORMATS, Kind, Told, Units, parse_cell, told
+from dh2urdf.dh import DHTable
+from dh2urdf.dh_io import WRITTEN, Kind, Told, Units, parse_cell, told, usual_units
 from dh2urdf.dh_io.cells.units import SI
 from dh2urdf.dh_io.cells.values import FUNCTIONS
 from dh2urdf.doors import found
@@ -94,6 +95,31 @@ class Reading(Telling, Description):
 UNTOLD = Telling()
 DEFAULT = Reading()
 PLAIN = Description()
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class Writing(Reading):
+    """What is written of a table; a file that does not say so itself is read so, too."""
+
+    convention: Literal["standard", "modified"] | None = None
+    """Convention to write; that of the file if it does not say its own. Default: the file's."""
+
+    units: str | None = None
+    """Units to write, such as mm,deg; those of the file if it says none. Default: the file's."""
+
+    @property
+    def told(self) -> Told:
+        """What a table file is told that may say otherwise."""
+        return told(self.convention, self.units, model=self.model, may_differ=True)
+
+    def units_of(self, table: DHTable, format: str, given: Units | None) -> Units:
+        """Units to write a table in, read from a file in the units given."""
+        usual = Units("m", "deg") if format == "text" else usual_units(table, format, given)
+        return Units(self.told.length or usual.length, self.told.angle or usual.angle)
+
+
+AS_READ = Writing()
 
 
 Arm = Annotated[
@@ -201,7 +227,9 @@ Dpi = Annotated[float, real(*DPI), Parameter(help="Resolution of a PNG.")]
 
 Digits = Annotated[int | None, whole(0, 17)]
 
-_TABLES = {f"output={suffix}": "digits collision dh_frames balance_inertia" for suffix in FORMATS}
+_BODIES = "collision dh_frames balance_inertia"
+_TABLES = dict.fromkeys((f"output={suffix}" for suffix in WRITTEN), _BODIES)
+_TABLES |= dict.fromkeys((f"format={name}" for name in WRITTEN.values()), _BODIES)
 
 _NO_TABLE = "convention snap explain digits x_axis compact flip embedded"
 _FORMS = {f"format={form}": _NO_TABLE for form in ("opw", "screws", "kdl")}

@@ -99,6 +99,28 @@ def read_source(source: str, told: Told = NOTHING) -> TableFile:
     return _table_of_text(_piped(), told) if source == "-" else load_table_file(source, told)
 
 
+def read_any(source: str, reading: Reading) -> TableFile:
+    """Like :func:`read_source`, also of a robot description, by extraction where need be."""
+    from dh2urdf.convert import table_of_description
+
+    text = _piped() if source == "-" else ""
+    if text.lstrip().startswith("<"):
+        return table_of_description(text, reading.convention, **reading.given)
+    if Path(source).suffix.lower() in ROBOT_SUFFIXES:
+        return table_of_description(source, reading.convention, **reading.given)
+    _refuse_given(reading)
+    return _table_of_text(text, reading.told) if text else read_source(source, reading.told)
+
+
+def _refuse_given(reading: Reading) -> None:
+    """Refuse what is given for a robot description where there is a table."""
+    for option, named in reading.given.items():
+        if named:
+            raise ArgumentError(
+                f"--{option.replace('_args', '-arg').rstrip('s')} does nothing for a table"
+            )
+
+
 def _piped() -> str:
     """The text on stdin: a table or a robot description."""
     from dh2urdf.dh_io.files import read_text
@@ -125,14 +147,14 @@ def _table_of_text(text: str, told: Told) -> TableFile:
 
 def table_of(source: str, told: Told = NOTHING) -> DHTable:
     """The table of a source, its oddities noted on stderr."""
-    return _noted(read_source(source, told))
+    return noted(read_source(source, told)).table
 
 
-def _noted(read: TableFile) -> DHTable:
-    """A table, its oddities noted on stderr."""
+def noted(read: TableFile) -> TableFile:
+    """What was read, its oddities noted on stderr."""
     for warning in read.warnings:
         note(f"warning: {warning}")
-    return read.table
+    return read
 
 
 def robot_of(
@@ -147,14 +169,10 @@ def robot_of(
             return Robot.from_urdf(text, base, tip, **reading.given)
         if base or tip:
             raise UrdfError("<stdin>:1: not XML; --base and --tip are links of a URDF")
-        return Robot.from_dh(_noted(_table_of_text(text, reading.told)))
+        return Robot.from_dh(noted(_table_of_text(text, reading.told)).table)
     if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
         return Robot.from_urdf(source, base, tip, **reading.given)
-    for option, named in reading.given.items():
-        if named:
-            raise ArgumentError(
-                f"--{option.replace('_args', '-arg').rstrip('s')} does nothing for a table"
-            )
+    _refuse_given(reading)
     return Robot.from_dh(table_of(source, reading.told))
 
 

@@ -32,10 +32,10 @@ COLUMNS = {
     "damping": ("damping [N m s/rad or N s/m]", "damping [N\\,m\\,s/rad or N\\,s/m]"),
     "friction": ("friction [N m or N]", "friction [N\\,m or N]"),
     "mass": ("mass [kg]", "$m_i$ [kg]"),
-    "com": ("centre of mass", "centre of mass"),
+    "com": ("centre of mass in frame i", "centre of mass in frame $i$"),
     "inertia": (
-        "inertia ixx, ixy, ixz, iyy, iyz, izz [kg m²]",
-        "$I_{xx}, I_{xy}, I_{xz}, I_{yy}, I_{yz}, I_{zz}$ [kg\\,m$^2$]",
+        "inertia about it: ixx, ixy, ixz, iyy, iyz, izz [kg m²]",
+        "about it $I_{xx}, I_{xy}, I_{xz}, I_{yy}, I_{yz}, I_{zz}$ [kg\\,m$^2$]",
     ),
 }
 """Heads of the columns by key, in plain text and in LaTeX."""
@@ -223,9 +223,8 @@ def table_html(table: _Table, look: Look = LOOK) -> str:
 def html_page(table: _Table, look: Look = LOOK) -> str:
     """All of the table as a page of its own."""
     keys, header, rows = dynamics_grid(table, look)
-    caption = "speeds, efforts and masses; centre of mass and inertia in the frame of the row"
     parts = [table_html(table, look)]
-    parts += [grids.grid_html(header, rows, keys=keys, caption=caption)] if rows else []
+    parts += [grids.grid_html(header, rows, keys=keys, caption="dynamics")] if rows else []
     return grids.html_page(one_line(table.name), [*parts, *map(grids.paragraph, origins(table))])
 
 

@@ -14,8 +14,12 @@ from dh2urdf.exceptions import TableError
 _NOT_OVERRULED = "; what a file says itself is not overruled"
 
 
-def check_document(root: Node, report: Report, name: str, told: Told = NOTHING) -> DHTable:
-    """Turn a document into a table, named so where it gives no name, or into all its faults.
+def check_document(
+    root: Node, report: Report, name: str, told: Told = NOTHING
+) -> tuple[DHTable, Units]:
+    """Turn a document into a table and its units, or into all its faults.
+
+    The table is named so where the document gives no name.
 
     Convention and units that it does not say are those that were told.
     """
@@ -47,7 +51,7 @@ def check_document(root: Node, report: Report, name: str, told: Told = NOTHING) 
         report.raise_faults()
         raise
     _warn(table, context)
-    return table
+    return table, context.units
 
 
 def _warn(table: DHTable, context: Context) -> None:

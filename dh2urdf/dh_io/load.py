@@ -57,7 +57,7 @@ def load_table(
     given = told(convention, units, model=model)
     if is_frame(path):
         report = Report("columns", "", "frame")
-        return check_document(read_frame(path, report), report, "robot", given)
+        return check_document(read_frame(path, report), report, "robot", given)[0]
     return load_table_file(path, given).table
 
 
@@ -67,7 +67,7 @@ def load_table_file(path: str | os.PathLike[str], told: Told = NOTHING) -> Table
     if where.suffix.lower() == CONF:
         return TableFile(*read_conf_file(where, told))
     refuse_model(told, shown(where))
-    if where.suffix.lower() == ".urdf":
+    if where.suffix.lower() in (".urdf", ".xml", ".mjcf"):
         from dh2urdf.dh_io.xml import embedded_table
 
         return TableFile(embedded_table(where), ())

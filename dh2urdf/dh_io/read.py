@@ -11,6 +11,7 @@ from dh2urdf.bounds import TABLE_BYTES
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.cells.document import Node, Report
 from dh2urdf.dh_io.cells.told import NOTHING, Told
+from dh2urdf.dh_io.cells.units import Units
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, read_text, shown
 from dh2urdf.dh_io.formats.csv import read_csv
@@ -28,7 +29,7 @@ FORMATS = {
     ".toml": "toml",
     ".json": "json",
     ".csv": "csv",
-    ".tsv": "csv",
+    ".tsv": "tsv",
     ".md": "markdown",
     ".markdown": "markdown",
 }
@@ -39,6 +40,7 @@ _READERS: dict[str, Callable[[str, Report], Node]] = {
     "toml": read_toml,
     "json": read_json,
     "csv": read_csv,
+    "tsv": read_csv,
     "markdown": read_markdown,
     "text": read_page,
 }
@@ -55,10 +57,11 @@ _SIGNS = {
 
 
 class TableFile(NamedTuple):
-    """A table read from a file, and what looked odd about it."""
+    """A table read from a file, what looked odd about it, and the units that the file is in."""
 
     table: DHTable
     warnings: tuple[str, ...]
+    units: Units | None = None
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -123,8 +126,8 @@ def parse_table(
     root, name = read(text, report), Path(filename).stem or "robot"
     if (form := other_form(root, report, name, told)) is not None:
         return TableFile(*form)
-    table = check_document(root, report, name, told)
-    return TableFile(table, report.warnings)
+    table, units = check_document(root, report, name, told)
+    return TableFile(table, report.warnings, units)
 
 
 def _near(path: Path) -> str:

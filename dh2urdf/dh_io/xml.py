@@ -1,4 +1,4 @@
-"""XML documents, and the DH table that a URDF of this package carries."""
+"""XML documents, and the DH table that a URDF or MJCF of this package carries."""
 
 import os
 from typing import BinaryIO
@@ -28,8 +28,17 @@ def parse_xml(data: bytes, where: str) -> etree._Element:
     return root
 
 
+def carried_text(root: etree._Element) -> str | None:
+    """The DH table that a URDF or MJCF of this package carries, as JSON."""
+    if root.tag == "mujoco":
+        found = root.xpath("custom/text[@name='dh2urdf']/@data")
+        return str(found[0]) if found else None
+    text = root.findtext("dh2urdf")
+    return None if text is None else str(text)
+
+
 def embedded_table(path: str | os.PathLike[str] | BinaryIO) -> DHTable:
-    """The DH table that a URDF written by this package carries, identical to the original.
+    """The DH table that a file written by this package carries, identical to the original.
 
     Raises
     ------
@@ -38,10 +47,11 @@ def embedded_table(path: str | os.PathLike[str] | BinaryIO) -> DHTable:
     """
     where = shown(path) if isinstance(path, str | os.PathLike) else "<stdin>"
     root = parse_xml(read_bytes(path, ROBOT_BYTES, UrdfError), where)
-    text = root.findtext("dh2urdf")
+    text = carried_text(root)
     if not text:
+        kind = "MJCF" if root.tag == "mujoco" else "URDF"
         raise UrdfError(
-            f"{where}: no DH table is embedded in this URDF; `dh2urdf extract` finds one by "
+            f"{where}: no DH table is embedded in this {kind}; `dh2urdf extract` finds one by "
             "frame assignment"
         )
     try:

@@ -199,7 +199,7 @@ def test_broken_tables_leave_everything_as_it_was(refused, kind, tmp_path):
 
 
 def test_other_broken_inputs(refused, tmp_path):
-    """Binary data, a folder, a missing file, an r column, an embedded table cut short."""
+    """Binary data, a folder, a missing file, an r column, a robot without links."""
     (tmp_path / "binary.yaml").write_bytes(bytes(range(256)))
     (tmp_path / "folder.yaml").mkdir()
     (tmp_path / "r.csv").write_text(
@@ -211,7 +211,7 @@ def test_other_broken_inputs(refused, tmp_path):
         "folder.yaml": ["folder"],
         "missing.yaml": ["no such file"],
         "r.csv": ["a", "d"],
-        "plain.urdf": ["extract"],
+        "plain.urdf": ["no links"],
     }.items():
         err = refused("convert", name, "-o", "x.urdf")
         assert all(word in err for word in words), err

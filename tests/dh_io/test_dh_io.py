@@ -291,7 +291,7 @@ def test_a_file_without_a_name_is_named_for_itself(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("name", "format"),
-    [("a.YAML", "yaml"), ("a.yml", "yaml"), ("a.md", "markdown"), ("a.tsv", "csv")],
+    [("a.YAML", "yaml"), ("a.yml", "yaml"), ("a.md", "markdown"), ("a.tsv", "tsv")],
 )
 def test_the_suffix_tells_the_format(name: str, format: str) -> None:
     """Suffixes are read without regard to case."""

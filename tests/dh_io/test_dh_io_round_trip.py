@@ -16,7 +16,7 @@ from dh2urdf import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh_io import SI, Units, parse_table, read_table, table_to_text, write_table
 from dh2urdf.exceptions import TableError
 
-FORMATS = ("yaml", "toml", "json", "csv", "markdown")
+FORMATS = ("yaml", "toml", "json", "csv", "tsv", "markdown")
 
 numbers = st.floats(-1e4, 1e4) | st.sampled_from([0.0, math.pi / 2, -math.pi, 0.089159, 1e-300])
 positive = st.floats(1e-12, 1e6)

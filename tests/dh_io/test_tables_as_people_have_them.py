@@ -182,7 +182,7 @@ def test_what_people_paste_is_read(name, tmp_path):
     text, convention, units, rows = PASTED[name]
     path = tmp_path / name
     path.write_bytes(text.encode())
-    table, warnings = read_table(path, told=told(convention, units))
+    table, warnings, _ = read_table(path, told=told(convention, units))
     if rows is not None:
         assert [_close(r) for r in table.rows] == [_close(r) for r in rows]
     else:
@@ -315,7 +315,7 @@ def test_what_cannot_be_read_says_what_to_write(text, format, says):
 def test_columns_of_the_link_before_tell_the_modified_convention():
     """They are read as such, with a warning; told the other convention, they are at fault."""
     page = "| αᵢ₋₁ (deg) | aᵢ₋₁ (m) | dᵢ | θᵢ |\n|---|---|---|---|\n| 0 | 1 | 0 | 0 |\n"
-    table, warnings = parse_table(page, "markdown", "arm.md")
+    table, warnings, _ = parse_table(page, "markdown", "arm.md")
     assert str(table.convention) == "modified"
     assert len(warnings) == 1
     assert "read as one" in warnings[0]

@@ -97,6 +97,7 @@ KINDS = {
     "to_convention": takes(dh2urdf.to_convention, table=TABLE, convention="modified"),
     "urdf_text": takes(dh2urdf.urdf_text, table=TABLE, options=None),
     "write_urdf": takes(dh2urdf.write_urdf, table=TABLE, path="/proc/nowhere.urdf"),
+    "write_mjcf": takes(dh2urdf.write_mjcf, table=TABLE, path="/proc/nowhere.xml"),
     "save_table": takes(dh2urdf.save_table, table=TABLE, path="/proc/nowhere.yaml"),
     "load_table": takes(dh2urdf.load_table, path="puma560"),
     "extract_dh": takes(

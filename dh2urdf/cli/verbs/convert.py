@@ -1,19 +1,20 @@
-"""``dh2urdf convert``: tables to verified URDF files."""
+"""``dh2urdf convert``: tables to verified files of any format."""
 
 import os
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import UNTOLD, Json, Telling, whole
-from dh2urdf.cli.output import emit, emit_file, emit_json, read_source
+from dh2urdf.cli.options import AS_READ, Digits, Json, Writing
+from dh2urdf.cli.output import emit, emit_file, emit_json, read_any
 from dh2urdf.cli.progress import note, track
 from dh2urdf.conversions.write import UrdfOptions
-from dh2urdf.dh import DHTable
-from dh2urdf.dh_io import FORMATS, atomic_write, parse_table, refuse_foreign, table_to_text
+from dh2urdf.convert import FORMATS, SUFFIXES, converted, write_converted
 from dh2urdf.dh_io.files import shown
-from dh2urdf.exceptions import Dh2UrdfError, TableError, VerificationError
+from dh2urdf.exceptions import Dh2UrdfError, TableError
+
+Format = Literal["urdf", "mjcf", "yaml", "toml", "json", "csv", "markdown", "latex", "html"]
 
 
 def convert_(
@@ -21,32 +22,36 @@ def convert_(
     shipped: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     out_dir: Path | None = None,
+    format: Format | None = None,
     force: bool = False,
     collision: bool = False,
     dh_frames: Annotated[bool, Parameter(negative="--no-dh-frames")] = True,
-    digits: Annotated[int | None, whole(0, 17)] = None,
+    digits: Digits = None,
     balance_inertia: Annotated[bool, Parameter(negative="--no-balance-inertia")] = True,
-    reading: Telling = UNTOLD,
+    writing: Writing = AS_READ,
     json: Json = False,
 ) -> int:
-    """Turn DH tables into URDF files that Pinocchio has checked, or into tables of other formats.
+    """Turn DH tables into URDF or MJCF files, or into tables of another format, each checked.
 
-    Each file is loaded back and compared with the DH product, frame by frame; one that differs
-    is not written.
+    A URDF is loaded back by Pinocchio, an MJCF by MuJoCo, and compared with the DH product, frame
+    by frame; a table is read back and compared number by number. What differs is not written.
 
     Parameters
     ----------
     tables
-        Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, or - for one on
-        stdin.
+        Table files (YAML, TOML, JSON, CSV, Markdown), names of tables that ship, robot
+        descriptions (URDF, xacro, MJCF) for the table that `extract` finds, or - for stdin.
     shipped
         All tables that ship with the package; `convert --shipped --out-dir urdf` made the folder
         urdf/ of the repository.
     output
         The file to write; - for stdout. Default: a URDF with the table's name beside you. Its
-        suffix decides: .urdf, or .yaml, .toml, .json, .csv, .md for the table itself.
+        suffix decides: .urdf; .xml for MJCF; .yaml, .toml, .json, .csv, .md for the table itself,
+        which reads back the same; .tex, .html for people, limits to a hundredth of a degree.
     out_dir
-        Folder for the URDF files, made where there is none.
+        Folder for the files, made where there is none.
+    format
+        Format of the output where the suffix does not tell, on stdout or in a folder.
     force
         Replace files that dh2urdf did not write.
     collision
@@ -54,7 +59,8 @@ def convert_(
     dh_frames
         Write the DH frames as fixed links dh_0 ... dh_n.
     digits
-        Round all numbers to so many decimals (IKFast); default: every digit.
+        Round lengths, angles and limits to so many decimals of the file's units; default: as few
+        as keep every number exact. The report says how far rounding moves the arm.
     balance_inertia
         Make inertia tensors that no body could have acceptable to every consumer.
     """
@@ -74,59 +80,64 @@ def convert_(
             out_dir.mkdir(parents=True, exist_ok=True)
         except (OSError, ValueError) as error:
             raise Dh2UrdfError(f"{shown(out_dir)}: {getattr(error, 'strerror', error)}") from None
+    job = _Job(format, writing, options, force)
     if len(tables) == 1:
-        target = _target(tables[0], output, out_dir)
-        result = _convert(tables[0], reading, target, options, force)
-        _show_one(result, json=json)
+        _show_one(job.run(tables[0], _target(tables[0], output, out_dir, format)), json=json)
         return 0
-    return _convert_many(tables, reading, out_dir or Path(), options, force=force, json=json)
+    return _convert_many(tables, job, out_dir or Path(), json=json)
 
 
-def _target(source: str, output: Path | None, out_dir: Path | None) -> Path:
+def _target(source: str, output: Path | None, out_dir: Path | None, format: str | None) -> Path:
     """Path to write, named after the source where none is given."""
     if output is not None:
         return output
     if source == "-" and out_dir is None:
         return Path("-")
     stem = "robot" if source == "-" else Path(source).stem
-    return (out_dir or Path()) / f"{stem}.urdf"
+    return (out_dir or Path()) / f"{stem}{SUFFIXES[format or 'urdf']}"
 
 
-def _convert(
-    source: str, reading: Telling, target: Path, options: UrdfOptions, force: bool
-) -> dict[str, Any]:
-    """What was written, as JSON has it."""
-    table, warnings = read_source(source, reading.told)
-    try:
-        made = _made(table, target, options, force)
-    except TableError as error:  # a warning of the reader may tell where
-        raise TableError((*warnings, *error.problems)) from None
-    made["warnings"] = [*warnings, *made["warnings"]]
-    return {"source": source, "path": target, **made}
+def _format(target: Path) -> str:
+    """Format of a path by its suffix; a URDF on stdout, and where a device or pipe stands."""
+    if str(target) == "-" or (os.path.exists(target) and not os.path.isfile(target)):
+        return FORMATS.get(target.suffix.lower(), "urdf")
+    if (format := FORMATS.get(target.suffix.lower())) is None:
+        known = ", ".join(FORMATS)
+        message = f"the suffix decides what convert writes: {known}; or --format"
+        raise Dh2UrdfError(f"{shown(target)}: {message}")
+    return format
 
 
-def _made(table: DHTable, target: Path, options: UrdfOptions, force: bool) -> dict[str, Any]:
-    """Text of the target's kind, checked, and written unless it is for stdout."""
-    from dh2urdf.conversions.write import verified_urdf, write_urdf
+class _Job(NamedTuple):
+    """What is made of each source."""
 
-    result: dict[str, Any] = {"max_error": 0.0, "warnings": ()}
-    suffix = target.suffix.lower()
-    if str(target) == "-":
-        result["text"], result["max_error"], result["warnings"] = verified_urdf(table, options)
-    elif suffix in FORMATS:
-        text = table_to_text(table, FORMATS[suffix])
-        if parse_table(text, FORMATS[suffix]).table != table:
-            raise VerificationError(f"{shown(target)}: the text reads back as another table")
-        if not force:
-            refuse_foreign(target, same=text.encode())
-        atomic_write(target, text)
-    elif suffix in (".urdf", ".xml") or (os.path.exists(target) and not os.path.isfile(target)):
-        report = write_urdf(table, target, options=options, force=force)
-        result |= {"max_error": report.max_error, "warnings": report.warnings}
-    else:
-        known = ", ".join([".urdf", *FORMATS])
-        raise Dh2UrdfError(f"{shown(target)}: the suffix decides what convert writes: {known}")
-    return result
+    format: str | None
+    writing: Writing
+    options: UrdfOptions
+    force: bool
+
+    def run(self, source: str, target: Path) -> dict[str, Any]:
+        """What was written, as JSON has it, and how it was checked."""
+        format = self.format or _format(target)
+        read = read_any(source, self.writing)
+        units = self.writing.units_of(read.table, format, read.units)
+        try:
+            made = converted(
+                read.table, format, units, convention=self.writing.convention, options=self.options
+            )
+        except TableError as error:  # a warning of the reader may tell where
+            raise TableError((*read.warnings, *error.problems)) from None
+        if str(target) != "-":
+            write_converted(made, target, force=self.force)
+        return {
+            "source": source,
+            "path": target,
+            "format": format,
+            "max_error": made.max_error,
+            "checked": made.checked,
+            "warnings": [*read.warnings, *made.warnings],
+            **({"text": made.text} if str(target) == "-" else {}),
+        }
 
 
 def _show_one(result: dict[str, object], *, json: bool) -> None:
@@ -137,35 +148,21 @@ def _show_one(result: dict[str, object], *, json: bool) -> None:
         note(f"warning: {warning}")
     if "text" in result:
         emit_file(str(result["text"]))
-        note(_checked(result))
+        note(str(result["checked"]))
     else:
-        emit(f"{result['path']}  {_checked(result)}")
+        emit(f"{result['path']}  {result['checked']}")
 
 
-def _checked(result: dict[str, object]) -> str:
-    if Path(str(result["path"])).suffix.lower() in FORMATS:
-        return "reads back as the same table"
-    return f"largest difference between Pinocchio and the DH product {result['max_error']:.1e}"
-
-
-def _convert_many(
-    tables: tuple[str, ...],
-    reading: Telling,
-    out_dir: Path,
-    options: UrdfOptions,
-    *,
-    force: bool,
-    json: bool,
-) -> int:
+def _convert_many(tables: tuple[str, ...], job: _Job, out_dir: Path, *, json: bool) -> int:
     """Convert one after another; a bad file is reported and does not stop the rest."""
     done, failed = [], []
     targets: dict[Path, str] = {}
     for source in track(tables, "converting"):
-        target = _target(source, None, out_dir)
+        target = _target(source, None, out_dir, job.format)
         try:
             if target in targets:
                 raise Dh2UrdfError(f"{source}: {target} was already written from {targets[target]}")
-            done.append(_convert(source, reading, target, options, force))
+            done.append(job.run(source, target))
             targets[target] = source
         except Dh2UrdfError as error:
             failed.append({"source": source, "error": str(error)})
@@ -178,7 +175,7 @@ def _convert_many(
         note(f"dh2urdf: {bad['error']}")
     if done and not json:
         worst = max(done, key=lambda item: float(item["max_error"]))
-        emit(f"{len(done)} files written to {out_dir}; {_checked(worst)} ({worst['source']})")
+        emit(f"{len(done)} files written to {out_dir}; {worst['checked']} ({worst['source']})")
     if failed:
         note(f"{len(failed)} of {len(done) + len(failed)} tables were not converted")
     return 2 if failed else 0

@@ -11,17 +11,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, Reading, real
+from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, Reading, Writing, real
 from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
-from dh2urdf.dh_io import (
-    WRITTEN,
-    atomic_write,
-    parse_table,
-    refuse_foreign,
-    table_to_text,
-    usual_units,
-)
+from dh2urdf.dh_io import WRITTEN, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, UrdfError, VerificationError
 from dh2urdf.extract import CONFIGURATIONS, LARGEST_ERROR, SIGNATURE, Extraction, extract_dh
@@ -53,6 +46,7 @@ def extract_(
     explain: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     format: Format | None = None,
+    units: str | None = None,
     digits: Digits = None,
     force: Force = False,
     x_axis: Literal["auto", "away"] = "auto",
@@ -89,6 +83,8 @@ def extract_(
         toolbox, matlab-rst for the Robotics System Toolbox. opw (parameters of ortho-parallel arms
         with a spherical wrist), screws (axes and home pose) and kdl (segments) are YAML or JSON
         files that every verb reads; of these, SOURCE may be a table, too.
+    units
+        Units of the table that is written, such as mm,deg; default: m and the shorter angles.
     digits
         Decimals of the table's lengths and angles; default: as few as keep them exact.
     x_axis
@@ -108,7 +104,7 @@ def extract_(
     found = extract_dh(given, base, tip, convention, snap, **options)
     to_stdout = str(output or "-") == "-"
     asked = output is not None or format is not None
-    text = _text(found, output, format, digits) if asked else ""
+    text = _text(found, output, format, units, digits) if asked else ""
     if output is not None and not to_stdout:
         _write(found, output, text, force=force)
     elif text and not json:
@@ -181,7 +177,13 @@ def _checked_form(arm: Robot, source: str, form: str, kind: str) -> tuple[str, D
     return text, table, off
 
 
-def _text(found: Extraction, output: Path | None, format: str | None, digits: int | None) -> str:
+def _text(
+    found: Extraction,
+    output: Path | None,
+    format: str | None,
+    units: str | None,
+    digits: int | None,
+) -> str:
     """The table in the format of an output, or the one that is named."""
     from dh2urdf.conversions.write import CONSTRUCTORS, table_text_and_error
 
@@ -192,8 +194,8 @@ def _text(found: Extraction, output: Path | None, format: str | None, digits: in
         raise Dh2UrdfError(f"{output}: the suffix tells no format; use {known} or --format")
     if chosen in CONSTRUCTORS:
         return CONSTRUCTORS[chosen](found.table)
-    units = usual_units(found.table, chosen, None)
-    text, error = table_text_and_error(found.table, chosen, units, digits)
+    wanted = Writing(units=units).units_of(found.table, chosen, None)
+    text, error = table_text_and_error(found.table, chosen, wanted, digits)
     if error:
         note(f"rounded to {digits} decimals, the arm is up to {error:.2g} m or rad off")
     return text

@@ -5,18 +5,20 @@ from typing import Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.options import UNTOLD, Deg, Digits, Json, Telling, Values
+from dh2urdf.cli.options import AS_READ, Deg, Digits, Json, Values, Writing
 from dh2urdf.cli.output import (
     emit,
     emit_file,
     emit_json,
     matrix_text,
+    noted,
     parse_configuration,
-    table_of,
+    read_any,
 )
+from dh2urdf.conversions.assign import in_convention
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line
-from dh2urdf.dh_io import Units, table_to_text, usual_units
+from dh2urdf.dh_io import table_to_text
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
 from dh2urdf.robot import Robot
@@ -32,7 +34,7 @@ def show_(
     symbolic: bool = False,
     format: Literal["text", "yaml", "toml", "json", "csv", "markdown", "latex", "html"] = "text",
     digits: Digits = None,
-    reading: Telling = UNTOLD,
+    writing: Writing = AS_READ,
     json: Json = False,
 ) -> None:
     """Print a table, each of its transforms, their product, and its solver.
@@ -40,7 +42,8 @@ def show_(
     Parameters
     ----------
     table
-        A table file, or the name of a table that ships; - for stdin.
+        A table file, the name of a table that ships, or a URDF, xacro or MJCF for the table that
+        `extract` finds; - for stdin.
     values
         Joint values for the transforms; default: all zero.
     q
@@ -53,10 +56,9 @@ def show_(
     digits
         Decimals of the table's lengths and angles; default: as few as keep them exact.
     """
-    arm = Robot.from_dh(table_of(table, reading.told))
-    dh = arm.table
-    assert dh is not None
-    units = Units("m", "deg") if format == "text" else usual_units(dh, format, None)
+    given = noted(read_any(table, writing))
+    dh, _ = in_convention(given.table, writing.convention)
+    arm, units = Robot.from_dh(dh), writing.units_of(dh, format, given.units)
     text = table_to_text(dh, format, units, digits)
     if format != "text" and not json:
         emit_file(text)

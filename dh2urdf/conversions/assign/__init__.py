@@ -13,7 +13,7 @@ from dh2urdf.conversions.assign.assigned_table import (
     tidy_origin,
 )
 from dh2urdf.conversions.assign.axis_pairs import AxisCase, classify
-from dh2urdf.conversions.assign.convention import to_convention
+from dh2urdf.conversions.assign.convention import in_convention, to_convention
 from dh2urdf.conversions.assign.explain import FrameStep, explain_frames
 from dh2urdf.conversions.assign.frame_assignment import XRule, references
 from dh2urdf.conversions.assign.snap import (

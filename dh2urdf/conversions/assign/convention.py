@@ -6,11 +6,15 @@ from functools import reduce
 import numpy as np
 
 from dh2urdf import transforms as tf
-from dh2urdf.conversions.write import Inertial, grouped_rows, six_of, tensor
+from dh2urdf.conversions.write import Inertial, grouped_rows, six_of, table_difference, tensor
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.motions import convention_of
 from dh2urdf.dh_io import TableLike, as_table
+from dh2urdf.exceptions import VerificationError
 from dh2urdf.transforms import Array
+
+LARGEST_ERROR = 1e-9
+"""Largest FK difference [rad, and m per m of arm] of a table in the other convention."""
 
 
 def to_convention(table: TableLike, convention: DHConvention | str) -> DHTable:
@@ -27,6 +31,26 @@ def to_convention(table: TableLike, convention: DHConvention | str) -> DHTable:
     if target is DHConvention.MODIFIED:
         return _to_modified(table)
     return _to_standard(table)
+
+
+def in_convention(table: DHTable, convention: DHConvention | str | None) -> tuple[DHTable, float]:
+    """The arm in a convention, its own for None; largest difference of the tool [m and rad].
+
+    Raises
+    ------
+    VerificationError
+        It would differ by more than rounding.
+    """
+    if convention is None or convention_of(convention) is table.convention:
+        return table, 0.0
+    other = to_convention(table, convention)
+    error, share = table_difference(other, table)
+    if not share <= LARGEST_ERROR:
+        raise VerificationError(
+            f"{table.name}: in the {other.convention} convention the arm is {error:.3g} m or rad "
+            f"off, {share:.3g} of it (allowed {LARGEST_ERROR:g})"
+        )
+    return other, error
 
 
 def _tail(row: DHRow) -> Array:

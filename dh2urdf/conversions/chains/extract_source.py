@@ -25,7 +25,7 @@ from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 
 WRITTEN_ENDS = ("base_link", "tool0")
-"""Base and tip of every URDF that this package writes."""
+"""Base and tip of every URDF that this package writes; an MJCF has the first in its world."""
 
 
 class Source(NamedTuple):
@@ -86,17 +86,20 @@ def _from_file(
     if given.addresses:
         ends = [0 if name == given.tree.root else frame_id(model, name) for name in names]
         indices = [given.addresses[name] for name in found.chain.names]
-        return Source(found, addressed_referee(model, ends[0], ends[1], indices))
+        referee = addressed_referee(model, ends[0], ends[1], indices)
+        written = replace(found, base="base_link") if found.base == given.tree.root else found
+        return Source(found, referee, _embedded(given.root, given.tree.where, written))
     start, end = (frame_id(model, name) for name in names)
     referee = model_referee(model, start, end, found.chain.names)
     return Source(found, referee, _embedded(given.root, given.tree.where, found))
 
 
 def _embedded(root: etree._Element, where: str, found: ChainSource) -> DHTable | None:
-    """The table in the ``<dh2urdf>`` element, where it spans the same two links."""
-    element = root.find("dh2urdf")
-    if element is None or not element.text or (found.base, found.tip) != WRITTEN_ENDS:
-        return None
+    """The table that the file carries, where it spans the same two links."""
     from dh2urdf.dh_io import parse_table
+    from dh2urdf.dh_io.xml import carried_text
 
-    return parse_table(element.text, "json", f"{where}:{element.sourceline}: <dh2urdf>").table
+    text = carried_text(root)
+    if not text or (found.base, found.tip) != WRITTEN_ENDS:
+        return None
+    return parse_table(text, "json", f"{where}: <dh2urdf>").table

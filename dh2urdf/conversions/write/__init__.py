@@ -2,8 +2,8 @@
 
 `table_chain`, `urdf_elements` (every joint and link of the file), `bodies`, `link_paths` and
 `inertia` (what is drawn and weighed), `urdf_file` (the whole way, checked by `verify`),
-`urdf_options`; `table_file` writes tables in their own formats, `constructors` as code of
-other toolboxes.
+`urdf_options`; `mjcf_file` the same for MuJoCo; `table_file` writes tables in their own formats,
+`constructors` as code of other toolboxes.
 """
 
 from dh2urdf.conversions.write.bodies import Body, draw_bodies, frame_along
@@ -18,6 +18,7 @@ from dh2urdf.conversions.write.inertia import (
     without_noise,
 )
 from dh2urdf.conversions.write.link_paths import is_far, straight_points
+from dh2urdf.conversions.write.mjcf_file import verified_mjcf, write_mjcf
 from dh2urdf.conversions.write.table_chain import (
     FLIP,
     dh_to_chain,

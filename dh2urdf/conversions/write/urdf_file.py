@@ -1,10 +1,12 @@
 """A DH table becomes a URDF file that was loaded back and compared before it was kept."""
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from dh2urdf.conversions.write.urdf_elements import MARK, UrdfOptions, urdf_text_and_warnings
+from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table, atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of
 from dh2urdf.doors import instance
@@ -32,10 +34,10 @@ class ConversionReport:
 
 def urdf_text(table: TableLike, options: UrdfOptions | None = None) -> str:
     """The URDF of a table as text, not yet checked; :func:`write_urdf` checks what it writes."""
-    return urdf_text_and_warnings(as_table(table), _chosen(options))[0]
+    return urdf_text_and_warnings(as_table(table), chosen_options(options))[0]
 
 
-def _chosen(options: UrdfOptions | None) -> UrdfOptions:
+def chosen_options(options: UrdfOptions | None) -> UrdfOptions:
     """Options that were given, or the usual ones."""
     return UrdfOptions() if options is None else instance(options, "options", UrdfOptions)
 
@@ -50,7 +52,7 @@ def verified_urdf(
     """
     from dh2urdf.conversions.write.verify import verify_urdf_text
 
-    table, chosen = as_table(table), _chosen(options)
+    table, chosen = as_table(table), chosen_options(options)
     text, warnings = urdf_text_and_warnings(table, chosen)
     return text, verify_urdf_text(text, table, digits=chosen.digits), warnings
 
@@ -87,9 +89,20 @@ def write_urdf(
     OutputExistsError
         The path holds a file that this package did not write.
     """
+    return write_verified(verified_urdf, table, path, options, force)
+
+
+def write_verified(
+    verified: Callable[[DHTable, UrdfOptions | None], tuple[str, float, tuple[str, ...]]],
+    table: TableLike,
+    path: str | os.PathLike[str],
+    options: UrdfOptions | None,
+    force: bool,
+) -> ConversionReport:
+    """Write what a writer of this package has made and checked."""
     table, target = as_table(table), path_of(path)
     if not force:
         refuse_foreign(target, "<dh2urdf", f"<!--{MARK}-->")
-    text, max_error, warnings = verified_urdf(table, options)
+    text, max_error, warnings = verified(table, options)
     atomic_write(target, text)
     return ConversionReport(target, max_error, warnings)

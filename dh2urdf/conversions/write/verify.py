@@ -1,6 +1,7 @@
 """A written URDF loaded back by Pinocchio and compared with the DH product, frame by frame."""
 
 import math
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import pinocchio as pin
@@ -9,7 +10,7 @@ from dh2urdf.conversions.write.table_file import COARSE, arm_size, random_config
 from dh2urdf.conversions.write.urdf_elements import default_limits
 from dh2urdf.dh import DHTable
 from dh2urdf.exceptions import VerificationError
-from dh2urdf.transforms import pose_error
+from dh2urdf.transforms import Array, pose_error
 
 LARGEST_ERROR = 1e-9
 """Largest FK difference [rad, and m per m of arm beyond 1 m] of a file with whole floats."""
@@ -30,17 +31,37 @@ def verify_urdf_text(
         raise VerificationError(f"Pinocchio does not load the written file: {error}") from None
     data = model.createData()
     order = [model.joints[model.getJointId(name)].idx_q for name in table.joint_names]
-    _check_limits(model, order, table, 0.0 if digits is None else 0.5 * 10.0**-digits)
+    limits = np.stack([model.lowerPositionLimit, model.upperPositionLimit], axis=1)[order]
     body = pin.FrameType.BODY
     present = [i for i in range(table.n + 1) if model.existFrame(f"dh_{i}", body)]
     ids = [model.getFrameId(name, body) for name in [*(f"dh_{i}" for i in present), "tool0"]]
+
+    def place(q: Array) -> Array:
+        pin.framesForwardKinematics(model, data, q[np.argsort(order)])
+        return np.stack([data.oMf[k].homogeneous for k in ids])
+
+    return compare_with_table(table, limits, present, place, digits, count)
+
+
+def compare_with_table(
+    table: DHTable,
+    limits: Array,
+    present: Sequence[int],
+    place: Callable[[Array], Array],
+    digits: int | None = None,
+    count: int = 16,
+) -> float:
+    """Largest difference [m and rad] between a written file, as its reader has it, and the table.
+
+    ``limits`` (n, 2) are those that the reader found; ``place`` puts the DH frames of the numbers
+    ``present`` and the tool, (k + 1, 4, 4), where they are at q (n,).
+    """
+    _check_limits(limits, table, 0.0 if digits is None else 0.5 * 10.0**-digits)
     size = arm_size(table) if digits is not None else max(1.0, arm_size(table))
     largest = relative = 0.0
     for q in random_configurations(table, count):
-        pin.framesForwardKinematics(model, data, q[np.argsort(order)])
-        frames = table.frames(q)
+        frames, placed = table.frames(q), place(q)
         expected = np.stack([*frames[present], frames[-1] @ table.tool.matrix])
-        placed = np.stack([data.oMf[k].homogeneous for k in ids])
         largest = max(largest, pose_error(placed, expected))
         for T in (placed, expected):
             T[:, :3, 3] /= size
@@ -57,11 +78,10 @@ def verify_urdf_text(
     return largest
 
 
-def _check_limits(model: pin.Model, order: list[int], table: DHTable, slack: float) -> None:
-    """Compare the limits that Pinocchio reads with the table's."""
-    for name, row, i in zip(table.joint_names, table.joints, order, strict=True):
+def _check_limits(limits: Array, table: DHTable, slack: float) -> None:
+    """Compare the limits that were read with the table's."""
+    for name, row, read in zip(table.joint_names, table.joints, limits.tolist(), strict=True):
         low, high = wanted = default_limits(row, table)
-        read = model.lowerPositionLimit[i], model.upperPositionLimit[i]
         close = np.allclose(read, wanted, rtol=1e-15, atol=slack)
         if not close or read[0] > read[1] or (read[0] == read[1] and low < high):
             raise VerificationError(

@@ -133,7 +133,7 @@ class Report:
         if self.format == "frame":
             return f'{key}="{word or ",".join(parts.values())}"'
         if self.format not in _EQUALS:
-            start = "# " if self.format == "csv" else ""
+            start = "# " if self.format in ("csv", "tsv") else ""
             if key == "constants":
                 return ", ".join(f"{start}{key}.{name}: {value}" for name, value in parts.items())
             return f"{start}{key}: {word or ', '.join(parts.values())}"

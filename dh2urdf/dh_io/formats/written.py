@@ -195,11 +195,11 @@ def _grid(
     return [heads.get(k, k) for k in keys], texts
 
 
-def _csv(table: DHTable, numbers: Numbers) -> str:
+def _csv(table: DHTable, numbers: Numbers, delimiter: str = ",") -> str:
     head = "".join(f"# {line}\n" for line in _lines(table, numbers))
     modified = table.convention is DHConvention.MODIFIED
     heads = {"a": "a_{i-1}", "alpha": "alpha_{i-1}"} if modified else {}
-    return head + grid_csv(*_grid(table, numbers, heads))
+    return head + grid_csv(*_grid(table, numbers, heads), delimiter)
 
 
 def _markdown(table: DHTable, numbers: Numbers) -> str:
@@ -222,6 +222,7 @@ WRITERS: dict[str, Callable[[DHTable, Numbers], str]] = {
     "toml": _toml,
     "json": _json,
     "csv": _csv,
+    "tsv": lambda table, numbers: _csv(table, numbers, "\t"),
     "markdown": _markdown,
     "text": lambda table, numbers: table_text(table, numbers.look),
     "latex": _latex,

@@ -134,7 +134,7 @@ def test_the_steps_of_the_driver_give_the_arm_of_the_controller(deltas, quirk):
     p = parameters(deltas)
     given = kinematics(p, quirk)
     assert all(abs(given["kinematics"][link][key]) < 1 for link in LINKS for key in "xyz")
-    table, notes = parse_table(json.dumps(given), "json", "my_ur10.json")
+    table, notes, _ = parse_table(json.dumps(given), "json", "my_ur10.json")
     np.testing.assert_allclose(
         Robot.from_dh(table).fk(draws()), poses(p, draws()), atol=2e-12, rtol=0
     )
@@ -147,7 +147,7 @@ def test_the_steps_of_the_driver_give_the_arm_of_the_controller(deltas, quirk):
 def test_what_the_order_of_a_urdf_would_change_is_told():
     """The distance of the note is that of the two readings, measured by products of their own."""
     given = kinematics(parameters(MEASURED[0]))
-    _, notes = parse_table(json.dumps(given), "json", "my_ur10.json")
+    _, notes, _ = parse_table(json.dumps(given), "json", "my_ur10.json")
     told = float(notes[0].split("up to ")[1].split(" mm")[0])
     apart = 0.0
     for q in np.random.default_rng(0).uniform(-math.pi, math.pi, (16, 6)):

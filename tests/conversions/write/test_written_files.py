@@ -151,7 +151,7 @@ def test_a_file_of_ours_is_written_over(embed, tmp_path):
 @pytest.mark.parametrize("name", ["arm.txt", "arm", "arm.urdf.bak", "arm.png"])
 def test_convert_refuses_a_suffix_that_it_does_not_write(name, tmp_path, refused):
     """Another suffix is refused with those there are, before anything is written."""
-    assert ".urdf, .yaml" in refused("convert", "ur5", "-o", name)
+    assert ".urdf, .xml, .mjcf, .yaml" in refused("convert", "ur5", "-o", name)
     assert not (tmp_path / name).exists()
 
 
