@@ -15,6 +15,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── NoSolutionError (LookupError)    a choice from an empty list of solutions
     ├── UnreachedError                   nothing of what was asked for is within reach
     ├── NoSolverError                    no analytic solver for this chain or task
+    ├── NotOrthoParallelError (ValueError)  an arm that has no OPW parameters
     ├── OutputError (OSError)            a file that cannot be written
     │   └── OutputExistsError            a file of somebody else's in the way
     ├── ServerError (OSError)            the browser view cannot listen there
@@ -74,6 +75,10 @@ class NoSolutionError(Dh2UrdfError, LookupError):
 
 class NoSolverError(Dh2UrdfError):
     """No analytic solver covers this chain or task; the message says which classes exist."""
+
+
+class NotOrthoParallelError(Dh2UrdfError, ValueError):
+    """An arm of another geometry; the message has every condition that fails, and by how much."""
 
 
 class UnreachedError(Dh2UrdfError):

@@ -19,7 +19,7 @@ import numpy as np
 from dh2urdf import transforms as tf
 from dh2urdf.chain.serial_chain import SerialChain
 from dh2urdf.dh import JointType
-from dh2urdf.exceptions import UrdfError
+from dh2urdf.exceptions import NotOrthoParallelError
 from dh2urdf.transforms import Array, dot, inverse, length, product
 
 EXACT = 1e-9
@@ -33,10 +33,6 @@ Six = tuple[float, float, float, float, float, float]
 
 AXES = "zyyzyz"
 """Axes of the six joints where the arm stands straight up."""
-
-
-class NotOrthoParallelError(UrdfError):
-    """An arm of another geometry; the message has every condition that fails, and by how much."""
 
 
 def _identity() -> Array:

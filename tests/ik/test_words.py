@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dh2urdf import Robot, SerialChain
-from dh2urdf.chain.ortho_parallel import NotOrthoParallelError, OrthoParallel
-from dh2urdf.exceptions import ArgumentError
+from dh2urdf.chain.ortho_parallel import OrthoParallel
+from dh2urdf.exceptions import ArgumentError, NotOrthoParallelError
 from dh2urdf.ik.problem.words import (
     MAKERS,
     AbbWord,

@@ -16,7 +16,7 @@ from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
 from dh2urdf.dh_io import WRITTEN, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
-from dh2urdf.exceptions import Dh2UrdfError, UrdfError, VerificationError
+from dh2urdf.exceptions import Dh2UrdfError, NotOrthoParallelError, UrdfError, VerificationError
 from dh2urdf.extract import CONFIGURATIONS, LARGEST_ERROR, SIGNATURE, Extraction, extract_dh
 from dh2urdf.transforms import pose_error
 
@@ -167,8 +167,8 @@ def _checked_form(arm: Robot, source: str, form: str, kind: str) -> tuple[str, D
 
     try:
         text = arm.to_form(form, kind)
-    except UrdfError as error:
-        raise UrdfError(f"{source}: {form}: {error}") from None
+    except (UrdfError, NotOrthoParallelError) as error:
+        raise type(error)(f"{source}: {form}: {error}") from None
     table = parse_table(text, kind).table
     q = np.stack([arm.random_configuration(seed) for seed in range(CONFIGURATIONS)])
     off = pose_error(Robot.from_dh(table).fk(q), arm.fk(q))

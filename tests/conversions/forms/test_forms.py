@@ -15,9 +15,15 @@ from py_opw_kinematics import KinematicModel
 from scipy.spatial.transform import RigidTransform, Rotation
 
 from dh2urdf import Robot, SerialChain, list_tables, load_table
-from dh2urdf.chain.ortho_parallel import LETTERS, NotOrthoParallelError, OrthoParallel
+from dh2urdf.chain.ortho_parallel import LETTERS, OrthoParallel
 from dh2urdf.dh_io import parse_table
-from dh2urdf.exceptions import ArgumentError, TableError, TableFileError, UrdfError
+from dh2urdf.exceptions import (
+    ArgumentError,
+    NotOrthoParallelError,
+    TableError,
+    TableFileError,
+    UrdfError,
+)
 
 ARMS = {name: Robot.from_dh(name) for name in list_tables()}
 FORMS = ("opw", "screws", "kdl")

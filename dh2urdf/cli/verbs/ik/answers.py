@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dh2urdf.cli.progress import note
-from dh2urdf.exceptions import UrdfError
+from dh2urdf.exceptions import NotOrthoParallelError
 from dh2urdf.grids import grid_text, number
 from dh2urdf.transforms import Array
 
@@ -40,8 +40,8 @@ def words_of(found: IKSolutions, maker: str | None) -> list[str]:
         return [""] * len(found)
     try:
         return [str(word) for word in found.words(maker)]
-    except UrdfError as error:
-        raise UrdfError(f"--words {maker}: {error}") from None
+    except NotOrthoParallelError as error:
+        raise NotOrthoParallelError(f"--words {maker}: {error}") from None
 
 
 def as_data(arm: Robot, found: IKSolutions, maker: str | None = None) -> dict[str, Any]:
