@@ -17,12 +17,15 @@ from dh2urdf.bounds import CELL_CHARACTERS, ROBOT_BYTES, XACRO_ARGS
 from dh2urdf.conversions.read.packages import find_package, package_of
 from dh2urdf.dh_io.cells.schema import did_you_mean
 from dh2urdf.doors import found
-from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
+from dh2urdf.exceptions import ArgumentError, Dh2UrdfError, UrdfError
 
 _FIND = re.compile(r"\$\(find\s+([\w.-]+)\s*\)")
 _DECLARED = re.compile(r"<xacro:arg\b[^>]*?\bname\s*=\s*[\"']([^\"']+)[\"']")
 _USED = re.compile(r"\$\(arg\s+([\w.-]+)\s*\)")
 _SHOWN = 12
+_ABOVE = 4
+"""Folders above a xacro in which the parts of a package of another name are looked for."""
+
 _FILES = 200
 """xacro files of a package in which values of an argument are looked for."""
 
@@ -67,7 +70,10 @@ def expand(source: str, given: Xacro) -> str:
     from xacro import substitution_args
 
     def find(name: str) -> str:
-        return str(find_package(name, Path(source), given.packages))
+        try:
+            return str(find_package(name, Path(source), given.packages))
+        except UrdfError as error:
+            raise UrdfError(f"{error}{seen.perhaps(name)}") from None
 
     def named(spec: str) -> str:
         scheme, mark, rest = spec.partition("://")
@@ -104,6 +110,15 @@ class _Files:
         used = set(_USED.findall(head[0])) if head else set()
         given = re.findall(r"<xacro:arg\s+name=\"([^\"]+)\"\s+default=\"([^\"$]*)\"", text)
         return {name: unescape(default) for name, default in given if name in used}
+
+    def perhaps(self, name: str) -> str:
+        """The folder above that holds what the file wants of a package, for a message."""
+        text = _read(self.source)
+        wanted = re.findall(rf"\$\(find\s+{re.escape(name)}\s*\)/([^\"'$]+)", text)
+        for folder in self.source.resolve().parents[:_ABOVE] if wanted else ():
+            if all((folder / inside).exists() for inside in wanted):
+                return f"; {folder} holds what is wanted: --package {name}={folder}"
+        return ""
 
     def explain(self, error: Exception, xacro: Any) -> str | None:
         """What to give, where an argument or a file is missing; None for other errors."""

@@ -111,6 +111,18 @@ def test_a_package_that_is_nowhere_says_how_to_give_it(alone):
     assert "beside the file: mini_description" in str(caught.value)
 
 
+def test_a_package_in_a_folder_of_another_name_is_named(tmp_path):
+    """A copy without package.xml: the folder that holds what is wanted is told, and works."""
+    line = '<xacro:include filename="$(find arm_support)/urdf/part.xacro"/>'
+    files = {"urdf/arm.xacro": f'{ROBOT} name="a">{line}</robot>', "urdf/part.xacro": f"{ROBOT}/>"}
+    folder = write_package(tmp_path / "my_copy", "", files, manifest=False).resolve()
+    with pytest.raises(UrdfError) as caught:
+        description_bytes(folder / "urdf/arm.xacro")
+    assert str(caught.value).endswith(f"--package arm_support={folder}")
+    given = xacro_given(None, {"arm_support": folder})
+    assert b"<robot" in description_bytes(folder / "urdf/arm.xacro", given)[0]
+
+
 @pytest.mark.parametrize("how", ["given", "ROS", "ROS itself", "ament", "beside", "above"])
 def test_a_package_is_found(how, alone, monkeypatch):
     """By whatever way its folder is told."""
