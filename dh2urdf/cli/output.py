@@ -100,11 +100,14 @@ def read_source(source: str, told: Told = NOTHING) -> TableFile:
 
 
 def read_any(source: str, reading: Reading) -> TableFile:
-    """Like :func:`read_source`, also of a robot description, by extraction where need be."""
+    """Like :func:`read_source`, also of a robot description, by extraction where need be.
+
+    An MJCF is read by MuJoCo from a file; on stdin only for the table that it carries.
+    """
     from dh2urdf.convert import table_of_description
 
     text = _piped() if source == "-" else ""
-    if text.lstrip().startswith("<"):
+    if text.lstrip().startswith("<") and not text.lstrip().startswith("<mujoco"):
         return table_of_description(text, reading.convention, **reading.given)
     if Path(source).suffix.lower() in ROBOT_SUFFIXES:
         return table_of_description(source, reading.convention, **reading.given)

@@ -1,5 +1,6 @@
 """``convert``, ``show`` and ``extract`` write all of a table, in the format that is asked for."""
 
+import io
 import json
 
 import mujoco
@@ -37,6 +38,22 @@ def test_the_suffix_xml_is_an_mjcf(run, tmp_path):
     assert text == (tmp_path / "ur5.xml").read_text()
     model = mujoco.MjModel.from_xml_string(text)
     assert tuple(model.joint(k).name for k in range(6)) == dh2urdf.load_table("ur5").joint_names
+
+
+@pytest.mark.parametrize("format", ["mjcf", "urdf", "csv"])
+def test_what_stdout_gives_stdin_takes(run, monkeypatch, format):
+    """A pipe from convert to convert loses nothing."""
+    text = run("convert", "franka_fer", "-o", "-", "--format", format)[1]
+    monkeypatch.setattr("sys.stdin", io.StringIO(text))
+    status, out, _ = run("convert", "-", "--format", "yaml", "-o", "-")
+    assert (status, parse_table(out, "yaml").table) == (0, PANDA)
+
+
+def test_a_robot_description_is_shown_as_the_table_that_extract_finds(run):
+    """``show`` of somebody's URDF prints its table and how it was found."""
+    status, out, err = run("show", UR5, "--format", "csv", "--units", "mm,deg")
+    assert (status, parse_table(out, "csv").table.rows[2].a) == (0, 0.39225)
+    assert "was extracted" in err
 
 
 @pytest.mark.parametrize("convention", DHConvention)
