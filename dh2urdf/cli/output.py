@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 
 from dh2urdf.bounds import ROBOT_BYTES, TABLE_BYTES
-from dh2urdf.cli.options import DEFAULT, Reading, read_numbers
+from dh2urdf.cli.options import read_numbers
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import Kind, TableFile, Told, Units
 from dh2urdf.dh_io.cells.told import NOTHING

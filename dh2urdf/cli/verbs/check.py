@@ -14,9 +14,10 @@ from cyclopts import Parameter
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.checks import Testimony, ask_all, check_urdf, installed, why_not_asked
 from dh2urdf.checks.findings import Effect, Finding, Severity, Verdict
-from dh2urdf.cli.options import PLAIN, Description, Json
+from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_json, stdin
 from dh2urdf.cli.progress import bar, note
+from dh2urdf.cli.reading import PLAIN, Description
 from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf, xacro_given
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import read_bytes

@@ -7,9 +7,10 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading
+from dh2urdf.cli.options import Arm, Json, Link
 from dh2urdf.cli.output import ROBOT_SUFFIXES, emit, emit_json, robot_of, table_of
 from dh2urdf.cli.progress import note, track
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.comparison import TOLERANCE, Comparison, compare
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import Dh2UrdfError

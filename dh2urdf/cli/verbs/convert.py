@@ -6,9 +6,10 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import AS_READ, Digits, Json, Writing
+from dh2urdf.cli.options import Digits, Json
 from dh2urdf.cli.output import emit, emit_file, emit_json, read_any
 from dh2urdf.cli.progress import note, track
+from dh2urdf.cli.reading import AS_READ, Writing
 from dh2urdf.conversions.write import UrdfOptions
 from dh2urdf.convert import FORMATS, SUFFIXES, converted, write_converted
 from dh2urdf.dh_io.files import shown

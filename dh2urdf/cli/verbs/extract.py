@@ -11,9 +11,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES, SNAP
-from dh2urdf.cli.options import PLAIN, Description, Digits, Force, Json, Reading, Writing, real
+from dh2urdf.cli.options import Digits, Force, Json, real
 from dh2urdf.cli.output import emit, emit_file, emit_json, robot_of, stdin
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import PLAIN, Description, Reading, Writing
 from dh2urdf.dh_io import WRITTEN, atomic_write, parse_table, refuse_foreign, table_to_text
 from dh2urdf.dh_io.files import read_text, shown
 from dh2urdf.exceptions import Dh2UrdfError, NotOrthoParallelError, UrdfError, VerificationError

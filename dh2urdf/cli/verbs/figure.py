@@ -5,20 +5,10 @@ from typing import Annotated, Literal
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import (
-    DEFAULT,
-    Arm,
-    Deg,
-    Dpi,
-    Force,
-    Json,
-    Link,
-    PicturePath,
-    Reading,
-    Values,
-)
+from dh2urdf.cli.options import Arm, Deg, Dpi, Force, Json, Link, PicturePath, Values
 from dh2urdf.cli.output import emit, emit_json, parse_angles, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.transforms import Array
 
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.cli.options import DEFAULT, Arm, Json, Link, Reading, Values
+from dh2urdf.cli.options import Arm, Json, Link, Values
 from dh2urdf.cli.output import (
     emit,
     emit_json,
@@ -14,6 +14,7 @@ from dh2urdf.cli.output import (
     ten_digits,
 )
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io.files import shown
 from dh2urdf.transforms import matrix_to_rpy
 

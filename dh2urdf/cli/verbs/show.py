@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from dh2urdf.cli.options import AS_READ, Deg, Digits, Json, Values, Writing
+from dh2urdf.cli.options import Deg, Digits, Json, Values
 from dh2urdf.cli.output import (
     emit,
     emit_file,
@@ -15,6 +15,7 @@ from dh2urdf.cli.output import (
     parse_configuration,
     read_any,
 )
+from dh2urdf.cli.reading import AS_READ, Writing
 from dh2urdf.conversions.assign import in_convention
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line

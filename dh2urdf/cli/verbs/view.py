@@ -4,9 +4,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Deg, Force, Link, PagePath, Reading, Values, whole
+from dh2urdf.cli.options import Deg, Force, Link, PagePath, Values, whole
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import DEFAULT, Reading
 
 
 def view_(

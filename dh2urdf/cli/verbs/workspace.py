@@ -5,21 +5,10 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.cli.options import (
-    DEFAULT,
-    Arm,
-    Dpi,
-    Force,
-    Json,
-    Link,
-    PicturePath,
-    Reading,
-    Values,
-    real,
-    whole,
-)
+from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, PicturePath, Values, real, whole
 from dh2urdf.cli.output import emit, emit_json, parse_angles, robot_of
 from dh2urdf.cli.progress import bar
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io import Kind
 
 

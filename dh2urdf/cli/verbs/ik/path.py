@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Arm, Dpi, Force, Json, Link, Reading, Values, real
+from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, Values, real
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.cli.verbs.ik.answers import tell_change
 from dh2urdf.cli.verbs.ik.poses import Poses, poses_of_csv
 from dh2urdf.dh_io import atomic_write, refuse_foreign

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import DEFAULT, Arm, Force, Json, Link, Reading, Values
+from dh2urdf.cli.options import Arm, Force, Json, Link, Values
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
+from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.cli.verbs.ik.answers import as_data, outside, reason_of, solutions_text, tell_change
 from dh2urdf.cli.verbs.ik.poses import pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
