@@ -42,7 +42,11 @@ PicturePath = Annotated[
     Path, Parameter(name=["--output", "-o"], help="The picture to write: .png, .svg or .pdf.")
 ]
 PagePath = Annotated[
-    Path | None, Parameter(name=["--output", "-o"], help="Write one page instead: .html.")
+    Path | None,
+    Parameter(
+        name=["--output", "-o"],
+        help="An .html to write the arm to instead: one page with sliders, which works offline.",
+    ),
 ]
 
 LARGEST = {Kind.LENGTH: LENGTH, Kind.ANGLE: ANGLE, Kind.NUMBER: NUMBER}

@@ -58,14 +58,14 @@ function names(list) {
   groups.forEach(g => word(g.names.join(", "), g.place, arm.colours[g.names[0][0]], 13));
 }
 
-// Every DH frame, but for those that stand in one of ``apart``.
-function drawFrames(placed, apart) {
+// DH frames from number ``first`` on; those that stand far away are drawn on the arm.
+function drawFrames(placed, first) {
   const list = [];
-  placed.forEach((T, i) => {
-    const moved = [...T];
-    add(origin(T), column(T, 2), arm.shifts[i]).forEach((v, k) => moved[4 * k + 3] = v);
-    if (apart.some(p => distance(p, origin(moved)) < 0.25 * LENGTH)) return;
-    axes(moved, 0.85 * LENGTH, 3).forEach(([letter, place]) => list.push([letter + subscripts(i), place]));
+  placed.forEach((T, k) => {
+    const moved = [...T], i = first + k;
+    add(origin(T), column(T, 2), arm.shifts[i]).forEach((v, j) => moved[4 * j + 3] = v);
+    const mark = arm.shifts[i] ? "′" : "";
+    axes(moved, 0.85 * LENGTH, 3).forEach(([letter, place]) => list.push([letter + mark + subscripts(i), place]));
   });
   names(list);
 }

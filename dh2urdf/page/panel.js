@@ -3,6 +3,7 @@
 const get = id => document.getElementById(id);
 const state = {q: [...arm.start], row: 0, step: 0};
 const sliders = [];
+const FAR = "Its axes are nearly parallel and a frame stands far away: the picture has it on the arm, moved along z.";
 
 function buildSliders() {
   arm.joints.forEach((joint, k) => {
@@ -107,8 +108,9 @@ function lessonLines({product, values}) {
     said = `Row ${i}, motion ${k} of ${motions.length}: ${words}${value}.` + (k === motions.length ? ` Frame ${i} is reached.` : "");
   }
   const factors = motions.flatMap(([, , factor], j) => [j ? " · " : " = ", element("span", factor, {className: j < k ? "done" : "ahead"})]);
+  const far = arm.shifts[i - 1] || arm.shifts[i] ? [element("p", FAR)] : [];
   const so = k === motions.length ? ["T", pair.cloneNode(true), " ="] : ["so far ="];
-  return [element("p", said), element("p", ["T", pair, ...factors]), element("p", so), matrix(product[k])];
+  return [element("p", said), ...far, element("p", ["T", pair, ...factors]), element("p", so), matrix(product[k])];
 }
 
 function showScene(placed, course) {
@@ -120,8 +122,10 @@ function showScene(placed, course) {
   drawBodies(placed, course ? 0.25 : frames_ ? 0.45 : 1);
   pen.setTransform(ratio, 0, 0, ratio, 0, 0);
   pen.clearRect(0, 0, main.clientWidth, main.clientHeight);
-  if (course) drawRow(state.row, state.step, course.poses, course.values);
-  else if (frames_) drawFrames(placed, []);
+  const far = course && (arm.shifts[state.row - 1] || arm.shifts[state.row]);
+  if (far) drawFrames([placed[state.row - 1], placed[state.row]], state.row - 1);
+  else if (course) drawRow(state.row, state.step, course.poses, course.values);
+  else if (frames_) drawFrames(placed, 0);
 }
 
 function draw() {

@@ -143,6 +143,7 @@ class RowScene:
     def __init__(self, server: Any, arm: DrawnArm, i: int, units: Units) -> None:
         self.server, self.arm, self.i, self.units = server, arm, i, units
         self.step: int | None = None
+        self.count: int | None = None
         self.steps: list[Motion] = []
         self.done: set[str] = set()
         self.root = server.scene.add_frame("/row", show_axes=False)
@@ -157,9 +158,11 @@ class RowScene:
         """Draw the row at q (n,)."""
         picture = self.picture = row_picture(self.arm, q, self.i)
         self.steps = motions(self.arm.table, self.i, float(q[self.i - 1]))
-        self.done = {motion.key for motion in self.steps[: self.step]}
-        if self.step is not None:
-            picture = staged(picture, self.steps, self.step)
+        far = self.arm.shifts[self.i - 1 : self.i + 1].any()  # no way that can be drawn
+        count = self.count = None if far else self.step
+        self.done = {motion.key for motion in self.steps[:count]}
+        if count is not None:
+            picture = staged(picture, self.steps, count)
         set_poses(self.ends, np.stack([picture.T_prev, picture.T_next]))
         words = values(self.arm.table, picture, self.units)
         self._axes(picture)
@@ -212,14 +215,14 @@ class RowScene:
 
     def _names(self, picture: DHRowPicture) -> None:
         i, taken = self.i, list[Array]()
-        under_way = self.step is not None and self.step < len(self.steps)
-        self.ends[1].visible = self.step != 0
+        under_way = self.count is not None and self.count < len(self.steps)
+        self.ends[1].visible = self.count != 0
         for T, k in ((picture.T_prev, i - 1), (picture.T_next, i)):
             for letter, direction in (("x", 0), ("z", 2)):
                 place = T[:3, 3] + 1.12 * self.length * T[:3, direction]
                 if letter == "x" and _on(picture.a.segment, place):
                     place = place - BESIDE * self.length * T[:3, 2]
-                shown = self.step is None or all(math.dist(place, p) > NEAR for p in taken)
+                shown = self.count is None or all(math.dist(place, p) > NEAR for p in taken)
                 taken.append(place)
                 text = f"{letter}′" if under_way and k == i else axis_name(self.arm, letter, k)
                 name = f"{letter}{'prev' if k < i else 'next'}"

@@ -199,3 +199,21 @@ def test_dragging_turns_the_arm_and_narrow_pages_fold(opened):
     page.set_viewport_size({"width": 420, "height": 800})
     assert page.locator("main").bounding_box()["width"] == 420
     picture(page, "page-narrow")
+
+
+def test_frames_that_stand_far_away_are_drawn_on_the_arm(opened):
+    """Nearly parallel axes: the frames are in the picture, whole arm and lesson, and it is said."""
+    far = (DHRow(a=0.4, d=100.0, alpha=1e-3), DHRow(a=0.3, d=-100.0))
+    page = opened(Robot.from_dh(DHTable((DHRow(d=0.3, alpha=np.pi / 2), *far), "standard", "far")))
+    places = np.array(
+        page.evaluate(
+            """frames(state.q).map((T, i) =>
+            project(add(origin(T), column(T, 2), arm.shifts[i])).slice(0, 2))"""
+        )
+    )
+    assert ((places > 0) & (places < [880, 800])).all()
+    for _ in range(8):
+        page.get_by_role("button", name="Next").click()
+    assert "on the arm, moved along z" in page.locator("#lesson").inner_text()
+    assert inked(page, "marks") > 200
+    picture(page, "page-far-frames")

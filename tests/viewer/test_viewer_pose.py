@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dh2urdf import Robot, load_table
+from dh2urdf import DHRow, DHTable, Robot, load_table
 from dh2urdf.drawing.lesson import motions, walked
 from dh2urdf.exceptions import PoseError
 from dh2urdf.transforms import pose, rpy_to_matrix, trans
@@ -153,3 +153,15 @@ def test_lesson_draws_what_was_made_so_far(view):
     assert "Case 3" in tab.words.content
     end = view.robot.table.frames(START)[4]
     np.testing.assert_allclose(view._row_scene.ends[1].position, end[:3, 3], atol=1e-9)
+
+
+def test_lesson_of_a_frame_far_away_stays_on_the_arm():
+    """A row whose frame stands a hundred metres away is drawn whole, on the arm, at every step."""
+    far = (DHRow(a=0.4, d=100.0, alpha=1e-3), DHRow(a=0.3, d=-100.0))
+    table = DHTable((DHRow(d=0.3, alpha=np.pi / 2), *far), "standard", "far")
+    with Robot.from_dh(table).view(port=0) as shown:
+        shown._table.row, shown._table.step = 2, 1
+        shown._explain(2)
+        for end in shown._row_scene.ends:
+            assert np.linalg.norm(end.position) < 3.0
+        assert "Row 2, motion 1 of 4" in shown._table.words.content
