@@ -15,6 +15,7 @@ from markdown_it import MarkdownIt
 
 import dh2urdf
 from dh2urdf import DHRow, DHTable, JointType, Origin
+from dh2urdf.conversions.write import verified_mjcf
 from dh2urdf.conversions.write.constructors import CONSTRUCTORS
 from dh2urdf.conversions.write.urdf_file import verified_urdf
 from dh2urdf.dh_io import parse_table, table_to_text
@@ -162,6 +163,19 @@ def test_written_html_shows_the_name(name):
     assert page.tags == Tags(table_of("joint")._repr_html_()).tags
     if shown(name):
         assert shown(name) in page.texts
+
+
+@hostile(name=NAMES, source=NAMES)
+def test_a_written_mjcf_holds_the_name_or_is_refused(name, source):
+    """MuJoCo reads each joint by its name, and the file gives the table back; or XML forbids it."""
+    table = table_of(name, source)
+    made = outcome(verified_mjcf, table)
+    if isinstance(made, TableError):
+        assert "XML forbids" in str(made) or "taken by another joint" in str(made)
+        return
+    text, error, _ = made
+    assert error < 1e-12
+    assert embedded_table(io.BytesIO(text.encode())) == table
 
 
 @hostile(
