@@ -54,6 +54,7 @@ class Document:
         self.root, self.path, self.packages = root, path, packages
         self.links = list(root.iterchildren("link"))
         self.joints = list(root.iterchildren("joint"))
+        self.lines: list[str] = []
 
     @classmethod
     def read(cls, path: str | os.PathLike[str], given: Xacro = NOTHING) -> "Document":
@@ -72,7 +73,9 @@ class Document:
             raise UrdfError(f"{where}:{root.sourceline}: the root is <{tag}>, not <robot>{hint}")
         for tag in ("link", "joint"):
             count_elements(root, tag, where)
-        return cls(root, Path(path), given.packages)
+        doc = cls(root, Path(path), given.packages)
+        doc.lines = data.decode(errors="replace").split("\n")
+        return doc
 
     def end(self, joint: etree._Element, tag: str) -> str:
         """Name of a joint's ``parent`` or ``child`` link; empty where there is none."""

@@ -61,6 +61,19 @@ class Effect:
     verdict: Verdict
     text: str
 
+    def __str__(self) -> str:
+        """``MuJoCo and Drake refuse the file: axis too small``."""
+        names = [str(consumer) for consumer in self.consumers]
+        who = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
+        s = "s" if len(names) == 1 else ""
+        does = {
+            Verdict.REFUSES: f" refuse{s} the file",
+            Verdict.COMPLAINS: f" complain{s}",
+            Verdict.MISREADS: f" misread{s} it",
+            Verdict.ACCEPTS: "",
+        }[self.verdict]
+        return f"{who}{does}: {self.text}" if self.text else f"{who}{does}"
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -70,8 +83,8 @@ class Finding:
     ----------
     rule : str
         Name of the rule in ``RULES``.
-    line : int
-        Line of the element in the file.
+    line, column : int
+        Where the element stands in the file, from 1; of a start tag of several lines the last.
     element : str
         The element, such as ``<link name="arm">``.
     message : str
@@ -88,6 +101,7 @@ class Finding:
     message: str
     effects: tuple[Effect, ...]
     mend: str
+    column: int = 1
 
     @property
     def severity(self) -> Severity:

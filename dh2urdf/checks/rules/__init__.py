@@ -6,6 +6,7 @@ from dataclasses import replace
 from inspect import isfunction
 from types import ModuleType
 
+from dh2urdf.checks.columns import column
 from dh2urdf.checks.document import Document
 from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.rounding import rounded_angle
@@ -60,5 +61,9 @@ def check_urdf(
         No such file, not XML, a document type or entities, or no ``<robot>``.
     """
     doc = Document.read(path, xacro_given(xacro_args, packages))
-    found = [replace(item, rule=name) for name, rule in RULES.items() for item in rule(doc)]
+    found = [
+        replace(item, rule=name, column=column(item, doc.lines))
+        for name, rule in RULES.items()
+        for item in rule(doc)
+    ]
     return tuple(sorted(found, key=lambda finding: finding.line))

@@ -1,21 +1,20 @@
 """``dh2urdf check``: what the consumers of a URDF would say of it."""
 
 import tempfile
-from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from itertools import count
 from pathlib import Path
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES
-from dh2urdf.checks import Testimony, ask_all, check_urdf, installed, why_not_asked
-from dh2urdf.checks.findings import Effect, Finding, Severity, Verdict
+from dh2urdf.checks import ask_all, check_urdf, installed, why_not_asked
+from dh2urdf.checks.formats import REPORTS, Checked, Unread, plain_text
 from dh2urdf.cli.options import Json
-from dh2urdf.cli.output import emit, emit_json, stdin
+from dh2urdf.cli.output import emit, emit_file, emit_json, stdin
 from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.reading import PLAIN, Description
 from dh2urdf.conversions.read import description_bytes, is_xacro, mended_urdf, xacro_given
@@ -26,9 +25,6 @@ from dh2urdf.exceptions import ArgumentError, Dh2UrdfError
 MENDED = "mended by dh2urdf"
 """Comment by which a mended file is known as ours."""
 
-SHOWN = 4
-"""Findings of one kind that are shown in full; the rest by line."""
-
 
 def check_(
     *files: str,
@@ -37,6 +33,7 @@ def check_(
     base: str | None = None,
     tip: str | None = None,
     force: bool = False,
+    format: Literal["text", "json", "sarif", "junit", "html"] = "text",
     reading: Description = PLAIN,
     json: Json = False,
 ) -> int:
@@ -62,12 +59,14 @@ def check_(
         the longest chain.
     force
         Replace a file that this package did not write.
+    format
+        sarif and junit are for build servers, html is one page; all go to stdout.
     """
     if not files:
         raise Dh2UrdfError("check: FILES: name one or more; - for stdin")
     if fix is not None:
         return _mend(files, fix, base, tip, reading, force=force, json=json)
-    results, failed, done = [], [], count(1)
+    results, failed, done = list[Checked](), list[Unread](), count(1)
     total = len(files) * (1 + run * len(installed()))
     with bar("checking", total) as report:
 
@@ -78,47 +77,36 @@ def check_(
             try:
                 results.append(_result(file, run, step, reading))
             except Dh2UrdfError as error:
-                failed.append({"path": file, "error": str(error)})
+                failed.append(Unread(file, str(error)))
             step()
-    if json:
-        data = [
-            {
-                "path": result.file,
-                "findings": [{"severity": f.severity, **asdict(f)} for f in result.findings],
-                "consumers": [asdict(t) for t in result.said],
-                "not_asked": result.not_asked,
-            }
-            for result in results
-        ]
-        emit_json("check", files=data, failed=failed)
-    else:
+    if json or format == "json":
+        emit_json("check", files=list(map(_data, results)), failed=[f._asdict() for f in failed])
+    elif format == "text":
         for result in results:
-            _show(result)
+            emit(plain_text(result))
+    else:
+        emit_file(REPORTS[format](results, failed))
     for bad in failed:
-        note(f"dh2urdf: {bad['error']}")
-    wrong = (
-        any(f.severity is not Severity.ADVICE for f in result.findings)
-        or any(t.verdict is Verdict.REFUSES for t in result.said)
-        for result in results
-    )
-    return 2 if failed else int(any(wrong))
+        note(f"dh2urdf: {bad.error}")
+    return 2 if failed else int(any(result.wrong for result in results))
 
 
-class _Result(NamedTuple):
-    """What is said of one file, and why no consumer was asked, where none was."""
+def _data(result: Checked) -> dict[str, Any]:
+    """What is said of a file, for JSON."""
+    return {
+        "path": result.file,
+        "findings": [{"severity": f.severity, **asdict(f)} for f in result.findings],
+        "consumers": [asdict(t) for t in result.said],
+        "not_asked": result.not_asked,
+    }
 
-    file: str
-    findings: tuple[Finding, ...]
-    said: tuple[Testimony, ...]
-    not_asked: str
 
-
-def _result(file: str, run: bool, answered: Callable[[], None], reading: Description) -> _Result:
+def _result(file: str, run: bool, answered: Callable[[], None], reading: Description) -> Checked:
     with _on_disk(file, reading) as path:
         findings = check_urdf(path if file == "-" else file, **reading.given)
         why = why_not_asked(path) if run else ""
         said = ask_all(path, None, answered) if run and not why else ()
-    return _Result("<stdin>" if file == "-" else file, findings, said, why)
+    return Checked("<stdin>" if file == "-" else file, findings, said, why)
 
 
 def _mend(
@@ -159,49 +147,3 @@ def _on_disk(file: str, reading: Description) -> Iterator[Path]:
         data = read_bytes(stdin(), ROBOT_BYTES) if piped else description_bytes(file, given)[0]
         path.write_bytes(data)
         yield path
-
-
-def _show(result: _Result) -> None:
-    file, findings, said, not_asked = result
-    alike: dict[tuple[str, tuple[Effect, ...]], list[Finding]] = {}
-    for finding in findings:
-        alike.setdefault((finding.rule, finding.effects), []).append(finding)
-    for group in alike.values():
-        _show_group(file, group)
-    counts = Counter(f.severity for f in findings)
-    plural = {s: "s" if counts[s] > 1 and s is not Severity.ADVICE else "" for s in Severity}
-    summary = ", ".join(f"{counts[s]} {s}{plural[s]}" for s in Severity if counts[s])
-    emit(f"{file}: {summary or 'nothing to mend'}")
-    for testimony in said:
-        name = f"{testimony.consumer} {testimony.version}".rstrip()
-        words = testimony.words.replace("\n", f"\n{' ' * 33}")
-        emit(f"    {name:<17} {testimony.verdict:<11}{words}".rstrip())
-    if not_asked:
-        emit(f"    no program was asked: {not_asked}")
-
-
-def _show_group(file: str, group: list[Finding]) -> None:
-    """Findings of one rule and one effect: each on its line, then what they have in common."""
-    for f in group[:SHOWN]:
-        emit(f"{file}:{f.line}: {f.severity}: {f.element} {f.message} [{f.rule}]")
-    if len(group) > SHOWN:
-        lines = ", ".join(str(f.line) for f in group[SHOWN : 4 * SHOWN])
-        dots = ", ..." if len(group) > 4 * SHOWN else ""
-        emit(f"    and {len(group) - SHOWN} more of the kind, on lines {lines}{dots}")
-    for effect in group[0].effects:
-        emit(f"    {_sentence(effect)}")
-    emit(f"    mend: {group[0].mend}\n")
-
-
-def _sentence(effect: Effect) -> str:
-    """``MuJoCo and Drake refuse the file: axis too small``."""
-    names = [str(consumer) for consumer in effect.consumers]
-    who = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-    s = "s" if len(names) == 1 else ""
-    does = {
-        Verdict.REFUSES: f" refuse{s} the file",
-        Verdict.COMPLAINS: f" complain{s}",
-        Verdict.MISREADS: f" misread{s} it",
-        Verdict.ACCEPTS: "",
-    }[effect.verdict]
-    return f"{who}{does}: {effect.text}" if effect.text else f"{who}{does}"
