@@ -136,10 +136,10 @@ misread, accept = _said(Verdict.MISREADS), _said(Verdict.ACCEPTS)
 def finding(at: etree._Element, message: str, *effects: Effect | None, mend: str) -> Finding:
     """A finding before its rule is known; effects that are None are left out."""
     told = tuple(effect for effect in effects if effect)
-    return Finding("", at.sourceline or 1, _label(at), message, told, mend)
+    return Finding("", at.sourceline or 1, label(at), message, told, mend)
 
 
-def _label(element: etree._Element) -> str:
+def label(element: etree._Element) -> str:
     """``<link name="arm">``; an element without a name says whose it is."""
     tag = etree.QName(element).localname
     name = element.get("name")

@@ -11,7 +11,7 @@ import pytest
 from urdf_faults import BODY, FAULTS, SOUND, arm, joint
 
 import dh2urdf
-from dh2urdf.checks import ask_consumers
+from dh2urdf.checks import ask_consumers, check_urdf
 
 
 @pytest.fixture(autouse=True)
@@ -129,3 +129,41 @@ def test_convert_reads_stdin_too(run, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO(table))
     status, out, _ = run("convert", "-")
     assert (status, out.startswith("<?xml")) == (0, True)
+
+
+CERTAIN = {
+    "robot-name": 1, "version": 1, "repeated-element": 2, "axis-not-unit": 2, "negative-zero": 1,
+    "rounded-angle": 3, "geometry-empty": 2, "material-name": 1,
+}  # fmt: skip
+"""Rules whose findings take no guess to mend, and the files of each."""
+
+
+@pytest.mark.parametrize("rule", CERTAIN)
+def test_fix_mends_what_takes_no_guess(run, tmp_path, rule):
+    """The finding is gone, no other comes, the change is told, and comments stay."""
+    assert len(FAULTS[rule]) == CERTAIN[rule]
+    for text in FAULTS[rule]:
+        (tmp_path / "arm.urdf").write_text(text.replace("</robot>", "<!-- mine -->\n</robot>"))
+        before = {f.rule for f in check_urdf("arm.urdf")}
+        status, out, _ = run("check", "arm.urdf", "--fix", "mended.urdf", "--force")
+        assert (status, rule in before) == (0, True)
+        assert {f.rule for f in check_urdf("mended.urdf")} == before - {rule}
+        assert re.match(r"arm\.urdf:\d+: <", out)
+        assert ", 1 mended, and read back" in out
+        assert "<!-- mine -->" in (tmp_path / "mended.urdf").read_text()
+
+
+def test_fix_says_what_is_left_and_may_write_over_the_file_itself(run, refused, tmp_path):
+    """A weightless hand stays and is told; the file itself is replaced with --force alone."""
+    path = tmp_path / "arm.urdf"
+    path.write_text(arm(fore="", elbow=joint(rpy="1.5708 0 0")))
+    assert "--force" in refused("check", "arm.urdf", "--fix", "arm.urdf")
+    status, out, _ = run("check", "arm.urdf", "--fix", "arm.urdf", "--force")
+    assert status == 0
+    assert 'rpy="1.5708 0 0" written as 1.5707963267948966 0 0' in out
+    assert "left to mend:" in out
+    assert "moves, and has no <inertial>" in out
+    assert "[massless]" in out
+    assert 'rpy="1.5707963267948966 0 0"' in path.read_text()
+    data = json.loads(run("check", "arm.urdf", "--fix", "arm.urdf", "--json")[1])
+    assert (data["mends"], [f["rule"] for f in data["left"]]) == ([], ["massless"])

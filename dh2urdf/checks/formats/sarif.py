@@ -2,11 +2,11 @@
 
 import json
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from dh2urdf import __version__
 from dh2urdf.checks.findings import Finding, Severity
 from dh2urdf.checks.formats.checked import Checked, Unread
 from dh2urdf.checks.rules import RULES
@@ -42,7 +42,7 @@ def sarif_text(files: Sequence[Checked], unread: Sequence[Unread]) -> str:
     ]
     invocation = {"executionSuccessful": not unread, "toolExecutionNotifications": notes}
     run = {
-        "tool": {"driver": {"name": "dh2urdf", "version": __version__, "rules": _rules()}},
+        "tool": {"driver": {"name": "dh2urdf", "version": version("dh2urdf"), "rules": _rules()}},
         "columnKind": "unicodeCodePoints",
         "invocations": [invocation],
         "results": results,

@@ -10,6 +10,9 @@ from dh2urdf.conversions.read import MOVING
 
 KINDS = (*MOVING, "fixed", "floating", "planar")
 
+VERSIONS = ("1.0", "1.1", "1.2", "1")
+"""Versions of the format that urdfdom knows."""
+
 EVERYONE = refuse("strict yourdfpy ikpy")
 
 CRASHES = refuse("PyBullet", "crashes")
@@ -27,7 +30,7 @@ def robot_name(doc: Document) -> Iterator[Finding]:
 def version(doc: Document) -> Iterator[Finding]:
     """The version of the format is one that urdfdom knows."""
     text = doc.root.get("version")
-    if text is not None and text not in ("1.0", "1.1", "1.2", "1"):
+    if text is not None and text not in VERSIONS:
         effects = refuse("urdfdom"), complain("Drake", "ignores the attribute")
         mend = "leave the attribute out, or write 1.0"
         yield finding(doc.root, f'version="{text}" is no version of URDF', *effects, mend=mend)

@@ -12,7 +12,9 @@ from cyclopts import Parameter
 
 from dh2urdf.bounds import ROBOT_BYTES
 from dh2urdf.checks import ask_all, check_urdf, installed, why_not_asked
+from dh2urdf.checks.findings import Finding
 from dh2urdf.checks.formats import REPORTS, Checked, Unread, plain_text
+from dh2urdf.checks.mends import certain_mends
 from dh2urdf.cli.options import Json
 from dh2urdf.cli.output import emit, emit_file, emit_json, stdin
 from dh2urdf.cli.progress import bar, note
@@ -52,8 +54,8 @@ def check_(
     run
         Load the files in the consumers that are installed.
     fix
-        Write the file here with all that has an obvious reading mended, and say what that was;
-        what is left to mend, a check of that file tells.
+        Write the file here with all mended that takes no guess, say what that was, and what is
+        left to mend. With --force this may be the file itself.
     base, tip
         Links of the arm that --fix may not guess about; without them the root, and the end of
         the longest chain.
@@ -91,11 +93,15 @@ def check_(
     return 2 if failed else int(any(result.wrong for result in results))
 
 
+def _finding(finding: Finding) -> dict[str, Any]:
+    return {"severity": finding.severity, **asdict(finding)}
+
+
 def _data(result: Checked) -> dict[str, Any]:
     """What is said of a file, for JSON."""
     return {
         "path": result.file,
-        "findings": [{"severity": f.severity, **asdict(f)} for f in result.findings],
+        "findings": [_finding(f) for f in result.findings],
         "consumers": [asdict(t) for t in result.said],
         "not_asked": result.not_asked,
     }
@@ -124,13 +130,18 @@ def _mend(
     with _on_disk(files[0], reading) as path:
         source = path if files[0] == "-" else files[0]
         text, mends = mended_urdf(source, base, tip, xacro_given(**reading.given))
+    text, certain = certain_mends(text, base, tip, "stdin" if files[0] == "-" else files[0])
+    mends += certain
     if not force:
         refuse_foreign(fix, MENDED)
     atomic_write(fix, f"<!--{MENDED}-->\n{text}\n")
+    left = check_urdf(fix, packages=reading.given["packages"])
     if json:
-        emit_json("check", fixed=fix, mends=mends)
+        emit_json("check", fixed=fix, mends=mends, left=[_finding(f) for f in left])
     else:
         emit("\n".join([*mends, f"{fix}: written, {len(mends)} mended, and read back"]))
+        if left:
+            emit(f"left to mend:\n\n{plain_text(Checked(str(fix), left))}")
     return 0
 
 
