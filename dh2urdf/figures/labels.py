@@ -16,7 +16,7 @@ RADII = (6.5, 9.0, 13.0, 18.0, 25.0, 33.0)
 
 DIRECTIONS = 24
 SWEEPS = 4
-PADDING = 1.2
+PADDING = 2.0
 CONFUSED = 0.8
 """Cost of a point [pt] by which another thing of the same colour is too near."""
 

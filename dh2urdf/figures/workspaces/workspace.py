@@ -20,7 +20,7 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, rpy_to_matrix
 from dh2urdf.workspace import Section
 
-FINE, COARSE, COARSEST = 161, 81, 61
+FINE, COARSE, COARSEST = 161, 81, 49
 """Points along a side of a map; where each point has orientations by the thousand; and where the
 arm has no closed form, or a joint to spare."""
 
