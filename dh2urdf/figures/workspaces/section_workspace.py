@@ -41,6 +41,7 @@ class Shares(NamedTuple):
     grid: Section
     values: Array
     edge: list[Rings]
+    sharp: bool
     tried: int
 
 
@@ -146,7 +147,8 @@ def _turned(task: Task, R: Array) -> str:
 def _shares(axes: Any, bar: Any, shares: Shares, task: Task) -> None:
     """Filled contours of the share, white lines at a few of them."""
     grid, share = shares.grid, shares.values
-    field, steps = _carried_on(share), np.linspace(0.0, 1.0, 21)
+    field = _carried_on(share) if shares.sharp else share
+    steps = np.linspace(0.0, 1.0, 21)
     drawn = [axes.contourf(grid.u, grid.v, field, levels=steps, cmap="viridis")]
     drawn[0].set(edgecolor="face", linewidth=0.3)
     reached = share[share > 0.0]

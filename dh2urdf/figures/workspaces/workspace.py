@@ -218,12 +218,13 @@ def _shares(
         found = reach.shares_at(robot, section.at_places(spots), turns, within_limits, held)
         return (found > 0.0).astype(np.int64)
 
-    if each <= QUICK:
+    sharp = each <= QUICK
+    if sharp:
         any_, halvings = (share > 0.0).astype(np.int64), HALVINGS_OF_SHARES[side < FINE]
         edge = regions(section.u, section.v, any_, reached_at, halvings).get(1, [])
     else:
         edge = above(section.u, section.v, share, SEEN)
-    return Shares(section, share, edge, each * math.ceil(sides / each))
+    return Shares(section, share, edge, sharp, each * math.ceil(sides / each))
 
 
 def _orientation(robot: Robot, task: reach.Task, rpy: ArrayLike | None) -> Array:
