@@ -72,12 +72,12 @@ function shape(vertices, normal, indices) {
   return {vao, count: indices.length};
 }
 
-// Lines of the floor under the arm, through the base.
-function floor() {
+// Lines of the floor, at some height under the arm.
+function floor(height) {
   const cell = 10 ** Math.floor(Math.log10(arm.size / 2)), half = 10, points = [];
   for (let k = -half; k <= half; k++)
     for (const [x0, y0, x1, y1] of [[k, -half, k, half], [-half, k, half, k]])
-      points.push(x0 * cell, y0 * cell, 0, x1 * cell, y1 * cell, 0);
+      points.push(x0 * cell, y0 * cell, height, x1 * cell, y1 * cell, height);
   const vertices = new Float32Array(points);
   return shape(vertices, vertices.map((_, k) => k % 3 === 2 ? 1 : 0), Uint32Array.from({length: points.length / 3}, (_, k) => k));
 }
@@ -92,12 +92,14 @@ function prepare() {
   gl.enable(gl.DEPTH_TEST);
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+  let lowest = 0;  // of the base
   for (const node of arm.nodes)
     for (const surface of node.surfaces) {
       const [vertices, faces] = [unpacked(surface.vertices, Float32Array), unpacked(surface.faces, Uint32Array)];
       surface.shape = shape(vertices, normals(vertices, faces), faces);
+      for (let k = 2; node === arm.nodes[0] && k < vertices.length; k += 3) lowest = Math.min(lowest, vertices[k]);
     }
-  arm.floor = floor();
+  arm.floor = floor(lowest);
 }
 
 function drawShape({vao, count}, kind, colour, opacity, pose, unlit = 0) {

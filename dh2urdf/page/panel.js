@@ -141,6 +141,14 @@ function show() {
   draw();
 }
 
+// What was in the picture stays in it when the window changes.
+function refit() {
+  const size = Math.min(main.clientWidth, main.clientHeight);
+  eye.scale *= size / (state.size ?? size);
+  state.size = size;
+  draw();
+}
+
 function savePicture() {
   draw();
   const picture = Object.assign(document.createElement("canvas"), {width: marks.width, height: marks.height});
@@ -169,7 +177,7 @@ function begin() {
   onkeydown = event => { if (!/^(INPUT|SELECT)$/.test(event.target.tagName)) ({ArrowLeft: previous, ArrowRight: next})[event.key]?.(); };
   followPointers(marks, draw);
   marks.ondblclick = () => { lookAtAll(state.q); draw(); };
-  new ResizeObserver(draw).observe(main);
+  new ResizeObserver(refit).observe(main);
   lookAtAll(state.q);
   show();
 }

@@ -198,6 +198,8 @@ def test_dragging_turns_the_arm_and_narrow_pages_fold(opened):
     assert page.evaluate("eye.scale") < scale
     page.set_viewport_size({"width": 420, "height": 800})
     assert page.locator("main").bounding_box()["width"] == 420
+    tip = "project(origin(fk(state.q))).slice(0, 2)"
+    page.wait_for_function(f"{tip}[0] > 0 && {tip}[0] < 420")
     picture(page, "page-narrow")
 
 
