@@ -29,8 +29,10 @@ from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
 
-WAYS = (-1e-3, 1e-3, -1e-2, 1e-2, -0.1, 0.1, -0.3, 0.3)
-"""How far along that direction Newton's method starts [rad], either way."""
+NEAREST, FARTHER, WAYS = 4e-4, 2.5, 16
+"""How far along that direction Newton's method starts [rad], the nearest and by which factor the
+next, and how many, by turns either way. Of three solutions side by side it comes to the one in the
+middle from within 0.45 of where the others are."""
 
 STEPS = 15
 """Newton steps; where they have not converged, there is nothing."""
@@ -119,6 +121,16 @@ def _is_new(chain, T, q, count, p):
     return True
 
 
+def _add_if_new(chain, T, q, count, trial, A, step, damped):
+    """Append what Newton's method leads to from trial (6,), if it is new; the new count."""
+    if not _converges(chain, T, trial, A, step, damped):
+        return count
+    if count < q.shape[0] and _is_new(chain, T, q, count, trial):
+        q[count] = trial
+        return count + 1
+    return count
+
+
 @entry(n=6)
 def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
@@ -130,14 +142,12 @@ def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
             normal_equations(chain, Ts[i], q[i, k], work)
             if null_direction(work) > SINGULAR:
                 continue
-            for w in range(len(WAYS)):
+            way = NEAREST
+            for w in range(WAYS):
                 for j in range(6):
-                    trial[j] = q[i, k, j] + WAYS[w] * work[j, 6]
-                if not _converges(chain, Ts[i], trial, A, step, damped):
-                    continue
-                if count[i] < q.shape[1] and _is_new(chain, Ts[i], q[i], count[i], trial):
-                    q[i, count[i]] = trial
-                    count[i] += 1
+                    trial[j] = q[i, k, j] + way * work[j, 6]
+                count[i] = _add_if_new(chain, Ts[i], q[i], count[i], trial, A, step, damped)
+                way = -way if w % 2 == 0 else -FARTHER * way
 
 
 def _approach(chain, goal, q, best, dq, damped):

@@ -136,9 +136,16 @@ def joint_matrix(chain, i, q):
     return Z
 
 
+def cross(a, b):
+    """The vector product of the last axes, as np.cross, sooner."""
+    following, last = [1, 2, 0], [2, 0, 1]
+    return a[..., following] * b[..., last] - a[..., last] * b[..., following]
+
+
 def error_vectors(T, T_target):
     """Position difference and rotation vector (sine long) from T to T_target, (..., 6)."""
-    turn = 0.5 * np.cross(T[..., :3, :3], T_target[..., :3, :3], axis=-2).sum(-1)
+    R, R_target = (np.swapaxes(X[..., :3, :3], -1, -2) for X in (T, T_target))
+    turn = 0.5 * cross(R, R_target).sum(-2)
     behind = (T[..., :3, :3] * T_target[..., :3, :3]).sum((-1, -2)) < 1.0
     turn[behind] = math.pi
     return np.concatenate([T_target[..., :3, 3] - T[..., :3, 3], turn], axis=-1)
@@ -169,7 +176,7 @@ def jacobians(chain, q):
         if chain.prismatic[i]:
             columns.append(np.concatenate([z, np.zeros_like(z)], -1))
         else:
-            columns.append(np.concatenate([np.cross(z, tip - p), z], -1))
+            columns.append(np.concatenate([cross(z, tip - p), z], -1))
         T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
     return np.stack(columns, -1)
 

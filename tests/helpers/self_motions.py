@@ -1,7 +1,8 @@
 """Self-motions walked by the referee: from a solution along a family, to a configuration or away.
 
 Steps go along the directions in which the pose does not change, and are brought back across them
-by Newton's method; only the joints that may move do.
+by Newton's method; only the joints that may move do. Where the Jacobian is flat in directions in
+which nothing moves, as at a double root all along a family, Newton's method ends by all of them.
 """
 
 import numpy as np
@@ -13,12 +14,17 @@ ACCEPT = 1e-9
 FLAT = 1e-5
 """Singular value, relative to the largest, of a direction in which a walk may go."""
 
-LENGTH = 0.05
-"""How far a family is walked to be one [rad or m]."""
+LEAST = 1e-12
+"""The same of a direction in which Newton's method has nothing to say."""
+
+LENGTHS = (0.05, 2e-3, 1e-4)
+"""How far a family is walked to be one [rad or m]; shorter where it is a short loop."""
 
 STEP = 0.1
-"""Steps of a walk round a family [rad or m], and their number each way."""
+"""Steps of a walk round a family [rad or m], and their number each way; round a short loop they
+are shorter."""
 MOST = 150
+SHORT = 0.004
 
 
 def wrapped(arm, d):
@@ -37,15 +43,27 @@ def directions(arm, p, free):
 
 
 def back(arm, p, T, free, goal=1e-14):
-    """The point of the family next to p, and its residual."""
-    for _ in range(8):
+    """The point of the family next to p, and its residual.
+
+    Across the flat directions; by all, where these leave a residual and that ends near by.
+    """
+    p = newton(arm, p, T, free, FLAT, 8, goal)
+    whole = newton(arm, p, T, free, LEAST, 30, goal) if residuals(arm, p, T) > 10.0 * goal else p
+    if gaps(arm, whole, p) <= STEP and residuals(arm, whole, T) < residuals(arm, p, T):
+        p = whole
+    return p, residuals(arm, p, T)
+
+
+def newton(arm, p, T, free, least, most, goal):
+    """Newton's method from p by directions of singular values above ``least`` of the largest."""
+    for _ in range(most):
         if residuals(arm, p, T) < goal:
             break
         J = jacobians(arm, p)[:, free]
-        step = np.linalg.pinv(J, rcond=FLAT) @ error_vectors(forward(arm, p), T)
+        step = np.linalg.pinv(J, rcond=least) @ error_vectors(forward(arm, p), T)
         p = p.copy()
         p[free] += np.clip(step, -0.1, 0.1)
-    return p, residuals(arm, p, T)
+    return p
 
 
 def walks_to(arm, p, q, T, free, tolerance, accept=ACCEPT):
@@ -80,18 +98,20 @@ def tangent_at(arm, p, free, before):
     return ahead / size if size > 1e-3 else None
 
 
-def round_walk(arm, p, T, free, ahead):
+def round_walk(arm, p, T, free, ahead, step=STEP):
     """Points of the family through p, on a walk that starts in a direction."""
     start = p
     for k in range(MOST):
         ahead = tangent_at(arm, p, free, ahead)
         if ahead is None:
             return
-        p, residual = back(arm, p + STEP * ahead, T, free)
-        if residual > ACCEPT:
+        before = p
+        p, residual = back(arm, p + step * ahead, T, free)
+        ahead = wrapped(arm, p - before)
+        if residual > ACCEPT or not 0.1 * step < np.linalg.norm(ahead) < 2.0 * step:
             return
         yield p
-        if k > 3 and np.abs(wrapped(arm, p - start)).max() < 0.6 * STEP:
+        if k > 3 and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
             return
 
 
@@ -105,23 +125,32 @@ def on_family(arm, p, q, T, free, tolerance):
     flat = V[sigma < FLAT * sigma[0]]
     rng = np.random.default_rng(0)
     ways = flat if len(flat) == 1 else [v @ flat for v in rng.normal(size=(6, len(flat)))]
-    for way in ways:
-        for side in (way, -way):
-            for k, point in enumerate(round_walk(arm, p, T, free, side)):
-                near = gaps(arm, point, q) < 3 * STEP or (len(flat) > 1 and k % 10 == 0)
+    for step in (STEP, SHORT) if gaps(arm, p, q) < MOST * SHORT else (STEP,):
+        for way in (side * way for way in ways for side in (1.0, -1.0)):
+            for k, point in enumerate(round_walk(arm, p, T, free, way, step)):
+                near = gaps(arm, point, q) < 3 * step or (len(flat) > 1 and k % 10 == 0)
                 if near and walks_to(arm, point, q, T, free, tolerance):
                     return True
     return False
 
 
-def is_family(arm, p, T, free, accept=ACCEPT):
-    """Whether a walk of ``LENGTH`` from p, one way or the other, by these joints, is accepted."""
+def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS):
+    """Whether a walk from p by these joints, of one of some lengths, is one."""
     sigma, V = directions(arm, p, free)
-    if not len(V):
-        return False
-    for way in V[sigma < 1e-4 * max(sigma[0], 1e-300)]:
-        for side in (way, -way):
-            point, residual = back(arm, p + LENGTH * side, T, free)
-            if residual <= accept and gaps(arm, point, p) > 0.5 * LENGTH * np.abs(way).max():
-                return True
-    return False
+    ways = V[sigma < 1e-4 * max(sigma[0], 1e-300)] if len(V) else V
+    return any(
+        _walks(arm, p, T, free, side * length * way, accept * length / LENGTHS[0])
+        for length in lengths
+        for way in ways
+        for side in (1.0, -1.0)
+    )
+
+
+def _walks(arm, p, T, free, way, accept):
+    """Whether a way from p and its half are on a family, but for as much as leads back to it."""
+    for part in (1.0, 0.5):
+        point, residual = back(arm, p + part * way, T, free)
+        aside = np.linalg.norm(wrapped(arm, point - p - part * way))
+        if residual > accept or aside > 0.5 * part * np.linalg.norm(way):
+            return False
+    return True

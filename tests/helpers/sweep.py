@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from dh_arm import arm_of
 from ik_referee import forward, gaps, jacobians, residuals, same_to_rounding
-from self_motions import is_family, on_family
+from self_motions import LENGTHS, is_family, on_family
 from structured import table_line
 
 import dh2urdf
@@ -128,6 +128,6 @@ def _check_solutions(tally, table, arm, solutions, T, q):
         if mask and not is_family(arm, p, T, bits):
             tally.note("no family", table, q)
             break
-        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE):
+        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE, LENGTHS[:1]):
             tally.note("unnamed", table, q)
             break

@@ -37,8 +37,8 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held_values import HeldOneByOne
 from dh2urdf.ik.redundant.searched import nearly_reaching
-from dh2urdf.kernels.certificate import measure_all
-from dh2urdf.kernels.redundant import add_curves
+from dh2urdf.kernels.certificate import measure_all, name_batch
+from dh2urdf.kernels.redundant import DULL, add_curves
 from dh2urdf.transforms import Array
 
 STARTS = 8
@@ -50,6 +50,9 @@ ENOUGH = 4
 FAR = 0.01
 """Error, in sizes of the arm and radians, of such poses; what is reached, a rim too, is found to
 rounding by one of the searches."""
+
+WEAK = 1e-3
+"""Singular value, relative to the largest, of an arm that can hardly move along its curve."""
 
 CURVES = 48
 """Starts from which curves are looked for that no held value meets."""
@@ -152,6 +155,8 @@ class RedundantChain(SolverBase):
             new = slice(before[i], out.counts[i])
             out.q[i, new] = turned_to(chain, out.q[i, new], middle(chain))
             out.residual[i, new] = residual[i, new]
+        dull = (np.arange(self.kmax) < before[:, None]) & (out.residual > DULL)
+        out.residual[dull] = residual[dull]
         hopeless: NDArray[np.bool_] = least > FAR
         return hopeless
 
@@ -188,7 +193,19 @@ class RedundantChain(SolverBase):
         used = np.arange(self.kmax) < out.counts[:, None]
         out.free[:] = 0
         out.free[used] = self.idle | moving_joints(self.chain, self.task, out.q[used])
+        if self.task is Task.POSE:
+            self._name_again(Ts, out, used)
         out.branch[:] = -1
+
+    def _name_again(self, Ts: Array, out: Outputs, used: NDArray[np.bool_]) -> None:
+        """Walk where the arm can hardly move: short curves may be points, of which none is free."""
+        sigma = np.linalg.svd(scaled_jacobian(self.chain, Task.POSE, out.q[used]), compute_uv=False)
+        weak = np.zeros_like(used)
+        weak[used] = sigma[:, self.chain.n - len(self.held) - 1] <= WEAK * sigma[:, 0]
+        rows = np.flatnonzero(weak.any(axis=1))
+        some = out.rows(rows)
+        name_batch(self.chain.tables, np.ascontiguousarray(Ts[rows]), some)
+        out.free[weak] = some.free[weak[rows]]
 
 
 def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:

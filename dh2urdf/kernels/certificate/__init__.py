@@ -30,6 +30,7 @@ from dh2urdf.kernels.certificate.certify import (
     same,
     turn_inside,
 )
+from dh2urdf.kernels.certificate.directions import add_step, look
 from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,
@@ -38,6 +39,7 @@ from dh2urdf.kernels.certificate.finish import (
     name_families,
     null_direction,
     reverse_joints,
+    side_by_side,
     turn_back,
 )
 from dh2urdf.kernels.certificate.numeric import find_solutions

@@ -7,10 +7,12 @@ import numpy as np
 from dh2urdf.kernels.certificate.certify import (
     CLUSTER,
     EVERY_JOINT,
+    NO_JOINT,
     ROUNDING,
     TWO_PI,
     finish_pose,
     move,
+    same,
     turn_inside,
 )
 from dh2urdf.kernels.certificate.walk import LENGTHS, free_of
@@ -176,6 +178,17 @@ def _one(chain, T, q, p, accuracy, middle, start, work):
         if null_direction(work) > SINGULAR:
             return False
     return not _is_aside(middle, start, 0.25 * longest)
+
+
+def side_by_side(chain, T, q, count, work):
+    """Whether two of the solutions q (kmax, n) are near and singular: a third may be between."""
+    for k in range(count):
+        for j in range(k):
+            if same(chain[1], q[j], q[k], NEAR, NO_JOINT):
+                normal_equations(chain, T, q[k], work)
+                if null_direction(work) <= SINGULAR:
+                    return True
+    return False
 
 
 def _is_aside(middle, start, most):

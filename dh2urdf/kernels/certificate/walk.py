@@ -3,7 +3,9 @@
 The walk, of one turn, is tried by a hundredth part of it, ``LENGTHS``, which may lead off the pose
 by as small a part of what is accepted. It goes in a direction in which the Jacobian says that the
 tool stays, and is brought back across such directions by Newton's method. At a double root it comes
-back to where it began, beside a family it ends off the pose, on one it arrives.
+back to where it began, beside a family it ends off the pose, on one it arrives. Where two joints
+are at a double root all along a family, such directions are no tangents of it: then Newton's method
+goes by all directions, and where it ends tells the way.
 """
 
 import math
@@ -25,6 +27,9 @@ some joints walk alone, without the help of others."""
 FLAT = 1e-5
 """Singular value, relative to the largest, of a direction in which a walk may go."""
 
+NOTHING = 1e-12
+"""The same of a direction in which Newton's method has nothing to say."""
+
 STEPS, MOST = 24, 0.1
 """Newton steps back to the family, and the longest of them [rad or m]."""
 
@@ -40,11 +45,8 @@ MOVES = (1e-5, 1e-7, 1e-10)
 that move walk alone. Where singularities meet, some move by very little, but have to."""
 
 
-def _arrives(chain, T, q, way, length, part, mask, trial, room):
-    """Whether Newton's method, from ``length`` along ``way``, ends on the family: in trial (n,).
-
-    Not if it comes back to q (n,), as it does at a double root.
-    """
+def _come_back(chain, T, q, way, length, floor, mask, trial, room):
+    """Newton's method from ``length`` along ``way``, to trial (n,); whether it ends away from q."""
     longest, last = 0.0, math.inf
     for i in range(q.shape[0]):
         trial[i] = q[i] + length * way[i]
@@ -59,18 +61,61 @@ def _arrives(chain, T, q, way, length, part, mask, trial, room):
             break
         last = residual
         _, largest = look_at_some(chain, T, trial, mask, room)
-        add_step(chain, 1.0, trial, room, FLAT * largest, MOST)
+        add_step(chain, 1.0, trial, room, floor * largest, MOST)
+    return True
+
+
+def _arrives(chain, T, q, way, length, part, floor, mask, trial, room):
+    """Whether Newton's method, from ``length`` along ``way``, ends on the family: in trial (n,).
+
+    Not if it comes back to q (n,), as it does at a double root.
+    """
+    if not _come_back(chain, T, q, way, length, floor, mask, trial, room):
+        return False
+    aside = 0.0
+    for i in range(q.shape[0]):
+        aside = max(aside, abs(trial[i] - q[i] - length * way[i]))
+    if floor < FLAT and aside > 0.5 * length:
+        return False
     added = part * ACCEPT * length / LENGTHS[0]
     return pose_residual(chain, T, trial) <= min(pose_residual(chain, T, q) + added, ACCEPT)
 
 
-def _walks(chain, T, q, way, length, part, mask, trial, room):
+def _walks(chain, T, q, way, length, part, floor, mask, trial, room):
     """Whether a walk from q (n,) along ``way`` arrives at all of its parts; its end in trial."""
     for k in range(PARTS):
         some = length * (PARTS - k) / PARTS
-        if not _arrives(chain, T, q, way, some, part, mask, trial[k], room):
+        if not _arrives(chain, T, q, way, some, part, floor, mask, trial[k], room):
             return False
     return True
+
+
+def _add_moved(q, end, moved):
+    """Raise the motions of joints, moved (n,), to those of a walk from q (n,) to its end."""
+    for i in range(q.shape[0]):
+        moved[i] = max(moved[i], abs(end[i] - q[i]))
+
+
+def _walks_turned(chain, T, q, ways, flat, length, part, mask, trial, room, moved):
+    """Whether a walk arrives that starts as Newton's method by all directions says.
+
+    From ``ways``, ``flat`` unit vectors in which the tool stays; the row after them is scratch.
+    """
+    way, found = ways[flat], False
+    for k in range(2 * flat):
+        for i in range(q.shape[0]):
+            way[i] = ways[k // 2, i] if k % 2 == 0 else -ways[k // 2, i]
+        if not _come_back(chain, T, q, way, length, NOTHING, mask, trial[0], room):
+            continue
+        size = 0.0
+        for i in range(q.shape[0]):
+            way[i] = trial[0, i] - q[i]
+            size += way[i] * way[i]
+        way /= math.sqrt(size)
+        if _walks(chain, T, q, way, length, part, NOTHING, mask, trial, room):
+            found = True
+            _add_moved(q, trial[0], moved)
+    return found
 
 
 def joints_that_move(chain, T, q, length, part, mask, moved):
@@ -81,7 +126,7 @@ def joints_that_move(chain, T, q, length, part, mask, moved):
     """
     n, found = q.shape[0], False
     room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
-    ways, trial = np.empty((n, n)), np.empty((PARTS, n))
+    ways, trial = np.empty((n + 1, n)), np.empty((PARTS, n))
     trial[0] = q
     moved[:] = 0.0
     _, largest = look_at_some(chain, T, trial[0], mask, room)
@@ -92,13 +137,14 @@ def joints_that_move(chain, T, q, length, part, mask, moved):
             flat += 1
     for k in range(flat):
         for _ in range(2):
-            if _walks(chain, T, q, ways[k], length, part, mask, trial, room):
+            if _walks(chain, T, q, ways[k], length, part, FLAT, mask, trial, room):
                 found = True
-                for i in range(n):
-                    moved[i] = max(moved[i], abs(trial[0, i] - q[i]))
+                _add_moved(q, trial[0], moved)
                 break
             for i in range(n):
                 ways[k, i] = -ways[k, i]
+    if flat > 1 and not found:
+        found = _walks_turned(chain, T, q, ways, flat, length, part, mask, trial, room, moved)
     return found
 
 

@@ -13,7 +13,14 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import DEEP, certify_pose, copy_rows, name_families, turn_inside
+from dh2urdf.kernels.certificate import (
+    DEEP,
+    certify_pose,
+    copy_rows,
+    name_families,
+    side_by_side,
+    turn_inside,
+)
 from dh2urdf.kernels.numbers import atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs, says_little
 from dh2urdf.kernels.parallel_axes.plane import (
@@ -183,6 +190,7 @@ def finish_pairs(arm, first, pairs, T, within_limits, out, scratch):
     left = certify_pose(chain, T, *rows, found, work)
     for k in range(left):
         deep = deep or rows[1][k] > DULL
+    deep = deep or side_by_side(chain, T, rows[0], left, work)
     doubt = more > 0 or left < found or deep
     deep = deep or (doubt and left == 0)
     name_families(chain, T, rows, left, doubt, work)

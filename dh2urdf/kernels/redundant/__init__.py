@@ -5,7 +5,7 @@ solves many poses side by side, from what `held_wrist_load` makes of them; `self
 solutions, `curves` finds all curves of them, `paths` shortens a path.
 """
 
-from dh2urdf.kernels.redundant.curves import add_curves
+from dh2urdf.kernels.redundant.curves import DULL, add_curves
 from dh2urdf.kernels.redundant.held_wrist import gather_samples, points_on_curves, solve_held_wrist
 from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
 from dh2urdf.kernels.redundant.paths import onward, shorten
