@@ -19,6 +19,9 @@ from dh2urdf.kernels.certificate import arrange_plain
 from dh2urdf.kernels.numbers import any_family, is_pose
 from dh2urdf.transforms import Array
 
+COUNT = slice(128, 136)
+"""Bytes of the number of solutions, see :class:`dh2urdf.ik.arm.Room`."""
+
 
 def call_of(problem: Problem, within_limits: bool) -> AtOnce:
     """The function of a pose."""
@@ -75,7 +78,10 @@ class HeldCalls(dict[tuple[int | str, type, bool], HeldCall]):
         held = self.get((key, type(key), within_limits))
         if not held or type(value) is not float or not held.low < value < held.high:
             return None
-        return held.problem, held.call(T, value)
+        memory = held.call(T, value)
+        if memory is not None and not any(memory[COUNT]):  # what is searched, is so in Python
+            return None
+        return held.problem, memory
 
     def learn(self, problem: Problem, locked: Locked, within_limits: bool) -> None:
         """Make the function for what is held, if that is one joint at one value."""

@@ -33,6 +33,7 @@ from dh2urdf.ik.arm import (
     scaled_jacobian,
     spare_joints,
     turned_to,
+    unite_families,
 )
 from dh2urdf.ik.families import NumericProblem
 from dh2urdf.ik.redundant.held_values import HeldOneByOne
@@ -50,6 +51,9 @@ ENOUGH = 4
 FAR = 0.01
 """Error, in sizes of the arm and radians, of such poses; what is reached, a rim too, is found to
 rounding by one of the searches."""
+
+SURE = 1e-11
+"""Residual [m and rad] of a solution beside which a walk decides whether there is a family."""
 
 WEAK = 1e-3
 """Singular value, relative to the largest, of an arm that can hardly move along its curve."""
@@ -203,9 +207,13 @@ class RedundantChain(SolverBase):
         weak = np.zeros_like(used)
         weak[used] = sigma[:, self.chain.n - len(self.held) - 1] <= WEAK * sigma[:, 0]
         rows = np.flatnonzero(weak.any(axis=1))
-        some = out.rows(rows)
-        name_batch(self.chain.tables, np.ascontiguousarray(Ts[rows]), some)
-        out.free[weak] = some.free[weak[rows]]
+        some, Ts = out.rows(rows), np.ascontiguousarray(Ts[rows])
+        some.branch[:] = some.free
+        name_batch(self.chain.tables, Ts, some)
+        unite_families(self.chain, Ts, False, some)
+        still = (some.free == 0) & (some.residual <= SURE)
+        some.free[:] = np.where(still, 0, some.branch)
+        out.put(rows, some)
 
 
 def _joints_to_hold(chain: SerialChain, task: Task) -> tuple[int, ...]:

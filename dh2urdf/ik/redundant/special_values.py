@@ -2,29 +2,38 @@
 
 The solver of a held joint is chosen for any of its values. At a special one, as 0 of a shoulder
 whose axes 1 and 3 then are one line, the other joints move along families, and a solver is made
-for that value alone.
+for that value alone. And where an elbow is folded so that the wrist's centre is on the shoulder's,
+the equations for the elbow say nothing at any value: such poses are searched.
 """
 
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
+    ACCEPT,
+    SNAP,
     SPARE_RANK,
     TRIALS,
     TWO_PI,
+    AxisLines,
     HeldSolver,
     IntArray,
     Outputs,
+    SolverBase,
     Task,
+    hold,
     near_ranges,
     random_configurations,
     scaled_jacobian,
+    search_in_doubt,
 )
-from dh2urdf.ik.redundant.held_values import HeldEnd, HeldOneByOne
+from dh2urdf.ik.redundant.held_values import HeldEnd, HeldJoints, HeldOneByOne
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE
-from dh2urdf.transforms import Array
+from dh2urdf.ik.redundant.searched import STARTS, nearly_reaching
+from dh2urdf.transforms import Array, inverse
 
 GRID = 48
 """Values at which the rank is looked at first: a turn in steps of 7.5 degrees."""
@@ -41,6 +50,28 @@ it the usual solver's answers are right to 1e-6 and better."""
 
 DIP = 1e-3
 """Relative singular value above which a dip is none that a special value makes."""
+
+
+FOLDED = 1e-5
+"""Distance [m] between the centres of shoulder and wrist within which an elbow is folded."""
+
+
+class InDoubt(SolverBase):
+    """Six turning joints by a search alone, for poses of which equations say nothing."""
+
+    name = "search"
+    kmax = 16
+    known: Array
+    """Solutions that others found, (k, 6)."""
+
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4) from many starts, in valleys too."""
+        every, found = np.arange(len(Ts)), Outputs.of(len(Ts), 2 * STARTS, self.chain.n)
+        for i, T in enumerate(Ts):
+            q, error = nearly_reaching(self.chain, T, self.task)
+            q = np.concatenate([self.known, q[np.abs(error).max(axis=1) <= ACCEPT]])
+            found.q[i, : len(q)], found.counts[i] = q, len(q)
+        out.put(every, search_in_doubt(self.chain, Ts, found, every, within_limits))
 
 
 class HeldAtAnyValue(HeldSolver):
@@ -65,6 +96,31 @@ class HeldAtAnyValue(HeldSolver):
             self.one_by_one.solve_held(poses, values[rows], within_limits, found)
             for whole, part in zip(out, found, strict=True):
                 whole[rows] = part
+        for i in np.flatnonzero(self._folded(Ts)):
+            held = {self.held[0]: float(values[i, 0])}
+            search = InDoubt(hold(self.chain, held))
+            search.known = np.delete(out.q[i, : out.counts[i]], self.held[0], axis=1)
+            solver = HeldJoints(self.chain, held, self.task, search)
+            solver.solve_batch(Ts[i : i + 1], within_limits, out.rows(slice(i, i + 1)))
+
+    def _folded(self, Ts: Array) -> NDArray[np.bool_]:
+        """Which poses (m, 4, 4) put the centre of the wrist onto that of the shoulder."""
+        if self._centres is None:
+            return np.zeros(len(Ts), np.bool_)
+        shoulder, wrist = self._centres
+        away = Ts[:, :3, :3] @ wrist + Ts[:, :3, 3] - shoulder
+        folded: NDArray[np.bool_] = np.abs(away).max(axis=1) <= FOLDED
+        return folded
+
+    @cached_property
+    def _centres(self) -> tuple[Array, Array] | None:
+        """Where axes 1, 2, 3 meet, in the base, and 5, 6, 7, in the tool; None: they do not."""
+        lines, n = AxisLines(self.chain, SNAP), self.chain.n
+        seven = n == 7 and not self.chain.prismatic.any() and self.task is Task.POSE
+        if not seven or not (lines.spherical(0) and lines.spherical(4)):
+            return None
+        home = inverse(self.chain.fk(np.zeros(n)))
+        return lines.points[1], home[:3, :3] @ lines.points[5] + home[:3, 3]
 
     def steps(
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs
