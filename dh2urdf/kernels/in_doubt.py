@@ -34,8 +34,11 @@ NEAREST, FARTHER, WAYS = 4e-4, 2.5, 16
 next, and how many, by turns either way. Of three solutions side by side it comes to the one in the
 middle from within 0.45 of where the others are."""
 
-STEPS = 15
-"""Newton steps; where they have not converged, there is nothing."""
+STEPS, MORE = 15, 25
+"""Newton steps; and how many more at a double root, to which each goes half of the way."""
+
+HALVED, ENDED = 1e-6, 1e-12
+"""Residual [m and rad] at which more are taken, and of a solution after the last of them."""
 
 DAMPED = 50
 """Levenberg's steps from a start; most that lead anywhere take ten to twenty."""
@@ -94,8 +97,10 @@ def _solve(A, step):
 
 def _converges(chain, T, q, A, step, damped):
     """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
-    for _ in range(STEPS):
-        error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
+    for k in range(STEPS + MORE):
+        residual = error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
+        if k >= STEPS and (residual <= POLISH or residual > HALVED):
+            break
         for r in range(6):
             A[r, 6] = damped[1][r, 6]
             for j in range(6):
@@ -107,7 +112,7 @@ def _converges(chain, T, q, A, step, damped):
         q += step * scale
     for j in range(6):
         q[j] = principal(q[j])
-    return pose_residual(chain, T, q) <= POLISH
+    return pose_residual(chain, T, q) <= ENDED
 
 
 def _is_new(chain, T, q, count, p):

@@ -20,6 +20,9 @@ LEAST = 1e-12
 LENGTHS = (0.05, 2e-3, 1e-4)
 """How far a family is walked to be one [rad or m]; shorter where it is a short loop."""
 
+FINE = 1e-4
+"""How far Newton's method by all directions may take what is accepted as it is [rad or m]."""
+
 STEP = 0.1
 """Steps of a walk round a family [rad or m], and their number each way; round a short loop they
 are shorter."""
@@ -49,7 +52,8 @@ def back(arm, p, T, free, goal=1e-14):
     """
     p = newton(arm, p, T, free, FLAT, 8, goal)
     whole = newton(arm, p, T, free, LEAST, 30, goal) if residuals(arm, p, T) > 10.0 * goal else p
-    if gaps(arm, whole, p) <= STEP and residuals(arm, whole, T) < residuals(arm, p, T):
+    most = 0.3 * STEP if residuals(arm, p, T) > ACCEPT else FINE
+    if gaps(arm, whole, p) <= most and residuals(arm, whole, T) < residuals(arm, p, T):
         p = whole
     return p, residuals(arm, p, T)
 
@@ -105,11 +109,14 @@ def round_walk(arm, p, T, free, ahead, step=STEP):
         ahead = tangent_at(arm, p, free, ahead)
         if ahead is None:
             return
-        before = p
-        p, residual = back(arm, p + step * ahead, T, free)
-        ahead = wrapped(arm, p - before)
-        if residual > ACCEPT or not 0.1 * step < np.linalg.norm(ahead) < 2.0 * step:
+        for part in (step, 0.2 * step):  # where the curve bends, a shorter one
+            next_, residual = back(arm, p + part * ahead, T, free)
+            way = wrapped(arm, next_ - p)
+            if residual <= ACCEPT and 0.1 * part < np.linalg.norm(way) < 2.0 * part:
+                break
+        else:
             return
+        p, ahead = next_, way
         yield p
         if k > 3 and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
             return

@@ -11,6 +11,8 @@ from self_motions import STEP, directions, is_family, round_walk
 from structured import random_tables, rounded, structured_configurations
 from sweep import Tally, judge
 
+import dh2urdf
+
 POSES = 40
 
 
@@ -75,3 +77,16 @@ def test_the_referee_walks_no_way_from_a_regular_configuration():
     assert len(alone) > 3
     for p in alone:
         assert not is_family(arm, p, forward(arm, p), np.ones(6, bool))
+
+
+@pytest.mark.parametrize(
+    "row", [3, pytest.param(9, marks=pytest.mark.xfail(strict=True, reason="two valleys meet"))]
+)
+def test_a_planar_arm_of_rounded_angles_has_an_answer(row):
+    """All axes nearly parallel: three joints nearly to spare, each pose a double root."""
+    table, q = posed(53, row, 4)
+    arm = arm_of(table)
+    T = forward(arm, q[0])
+    found = dh2urdf.Robot.from_dh(table).ik(T, within_limits=False)
+    assert len(found)
+    assert residuals(arm, found.q, T).max() <= 1e-9
