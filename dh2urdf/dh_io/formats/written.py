@@ -25,7 +25,7 @@ _FIELDS = ROW_KEYS[ROW_KEYS.index("theta") : ROW_KEYS.index("inertia_frame")]
 
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*", re.ASCII)
 _PLAIN_LINE = re.compile(r"[A-Za-z][^:#|\\\"*`]*")
-_MARKUP = re.compile(r"[`*<>&\[\]|~$!_]")
+_MARKUP = re.compile(r"[`*<>&\[\]|~$!]|(?<![0-9A-Za-z])_|_(?![0-9A-Za-z])")
 _WORDS = {"null", "true", "false", "yes", "no", "on", "off", "y", "n", "n/a"}
 
 

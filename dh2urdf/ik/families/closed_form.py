@@ -9,6 +9,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import (
+    BRANCH_WORDS,
     NOMINAL,
     SLACK,
     SLACK_OF_NOISE,
@@ -43,6 +44,9 @@ SHARP = 1e-11
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 
+UPSIDE_DOWN = (BRANCH_WORDS[0], BRANCH_WORDS[1][::-1], BRANCH_WORDS[2])
+"""Names of the branches where axis 1 points down in the base, from where the kernels look up."""
+
 STUCK = "the arm cannot move its tool in all six directions"
 
 
@@ -68,6 +72,8 @@ class ClosedForm(SolverBase):
         super().__init__(chain, task, others)
         self.lines = AxisLines(chain, tolerance)
         self.form = DHForm(self.lines)
+        if self.lines.axes[0, 2] < 0.0:  # of joint 1, in the base
+            self.branch_words = UPSIDE_DOWN
         slack = max(SLACK, SLACK_OF_NOISE * tolerance)
         self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
