@@ -23,6 +23,9 @@ SHARP = 1e-11
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 
+FAMILIES = 4
+"""Families of a pose whose members are looked for at any distance: a few milliseconds each."""
+
 ALIKE = 1e-14
 """Residuals [m and rad] below which one member of a family is as good as another."""
 
@@ -91,12 +94,14 @@ def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
     q, free, residual = out.q[0, :k], out.free[0, :k], np.maximum(out.residual[0, :k], ALIKE)
     kept = np.flatnonzero(free == 0).tolist()
     members = sorted(np.flatnonzero(free).tolist(), key=lambda m: residual[m])
+    isolated = len(kept)
     while members:
         first = members.pop(0)
         kept.append(first)
         joints = tuple(np.flatnonzero(free[first] >> np.arange(chain.n) & 1).tolist())
         family = Family(chain, Task.POSE, np.array(T), joints, q[first].copy())
         alike = [m for m in members if free[m] == free[first]]
-        same = {m for m, on in zip(alike, family.contains(q[alike]), strict=True) if on}
+        trials = 2 if len(kept) - isolated <= FAMILIES else 0
+        same = {m for m, on in zip(alike, family.contains(q[alike], trials), strict=True) if on}
         members = [m for m in members if m not in same]
     _keep(out, kept)

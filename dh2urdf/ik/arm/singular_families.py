@@ -25,6 +25,9 @@ SAME = 1e-6
 ARRIVED = 1e-5
 """Joint distance [rad or m] at which a walk has arrived: its points are on the family to 1e-9."""
 
+BESIDE = 2.0 * FAMILY_STEP
+"""Distance [rad or m] of a member from the points of a walk along its family."""
+
 MOST_STEPS = 200
 """Steps each way of a walk along a family."""
 
@@ -66,25 +69,26 @@ class Family:
             return False
         return self._apart(self.q, seed) <= SAME
 
-    def contains(self, others: Array) -> NDArray[np.bool_]:
+    def contains(self, others: Array, trials: int = 2) -> NDArray[np.bool_]:
         """Which configurations (k, n) of the same free joints a walk along the family arrives at.
 
-        Straight towards each of them, and from the point of a walk both ways that is nearest.
+        From the point of a walk both ways that is nearest, and straight towards each of them, for
+        a family may have more than one dimension; until this has failed in so many ``trials``.
         """
-        found = np.zeros(len(others), np.bool_)
+        found, failed = np.zeros(len(others), np.bool_), 0
         walked = np.empty((0, len(self.free)))
         for k, other in enumerate(others):
-            found[k] = self._arrives(self.q, other)
-            if found[k] or self._apart(self.q, other) > SAME:
+            if self._apart(self.q, other) > SAME:
                 continue
             if not len(walked):
-                walked = self._walk(self.q)
-            way = _principal(self.moving, other[self.free] - walked)
-            nearest = walked[int(np.abs(way).max(axis=1).argmin())] if len(walked) else None
-            if nearest is not None:
-                start = self.q.copy()
-                start[self.free] = nearest
-                found[k] = self._arrives(start, other)
+                walked = np.concatenate([self.q[None, self.free], self._walk(self.q)])
+            way = np.abs(_principal(self.moving, other[self.free] - walked)).max(axis=1)
+            start = self.q.copy()
+            start[self.free] = walked[int(way.argmin())]
+            found[k] = way.min() <= BESIDE and self._arrives(start, other)
+            if not found[k] and failed < trials:
+                found[k] = self._arrives(self.q, other)
+                failed += not found[k]
         return found
 
     def _arrives(self, start: Array, goal: Array) -> bool:
