@@ -129,13 +129,45 @@ CHAINS = {
         f"0 .2073 -.0114 / -{H} 0 {PI} / z; 0 -.03703 -.06414 / 1.0471975511965976 0 {PI} / z;"
         f"0 -.03703 -.06414 / 1.0471975511965976 0 {PI} / z; 0 0 -.16 / {PI} 0 0 / ."
     ),
+    # Interbotix/interbotix_ros_manipulators, interbotix_xsarm_descriptions/urdf
+    "vx300s": _straight(
+        "0 0 .079 z; 0 0 .04805 y; .05955 0 .3 y; .2 0 0 x; .1 0 0 y; .069744 0 0 x",
+        f".042825 0 0 / 0 {H} 0",
+    ),
+    "wx250s": _straight(
+        "0 0 .072 z; 0 0 .03865 y; .04975 0 .25 y; .175 0 0 x; .075 0 0 y; .065 0 0 x",
+        f".043 0 0 / 0 {H} 0",
+    ),
+    "wx200": _straight(
+        "0 0 .072 z; 0 0 .03865 y; .05 0 .2 y; .2 0 0 y; .065 0 0 x", f".043 0 0 / 0 {H} 0"
+    ),
+    "px100": _straight("0 0 .05085 z; 0 0 .04225 y; .035 0 .1 y; .1 0 0 y", f".063 0 0 / 0 {H} 0"),
+    # NiryoRobotics/ned_ros, niryo_robot_description/urdf/ned2
+    "niryo_ned2": (
+        f"0 3.7961e-05 .1013 / 0 0 0 / z; 0 0 .065 / {H} -{H} 0 / z; .221 -.012 0 / 0 0 -{H} / z;"
+        f".065 .0325 0 / 0 {H} 0 / z; 0 0 .17 / {PI} -{H} {PI} / z;"
+        f".0197 .00925 0 / 0 {H} 0 / z; 0 0 .0215 / -{H} -{H} 0 / ."
+    ),
+    # elephantrobotics/mycobot_ros2, mycobot_description/urdf/mycobot_280_m5
+    "mycobot_280": (
+        "0 0 .13156 / 0 0 0 / z; 0 0 0 / 0 1.5708 -1.5708 / z; -.1104 0 0 / 0 0 0 / z;"
+        "-.096 0 .06462 / 0 0 -1.5708 / z; 0 -.07318 0 / 1.5708 -1.5708 0 / z;"
+        "0 .0456 0 / -1.5708 0 0 / z"
+    ),
+    # TheRobotStudio/SO-ARM100, Simulation/SO101/so101_new_calib.urdf
+    "so101": (
+        ".0207909 -.0230745 .0948817 / -3.14159 0 1.5708 / z;"
+        "-.0303992 -.0182778 -.0542 / -1.5708 -1.5708 0 / z; -.11257 -.028 0 / 0 0 1.5708 / z;"
+        "-.1349 .0052 0 / 0 0 -1.5708 / z; 0 -.0611 .0181 / 1.5708 -9.38083e-08 3.14159 / z;"
+        "-.0079 -.000218121 -.0981274 / 1.5708 0 1.5708 / ."
+    ),
 }
 """Name of the table -> chain from its base_link to its tool0."""
 
 ROUNDED = dict.fromkeys(("ur3e", "ur5e", "ur16e", "ur20", "ur30"), 1e-9)
 ROUNDED |= {"kuka_iiwa14": 1e-3, "yaskawa_gp7": 5e-7, "xarm5": 3e-5, "xarm6": 3e-5, "lite6": 1.5e-3}
 ROUNDED |= {"doosan_m1013": 1e-3, "techman_tm5_700": 2e-6, "kinova_gen3": 6e-4}
-ROUNDED |= {"kinova_jaco2": 1e-4}
+ROUNDED |= {"kinova_jaco2": 1e-4, "mycobot_280": 3e-5, "so101": 3e-5}
 """Largest FK difference allowed where the maker's numbers are rounded; elsewhere 1e-14."""
 
 PACKAGED = {
