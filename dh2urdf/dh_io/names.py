@@ -14,6 +14,7 @@ _MAKERS = re.compile(
 _ALSO = {
     "abb_gofa5": "gofa crb15000_5_95",
     "abb_irb120": "irb120_3_58",
+    "ar4": "ar4_mk3 annin_ar4",
     "fanuc_lrmate200id": "lrmate",
     "franka_fer": "panda franka franka_panda franka_emika_panda",
     "franka_fr3": "franka_research_3",
@@ -24,7 +25,10 @@ _ALSO = {
     "kuka_kr6_r700": "kr6 kr6_r700_sixx",
     "lite6": "ufactory_lite6",
     "omron_cobra600": "ecobra600",
+    "piper": "agilex_piper",
     "puma560": "puma p560",
+    "so100": "so_arm100",
+    "so101": "so_arm101",
     "stanford": "stanford_arm",
     "uf850": "ufactory850 xarm850",
     "yaskawa_gp7": "motoman_gp7",

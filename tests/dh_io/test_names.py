@@ -27,6 +27,8 @@ TYPED = {
     "TX2-60": "staubli_tx2_60",
     "puma": "puma560",
     "gen3": "kinova_gen3",
+    "SO-ARM100": "so100",
+    "AR4-MK3": "ar4",
 }
 
 

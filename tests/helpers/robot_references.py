@@ -138,9 +138,6 @@ CHAINS = {
         "0 0 .072 z; 0 0 .03865 y; .04975 0 .25 y; .175 0 0 x; .075 0 0 y; .065 0 0 x",
         f".043 0 0 / 0 {H} 0",
     ),
-    "wx200": _straight(
-        "0 0 .072 z; 0 0 .03865 y; .05 0 .2 y; .2 0 0 y; .065 0 0 x", f".043 0 0 / 0 {H} 0"
-    ),
     "px100": _straight("0 0 .05085 z; 0 0 .04225 y; .035 0 .1 y; .1 0 0 y", f".063 0 0 / 0 {H} 0"),
     # NiryoRobotics/ned_ros, niryo_robot_description/urdf/ned2
     "niryo_ned2": (
@@ -153,6 +150,29 @@ CHAINS = {
         "0 0 .13156 / 0 0 0 / z; 0 0 0 / 0 1.5708 -1.5708 / z; -.1104 0 0 / 0 0 0 / z;"
         "-.096 0 .06462 / 0 0 -1.5708 / z; 0 -.07318 0 / 1.5708 -1.5708 0 / z;"
         "0 .0456 0 / -1.5708 0 0 / z"
+    ),
+    # NiryoRobotics/niryo_one_ros, niryo_one_description/urdf/v2
+    "niryo_one": (
+        "0 0 .103 / 0 0 0 / z; 0 0 .08 / 1.570796326795 -1.570796326795 0 / z;"
+        ".21004 0 0 / 0 0 -1.570796326795 / z; .037 .032 0 / 0 1.570796326795 0 / z;"
+        "0 0 .18 / 0 -1.570796326795 0 / z; .018 0 0 / 0 1.570796326795 0 / z"
+    ),
+    # agilexrobotics/Piper_ros, src/piper_description/urdf/piper_no_gripper_description.xacro
+    "piper": (
+        "0 0 .123 / 0 0 0 / z; 0 0 0 / 1.5708 -.1359 -3.1416 / z; .28503 0 0 / 0 0 -1.7939 / z;"
+        "-.021984 -.25075 0 / 1.5708 0 0 / z; 0 0 0 / -1.5708 0 0 / z;"
+        "8.8259e-05 -.091 0 / 1.5708 0 0 / z"
+    ),
+    # ycheng517/ar4_ros_driver, annin_ar4_description/urdf/ar_macro.xacro
+    "ar4": (
+        f"0 0 0 / {PI} 0 0 / z; 0 .0642 -.16977 / 1.5708 0 -1.5708 / -z;"
+        "0 -.305 .007 / 0 0 3.1416 / -z; 0 0 0 / 1.5708 0 -1.5708 / -z;"
+        f"0 0 -.22263 / {PI} 0 -1.5708 / x; 0 0 .041 / 0 0 3.1416 / z"
+    ),
+    # TheRobotStudio/SO-ARM100, Simulation/SO100/so100.urdf
+    "so100": (
+        "0 -.0452 .0165 / 1.57079 0 0 / y; 0 .1025 .0306 / -1.8 0 0 / x;"
+        "0 .11257 .028 / 1.57079 0 0 / x; 0 .0052 .1349 / -1 0 0 / x; 0 -.0601 0 / 0 1.57079 0 / y"
     ),
     # TheRobotStudio/SO-ARM100, Simulation/SO101/so101_new_calib.urdf
     "so101": (
@@ -168,6 +188,7 @@ ROUNDED = dict.fromkeys(("ur3e", "ur5e", "ur16e", "ur20", "ur30"), 1e-9)
 ROUNDED |= {"kuka_iiwa14": 1e-3, "yaskawa_gp7": 5e-7, "xarm5": 3e-5, "xarm6": 3e-5, "lite6": 1.5e-3}
 ROUNDED |= {"doosan_m1013": 1e-3, "techman_tm5_700": 2e-6, "kinova_gen3": 6e-4}
 ROUNDED |= {"kinova_jaco2": 1e-4, "mycobot_280": 3e-5, "so101": 3e-5}
+ROUNDED |= {"niryo_one": 1e-11, "piper": 1.5e-4, "ar4": 3e-5, "so100": 3e-5}
 """Largest FK difference allowed where the maker's numbers are rounded; elsewhere 1e-14."""
 
 PACKAGED = {

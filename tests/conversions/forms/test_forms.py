@@ -30,8 +30,8 @@ FORMS = ("opw", "screws", "kdl")
 OPW = {
     *("abb_irb120", "abb_irb140", "abb_irb140_modified", "denso_vs060", "denso_vs6556"),
     *("doosan_m1013", "fanuc_lrmate200id", "kinova_jaco2_spherical", "kuka_kr16_2", "kuka_kr5_arc"),
-    *("kuka_kr6_r700", "lite6", "mecademic_meca500", "puma560", "puma560_modified"),
-    *("staubli_tx2_60", "uf850", "vx300s", "wx250s", "yaskawa_gp7"),
+    *("ar4", "kuka_kr6_r700", "lite6", "mecademic_meca500", "niryo_one", "piper", "puma560"),
+    *("puma560_modified", "staubli_tx2_60", "uf850", "vx300s", "wx250s", "yaskawa_gp7"),
 }
 LENGTHS = st.floats(0.05, 2.0)
 OFFSETS = st.floats(-0.5, 0.5)
