@@ -117,6 +117,22 @@ def test_positions_alone_will_do_for_the_task_position(run, refused, tmp_path):
     assert "bare.csv:1: 6 or 12" in refused("ik", "ur5", "--csv", "bare.csv")
 
 
+def test_headings_say_degrees(run, tmp_path):
+    """With --deg what turns has [deg] in its heading and degrees below, what slides metres."""
+    robot = dh2urdf.Robot.from_dh("stanford")
+    write_poses(tmp_path / "in.csv", robot.fk(motion(robot, 3)), "rpy")
+    argv = ["ik", "stanford", "--csv", "in.csv", "--best"]
+    plain = list(csv.DictReader(run(*argv)[1].splitlines()))
+    head, rest = (tmp_path / "in.csv").read_text().split("\n", 1)
+    head = head.replace("roll,pitch,yaw", "roll [rad],pitch [rad],yaw [rad]")
+    (tmp_path / "in.csv").write_text(f"{head}\n{rest}")
+    given = list(csv.DictReader(run(*argv, "--deg")[1].splitlines()))
+    for row, other in zip(plain, given, strict=True):
+        for name, slides in zip(robot.joint_names, robot.slides, strict=True):
+            value = float(other[name if slides else f"{name} [deg]"])
+            assert float(row[name]) == pytest.approx(value if slides else np.radians(value))
+
+
 def test_a_file_of_others_stays(refused, run, tmp_path):
     """The file of poses itself is not written over; an answer is, by the next one."""
     write_poses(tmp_path / "in.csv", dh2urdf.Robot.from_dh("ur5").fk(np.ones((1, 6))), "rpy")

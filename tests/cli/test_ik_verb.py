@@ -164,7 +164,7 @@ def test_csv_of_many_poses(run, tmp_path):
     assert {row["pose"] for row in rows} == {"1"}
     assert len(rows) == 8
     for row in rows:
-        q = np.radians([float(row[name]) for name in robot.joint_names])
+        q = np.radians([float(row[f"{name} [deg]"]) for name in robot.joint_names])
         assert np.abs(robot.fk(q) - target()).max() < 1e-12
     assert "poses.csv:5: no solution" in err
     found = json.loads(run("ik", "denso_vs6556", "--csv", "poses.csv", "--deg", "--json")[1])

@@ -17,7 +17,13 @@ def poses_file(path, T):
 def answer(path, robot, deg=False):
     """Joint values and breaks of an answer."""
     rows = list(csv.DictReader(path.read_text().splitlines()))
-    q = np.array([[float(row[name] or "nan") for name in robot.joint_names] for row in rows])
+    names, unit = (
+        list(zip(robot.joint_names, (~robot.slides).tolist(), strict=True)),
+        " [deg]" * deg,
+    )
+    q = np.array(
+        [[float(row[name + unit * turns] or "nan") for name, turns in names] for row in rows]
+    )
     assert [row["pose"] for row in rows] == [str(i) for i in range(1, len(rows) + 1)]
     return np.radians(q) if deg else q, [row["break"] for row in rows]
 

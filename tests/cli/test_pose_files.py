@@ -89,6 +89,47 @@ def test_degrees_of_the_header_and_of_the_option_agree(file):
         assert np.abs(read(file, text, deg=deg) - T).max() < 1e-15
 
 
+@pytest.mark.parametrize("part", [";", "\t", " ; "])
+def test_decimal_commas_are_points_where_no_comma_parts_cells(file, part):
+    """A spreadsheet's export, with and without a heading, units in cells and a call's comma."""
+    rows = [["-0,4", "12,5e-1", ",3", "-0,1", "1,5", "2"], ["1,25", "0", "3,0", "0", "0,5", "1"]]
+    head = part.join(["x", "y", "z", "roll", "pitch", "yaw"]) + "\n"
+    body = "\n".join(map(part.join, rows))
+    T = read(file, (head + body).replace(",", "."))
+    for text in (head + body, body):
+        np.testing.assert_array_equal(read(file, text), T)
+    cells = ["400,5mm", "0", "0", "22,5 deg", "atan2(1,2)", "0"]
+    T = matrix([0.4005, 0, 0], [np.pi / 8, np.arctan2(1, 2), 0])
+    assert np.abs(read(file, head + part.join(cells)) - T).max() < 1e-15
+
+
+def test_degrees_and_millimetres_that_were_not_told_are_named_once(run, tmp_path):
+    """The first pose with a bare angle over a turn, and the first far away; none with a unit."""
+    path = tmp_path / "in.csv"
+    head, row = "x,y,z,roll,pitch,yaw\n", "0.4,0,0.3,0,{},0\n"
+    turn, far = "180 rad is more than a full turn; degrees meant?", "millimetres meant?"
+    for pitches in (["0", "180", "180"], ["pi/2", "180", "180"]):
+        path.write_text(head + "".join(map(row.format, pitches)))
+        for argv in (["ik", "ur5", "--csv", path], ["path", "ur5", path]):
+            err = run(*argv)[2]
+            assert (err.count(turn), err.count(f"in.csv:3: {turn}"), far in err) == (1, 1, False)
+            assert turn not in run(*argv, "--deg")[2]
+    for text in (
+        head + row.format("720deg"),
+        head.replace("pitch", "pitch [deg]") + "0,0,1,0,720,0",
+    ):
+        path.write_text(text)
+        assert "warning" not in run("ik", "ur5", "--csv", path)[2]
+    path.write_text(head + "400,0,300,0,0,0\n" * 2)
+    err = run("ik", "ur5", "--csv", path)[2]
+    assert (err.count(far), "in.csv:2: 500 m from the base" in err, turn in err) == (1, True, False)
+    pose = ["ik", "ur5", "--xyz", "0.4", "0", "0.3", "--rpy", "0"]
+    assert f"the pose: {turn}" in run(*pose, "180", "0")[2]
+    for one in (["180", "0", "--deg"], ["720deg", "0"], ["pi", "0"]):
+        assert "warning" not in run(*pose, *one)[2]
+    assert far in run("ik", "ur5", "--xyz", "400", "0", "300", "--rpy", "0", "0", "0")[2]
+
+
 def test_a_quaternion_is_normalised_or_refused(file):
     """Three decimals are brought to norm 1; zero, two and half are refused with their norm."""
     head = "x,y,z,qx,qy,qz,qw\n"
@@ -108,7 +149,7 @@ FAULTS = {
     "gap": ("x,,y,z,roll,pitch,yaw,\n1,,2,3,0,0,0,\n1,5,2,3,0,0,0,6", "3: columns 2 and 8 have"),
     "unit": ("x [ell],y,z,roll,pitch,yaw\n1,2,3,0,0,0", "1: found unit 'ell' for x"),
     "nameless": ("0,0,0,0,0,0,1", "1: 6 or 12 or 16 .* name the columns of a quaternion"),
-    "comma": ("x;y;z;roll;pitch;yaw\n0,4;1;2;0;0;0", "2: x: '0,4': .* a decimal point: 0.4"),
+    "comma": ("x;y;z;roll;pitch;yaw\n1.025,4;1;2;0;0;0", "2: x: .1.025,4."),
     "late": ("1,2,3,0,0,0\n# units: mm, deg\n1,2,3,0,0,0", "2: found units"),
     "parsec": ("# units: parsec\n1,2,3,0,0,0", "1: found units: 'parsec'"),
     "far": ("1,2,1e300,0,0,0", "1: z: expected a number from -1e"),

@@ -34,6 +34,12 @@ def names_of(arm: Robot, over: Array) -> list[str]:
     return [arm.joint_names[j] for j in np.flatnonzero(over)]
 
 
+def joint_heads(arm: Robot, *, deg: bool) -> list[str]:
+    """Headings of joint columns of a file, with the unit where it is not that of the package."""
+    turns = zip(arm.joint_names, arm.slides, strict=True)
+    return [f"{name} [deg]" if deg and not slides else name for name, slides in turns]
+
+
 def words_of(found: IKSolutions, maker: str | None) -> list[str]:
     """A controller's word of each solution, or no text."""
     if maker is None:

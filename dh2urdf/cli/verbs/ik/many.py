@@ -15,6 +15,7 @@ from dh2urdf.cli.output import SCHEMA, emit, emit_json, to_json
 from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.verbs.ik.answers import (
     as_data,
+    joint_heads,
     names_of,
     outside,
     reason_of,
@@ -201,7 +202,7 @@ def _lines(arm: Robot, chunks: Iterator[_Chunk], asked: Asked) -> Iterator[bytes
     """CSV: the heading, then a line for each solution."""
     first = ["pose"] if asked.best else ["pose", "solution"]
     last = [*LAST, "word"] if asked.words else LAST
-    yield grid_csv([*first, *arm.joint_names, *last], []).encode()
+    yield grid_csv([*first, *joint_heads(arm, deg=asked.deg), *last], []).encode()
     scale = np.where(arm.slides | (not asked.deg), 1.0, 180.0 / np.pi)
     for chunk in chunks:
         pose, over = chunk.pose, outside(arm, chunk.q) > 0.0

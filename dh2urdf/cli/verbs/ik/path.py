@@ -13,7 +13,8 @@ from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, Values, real
 from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.reading import DEFAULT, Reading
-from dh2urdf.cli.verbs.ik.answers import tell_change
+from dh2urdf.cli.verbs.ik.answers import joint_heads, tell_change
+from dh2urdf.cli.verbs.ik.doubts import tell_doubts
 from dh2urdf.cli.verbs.ik.poses import Poses, poses_of_csv
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.exceptions import ArgumentError
@@ -86,6 +87,7 @@ def path_(
         raise ArgumentError("path: ROBOT and POSES: stdin holds one of them")
     arm = robot_of(robot, base, tip, reading)
     read = poses_of_csv(poses, deg=deg, nearest=nearest, position_only=task == "position")
+    tell_doubts(arm, read.T, read.angles, read.name)
     begin = parse_configuration(start, arm, deg=deg, what="--start") if start else None
     with bar("following the poses", len(read.T)) as report:
         found = arm.ik_path(
@@ -121,7 +123,7 @@ def _csv(arm: Robot, path: IKPath, *, deg: bool) -> bytes:
     jumps = np.isin(np.arange(m), path.breaks)
     ends = np.array([b",0\n", b",1\n"], "S4").view(np.uint32)[jumps.astype(int)][:, None]
     numbers = number_words(path.q * scale).reshape(m, 8 * arm.n)
-    head = grid_csv(["pose", *path.joint_names, "break"], []).encode()
+    head = grid_csv(["pose", *joint_heads(arm, deg=deg), "break"], []).encode()
     return head + text_of([whole_words(np.arange(1, m + 1))[:, 1:], numbers, ends])
 
 

@@ -2,7 +2,9 @@
 
 import csv
 import math
+import re
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from itertools import chain
 from typing import NamedTuple
 
@@ -11,6 +13,7 @@ import numpy as np
 from dh2urdf.bounds import POSES_BYTES
 from dh2urdf.cli.options import LARGEST, read_number, read_numbers
 from dh2urdf.cli.output import stdin
+from dh2urdf.cli.verbs.ik.doubts import bare_angle
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.dh_io.cells.document import Report
 from dh2urdf.dh_io.cells.units import UNIT_SIZES
@@ -44,14 +47,19 @@ KINDS = {
     **dict.fromkeys(TURN, Kind.ANGLE),
 }
 
+_DECIMAL_COMMA = re.compile(
+    r"(?:(?<=[;\t\n])|\A)( *[-+]?\d*),(\d+(?:[eE][-+]?\d+)? *(?:[^\W\d_]|°)* *)(?=[;\t\n]|\Z)"
+)
+
 OFF_UNIT = 0.01
 """How far the norm of a quaternion may be from 1: one typed with three decimals is within it."""
 
 
 class Poses(NamedTuple):
-    """Poses of a file, shape (m, 4, 4), and the line of each."""
+    """Poses of a file, shape (m, 4, 4), the largest bare angle [rad] and the line of each."""
 
     T: Array
+    angles: Array
     file: str
     lines: Sequence[int]
 
@@ -93,7 +101,8 @@ def poses_of_csv(
     radians (``x [mm]``, ``yaw_deg``), as in table files: x y z with roll pitch yaw or with the
     quaternion qx qy qz qw, or the matrix t00 ... t23 or t33; with ``position_only`` x y z alone
     will do. Without one the columns are x y z roll pitch yaw, or 12 or 16 matrix entries. Empty
-    lines and lines that begin with # are skipped, but for ``# units: mm, deg``.
+    lines and lines that begin with # are skipped, but for ``# units: mm, deg``. A comma that
+    parts no cells may be a decimal point.
 
     Raises
     ------
@@ -104,7 +113,9 @@ def poses_of_csv(
     file, lines = "<stdin>" if source == "-" else shown(source), text.split("\n")
     units = Units("m", "deg" if deg else "rad")
     first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
-    part = separator(first)
+    part = separator(_DECIMAL_COMMA.sub(r"\1.\2", first))
+    if part != ",":
+        lines = _DECIMAL_COMMA.sub(r"\1.\2", text).split("\n")
     rows = _rows(lines, part, file)
     for cells, number in rows:
         if not _is_comment(cells):
@@ -115,12 +126,16 @@ def poses_of_csv(
     columns = _columns(cells, units, f"{file}:{number}", position_only)
     named = columns[0].named
     numbers = [n for n in range(number - (not named), len(lines)) if lines[n].strip()]
-    T = _all_at_once([lines[n] for n in numbers], part, columns, nearest)
-    if T is not None:
-        return Poses(T, file, [n + 1 for n in numbers])
+    turns = [k for k, c in enumerate(columns) if c.name in TURN and c.size == 1.0]
+    values = _all_at_once([lines[n] for n in numbers], part, columns)
+    with suppress(PoseError):  # to be told with its line
+        if values is not None:
+            angles = np.abs(values[:, turns]).max(axis=1, initial=0.0)
+            T = _stack(values, columns, "", nearest)
+            return Poses(T, angles, file, [n + 1 for n in numbers])
     unnamed = [k for k, cell in enumerate(cells) if named and not cell]
     begin = [] if named else [(cells, number)]
-    at, poses = list[int](), list[Array]()
+    at, poses, bare = list[int](), list[Array](), list[float]()
     for cells, number in chain(begin, rows):
         where = f"{file}:{number}"
         if _is_comment(cells):
@@ -130,10 +145,11 @@ def poses_of_csv(
         if filled not in ([], [0]):
             raise PoseError(f"{where}: {without_name(filled)}")
         poses.append(_pose(cells, columns, where, nearest))
+        bare.append(bare_angle(cells[columns[k].place] for k in turns))
         at.append(number)
     if not poses:
         raise PoseError(f"{file}: holds no poses")
-    return Poses(np.stack(poses), file, at)
+    return Poses(np.stack(poses), np.array(bare), file, at)
 
 
 def _rows(lines: list[str], part: str, file: str) -> Iterator[tuple[list[str], int]]:
@@ -227,10 +243,8 @@ def _pose(cells: list[str], columns: list[_Column], where: str, nearest: bool) -
     return T
 
 
-def _all_at_once(
-    lines: list[str], part: str, columns: list[_Column], nearest: bool
-) -> Array | None:
-    """The poses of lines that hold nothing but numbers, shape (m, 4, 4); None of any other."""
+def _all_at_once(lines: list[str], part: str, columns: list[_Column]) -> Array | None:
+    """Values of lines that hold nothing but numbers, in the order of a layout; None of others."""
     if not lines:
         return None
     try:
@@ -239,10 +253,8 @@ def _all_at_once(
             return None
         sizes = np.array([column.size for column in columns])
         values: Array = cells[:, [column.place for column in columns]] / sizes
-        if not (np.abs(values) <= SURE).all():
-            return None
-        return _stack(values, columns, "", nearest)
-    except (ValueError, PoseError):  # to be told with its line
+        return values if (np.abs(values) <= SURE).all() else None
+    except ValueError:
         return None
 
 

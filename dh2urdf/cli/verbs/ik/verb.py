@@ -13,6 +13,7 @@ from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.cli.verbs.ik.answers import as_data, outside, reason_of, solutions_text, tell_change
+from dh2urdf.cli.verbs.ik.doubts import bare_angle, tell_doubts
 from dh2urdf.cli.verbs.ik.poses import pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 
@@ -102,9 +103,12 @@ def ik_(
         from dh2urdf.cli.verbs.ik.many import Asked, solve_file
 
         poses = poses_of_csv(csv, deg=deg, nearest=nearest, position_only=task == "position")
+        tell_doubts(arm, poses.T, poses.angles, poses.name)
         asked = Asked(near, options, best, deg, words)
         return solve_file(arm, poses, asked, output, force=force, json=json)
     T = pose_of(xyz, rpy, matrix, deg=deg, position_only=task == "position", nearest=nearest)
+    bare = 0.0 if deg else bare_angle(",".join(rpy or ()).split(","))
+    tell_doubts(arm, T[None], np.array([bare]), lambda _: "the pose")
     found = arm.ik(T, **near, **options)
     tell_change(found.pose_change)
     if goal is None:
