@@ -48,6 +48,8 @@ class Difference:
         How far [m] and by how much [rad] it takes the tool of A away at q = 0.
     largest_error, largest_turn : float
         The most that it does over all configurations that were looked at.
+    rewritten : bool
+        True of values of both tables in the same frames, which need not stand in either file.
     """
 
     row: int | None
@@ -58,6 +60,7 @@ class Difference:
     tool_turn: float = 0.0
     largest_error: float = 0.0
     largest_turn: float = 0.0
+    rewritten: bool = False
 
     def __str__(self) -> str:
         where = f"row {self.row}: " if self.row else ""
@@ -65,6 +68,7 @@ class Difference:
             return f"{where}the axes before it agree; from this one on they lie otherwise"
         first, second = _shown(self.quantity, self.a, self.b)
         text = f"{where}{self.quantity} {first} in A, {second} in B"
+        text += " (both rewritten in the same frames)" if self.rewritten else ""
         effect = _effect(self.tool_error, self.tool_turn)
         if effect:
             return f"{text}; the tool is {effect} off at q = 0"
@@ -147,12 +151,15 @@ def with_cell(table: DHTable, cell: Cell) -> DHTable:
     return replace(table, rows=tuple(rows))
 
 
-def measured(table: DHTable, cells: Sequence[Cell]) -> tuple[Difference, ...]:
+def measured(
+    table: DHTable, cells: Sequence[Cell], *, rewritten: bool = False
+) -> tuple[Difference, ...]:
     """Each cell with what it does to the tool of table A, all others as they are."""
     chain = dh_to_chain(table)
     qs = configurations(chain, CONFIGURATIONS, chain.size)
     truth = poses(chain, qs)
-    return tuple(_measured(table, cell, qs, truth) for cell in cells)
+    found = (_measured(table, cell, qs, truth) for cell in cells)
+    return tuple(replace(one, rewritten=rewritten) for one in found)
 
 
 def _measured(table: DHTable, cell: Cell, qs: Array, truth: Array) -> Difference:

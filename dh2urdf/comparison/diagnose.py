@@ -3,18 +3,20 @@
 Tables of the same rows are compared cell by cell. Where frames were chosen otherwise cells say
 little; then every mistake is made on one table in turn, and the one is told after which the arms
 are the same. Where none is, frames are assigned to both alike, and what differs less is told.
+What is told is all: with it put right the arms are the same up to base, tool, zeros, directions.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.comparison.alignment import axes_that_agree
 from dh2urdf.comparison.arms import Arm
-from dh2urdf.comparison.cells import Cell, Difference, differing, measured, rows_alike
+from dh2urdf.comparison.cells import Cell, Difference, differing, measured, rows_alike, with_cell
 from dh2urdf.comparison.mistakes import Mistake, mistaken_rows, mistaken_tables
 from dh2urdf.comparison.relate import holds
 from dh2urdf.conversions.assign import chain_to_dh, to_convention
@@ -37,18 +39,34 @@ def diagnose(a: Arm, b: Arm, tolerance: float, *, same: bool) -> Diagnosis:
             return (whole,), measured(mine, cells) or _other_kinds(a.chain, b.chain)
         theirs = to_convention(b.table, mine.convention)
         cells = differing(mine, theirs, tolerance) or []
-        of_rows = _of_rows(mine, theirs, cells, tolerance)
+        rewritten = b.table.convention is not mine.convention
+        as_written = (
+            _of_rows(mine, theirs, cells, tolerance),
+            measured(mine, cells, rewritten=rewritten),
+        )
         if len({cell.row for cell in cells}) == 1:
-            return of_rows, measured(mine, cells)
+            return as_written
     if same:
         return (), ()
     hidden = _hidden(a, b, tolerance)
-    if hidden is not None:
-        return hidden
-    assigned = _assigned(a, b, tolerance)
-    if cells and not 0 < len(assigned) < len(cells):
-        return of_rows, measured(mine, cells)
-    return (), assigned
+    told = hidden or ((), _assigned(a, b, tolerance))
+    shape, told_shape = (_shape(mine, found) for found in (cells, told[1]))
+    few = 2 * len({cell.row for cell in cells}) <= len(mine.rows)
+    if cells and (few or shape == told_shape):
+        return told[0] or as_written[0], as_written[1]
+    fewer = len(told[1]) < len(cells) and all(one.rewritten for one in told[1])
+    return as_written if cells and not hidden and not fewer else told
+
+
+def _shape(table: DHTable, found: Iterable[Cell | Difference]) -> set[tuple[int | None, str]]:
+    """Rows and quantities, without those that a base, a tool, a zero or a direction may do."""
+    slides = {i for i, row in enumerate(table.rows, 1) if row.joint_type is JointType.PRISMATIC}
+    free = {"theta", "sign", "base", "tool"}
+    return {
+        (one.row, one.quantity)
+        for one in found
+        if one.quantity not in free and not (one.quantity == "d" and one.row in slides)
+    }
 
 
 def _whole(a: DHTable, b: DHTable, tolerance: float) -> Mistake | None:
@@ -95,7 +113,9 @@ def _hidden(a: Arm, b: Arm, tolerance: float) -> Diagnosis | None:
     if turned:
         cells = [cell._replace(a=cell.b, b=cell.a) for cell in cells]
     table = found[0][1] if turned else known.table
-    return mistakes, measured(table, cells) or _other_kinds(a.chain, b.chain)
+    rewritten = a.written and b.written
+    told = measured(table, cells, rewritten=rewritten) or _other_kinds(a.chain, b.chain)
+    return mistakes, told
 
 
 def _likely_mistakes(known: Arm, other: SerialChain) -> Iterator[tuple[Mistake, DHTable]]:
@@ -127,16 +147,27 @@ def _assigned(a: Arm, b: Arm, tolerance: float) -> tuple[Difference, ...]:
         return _other_kinds(a.chain, b.chain)
     tables = [chain_to_dh(arm.chain, a.table.convention).table for arm in (a, b)]
     first, second = (replace(table, rows=table.joints) for table in tables)
-    cells = []
-    for i, (r, s) in enumerate(zip(first.rows, second.rows, strict=True), 1):
-        values = [("a", r.a, s.a), ("alpha", r.alpha, s.alpha)]
-        values += [("d", r.d, s.d)] if r.joint_type is JointType.REVOLUTE else []
-        pairs = ((key, x, _directed(key, x, y)) for key, x, y in values)
-        cells += [Cell(i, key, x, y) for key, x, y in pairs if abs(x - y) > tolerance]
+    for directed in (True, False):
+        pairs = list(_in_same_frames(first, second, directed=directed))
+        cells = [cell for cell in pairs if abs(cell.a - cell.b) > tolerance]
+        if cells and holds(dh_to_chain(reduce(with_cell, pairs, first)), b.chain, tolerance):
+            break
     if cells:
-        return measured(first, cells)
+        return measured(first, cells, rewritten=True)
     k = axes_that_agree(a.chain, b.chain, tolerance)
     return (Difference(k + 1, "axis", None, None),) if k < a.chain.n else ()
+
+
+def _in_same_frames(first: DHTable, second: DHTable, *, directed: bool) -> Iterator[Cell]:
+    """The numbers that make an arm's shape; ``directed`` as if only frames made their signs.
+
+    Else also theta of joints that slide: with it they are all, whatever the frames.
+    """
+    for i, (r, s) in enumerate(zip(first.rows, second.rows, strict=True), 1):
+        turns = r.joint_type is JointType.REVOLUTE
+        for key in ("a", "alpha", *(("d",) if turns else () if directed else ("theta",))):
+            x, y = getattr(r, key), getattr(s, key)
+            yield Cell(i, key, x, _directed(key, x, y) if directed else y)
 
 
 def _directed(key: str, x: float, y: float) -> float:

@@ -69,21 +69,32 @@ class Comparison:
         return self.same and not self.up_to
 
     def __str__(self) -> str:
-        lines = [f"{self.a} and {self.b}: {self._verdict()}"]
+        return self.told()
+
+    def told(self, *, exact: bool = False) -> str:
+        """In words; ``exact`` asks for the same base, tool, zeros and directions, too."""
+        lines = [f"{self.a} and {self.b}: {self._verdict(exact=exact)}"]
         lines += [f"  {text}" for text in self.up_to]
         lines += [f"  {difference}" for difference in self.differences]
         if self.mistakes:
             texts = dict.fromkeys(mistake.text for mistake in self.mistakes)
-            lines.append(f"  B reads as A with a mistake: {' or '.join(texts)}")
+            lines.append(f"  B reads as A with a mistake: {self._joint().join(texts)}")
         return "\n".join(lines)
 
-    def _verdict(self) -> str:
+    def _joint(self) -> str:
+        """Mistakes that share the rows that differ were all made; others come to the same."""
+        rows = sorted(row for mistake in self.mistakes for row in mistake.rows)
+        return " and " if rows == sorted({d.row or 0 for d in self.differences}) else " or "
+
+    def _verdict(self, *, exact: bool) -> str:
         error = f"{self.max_error:.2g} m or rad"
         if self.base is None:
             apart = "" if math.isinf(self.max_error) else f", up to {error} apart as they stand"
             return f"different arms{apart}"
         up_to = ", up to" if self.up_to else ""
         if self.same:
+            if exact and self.up_to:
+                return "different with --exact, the same arm only up to"
             over = f"(largest difference {error} over {self.configurations} configurations)"
             return f"the same arm {over}{up_to}"
         enough = number(_above(self.max_error), minus="-")

@@ -59,12 +59,12 @@ def compare_(
         for warning in found.warnings:
             note(f"warning: {warning}")
         if not json:
-            emit(str(found))
+            emit(found.told(exact=exact))
     for bad in failed:
         note(f"dh2urdf: {bad['error']}")
     alike = sum(found.equal if exact else found.same for found in results)
     if len(b) > 1:
-        note(f"{alike} of {len(b)} are the same arm as {shown(a)}")
+        note(f"{alike} of {len(b)} are {'exactly ' if exact else ''}the same arm as {shown(a)}")
     return 2 if failed else int(alike < len(b))
 
 
