@@ -53,7 +53,7 @@ def diagnose(a: Arm, b: Arm, tolerance: float, *, same: bool) -> Diagnosis:
     shape, told_shape = (_shape(mine, found) for found in (cells, told[1]))
     few = 2 * len({cell.row for cell in cells}) <= len(mine.rows)
     if cells and (few or shape == told_shape):
-        return told[0] or as_written[0], as_written[1]
+        return as_written[0] or told[0], as_written[1]
     fewer = len(told[1]) < len(cells) and all(one.rewritten for one in told[1])
     return as_written if cells and not hidden and not fewer else told
 
