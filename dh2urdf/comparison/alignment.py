@@ -21,6 +21,9 @@ from dh2urdf.transforms import Array, pose, product, rotation
 WAYS = 64
 """Ways that are followed at once: axes that may point either way leave two or four."""
 
+ALONG = 1e-6
+"""Sine of the angle to an axis at which a slide is along it and closes no gap across it."""
+
 
 class _Way(NamedTuple):
     """B placed so far: its base and the pose of what is behind the last joint, both in A's base."""
@@ -160,6 +163,7 @@ def _slides(freedom: Freedom, off: Array, axis: Array, length: float) -> Array |
     if np.linalg.norm(off) <= length and not freedom.slides:
         return steps
     across = np.array([v - axis * (axis @ v) for v, _ in freedom.slides]).reshape(-1, 3)
+    across[np.linalg.norm(across, axis=1) <= ALONG] = 0.0
     joints = np.array([joint is not None for _, joint in freedom.slides], dtype=bool)
     for use in (joints, np.ones_like(joints)):
         if use.any():
