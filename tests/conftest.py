@@ -1,6 +1,7 @@
 """Settings of the whole suite."""
 
 import pytest
+from browser import ARGUMENTS, chromium
 from hypothesis import settings
 
 from dh2urdf.cli import main
@@ -46,3 +47,13 @@ def written(tmp_path):
         return tmp_path / name
 
     return write
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """One browser for the module."""
+    sync_api = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
+    with sync_api.sync_playwright() as play:
+        browser = play.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
+        yield browser
+        browser.close()

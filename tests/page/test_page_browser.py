@@ -3,7 +3,7 @@
 import numpy as np
 import pinocchio as pin
 import pytest
-from browser import ARGUMENTS, ARTIFACTS, chromium
+from browser import ARTIFACTS, chromium
 
 from dh2urdf import DHRow, DHTable, JointType, Robot
 from dh2urdf.page import save_page
@@ -15,16 +15,6 @@ pytestmark = [
 ]
 
 START = np.radians([20.0, -105.0, 83.0, -51.0, -71.0, 22.0])
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """One browser for the module."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
-    with sync_api.sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

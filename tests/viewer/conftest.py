@@ -3,17 +3,7 @@
 from contextlib import ExitStack, closing
 
 import pytest
-from browser import ARGUMENTS, Visitor, chromium
-
-
-@pytest.fixture(scope="module")
-def browser():
-    """One browser for the module."""
-    sync_api = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
-    with sync_api.sync_playwright() as play:
-        browser = play.chromium.launch(executable_path=chromium(), args=ARGUMENTS)
-        yield browser
-        browser.close()
+from browser import Visitor
 
 
 @pytest.fixture
