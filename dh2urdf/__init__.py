@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from dh2urdf.robot import Robot
     from dh2urdf.robots import list_tables, load_table
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _LATE = {
     name: (f"dh2urdf.{module}", name)
