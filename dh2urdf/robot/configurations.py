@@ -16,7 +16,7 @@ from dh2urdf.transforms import Array
 class RobotConfigurations:
     """What :class:`dh2urdf.Robot` knows of its joint values."""
 
-    model: pin.Model
+    _model: pin.Model
     chain: SerialChain
     _path: ChainPath
     _coupling: Coupling | None
@@ -27,14 +27,14 @@ class RobotConfigurations:
         Continuous joints become cosine and sine, mimicking joints are filled in.
         """
         flat, shape = self._flat(q)
-        out = np.zeros((len(flat), self.model.nq))
+        out = np.zeros((len(flat), self._model.nq))
         for k, i in enumerate(self._path.ids):
-            at = self.model.joints[i].idx_q
-            if is_continuous(self.model, i):
+            at = self._model.joints[i].idx_q
+            if is_continuous(self._model, i):
                 out[:, at], out[:, at + 1] = np.cos(flat[:, k]), np.sin(flat[:, k])
             else:
                 out[:, at] = flat[:, k]
-        return out.reshape(*shape, self.model.nq)
+        return out.reshape(*shape, self._model.nq)
 
     def chain_configuration(self, q: ArrayLike) -> Array:
         """The same configuration with every joint of the chain, followers too, (..., chain.n)."""

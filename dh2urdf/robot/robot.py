@@ -3,12 +3,14 @@
 import os
 import threading
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike
 
+from dh2urdf.bounds import JOINTS
 from dh2urdf.chain import settled_state
 from dh2urdf.conversions.chains import (
     carried_dh_frames,
@@ -20,7 +22,7 @@ from dh2urdf.conversions.chains import (
     with_locked,
 )
 from dh2urdf.conversions.read import NOTHING, TEXT, Mimic, Xacro, read_description, xacro_given
-from dh2urdf.conversions.write import UrdfOptions, dh_to_chain, urdf_text_and_warnings
+from dh2urdf.conversions.write import LinkFrames, add_masses, dh_to_chain, link_frames, table_model
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
@@ -41,16 +43,19 @@ AGREEMENT = 1e-12
 """Largest difference between Pinocchio and the chain when a robot is built [rad, and m per m of
 all lengths on the way]: both are products of the same rigid transforms, of no more than 200."""
 
+TRIALS = np.random.default_rng(0).random((2, JOINTS))
+"""Configurations at which they are compared, as shares of the joints' ranges."""
+
 
 class _Working(threading.local):
     """Pinocchio's working memory for a model: ``data``, another one in every thread."""
 
     def __init__(self, model: pin.Model) -> None:
-        self.model, self.data = model, model.createData()
+        self._model, self.data = model, model.createData()
 
     def __reduce__(self) -> "tuple[type[_Working], tuple[pin.Model]]":
         """Pickle by the model."""
-        return _Working, (self.model,)
+        return _Working, (self._model,)
 
 
 class Robot(RobotIK, RobotPictures, RobotForms):
@@ -91,6 +96,7 @@ class Robot(RobotIK, RobotPictures, RobotForms):
         tip: str,
         *,
         table: DHTable | None = None,
+        frames: LinkFrames | None = None,
         mimics: dict[str, Mimic] | None = None,
     ) -> None:
         self.table = table
@@ -100,15 +106,17 @@ class Robot(RobotIK, RobotPictures, RobotForms):
         if others:
             model = with_locked(model, others)
             path = chain_path(model, frame_id(model, base), frame_id(model, tip))
-        self.model, self.base, self.tip = model, base, tip
+        self._model, self.base, self.tip = model, base, tip
         self._path = path
-        self.chain = dh_to_chain(table) if table else model_to_chain(model, path)
+        if table and frames:
+            self.chain, self._carried = dh_to_chain(table, frames), carried_dh_frames(table, frames)
+        else:
+            self.chain = model_to_chain(model, path)
+            self._carried = carried_joint_frames(model, path, self.chain)
         self._coupling = couple(self.chain, mimics or {})
         self._bounds()
         self._plain = (self.n,) if self._coupling is None else None
         self._working = _Working(model)
-        own = carried_dh_frames(table) if table else carried_joint_frames(model, path, self.chain)
-        self._carried = own
         self._check_agreement()
 
     @classmethod
@@ -120,8 +128,16 @@ class Robot(RobotIK, RobotPictures, RobotForms):
         TableFileError, NameNotFoundError
         """
         given = as_table(table)
-        text, _ = urdf_text_and_warnings(given, UrdfOptions(embed_table=False))
-        return cls(pin.buildModelFromXML(text), "base_link", "tool0", table=given)
+        frames = link_frames(given)
+        model = table_model(given, frames)
+        return cls(model, "base_link", "tool0", table=given, frames=frames)
+
+    @cached_property
+    def model(self) -> pin.Model:
+        """The joints of the chain, all others held at neutral, with the masses of the links."""
+        if self.table is not None:
+            add_masses(self._model, self.table, self.chain)
+        return self._model
 
     @classmethod
     def from_urdf(
@@ -240,29 +256,31 @@ class Robot(RobotIK, RobotPictures, RobotForms):
         """``T_base_tip`` of configurations (k, n) by Pinocchio, shape (k, 4, 4)."""
         T, data = np.empty((len(q), 4, 4)), self._working.data
         for k, config in enumerate(self.model_configuration(q)):
-            pin.framesForwardKinematics(self.model, data, config)
+            pin.framesForwardKinematics(self._model, data, config)
             M_world_base = data.oMf[self._path.base]
             T[k] = (M_world_base.inverse() * data.oMf[self._path.tip]).homogeneous
         return T
 
     def _check_agreement(self) -> None:
         """Compare the chain's product with Pinocchio's frame placement."""
-        rng = np.random.default_rng(0)
-        reach = float(np.abs(self.chain.links[:, :3, 3]).sum())
-        allowed = AGREEMENT * max(1.0, self.model.nframes / 200)
-        for _ in range(3):
-            q = self.random_configuration(rng)
-            joints = self._flat(q)[0][0]
-            off = np.abs(self.chain.fk(joints) - self._placements(q[None])[0])
-            size = max(1.0, reach + float(np.abs(joints[self.chain.prismatic]).sum()))
-            if not (off[:3, :3].max() <= allowed and off[:3, 3].max() <= allowed * size):
-                raise VerificationError(
-                    f"the chain from {self.base} to {self.tip} differs from Pinocchio by "
-                    f"{off.max():.3g} (allowed {allowed:.2g} rad, {allowed * size:.2g} m)"
-                )
+        low, high = self.bounded(1.0, np.pi)
+        q = low + TRIALS[:, : self.n] * (high - low)
+        joints, T = self._flat(q)[0], np.empty((len(q), 4, 4))
+        chain_fk_batch(self.chain.links, self.chain.prismatic, joints, T)
+        off = np.abs(T - self._placements(q))
+        angle, length = float(off[:, :3, :3].max()), float(off[:, :3, 3].max())
+        reach = np.abs(self.chain.links[:, :3, 3]).sum()
+        travel = np.abs(joints[:, self.chain.prismatic]).sum(axis=1).max()
+        allowed = AGREEMENT * max(1.0, self._model.nframes / 200)
+        size = max(1.0, float(reach + travel))
+        if not (angle <= allowed and length <= allowed * size):
+            raise VerificationError(
+                f"the chain from {self.base} to {self.tip} differs from Pinocchio by "
+                f"{max(angle, length):.3g} (allowed {allowed:.2g} rad, {allowed * size:.2g} m)"
+            )
 
     def _called(self) -> str:
-        return self.table.name if self.table else self.model.name
+        return self.table.name if self.table else self._model.name
 
     def __repr__(self) -> str:
-        return f"<Robot {self.model.name}: {self.n} joints, {self.base} to {self.tip}>"
+        return f"<Robot {self._model.name}: {self.n} joints, {self.base} to {self.tip}>"

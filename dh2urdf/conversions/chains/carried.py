@@ -10,7 +10,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.chains.model_chain import ChainPath
 from dh2urdf.conversions.chains.tree_chain import ChainSource
 from dh2urdf.conversions.read import Actuation, Mimic
-from dh2urdf.conversions.write import FLIP, Inertial, link_frames, six_of, without_noise
+from dh2urdf.conversions.write import FLIP, Inertial, LinkFrames, six_of, without_noise
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.transforms import Array, inverse
 
@@ -38,9 +38,9 @@ def _carried(
     return replace(row, mass=body.mass, com=(x, y, z), inertia=six_of(m))
 
 
-def carried_dh_frames(table: DHTable) -> Array:
+def carried_dh_frames(table: DHTable, own: LinkFrames) -> Array:
     """Frame 0 in base, then DH frame i in the moved z frame of joint i, shape (n + 1, 4, 4)."""
-    frames = np.stack(link_frames(table).dh)
+    frames = np.stack(own.dh)
     for i, row in enumerate(table.joints, 1):
         if row.sign < 0:
             frames[i] = FLIP @ frames[i]

@@ -88,9 +88,9 @@ def turned_round(links: Array, signs: Iterable[int]) -> Array:
     return out
 
 
-def dh_to_chain(table: DHTable) -> SerialChain:
+def dh_to_chain(table: DHTable, frames: LinkFrames | None = None) -> SerialChain:
     """The chain whose product equals the DH product of the table, factor by factor."""
-    joints, frames = table.joints, link_frames(table)
+    joints, frames = table.joints, frames or link_frames(table)
     links = np.stack([*frames.origins, frames.tool])
     return SerialChain(
         links=turned_round(links, [row.sign for row in joints]),

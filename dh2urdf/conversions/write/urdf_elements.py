@@ -9,15 +9,8 @@ from lxml import etree
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.write.bodies import Body, draw_bodies
-from dh2urdf.conversions.write.inertia import (
-    Inertial,
-    balanced,
-    inertial_element,
-    tensor,
-    whole_numbers,
-    why_impossible,
-    without_noise,
-)
+from dh2urdf.conversions.write.inertia import Inertial, inertial_element, whole_numbers
+from dh2urdf.conversions.write.link_masses import link_masses
 from dh2urdf.conversions.write.table_chain import LinkFrames, dh_to_chain, link_frames
 from dh2urdf.conversions.write.urdf_options import UrdfOptions
 from dh2urdf.dh import DHRow, DHTable, JointType
@@ -44,7 +37,7 @@ MARK = " written from a DH table "
 
 def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, tuple[str, ...]]:
     """The URDF of a table, and what had to be assumed to write it."""
-    _check_names(table)
+    check_names(table)
     return _Writer(table, options).write()
 
 
@@ -64,7 +57,8 @@ def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
     return lower, upper
 
 
-def _check_names(table: DHTable) -> None:
+def check_names(table: DHTable) -> None:
+    """Refuse names that a URDF of the table cannot have."""
     reserved = {"tool0_fixed", "base_link_inertia_fixed", "universe"}
     reserved |= {f"dh_{i}_fixed" for i in range(table.n + 1)}
     forbidden, taken = "holds a character that XML forbids", "is taken by another joint of the file"
@@ -83,7 +77,7 @@ class _Writer:
         self.chain: SerialChain = dh_to_chain(table)
         self.frames: LinkFrames = link_frames(table)
         self.bodies = draw_bodies(table, self.chain)
-        self.warnings: list[str] = []
+        self.masses, self.warnings = link_masses(table, self.frames.dh, self.bodies, options)
         self.robot = etree.Element("robot", name=table.name)
 
     def write(self) -> tuple[str, tuple[str, ...]]:
@@ -92,7 +86,7 @@ class _Writer:
         parent = "base_link"
         for i, row in enumerate(self.table.joints, 1):
             link = f"link_{i}"
-            self._link(link, self._inertial(i, row), self.bodies[i])
+            self._link(link, self.masses[i], self.bodies[i])
             self._joint(self.table.joint_names[i - 1], row, parent, link, i)
             parent = link
         self._massless_link("tool0", parent, self.frames.tool)
@@ -122,7 +116,7 @@ class _Writer:
 
     def _side_links(self) -> None:
         """What hangs beside the chain; behind it, as ikpy follows the first joint of a link."""
-        self._link("base_link_inertia", self._drawn(0), self.bodies[0])
+        self._link("base_link_inertia", self.masses[0], self.bodies[0])
         inertia = "base_link_inertia"
         self._placed(f"{inertia}_fixed", "fixed", "base_link", inertia, np.eye(4))
         if self.options.dh_frames:
@@ -169,43 +163,6 @@ class _Writer:
         etree.SubElement(geometry, body.shape, dict(zip(keys, sizes, strict=True)))
         if tag == "visual":
             etree.SubElement(element, "material", name=body.material)
-
-    def _drawn(self, i: int) -> Inertial:
-        """Mass properties of the bodies drawn for link i."""
-        solids = (b.inertial(self.options.density) for b in self.bodies[i])
-        return Inertial.total(solids).rounded()
-
-    def _inertial(self, i: int, row: DHRow) -> Inertial:
-        """Mass properties of link i in its URDF frame: as given, or of the drawn bodies."""
-        drawn = self._drawn(i)
-        if row.mass is None:
-            return drawn
-        T_link_dh = self.frames.dh[i]
-        shape = drawn.scaled(row.mass).rounded()
-        com = shape.com if row.com is None else (T_link_dh @ np.array([*row.com, 1.0]))[:3]
-        if row.inertia is None:
-            return Inertial(row.mass, com, shape.inertia)
-        R = T_link_dh[:3, :3]
-        given = R @ self._possible(i, tensor(row.inertia), shape.inertia) @ R.T
-        return Inertial(row.mass, com, without_noise(0.5 * (given + given.T)))
-
-    def _possible(self, i: int, inertia: Array, drawn: Array) -> Array:
-        """The given tensor, or the nearest that a body could have."""
-        why = why_impossible(inertia)
-        if not why:
-            return inertia
-        problem = f"{self.table.joint_names[i - 1]}: no body has this inertia tensor, as {why}; "
-        if not self.options.balance_inertia:
-            self.warnings.append(f"{problem}kept as given, MuJoCo and Drake will not take it")
-            return inertia
-        if np.linalg.eigvalsh(inertia)[-1] <= 0:
-            self.warnings.append(f"{problem}that of the drawn body is written instead")
-            return drawn
-        self.warnings.append(
-            f"{problem}its two smaller moments were raised (balance_inertia=False, or "
-            "--no-balance-inertia, keeps it as given)"
-        )
-        return balanced(inertia)
 
     def _limit_warnings(self) -> None:
         """Say which limits were made up, the same ones together."""
