@@ -11,3 +11,4 @@ from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
 from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
 from dh2urdf.ik.families.short import search_short
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
+from dh2urdf.ik.families.tool_axis import with_tool_joint

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from cyclopts import Parameter
 
-from dh2urdf.cli.options import Arm, Force, Json, Link, Values
-from dh2urdf.cli.output import emit, emit_json, parse_configuration, robot_of
+from dh2urdf.bounds import TURNS
+from dh2urdf.cli.options import Arm, Force, Json, Link, Values, whole
+from dh2urdf.cli.output import emit, emit_file, emit_json, parse_configuration, robot_of
 from dh2urdf.cli.progress import note
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.cli.verbs.ik.answers import as_data, outside, reason_of, solutions_text, tell_change
 from dh2urdf.cli.verbs.ik.doubts import bare_angle, tell_doubts
+from dh2urdf.cli.verbs.ik.explained import explained, lesson_text
 from dh2urdf.cli.verbs.ik.poses import pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 
@@ -41,6 +43,9 @@ def ik_(
     within_limits: Annotated[bool, Parameter(negative="--no-within-limits")] = True,
     nearest: bool = False,
     words: Literal["kuka", "abb", "fanuc"] | None = None,
+    explain: bool = False,
+    solution: Annotated[int | None, whole(1, TURNS)] = None,
+    format: Literal["text", "md", "markdown", "latex"] | None = None,
     deg: bool = False,
     base: Link = None,
     tip: Link = None,
@@ -87,6 +92,12 @@ def ik_(
     words
         Each solution's word in a controller's terms, for six axes with a spherical wrist: kuka
         status and turn, abb cf1 cf4 cf6 cfx, fanuc N U T with turns of J1, J4, J6.
+    explain
+        The way to a solution step by step instead: formula, numbers put in, value, reason.
+    solution
+        Which one --explain leads to, by its number in the table that `ik` prints.
+    format
+        How --explain is written: text, md (Markdown with formulas) or latex (needs amsmath).
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
@@ -114,9 +125,13 @@ def ik_(
     if goal is None:
         found = found.select(np.argsort(outside(arm, found.q).any(axis=1), kind="stable"))
     reason = reason_of(arm, T, near, options, found)
+    lesson = explained(arm, found, solution, T, options) if explain else None
     if json:
         solver = arm.solver_for(locked=options["locked"], task=task)
-        emit_json("ik", **as_data(arm, found, words), solver=str(solver), reason=reason)
+        told = {"explanation": lesson.as_data()} if lesson else {}
+        emit_json("ik", **as_data(arm, found, words), solver=str(solver), reason=reason, **told)
+    elif lesson:
+        emit_file(lesson_text(lesson, format or "text"))
     elif found:
         emit(solutions_text(arm, found, deg=deg, maker=words))
     if reason:
