@@ -165,6 +165,12 @@ class DHTable:
         return len(self.joints)
 
     @property
+    def has_steps_between(self) -> bool:
+        """True where a fixed row stands between two joints."""
+        at = [i for i, row in enumerate(self.rows) if row.is_joint]
+        return at[-1] - at[0] >= len(at)
+
+    @property
     def joint_names(self) -> tuple[str, ...]:
         """Names of the joints; ``joint_i`` where the row has none."""
         return tuple(row.name or f"joint_{i}" for i, row in enumerate(self.joints, 1))

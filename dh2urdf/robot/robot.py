@@ -35,7 +35,7 @@ from dh2urdf.kernels.chain import (
     chain_jacobian_batch,
 )
 from dh2urdf.robot.explained import RobotExplained
-from dh2urdf.robot.forms import RobotForms
+from dh2urdf.robot.formulas import RobotFormulas
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
 
@@ -58,7 +58,7 @@ class _Working(threading.local):
         return _Working, (self._model,)
 
 
-class Robot(RobotExplained, RobotPictures, RobotForms):
+class Robot(RobotExplained, RobotPictures, RobotFormulas):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.

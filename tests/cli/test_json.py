@@ -40,6 +40,7 @@ ANSWERS = {
     "ik singular": ["ik", "puma560", "--xyz=0.4,-0.15,0.3", "--rpy=0,pi,0"],
     "ik explained": ["ik", "denso_vs6556", *POSE, "--explain", "--solution", "2"],
     "ik explained to the end": ["ik", "ur5", "--xyz=9,0,0", "--rpy=0,0,0", "--explain"],
+    "ik symbolic": ["ik", "denso_vs6556", "--symbolic"],
     "ik csv": ["ik", "denso_vs6556", "--csv", "poses.csv"],
     "ik csv best": ["ik", "denso_vs6556", "--csv", "poses.csv", "--best"],
     "ik csv to a file": ["ik", "denso_vs6556", "--csv", "poses.csv", "-o", "joints.csv"],

@@ -16,6 +16,7 @@ from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.cli.verbs.ik.answers import as_data, outside, reason_of, solutions_text, tell_change
 from dh2urdf.cli.verbs.ik.doubts import bare_angle, tell_doubts
 from dh2urdf.cli.verbs.ik.explained import explained, lesson_text
+from dh2urdf.cli.verbs.ik.formulas import tell_formulas
 from dh2urdf.cli.verbs.ik.poses import pose_of, poses_of_csv
 from dh2urdf.exceptions import ConfigurationError
 
@@ -45,7 +46,8 @@ def ik_(
     words: Literal["kuka", "abb", "fanuc"] | None = None,
     explain: bool = False,
     solution: Annotated[int | None, whole(1, TURNS)] = None,
-    format: Literal["text", "md", "markdown", "latex"] | None = None,
+    symbolic: bool = False,
+    format: Literal["text", "md", "markdown", "latex", "python"] | None = None,
     deg: bool = False,
     base: Link = None,
     tip: Link = None,
@@ -96,12 +98,17 @@ def ik_(
         The way to a solution step by step instead: formula, numbers put in, value, reason.
     solution
         Which one --explain leads to, by its number in the table that `ik` prints.
+    symbolic
+        No pose: formulas for all solutions in the letters of the arm's table (extra symbolic).
     format
-        How --explain is written: text, md (Markdown with formulas) or latex (needs amsmath).
+        How --explain is written: text, md (Markdown with formulas) or latex (needs amsmath); how
+        --symbolic is: text, latex or python, a function that needs nothing but math.
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
     arm = robot_of(robot, base, tip, reading)
+    if symbolic:
+        return tell_formulas(arm, format or "text", json=json)
     options: _Options = {"locked": _held(locked, arm, deg=deg), "task": task}
     options |= {"within_limits": within_limits, "nearest": nearest}
     goal = parse_configuration(seed, arm, deg=deg, what="--seed") if seed else None

@@ -1,4 +1,4 @@
-"""The same transforms in symbols, with the sympy extra: ``c_1``, ``s_12``, ``d_2 + 2``."""
+"""The transforms of a table in symbols: ``c_1``, ``s_12``, ``d_2 + 2``."""
 
 import math
 from typing import Any
@@ -15,26 +15,27 @@ SHORT = 3
 """Joints up to which the whole product is simplified; beyond, that takes minutes."""
 
 
-def _sympy() -> Any:
+def import_sympy(purpose: str = "transforms in symbols") -> Any:
+    """Sympy; without it, an error that names the extra."""
     try:
         import sympy
     except ImportError:
-        raise MissingExtraError("symbolic", "transforms in symbols") from None
+        raise MissingExtraError("symbolic", purpose) from None
     return sympy
 
 
-def _angle(value: float) -> Any:
+def exact_angle(value: float) -> Any:
     """An angle [rad], exact where it is a multiple of 15 degrees."""
-    sp = _sympy()
+    sp = import_sympy()
     turns = value / (math.pi / 12)
     if abs(turns - round(turns)) < 1e-12:
         return sp.Rational(round(turns), 12) * sp.pi
-    return sp.Float(value)
+    return sp.Float(value, 17)
 
 
-def _length(value: float) -> Any:
+def exact_length(value: float) -> Any:
     """A length [m] as the rational number that its shortest decimal is."""
-    sp = _sympy()
+    sp = import_sympy()
     return sp.Rational(repr(value)) if value else sp.Integer(0)
 
 
@@ -50,25 +51,25 @@ def symbolic_transforms(table: TableLike) -> list[Any]:
 
 
 def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
-    sp = _sympy()
+    sp = import_sympy()
     if row.origin is not None:
-        roll, pitch, yaw = (_angle(v) for v in row.origin.rpy)
+        roll, pitch, yaw = (exact_angle(v) for v in row.origin.rpy)
         R = sp.rot_ccw_axis3(yaw) * sp.rot_ccw_axis2(pitch) * sp.rot_ccw_axis1(roll)
-        p = sp.Matrix([_length(v) for v in row.origin.xyz])
+        p = sp.Matrix([exact_length(v) for v in row.origin.xyz])
         return R.row_join(p).col_join(sp.Matrix([[0, 0, 0, 1]]))
-    theta, d = _angle(row.theta), _length(row.d)
+    theta, d = exact_angle(row.theta), exact_length(row.d)
     if row.joint_type is JointType.REVOLUTE:
         theta += row.sign * sp.Symbol(f"q_{i}")
     elif row.joint_type is JointType.PRISMATIC:
         d += row.sign * sp.Symbol(f"q_{i}")
-    a, alpha = _length(row.a), _angle(row.alpha)
+    a, alpha = exact_length(row.a), exact_angle(row.alpha)
     functions = sp.cos(theta), sp.sin(theta), sp.cos(alpha), sp.sin(alpha)
     return sp.Matrix(dh_matrix(*functions, d, a, convention))
 
 
 def symbolic_product(table: TableLike) -> Any:
     """``H_n^0`` in symbols; angles about parallel axes are added (``c_12``)."""
-    sp, table = _sympy(), as_table(table)
+    sp, table = import_sympy(), as_table(table)
     from sympy.simplify.fu import TR8  # products of sines and cosines as sums
 
     product, group = sp.eye(4), sp.eye(4)
@@ -91,7 +92,7 @@ def symbolic_text(matrix: Any) -> str:
 
 def _short(entry: Any) -> str:
     """The notes' abbreviations: c_i = cos q_i, s_i = sin q_i, c_ij = cos(q_i + q_j)."""
-    sp = _sympy()
+    sp = import_sympy()
 
     def name(letter: str, argument: Any) -> Any:
         terms = sp.Add.make_args(argument)
