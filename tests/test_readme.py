@@ -1,76 +1,54 @@
 """Every block of the README runs, in order, in one folder."""
 
-import os
 import re
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from docs.extensions.blocks import blocks, run
+
 README = Path(__file__).parents[1] / "README.md"
-BLOCK = re.compile(r"(?:<!-- (?P<mark>[\w-]+) -->\n)?```(?P<kind>\w+)\n(?P<text>.*?)```", re.S)
 
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """One folder for all blocks, the YAML block saved in it as rpr.yaml."""
     path = tmp_path_factory.mktemp("readme")
-    yaml = [m["text"] for m in BLOCK.finditer(README.read_text()) if m["kind"] == "yaml"]
+    yaml = [block.text for block in _blocks("yaml")]
     (path / "rpr.yaml").write_text(yaml[0])
     (path / "docs").mkdir()
     return path
 
 
-def environment():
-    """The environment with this interpreter's commands first."""
-    return os.environ | {"PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
-
-
-def commands():
-    """Lines of the README's shell blocks, the two set-up commands and the tests aside."""
-    for block in BLOCK.finditer(README.read_text()):
-        if block["kind"] == "sh" and not block["mark"]:
-            yield from (line for line in block["text"].splitlines() if line.strip())
-
-
-def run(command, folder, shell=False):
-    """A command's end, status and both outputs kept."""
-    return subprocess.run(
-        command,
-        shell=shell,
-        cwd=folder,
-        env=environment(),
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def _blocks(kind):
+    return [block for block in blocks(README.read_text()) if block.kind == kind]
 
 
 def test_commands_run_one_after_the_other(folder):
-    """Each command ends with status 0 and prints something."""
-    for command in commands():
-        done = run(command, folder, shell=True)
-        assert done.returncode == 0, (command, done.stderr)
-        assert done.stdout, command
+    """Each command ends with status 0 and prints something; set-up, tests and servers aside."""
+    for block in _blocks("sh"):
+        for command in [] if block.mark else block.commands():
+            done = run(command, folder)
+            assert done.returncode == 0, (command, done.stderr)
+            assert done.stdout, command
 
 
 def test_python_blocks_run(folder):
     """Each Python block runs as it stands."""
-    for block in BLOCK.finditer(README.read_text()):
-        if block["kind"] == "python":
-            done = run([sys.executable, "-W", "error", "-c", block["text"]], folder)
-            assert done.returncode == 0, done.stderr
-            assert done.stdout
+    for block in _blocks("python"):
+        done = run([sys.executable, "-W", "error", "-c", block.text], folder)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout
 
 
 def test_main_job_runs_as_the_set_up_command_shows(folder):
     """What follows the installation in the set-up command runs here too."""
-    (setup,) = (m["text"] for m in BLOCK.finditer(README.read_text()) if m["mark"] == "set-up")
+    (setup,) = (block.text for block in _blocks("sh") if block.mark == "set-up")
     jobs = [part.strip() for part in setup.split("&&") if ".venv/bin/dh2urdf" in part]
     assert len(jobs) == 2
     for job in jobs:
-        done = run(job.replace(".venv/bin/", ""), folder, shell=True)
+        done = run(job.replace(".venv/bin/", ""), folder)
         assert done.returncode == 0, done.stderr
 
 

@@ -1,0 +1,43 @@
+"""Sources of the documentation's pages, without building them."""
+
+from pathlib import Path
+
+import pytest
+
+from docs.extensions.blocks import Runner, blocks
+
+DOCS = Path(__file__).parents[2] / "docs"
+PAGES = [p for p in sorted(DOCS.rglob("*.md")) if "_build" not in p.parts]
+RUN = ("sh", "python")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(DOCS)))
+def test_blocks_run_or_say_why_not(page):
+    """A block runs, is saved as a file, is a directive, or has a comment with the reason above."""
+    for block in blocks(page.read_text()):
+        runs = block.kind in RUN or block.file or block.kind.startswith("{")
+        assert runs or block.mark.startswith("not run: "), (block.kind, block.text)
+
+
+def _block(text):
+    (block,) = blocks(text)
+    return block
+
+
+def test_runner_shows_what_blocks_print(tmp_path):
+    """Python blocks of a page share their names, commands their folder."""
+    run = Runner(tmp_path)
+    assert run(_block("```{code-block} yaml\n:caption: a.txt\n\nhello\n```")) == ""
+    assert run(_block("```sh\ncat a.txt\n```")) == "hello\n"
+    assert run(_block("```sh\ncat \\\n  a.txt\necho two\n```")).count("$ ") == 2
+    assert run(_block("```python\nx = 2\n```")) == ""
+    assert run(_block("```python\nprint(x + 1)\n```")) == "3\n"
+
+
+def test_runner_fails_where_a_command_does(tmp_path):
+    """Another status than the one said is an error, zero included."""
+    run = Runner(tmp_path)
+    assert run(_block("<!-- status 1 -->\n```sh\nfalse\n```")) == ""
+    for text in ("```sh\nfalse\n```", "<!-- status 1 -->\n```sh\ntrue\n```"):
+        with pytest.raises(RuntimeError, match="status"):
+            run(_block(text))
