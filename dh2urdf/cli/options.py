@@ -157,7 +157,7 @@ ALONE: dict[str, dict[str, str]] = {
         "matrix": "xyz rpy",
         "task=position": "rpy",
         "explain": "csv words format=python",
-        "symbolic": "xyz rpy matrix csv seed locked explain words deg format=md format=markdown",
+        "symbolic": "xyz rpy matrix csv seed locked explain words deg",
     },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
     "workspace": {"envelope": "plane at rpy points orientations"},

@@ -1,12 +1,20 @@
 """The pictures of a robot; what draws them lies above and is loaded when asked for."""
 
+from collections.abc import Container
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
 
+from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.transforms import Array
+
+FRAME = '<iframe srcdoc="{page}" style="width:100%;height:{height}px;border:0"></iframe>'
+"""The page of an arm within another page."""
+
+HEIGHT = 620
+"""Of that [px]."""
 
 
 class Picture(Protocol):
@@ -27,7 +35,25 @@ class ArmView(Protocol):
 
 
 class RobotPictures:
-    """What :class:`dh2urdf.Robot` shows of itself."""
+    """What :class:`dh2urdf.Robot` shows of itself.
+
+    A notebook shows the arm with sliders, as ``dh2urdf view ARM -o arm.html`` writes it.
+    """
+
+    def _repr_mimebundle_(
+        self, include: Container[str] | None = None, exclude: Container[str] | None = None
+    ) -> dict[str, str]:
+        """Text, and the page that works offline, in a frame of its own."""
+        bundle = {"text/plain": repr(self)}
+        wanted = include is None or "text/html" in include
+        if wanted and not (exclude and "text/html" in exclude):
+            try:
+                page = str(import_module("dh2urdf.page").page_html(self))
+            except Dh2UrdfError:  # an arm that cannot be drawn has its text
+                return bundle
+            page = page.replace("&", "&amp;").replace('"', "&quot;")
+            bundle["text/html"] = FRAME.format(page=page, height=HEIGHT)
+        return bundle
 
     def figure(self, q: ArrayLike | None = None, **options: Any) -> Picture:
         """Draw the arm with its DH frames and table (extra ``plot``).

@@ -9,7 +9,7 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.symbolic.families import Derivation, derive
 from dh2urdf.symbolic.letters import letters_of
-from dh2urdf.symbolic.written import as_latex, as_python, as_text
+from dh2urdf.symbolic.written import as_latex, as_markdown, as_python, as_text
 
 Solve = Callable[[Sequence[Sequence[float]]], list[list[float]]]
 
@@ -45,6 +45,11 @@ class SymbolicIK:
         return as_latex(self.derivation)
 
     @cached_property
+    def markdown(self) -> str:
+        """The formulas for a page with MathJax."""
+        return as_markdown(self.derivation)
+
+    @cached_property
     def python(self) -> str:
         """A module of one function ``ik(T)`` that needs nothing but ``math``."""
         return as_python(self.derivation)
@@ -59,6 +64,9 @@ class SymbolicIK:
 
     def __str__(self) -> str:
         return self.text
+
+    def _repr_markdown_(self) -> str:
+        return self.markdown
 
 
 def formulas(table: TableLike) -> SymbolicIK:

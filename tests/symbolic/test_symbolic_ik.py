@@ -249,7 +249,7 @@ def test_a_fixed_step_between_joints_is_refused_or_assigned():
     assert dh2urdf.Robot.from_dh(table).symbolic_ik().family == "planar arm"
 
 
-@pytest.mark.parametrize("form", ["text", "latex", "python"])
+@pytest.mark.parametrize("form", ["text", "markdown", "latex", "python"])
 def test_the_verb_prints_what_the_robot_says(form, capsys):
     """``dh2urdf ik ARM --symbolic --format FORM`` needs no pose and has status 0."""
     assert run("ik", "planar_rrr", "--symbolic", "--format", form) == 0

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.exceptions import NoSolutionError
 from dh2urdf.ik.arm import BRANCH_WORDS, BranchWords, IntArray, as_configuration
+from dh2urdf.ik.problem.notebook import solutions_html
 from dh2urdf.ik.problem.words import controller_words
 from dh2urdf.transforms import Array
 
@@ -202,6 +203,9 @@ class IKSolutions:
             return "<IKSolutions: none>"
         worst = float(self.residual.max())
         return f"<IKSolutions: {len(self)} of {self.q.shape[1]} joints, residual <= {worst:.1e}>"
+
+    def _repr_html_(self) -> str:
+        return solutions_html(self, self._problem.chain)
 
     def __str__(self) -> str:
         if not self:

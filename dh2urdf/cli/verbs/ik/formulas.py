@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 
 def tell_formulas(arm: Robot, format: str, *, json: bool) -> int:
-    """Print the formulas of an arm as text, latex or python, or all three in JSON."""
+    """Print the formulas of an arm in one form, or in all in JSON."""
     found = arm.symbolic_ik()
-    texts = {"text": found.text, "latex": found.latex, "python": found.python}
+    texts = {form: getattr(found, form) for form in ("text", "markdown", "latex", "python")}
     if json:
         emit_json("ik", family=found.family, **texts)
     else:
-        emit_file(texts[format])
+        emit_file(texts["markdown" if format == "md" else format])
     return 0

@@ -101,8 +101,8 @@ def ik_(
     symbolic
         No pose: formulas for all solutions in the letters of the arm's table (extra symbolic).
     format
-        How --explain is written: text, md (Markdown with formulas) or latex (needs amsmath); how
-        --symbolic is: text, latex or python, a function that needs nothing but math.
+        How --explain and --symbolic are written: text, md (Markdown with formulas), latex (needs
+        amsmath), and formulas as python, a function that needs nothing but math.
     deg
         Bare angles are degrees, and angles are shown in degrees.
     """
