@@ -106,7 +106,7 @@ def _is_interrupt(error: BaseException | None) -> bool:
 
 
 def _run(tokens: list[str]) -> int:
-    from cyclopts import App, CycloptsError, Parameter
+    from cyclopts import App, CycloptsError, Parameter, UnusedCliTokensError
 
     from dh2urdf import __version__
     from dh2urdf.cli.options import MARK, check_together, marked, plain
@@ -129,6 +129,9 @@ def _run(tokens: list[str]) -> int:
     app.register_install_completion_command()
     try:
         command, bound, _ = app.parse_args(marked(tokens), exit_on_error=False, print_error=False)
+    except UnusedCliTokensError as error:
+        words = ", ".join(map(repr, plain(error.unused_tokens or [])))
+        raise Dh2UrdfError(f"{tokens[0]}: more values than it takes: {words}") from None
     except CycloptsError as error:
         message = str(error).replace(MARK, "").replace("Unknown option: ", "unknown option ")
         raise Dh2UrdfError(message) from None

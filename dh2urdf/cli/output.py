@@ -106,8 +106,11 @@ def read_any(source: str, reading: Reading) -> TableFile:
     An MJCF is read by MuJoCo from a file; on stdin only for the table that it carries.
     """
     from dh2urdf.convert import table_of_description
+    from dh2urdf.dh_io.read import refuse_page
 
     text = _piped() if source == "-" else ""
+    if text.lstrip().startswith("<"):
+        refuse_page(text, "<stdin>")
     if text.lstrip().startswith("<") and not text.lstrip().startswith("<mujoco"):
         return table_of_description(text, reading.convention, **reading.given)
     if Path(source).suffix.lower() in ROBOT_SUFFIXES:

@@ -56,6 +56,13 @@ _SIGNS = {
 }
 
 
+_PAGES = {
+    "LaTeX": re.compile(r"\\begin\s*\{(?:tabular|array|longtable|tabulary?)"),
+    "HTML": re.compile(r"<(?:!doctype\s+html|html|table)\b", re.IGNORECASE),
+}
+_AS_ROWS = "copy the rows into a .csv file: theta,d,a,alpha, then a line a row, parted by commas"
+
+
 class TableFile(NamedTuple):
     """A table read from a file, what looked odd about it, and the units that the file is in."""
 
@@ -73,6 +80,8 @@ def format_of(path: str | os.PathLike[str]) -> str:
     message = f"{shown(path)}: not a table file by its name; known suffixes: {known}"
     if suffix in (".urdf", ".xacro", ".xml", ".mjcf"):
         message += "\n  hint: to get a table from a robot description, extract it"
+    if suffix in (".tex", ".html", ".htm"):
+        message += f"\n  hint: {_AS_ROWS}"
     raise TableFileError(message)
 
 
@@ -122,12 +131,22 @@ def parse_table(
     Messages call the text by the file's name, whose stem names a table that has no name.
     """
     read = _READERS[choice(format, "format", _READERS, TableFileError)]
+    if format != "markdown":
+        refuse_page(text, filename)
     report = Report.of_text(filename, text, format)
     root, name = read(text, report), Path(filename).stem or "robot"
     if (form := other_form(root, report, name, told)) is not None:
         return TableFile(*form)
     table, units = check_document(root, report, name, told)
     return TableFile(table, report.warnings, units)
+
+
+def refuse_page(text: str, filename: str) -> None:
+    """Refuse a table that is typeset, in LaTeX or HTML, and say how it can be read."""
+    for kind, sign in _PAGES.items():
+        if sign.search(text):
+            message = f"{filename}: a table in {kind} is for people and is not read"
+            raise TableFileError(f"{message}\n  hint: {_AS_ROWS}")
 
 
 def _near(path: Path) -> str:

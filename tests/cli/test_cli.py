@@ -218,6 +218,25 @@ def test_other_broken_inputs(refused, tmp_path):
         assert not (tmp_path / "x.urdf").exists()
 
 
+@pytest.mark.parametrize(
+    ("argv", "says"),
+    [
+        ("extract UR-5", "dh2urdf convert ur5 writes its URDF"),
+        ("list here", "list: more values than it takes: 'here'"),
+        ("convert ur5 -o ur5.pdf", "dh2urdf figure ARM -o FILE does"),
+    ],
+)
+def test_what_another_verb_or_format_does_is_named(refused, argv, says):
+    """Who asks the wrong verb, or for one thing too many, is told what to write."""
+    assert says in refused(*argv.split())
+
+
+def test_a_single_file_is_not_called_files(run, tmp_path):
+    """Of two tables one is bad: one file was written."""
+    (tmp_path / "bad.yaml").write_text("name: x")
+    assert run("convert", "bad.yaml", "ur5", "--out-dir", "out")[1].startswith("1 file written")
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere")
 def test_no_permission_is_a_message(refused, tmp_path):
     """A folder without write permission gives one message."""

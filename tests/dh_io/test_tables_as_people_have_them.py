@@ -21,6 +21,12 @@ from dh2urdf.grids import grid_csv
 UP, DOWN = math.pi / 2, -math.pi / 2
 P = JointType.PRISMATIC
 
+UNEVEN = "theta  d  a  alpha\nq1 0.3  0   -90\nq2  0 0.25 0\n"
+GERMAN = (
+    "| Gelenk | Typ | θ | d | a | α |\n|--|--|--|--|--|--|\n| 1 | R | 0 | 0,412 | 0 | -90 |\n"
+    "| 2 | R | 0 | 0,154 | 0 | 90 |\n| 3 | P | -90 | 0 | 0,0203 | 0 |\n"
+)
+
 
 def row(theta, d, a, alpha, joint_type=JointType.REVOLUTE, **more):
     return DHRow(theta=theta, d=d, a=a, alpha=alpha, joint_type=joint_type, **more)
@@ -173,6 +179,8 @@ PASTED = {
     "transposed.csv": (TRANSPOSED, "standard", None, ELBOW),
     "below.csv": (UNITS_BELOW, "standard", None, ELBOW),
     "flags.csv": (FLAGS, "standard", "m,deg", STANFORD),
+    "uneven.txt": (UNEVEN, "standard", "m,deg", ELBOW),
+    "german.md": (GERMAN, "standard", "m,deg", STANFORD),
 }
 
 
@@ -303,6 +311,10 @@ def _close(row):
          "write tool.xyz: 0 0 0.1 and tool.rpy: 0 0 90"),
         ("theta d a alpha\n0 1 0 pi / 2 3\n", "text", "where cells hold spaces, part them by tabs"),
         ("R,theta,d,a,alpha\nmaybe,0,0,0,0\n", "csv", "r is a (link length) in some books"),
+        ('theta,d,a,alpha\n0,"1.025,5",0,0\n', "csv", "a decimal point: 1025.5"),
+        ('theta,d,a,alpha\n0,"1,025.5",0,0\n', "csv", "a decimal point: 1025.5"),
+        ("\\begin{tabular}{cc}\n0 & 1\n\\end{tabular}", "text", "a table in LaTeX is for people"),
+        ("<html>\n<table><tr><td>0</td></tr></table>", "csv", "copy the rows into a .csv file"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_read_says_what_to_write(text, format, says):

@@ -17,6 +17,9 @@ from dh2urdf.exceptions import Dh2UrdfError, TableError
 
 Format = Literal["urdf", "mjcf", "yaml", "toml", "json", "csv", "markdown", "latex", "html"]
 
+PICTURES = (".pdf", ".png", ".svg", ".jpg", ".jpeg")
+"""Suffixes of what another verb writes."""
+
 
 def convert_(
     *tables: str,
@@ -103,6 +106,10 @@ def _format(target: Path) -> str:
     if str(target) == "-" or (os.path.exists(target) and not os.path.isfile(target)):
         return FORMATS.get(target.suffix.lower(), "urdf")
     if (format := FORMATS.get(target.suffix.lower())) is None:
+        if target.suffix.lower() in PICTURES:
+            raise Dh2UrdfError(
+                f"{shown(target)}: convert draws no pictures; dh2urdf figure ARM -o FILE does"
+            )
         known = ", ".join(FORMATS)
         message = f"the suffix decides what convert writes: {known}; or --format"
         raise Dh2UrdfError(f"{shown(target)}: {message}")
@@ -176,7 +183,8 @@ def _convert_many(tables: tuple[str, ...], job: _Job, out_dir: Path, *, json: bo
         note(f"dh2urdf: {bad['error']}")
     if done and not json:
         worst = max(done, key=lambda item: float(item["max_error"]))
-        emit(f"{len(done)} files written to {out_dir}; {worst['checked']} ({worst['source']})")
+        files = "1 file" if len(done) == 1 else f"{len(done)} files"
+        emit(f"{files} written to {out_dir}; {worst['checked']} ({worst['source']})")
     if failed:
         note(f"{len(failed)} of {len(done) + len(failed)} tables were not converted")
     return 2 if failed else 0

@@ -22,6 +22,7 @@ from dh2urdf.conversions.read.urdf_tree import read_urdf
 from dh2urdf.conversions.read.xacro_file import NOTHING, Xacro
 from dh2urdf.conversions.write import inertial_element
 from dh2urdf.dh_io.files import read_bytes, shown
+from dh2urdf.dh_io.names import shipped_name
 from dh2urdf.dh_io.xml import parse_xml
 from dh2urdf.doors import found
 from dh2urdf.exceptions import UrdfError, VerificationError
@@ -74,6 +75,11 @@ def description_bytes(source: str | os.PathLike[str], given: Xacro = NOTHING) ->
         return source.encode(errors="replace"), TEXT
     if not isinstance(source, str | os.PathLike):
         raise UrdfError(f"expected a path, got {found(source)}")
+    if not os.path.exists(source) and (name := shipped_name(os.fsdecode(source))):
+        raise UrdfError(
+            f"{shown(source)}: there is no such file; {name} is a table that ships, not a robot "
+            f"description: dh2urdf show {name} prints it, dh2urdf convert {name} writes its URDF"
+        )
     data = read_bytes(source, ROBOT_BYTES, UrdfError)
     if is_xacro(source):
         folders = {name: os.path.abspath(folder) for name, folder in given.packages.items()}

@@ -134,6 +134,13 @@ def _tokens(text: str) -> list[tuple[str, str]]:
     return out
 
 
+def _with_point(before: str, after: str) -> str:
+    """A number parted by a comma as it is written here: ``1.025,5`` and ``1,025.5`` are 1025.5."""
+    if "." in before:
+        return f"{before.replace('.', '')}.{after}"
+    return f"{before}{after}" if "." in after else f"{before}.{after}"
+
+
 class _Parser:
     """Recursive descent over the tokens of one cell."""
 
@@ -159,7 +166,7 @@ class _Parser:
             _, text = self.peek()
             hint = "write * between factors" if text not in (")", ",") else ""
             if text == "," and len(self.tokens) == 3:
-                hint = f"a decimal point: {self.tokens[0][1]}.{self.tokens[2][1]}"
+                hint = f"a decimal point: {_with_point(self.tokens[0][1], self.tokens[2][1])}"
             raise ExpressionError(f"{text!r} is not expected here", hint)
         return value
 

@@ -34,6 +34,7 @@ _ALIASES = {
     "a": ("link_length",),
     "alpha": ("α", "al", "twist", "link_twist", "twist_angle"),
     "type": (
+        "typ",
         "joint_type",
         "type_of_joint",
         "kind",

@@ -37,11 +37,13 @@ def _table(lines: list[tuple[int, str]], meta: list[tuple[Scalar, Scalar]], repo
     """The table, its cells parted by the first sign with which a line is a header."""
     for delimiter in (";", "\t", ",", *SPACES):
         quiet = Report(report.filename)
-        block = [_cells(line, number, delimiter, quiet) for number, line in lines]
+        block = _split(lines, delimiter, quiet)
         columns = [[line[0] for line in block]]
         if not any(map(is_header, [*block, *columns])):
             continue
-        block = [_cells(line, number, delimiter, report) for number, line in lines]
+        if delimiter == "  " and _is_uneven(block) and not _is_uneven(_split(lines, " ", quiet)):
+            continue
+        block = _split(lines, delimiter, report)
         block = _paragraph(block) if delimiter in SPACES else block
         for line in block:
             report.count(line[0].mark, cells=len(line))
@@ -53,6 +55,18 @@ def _table(lines: list[tuple[int, str]], meta: list[tuple[Scalar, Scalar]], repo
     report.stop(
         Mark(lines[0][0], 1) if lines else Mark(), "no header row with theta, d, a and alpha", hint
     )
+
+
+def _split(lines: list[tuple[int, str]], delimiter: str, report: Report) -> list[Line]:
+    """Each line's cells."""
+    return [_cells(line, number, delimiter, report) for number, line in lines]
+
+
+def _is_uneven(block: list[Line]) -> bool:
+    """Whether a line of the table has more or fewer cells than its header."""
+    block = _paragraph(block)
+    top = next((k for k, line in enumerate(block) if is_header(line)), len(block))
+    return any(len(line) != len(block[top]) for line in block[top:]) if block[top:] else True
 
 
 def _paragraph(block: list[Line]) -> list[Line]:
