@@ -81,6 +81,13 @@ def nearest_rotation(T: ArrayLike, *, what: str = "pose") -> tuple[Array, Array]
     ------
     PoseError
         Also where no rotation is within 0.05, and for a reflection.
+
+    Examples
+    --------
+    >>> from dh2urdf.transforms import nearest_rotation, rot_z
+    >>> pose, change = nearest_rotation(rot_z(0.5).round(3))
+    >>> bool(change < 1e-3)
+    True
     """
     m = given = real_array(getattr(T, "homogeneous", T), what, POSE, PoseError)
     if given.shape[-2:] == (3, 3):

@@ -135,7 +135,16 @@ def planar_translation(x: float, y: float = 0.0) -> Array:
 
 
 def rpy_to_matrix(rpy: Sequence[float]) -> Array:
-    """Rotation of URDF's roll, pitch, yaw [rad]: ``Rz(yaw) Ry(pitch) Rx(roll)``, shape (3, 3)."""
+    """Rotation of URDF's roll, pitch, yaw [rad]: ``Rz(yaw) Ry(pitch) Rx(roll)``, shape (3, 3).
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> rpy_to_matrix([0, 0, pi / 2]).round(6) + 0.0
+    array([[ 0., -1.,  0.],
+           [ 1.,  0.,  0.],
+           [ 0.,  0.,  1.]])
+    """
     (cr, sr), (cp, sp), (cy, sy) = (_cos_sin(v, "rpy") for v in _three(rpy, "rpy"))
     return np.array(
         [
@@ -155,6 +164,11 @@ def matrix_to_rpy(R: ArrayLike) -> tuple[float, float, float]:
     Parameters
     ----------
     R : array_like, shape (3, 3) or (4, 4)
+
+    Examples
+    --------
+    >>> [round(angle, 6) for angle in matrix_to_rpy(rpy_to_matrix([0.1, 0.2, 0.3]))]
+    [0.1, 0.2, 0.3]
     """
     m = _matrix(R)
     cos_pitch = math.hypot(m[0, 0], m[1, 0])
@@ -213,7 +227,13 @@ def length(v: Array) -> float:
 
 
 def inverse(T: ArrayLike) -> Array:
-    """Inverse of rigid poses, shape (..., 4, 4): ``T_b_a`` from ``T_a_b``."""
+    """Inverse of rigid poses, shape (..., 4, 4): ``T_b_a`` from ``T_a_b``.
+
+    Examples
+    --------
+    >>> inverse(trans(1, 2, 3))[:3, 3]
+    array([-1., -2., -3.])
+    """
     m = _matrices(T, "T", 4)
     out = np.zeros_like(m)
     Rt = np.swapaxes(m[..., :3, :3], -1, -2)
@@ -267,6 +287,12 @@ def matrix_to_zyz(R: ArrayLike) -> tuple[tuple[float, float, float], ...]:
         Two solutions, theta positive first; or one, where ``sin(theta) = 0``: there only
         ``phi + psi`` (theta = 0) or ``phi - psi`` (theta = pi) is determined, and the
         representative has ``phi = 0``.
+
+    Examples
+    --------
+    >>> both = matrix_to_zyz(zyz_to_matrix(0.5, 1.0, 1.5))
+    >>> [[round(angle, 4) for angle in each] for each in both]
+    [[0.5, 1.0, 1.5], [-2.6416, -1.0, -1.6416]]
     """
     m = _matrix(R)
     sin_theta = math.hypot(m[0, 2], m[1, 2])

@@ -47,6 +47,14 @@ def compare(
     Raises
     ------
     ArgumentError, TableError, UrdfError, NameNotFoundError
+
+    Examples
+    --------
+    >>> from dh2urdf import compare, load_table, to_convention
+    >>> compare("puma560", to_convention(load_table("puma560"), "modified")).same
+    True
+    >>> compare("ur5", "ur5e").same
+    False
     """
     tolerance = number(tolerance, "tolerance", *TOLERANCES)
     return compared(arm_of(a, base, tip), arm_of(b, base, tip), tolerance)

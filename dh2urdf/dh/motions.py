@@ -52,7 +52,15 @@ class DHFactors(NamedTuple):
 
 
 def dh_factors(theta: float, d: float, a: float, alpha: float) -> DHFactors:
-    """``Rot_z(theta)``, ``Trans_z(d)``, ``Trans_x(a)`` and ``Rot_x(alpha)`` of one row."""
+    """``Rot_z(theta)``, ``Trans_z(d)``, ``Trans_x(a)`` and ``Rot_x(alpha)`` of one row.
+
+    Examples
+    --------
+    >>> from dh2urdf import dh_factors, dh_transform
+    >>> Rz, Tz, Tx, Rx = dh_factors(0.5, 0.3, 0.1, -1.0)
+    >>> bool(abs(Rz @ Tz @ Tx @ Rx - dh_transform(0.5, 0.3, 0.1, -1.0)).max() < 1e-15)
+    True
+    """
     theta, d, a, alpha = _numbers(theta, d, a, alpha)
     return DHFactors(tf.rot_z(theta), tf.trans(0, 0, d), tf.trans(a, 0, 0), tf.rot_x(alpha))
 
@@ -78,6 +86,16 @@ def dh_transform(
     Raises
     ------
     ArgumentError
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> from dh2urdf import dh_transform
+    >>> dh_transform(theta=pi / 2, d=0.3, a=0.1, alpha=0).round(3) + 0.0
+    array([[ 0. , -1. ,  0. ,  0. ],
+           [ 1. ,  0. ,  0. ,  0.1],
+           [ 0. ,  0. ,  1. ,  0.3],
+           [ 0. ,  0. ,  0. ,  1. ]])
     """
     theta, d, a, alpha = _numbers(theta, d, a, alpha)
     functions = math.cos(theta), math.sin(theta), math.cos(alpha), math.sin(alpha)

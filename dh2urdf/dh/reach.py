@@ -35,6 +35,12 @@ def dh_parameters(
     ------
     TableError
         No four DH motions make this displacement; the message says why and names both remedies.
+
+    Examples
+    --------
+    >>> from dh2urdf import dh_parameters, dh_transform
+    >>> [round(value, 6) for value in dh_parameters(dh_transform(0.5, 0.3, 0.1, -1.0))]
+    [0.5, 0.3, 0.1, -1.0]
     """
     m = tf.check_pose(T)
     if m.shape != (4, 4):

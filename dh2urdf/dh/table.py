@@ -128,6 +128,17 @@ class DHTable:
         Raises
         ------
         TableError
+
+        Examples
+        --------
+        >>> from math import pi
+        >>> from dh2urdf import DHTable
+        >>> arm = DHTable.from_array([[0, 0.3, 0, -pi / 2], [0, 0, 0.25, 0]], convention="standard")
+        >>> arm.fk([0, 0]).round(3) + 0.0
+        array([[ 1.  ,  0.  ,  0.  ,  0.25],
+               [ 0.  ,  0.  ,  1.  ,  0.  ],
+               [ 0.  , -1.  ,  0.  ,  0.3 ],
+               [ 0.  ,  0.  ,  0.  ,  1.  ]])
         """
         keys = text(columns, "columns", TableError).replace(",", " ").split()
         if (names := _column_names(rows)) is not None:

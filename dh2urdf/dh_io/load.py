@@ -53,6 +53,20 @@ def load_table(
         Every fault of the file at once.
     NameNotFoundError
         Neither a file nor a name; the message lists the names that are near.
+
+    Examples
+    --------
+    >>> from dh2urdf import load_table
+    >>> table = load_table("planar_rr")
+    >>> print(table)
+    planar_rr: 2 joints, standard DH
+    <BLANKLINE>
+    i    joint  θ [deg]  d [m]  a [m]  α [deg]   limits of q
+    ────────────────────────────────────────────────────────
+    1  joint_1       q1      0      1        0  −180 to 180°
+    2  joint_2       q2      0    0.7        0  −180 to 180°
+    >>> load_table([{"theta": 0, "d": 335, "a": 75, "alpha": -90}], "standard", "mm,deg").rows[0].d
+    0.335
     """
     given = told(convention, units, model=model)
     if is_frame(path):

@@ -37,7 +37,14 @@ _ALSO = {
 
 @lru_cache(maxsize=1)
 def list_tables() -> tuple[str, ...]:
-    """Names of the tables that ship, sorted."""
+    """Names of the tables that ship, sorted.
+
+    Examples
+    --------
+    >>> from dh2urdf import list_tables
+    >>> "ur5" in list_tables()
+    True
+    """
     return tuple(sorted(path.stem for path in FOLDER.glob("*.yaml")))
 
 

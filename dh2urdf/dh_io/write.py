@@ -48,6 +48,15 @@ def write_table(
         A format or unit that is not known.
     OutputError
         The file cannot be written; an older one stays as it was.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from dh2urdf import load_table, save_table
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = save_table("puma560", os.path.join(folder, "puma.toml"))
+    ...     load_table(path) == load_table("puma560")
+    True
     """
     where = path_of(path)
     chosen = format or WRITTEN.get(where.suffix.casefold()) or format_of(where)

@@ -86,6 +86,16 @@ class RobotIK(RobotConfigurations):
         Raises
         ------
         PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> robot = Robot.from_dh("denso_vs6556")
+        >>> solutions = robot.ik(robot.fk([0.1, -1.2, 0.3, 0.4, 0.5, 0.6]))
+        >>> bool((solutions.residual < 1e-9).all())
+        True
+        >>> solutions.nearest([0.1, -1.2, 0.3, 0.4, 0.5, 0.6]).round(6)
+        array([ 0.1, -1.2,  0.3,  0.4,  0.5,  0.6])
         """
         asked = task, locked, within_limits, samples, nearest
         return self._ik.solve(T, seed, seed_tolerance, turns, asked)
@@ -132,6 +142,14 @@ class RobotIK(RobotConfigurations):
         Raises
         ------
         PoseError, ConfigurationError, ArgumentError, NameNotFoundError, NoSolverError
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> robot = Robot.from_dh("planar_rr")
+        >>> batch = robot.ik_batch(robot.fk([[0.1, 0.2], [0.3, -0.4], [0.5, 0.6]]))
+        >>> batch.count
+        array([1, 1, 1])
         """
         asked = task, locked, within_limits, samples, nearest
         return self._ik.solve_batch(Ts, asked, threads, progress, on_bad, out)
@@ -261,6 +279,12 @@ class RobotIK(RobotConfigurations):
         ----------
         T, within_limits, locked, task, nearest
             As for :meth:`ik`.
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> print(Robot.from_dh("planar_rr").why_unreachable([2.0, 0, 0], task="position"))
+        the point lies 0.300 m outside the reach of the tool
         """
         return self._ik.why_none(T, (task, locked, within_limits, None, nearest))
 

@@ -126,6 +126,13 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         Raises
         ------
         TableFileError, NameNotFoundError
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> robot = Robot.from_dh("ur5")
+        >>> robot.n, str(robot.solver)
+        (6, 'three parallel axes')
         """
         given = as_table(table)
         frames = link_frames(given)
@@ -197,6 +204,13 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         ------
         ConfigurationError
             Last axis is not n long, or not all are finite numbers.
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> Robot.from_dh("planar_rr").fk([[0, 0], [0, 1.5707963267948966]])[:, :2, 3].round(6)
+        array([[1.7, 0. ],
+               [1. , 0.7]])
         """
         config = real_array(q, "q", "finite numbers", ConfigurationError)
         if config.shape == self._plain and config.flags.c_contiguous:
@@ -239,6 +253,14 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         Returns
         -------
         array, shape (6, n) or (..., 6, n)
+
+        Examples
+        --------
+        >>> from dh2urdf import Robot
+        >>> Robot.from_dh("planar_rr").jacobian([0, 0])[[0, 1, 5]].round(6)
+        array([[0. , 0. ],
+               [1.7, 0.7],
+               [1. , 1. ]])
         """
         config = real_array(q, "q", "finite numbers", ConfigurationError)
         if config.shape == self._plain and config.flags.c_contiguous:

@@ -59,6 +59,15 @@ def check_urdf(
     ------
     UrdfError
         No such file, not XML, a document type or entities, or no ``<robot>``.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from dh2urdf import check_urdf, write_urdf
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "rr.urdf")
+    ...     check_urdf(write_urdf("planar_rr", path).path)
+    ()
     """
     doc = Document.read(path, xacro_given(xacro_args, packages))
     found = [

@@ -24,6 +24,13 @@ def to_convention(table: TableLike, convention: DHConvention | str) -> DHTable:
     standard row moves to the head of the next modified row and back; what is left at the ends
     goes into the tool (to modified) or the base (to standard). Where a fixed row stands between,
     the tail joins it. Centres of mass and tensors move with the frames.
+
+    Examples
+    --------
+    >>> from dh2urdf import load_table, to_convention
+    >>> craig = to_convention(load_table("puma560"), "modified")
+    >>> print(craig.convention, [row.a for row in craig.rows])
+    modified [0.0, 0.0, 0.4318, 0.0203, 0.0, 0.0]
     """
     table, target = as_table(table), convention_of(convention)
     if target is table.convention:

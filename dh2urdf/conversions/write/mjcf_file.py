@@ -37,6 +37,15 @@ def write_mjcf(
 
     Links are bodies, DH frames and the tool bodies with a site. The table itself, with the
     velocities for which an MJCF has no place, is in ``<custom>``.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from dh2urdf import write_mjcf
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     report = write_mjcf("planar_rr", os.path.join(folder, "rr.xml"))
+    >>> report.max_error < 1e-9
+    True
     """
     return write_verified(verified_mjcf, table, path, options, force)
 

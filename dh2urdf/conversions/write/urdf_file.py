@@ -33,7 +33,14 @@ class ConversionReport:
 
 
 def urdf_text(table: TableLike, options: UrdfOptions | None = None) -> str:
-    """The URDF of a table as text, not yet checked; :func:`write_urdf` checks what it writes."""
+    """The URDF of a table as text, not yet checked; :func:`write_urdf` checks what it writes.
+
+    Examples
+    --------
+    >>> from dh2urdf import urdf_text
+    >>> print(urdf_text("planar_rr").splitlines()[1])
+    <robot name="planar_rr">
+    """
     return urdf_text_and_warnings(as_table(table), chosen_options(options))[0]
 
 
@@ -88,6 +95,15 @@ def write_urdf(
         The file would differ from the table by more than 1e-9.
     OutputExistsError
         The path holds a file that this package did not write.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from dh2urdf import write_urdf
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     report = write_urdf("planar_rr", os.path.join(folder, "rr.urdf"))
+    >>> report.max_error < 1e-9
+    True
     """
     return write_verified(verified_urdf, table, path, options, force)
 

@@ -27,6 +27,11 @@ def planar_reach(l1: float, l2: float) -> tuple[float, float]:
     """Inner and outer radius [m] of the annulus that the planar RR arm reaches.
 
     ``(l1 - l2)^2 <= x^2 + y^2 <= (l1 + l2)^2`` is the workspace.
+
+    Examples
+    --------
+    >>> planar_reach(1.0, 0.75)
+    (0.25, 1.75)
     """
     l1, l2 = _numbers(l1=l1, l2=l2)
     return abs(l1 - l2), l1 + l2
@@ -80,6 +85,12 @@ def planar_rrr_ik(l1: float, l2: float, l3: float, x: float, y: float, phi: floa
     -------
     array, shape (k, 3)
         As for :func:`planar_rr_ik`.
+
+    Examples
+    --------
+    >>> planar_rrr_ik(1.0, 1.0, 0.5, 1.5, 1.0, 0.0).round(4) + 0.0
+    array([[ 1.5708, -1.5708,  0.    ],
+           [ 0.    ,  1.5708, -1.5708]])
     """
     l1, l2, l3, x, y, phi = _numbers(l1=l1, l2=l2, l3=l3, x=x, y=y, phi=phi)
     upper = planar_rr_ik(l1, l2, x - l3 * math.cos(phi), y - l3 * math.sin(phi))
@@ -95,6 +106,12 @@ def wrist_centre(T: ArrayLike, d6: float) -> Array:
         Pose of frame 6; with a tool on it, take the tool off first.
     d6 : float
         Distance of frame 6 from the wrist centre along its z [m].
+
+    Examples
+    --------
+    >>> from dh2urdf.transforms import trans
+    >>> wrist_centre(trans(0.4, 0.0, 0.3), d6=0.08)
+    array([0.4 , 0.  , 0.22])
     """
     pose, d6 = check_pose(T), number(d6, "d6", -LENGTH, LENGTH)
     centre: Array = pose[..., :3, 3] - d6 * pose[..., :3, 2]
