@@ -134,7 +134,7 @@ def as_latex(ik: Derivation) -> str:
 def as_markdown(ik: Derivation) -> str:
     """Formulas as Markdown: words, and formulas between dollar signs after each."""
     title, _, text = as_latex(ik).partition("\n")
-    for word, sign in (("begin", "$$\n\\begin"), ("end", "\\end")):
+    for word, sign in (("begin", "\n$$\n\\begin"), ("end", "\\end")):
         text = text.replace(f"\\{word}{{align*}}", f"{sign}{{aligned}}")
     return f"## {title[2:]}\n\n" + text.replace("\\end{aligned}", "\\end{aligned}\n$$\n") + "\n"
 

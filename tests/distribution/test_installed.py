@@ -44,6 +44,8 @@ DEVELOPERS = {
     "lint": "ruff check . && ruff format --check . && mypy && lint-imports --no-cache",
     "consumers": "python -c 'import ikpy, pybullet, pydrake' && dh2urdf check urdf/planar_rr.urdf",
     "bench": "rm -r dh2urdf && python -m benchmarks --quick --only building --out quick.json",
+    "examples": "rm -r dh2urdf && python examples/notebooks/execute.py && "
+    "for script in examples/*.py; do python $script || exit 1; done",
     "docs": "rm -r dh2urdf && sphinx-build -W -q -j 2 docs site",
 }
 """What each extra of the developers is for, in the source distribution's folder."""

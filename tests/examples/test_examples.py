@@ -1,0 +1,99 @@
+"""The scripts and notebooks of ``examples/`` run, and what is kept of a run is small and whole."""
+
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import nbformat
+import pytest
+
+FOLDER = Path(__file__).parents[2] / "examples"
+SCRIPTS = sorted(FOLDER.glob("*.py"))
+NOTEBOOKS = sorted((FOLDER / "notebooks").glob("*.ipynb"))
+
+LARGEST = 256 * 1024
+"""Of a notebook [bytes]: its pictures have few colours, one has the page of a small arm."""
+
+ENDS = "not run: "
+"""How a script begins its one line where what it shows is not installed."""
+
+
+def name(path):
+    """Of a case."""
+    return path.stem
+
+
+def kinds(notebook):
+    """What kinds of outputs each cell has."""
+    return [
+        [sorted(o.get("data", {o.output_type: 0})) for o in cell.get("outputs", ())]
+        for cell in notebook.cells
+    ]
+
+
+@pytest.fixture(scope="module")
+def runner():
+    """``examples/notebooks/execute.py``."""
+    path = FOLDER / "notebooks" / "execute.py"
+    spec = importlib.util.spec_from_file_location("execute", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=name)
+def test_a_script_runs_and_says_what_it_found(script, tmp_path):
+    """Status 0, something on stdout, nothing on stderr; Drake's is left out without Drake."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", script],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout
+    assert not done.stderr
+    if done.stdout.startswith(ENDS):
+        assert script.stem == "drake_reads_it"
+        pytest.skip(done.stdout.strip())
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=name)
+def test_a_notebook_runs_and_what_is_kept_is_of_its_kind(path, runner, monkeypatch):
+    """Every cell runs in a fresh kernel, and has outputs of the kinds that the file has."""
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(FOLDER.parent), *sys.path[:1]]))
+    assert kinds(runner.tidied(runner.executed(path))) == kinds(nbformat.read(path, as_version=4))
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=name)
+def test_a_kept_notebook_is_small_whole_and_without_errors(path):
+    """Each code cell was run, in order; no output is an error or a warning; few bytes."""
+    notebook = nbformat.read(path, as_version=4)
+    cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
+    assert [cell.execution_count for cell in cells] == list(range(1, len(cells) + 1))
+    outputs = [output for cell in cells for output in cell.outputs]
+    assert not [o for o in outputs if o.output_type == "error" or o.get("name") == "stderr"]
+    assert path.stat().st_size <= LARGEST
+
+
+def test_the_index_names_every_example():
+    """``examples/README.md`` has a line for each script and notebook."""
+    text = (FOLDER / "README.md").read_text(encoding="utf-8")
+    assert [
+        p.name for p in [*SCRIPTS, *NOTEBOOKS] if f"({p.relative_to(FOLDER)})" not in text
+    ] == []
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=name)
+def test_notebooks_use_what_is_public(path):
+    """What they import of the package has no underscore and stands at its top or in a room's."""
+    rooms = {"dh2urdf", "dh2urdf.figures", "dh2urdf.symbolic"}
+    for cell in nbformat.read(path, as_version=4).cells:
+        for line in cell.source.splitlines() if cell.cell_type == "code" else ():
+            if line.startswith(("import dh2urdf", "from dh2urdf")):
+                assert line.split()[1] in rooms, line
+            assert "._" not in line, line
