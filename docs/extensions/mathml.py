@@ -13,14 +13,18 @@ def setup(app: Sphinx) -> dict[str, bool]:
     return {"parallel_read_safe": True, "parallel_write_safe": True}
 
 
+def _mathml(node: nodes.Element, as_block: bool = False) -> str:
+    return tex2mathml(node.astext().replace("°", r"^{\circ}"), as_block=as_block)
+
+
 def _inline(self: HTML5Translator, node: nodes.math) -> None:
-    self.body.append(tex2mathml(node.astext()))
+    self.body.append(_mathml(node))
     raise nodes.SkipNode
 
 
 def _display(self: HTML5Translator, node: nodes.math_block) -> None:
     self.body.append(self.starttag(node, "div", CLASS="formula"))
-    self.body.append(tex2mathml(node.astext(), as_block=True))
+    self.body.append(_mathml(node, as_block=True))
     if node["number"]:
         number = get_node_equation_number(self, node)
         self.body.append(f'<span class="eqno">({number})</span>')
