@@ -11,7 +11,7 @@ from benchmarks.plot import draw
 from benchmarks.results import Results
 from benchmarks.targets import target_rows
 
-__all__ = ["PAGES", "between", "figures", "render", "shown", "speed"]
+__all__ = ["PAGES", "between", "figures", "provenance", "render", "shown", "speed"]
 
 PLOT = ROOT / "benchmarks" / "results" / "time_recall.png"
 BEGIN, END = "<!-- benchmarks -->\n", "<!-- /benchmarks -->"
@@ -62,7 +62,7 @@ def speed(results: Results) -> str:
 def figures(results: Results) -> str:
     """The block of ``benchmarks/README.md``."""
     parts = [
-        f"{_provenance(results)} {_kind(results)}",
+        f"{provenance(results)} {_kind(results)}",
         "### What was aimed at",
         table(("work", "at least", "measured", ""), target_rows(results)),
         "### All solvers",
@@ -119,7 +119,8 @@ def _where(results: Results) -> str:
     )
 
 
-def _provenance(results: Results) -> str:
+def provenance(results: Results) -> str:
+    """Machine, versions, duration, and what else used the machine."""
     about = results.about
     names = ", ".join(f"{k} {v}" for k, v in about["versions"].items())
     return (

@@ -2,7 +2,8 @@
 
 ``sh`` and ``python`` blocks run; a ``{code-block}`` with a caption is saved under that name;
 ``{generated} NAME`` stands for what the function of that name of ``generated.py`` returns;
-``hidden`` as a mark runs a block without showing it. Pictures that blocks wrote may be shown by
+a mark ``hidden`` runs a block without showing it, ``prose`` wraps what it prints, ``page``
+makes it part of the page. Pictures that blocks wrote may be shown by
 their bare names. Files in ``files/`` beside the page lie in the folder where its blocks run.
 """
 
@@ -16,6 +17,7 @@ from blocks import Block, Runner, blocks
 from sphinx.application import Sphinx
 from sphinx.errors import ExtensionError
 
+PICTURE = re.compile(r"[\w-]+\.(png|svg)")
 LINK = re.compile(r"(?<=\]\()([\w.-]+)(?=\))")
 
 
@@ -59,9 +61,12 @@ def _shown(source: str, block: Block, runner: Runner) -> str:
     if block.kind.startswith("{generated}"):
         name, *arguments = block.kind.split()[1:]
         return str(getattr(generated, name)(*arguments))
-    output = runner(block)
+    output = runner(block).strip("\n")
     if block.mark == "hidden":
         return ""
-    if not output.strip():
+    if not output or re.fullmatch(PICTURE, output):  # whose name stands in the command
         return source
-    return f"{source}\n\n```{{code-block}} text\n:class: output\n\n{output.rstrip()}\n```"
+    if block.mark == "page":
+        return f"{source}\n\n{output}\n"
+    kind = "output prose" if block.mark == "prose" else "output"
+    return f"{source}\n\n```{{code-block}} text\n:class: {kind}\n\n{output}\n```"

@@ -1,9 +1,12 @@
 """Sources of the documentation's pages, without building them."""
 
+import re
 from pathlib import Path
 
 import pytest
 
+import dh2urdf
+from dh2urdf import compare
 from docs.extensions.blocks import Runner, blocks
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -17,6 +20,23 @@ def test_blocks_run_or_say_why_not(page):
     for block in blocks(page.read_text()):
         runs = block.kind in RUN or block.file or block.kind.startswith("{")
         assert runs or block.mark.startswith("not run: "), (block.kind, block.text)
+
+
+def test_answers_of_exercises_are_marked_as_right(written):
+    """Each exercise has a solution's file, and its answer is the same arm."""
+    answers = {b.file: b.text for b in blocks((DOCS / "notes" / "exercises.md").read_text())}
+    solutions = sorted((DOCS / "notes" / "files").glob("exercise_*.yaml"))
+    assert len(solutions) >= 4
+    for solution in solutions:
+        name = solution.name.replace("exercise", "my")
+        assert compare(written(name, answers[name]), solution).same, name
+
+
+def test_every_public_name_is_in_the_reference():
+    """The page of the Python interface has what ``dh2urdf.__all__`` lists."""
+    page = (DOCS / "reference" / "api.md").read_text()
+    shown = set(re.findall(r"^\.\. auto\w+:: (?:dh2urdf\.)?(\w+)$", page, re.M))
+    assert set(dh2urdf.__all__) - shown <= {"Dh2UrdfError"}  # is one of the errors
 
 
 def _block(text):
