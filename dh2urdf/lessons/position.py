@@ -2,21 +2,18 @@
 
 from collections.abc import Iterator
 
-from dh2urdf.lessons.arm import Arm
+import numpy as np
+
+from dh2urdf.lessons.position_any import place_point
 from dh2urdf.lessons.position_arm import articulated
 from dh2urdf.lessons.way import Asked, Way
 from dh2urdf.transforms import Array
 
 
-def covers(arm: Arm) -> bool:
-    """Whether there is a way for the first three joints."""
-    return not any(row.slides for row in arm.rows[:3]) and arm.rows[1].sa == 0.0
-
-
 def place_wrist(asked: Asked, way: Way, centre: Array) -> Iterator[Way]:
     """All ways to put the wrist centre (frame 0) where it has to be."""
     rows = asked.arm.rows
-    kinds = "".join("P" if row.slides else "R" for row in rows[:3])
-    if kinds == "RRR" and rows[1].sa == 0.0:
+    if rows[1].sa == 0.0 and not any(row.slides for row in rows[:3]):
         return articulated(asked, way, centre)
-    raise NotImplementedError(kinds)
+    tip = np.array([0.0, 0.0, rows[3].d])
+    return place_point(asked, way, centre, tip, "the wrist centre")

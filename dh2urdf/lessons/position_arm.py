@@ -15,6 +15,9 @@ ON_AXIS = 5e-10
 """Distance [m] of the wrist centre from axis 1 at which joint 1 is free."""
 
 
+WRIST_PLANE = "Axes 2 and 3 are parallel: links 2 and 3 stay in a plane that joint 1 turns. "
+
+
 def articulated(asked: Asked, way: Way, centre: Array) -> Iterator[Way]:
     """All ways: shoulder, then elbow."""
     row2, row3, row4 = asked.arm.rows[1:4]
@@ -33,11 +36,12 @@ def articulated(asked: Asked, way: Way, centre: Array) -> Iterator[Way]:
 
 
 def shoulders(
-    asked: Asked, way: Way, centre: Array, beside: Equation
+    asked: Asked, way: Way, centre: Array, beside: Equation, said: str = WRIST_PLANE
 ) -> Iterator[tuple[Way, tuple[float, float]]]:
     """Joint 1 turns the arm's plane, ``beside`` off axis 1, through a point (3,) of frame 0.
 
-    The ways, each with the point's coordinates u, v in frame 1.
+    The ways, each with the point's coordinates u, v in frame 1; ``said`` says what the plane is,
+    and the point is x_c, y_c, z_c.
     """
     row = asked.arm.rows[0]
     x, y, z = (float(v) for v in centre)
@@ -52,7 +56,7 @@ def shoulders(
     )
     equations = [beside, plane] if m or offset else []
     square = x * x + y * y - m * m
-    words = "Axes 2 and 3 are parallel: links 2 and 3 stay in a plane that joint 1 turns. "
+    words = said
     if m:
         words += (
             f"The plane passes axis 1 at a distance of |m| = {shown(abs(m))} m, so "
@@ -60,7 +64,7 @@ def shoulders(
         )
     if square < -RIM * (abs(m) + abs(row.a)) ** 2:
         end = (
-            f"The wrist centre is {shown(math.hypot(x, y))} m from axis 1, less than |m|: no turn "
+            f"The point is {shown(math.hypot(x, y))} m from axis 1, less than |m|: no turn "
             "of joint 1 brings the plane there, and here the solution ends."
         )
         yield way.stop(Step("theta_1", words + end, tuple(equations))), (0.0, 0.0)
@@ -84,8 +88,9 @@ def _any_facing(asked: Asked, words: str) -> tuple[float, Step]:
     """Joint 1 where the wrist centre is on its axis."""
     theta = asked.free_value(0)
     words += (
-        "The wrist centre is on axis 1: joint 1 moves it nowhere and is free. It stays where it is "
-        "asked to be (at q_1 = 0 if nothing is asked); all other angles are solutions too."
+        "The point (x_c, y_c, z_c) is on axis 1: joint 1 moves it nowhere and is free. It stays "
+        "where it is asked to be (at q_1 = 0 if nothing is asked); all other angles "
+        "are solutions too."
     )
     equation = Equation("theta_1", "theta_1", {}, theta, "rad")
     return theta, joint_step(asked.arm, 0, "theta_1: free", words, [equation], theta)
@@ -113,12 +118,12 @@ def _facing(
     if r > 0.0:
         words += (
             "The plane may also be turned half round, so that the arm reaches back over axis 1: "
-            "the second solution. Here r > 0: the wrist centre is on the side to which x_1 points."
+            "the second solution. Here r > 0: the point is on the side to which x_1 points."
         )
     elif r < 0.0:
         words += (
-            "Here the second solution: the plane is turned half round, r < 0, the wrist centre is "
-            "behind axis 1, and the arm reaches back over it."
+            "Here the second solution: the plane is turned half round, r < 0, the point is behind "
+            "axis 1, and the arm reaches back over it."
         )
     title, marks = "theta_1: which way the arm faces", _plan(asked, centre, both[0])
     equations = [*equations, *found]

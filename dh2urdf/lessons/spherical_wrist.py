@@ -5,13 +5,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from dh2urdf.lessons.notation import Given
-from dh2urdf.lessons.position import covers, place_wrist
+from dh2urdf.lessons.position import place_wrist
 from dh2urdf.lessons.steps import Equation, Mark, Step
 from dh2urdf.lessons.way import Asked, Way
 from dh2urdf.lessons.wrist import wrists
 from dh2urdf.transforms import moved
-
-__all__ = ["covers", "spherical_wrist"]
 
 
 def spherical_wrist(asked: Asked) -> Iterator[Way]:

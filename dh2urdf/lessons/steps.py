@@ -1,119 +1,20 @@
 """What a worked solution is made of: steps with their equations, and what a picture would draw."""
 
-import re
 import textwrap
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-import numpy as np
-
-from dh2urdf.grids import grid_matrix
-from dh2urdf.lessons.notation import (
-    LETTER,
-    Given,
-    latex,
-    latex_name,
-    latex_number,
-    measured,
-    shown,
-    tokens,
-    vector_shown,
-    with_numbers,
+from dh2urdf.lessons.equation import Equation
+from dh2urdf.lessons.wording import (
+    latex_block,
+    latex_words,
+    markdown_block,
+    markdown_words,
+    paragraphs,
 )
 from dh2urdf.transforms import Array
 
-WIDTH = 88
-"""Columns of text."""
-
-
-@dataclass(frozen=True, eq=False)
-class Equation:
-    """One equation: the formula, the numbers put in, the value.
-
-    Parameters
-    ----------
-    name : str
-        What is found: ``theta_1``, ``o_c``, ``R_6^3``.
-    formula : str
-        In the letters of the notes, see :mod:`dh2urdf.lessons.notation`.
-    given : mapping of str to float or array
-        Numbers of the letters in the formula.
-    value : float or array
-        In metres, radians or plain; (3,) a vector, (3, 3) a rotation.
-    unit : str
-        ``m``, ``rad`` or empty.
-    others : tuple of float
-        Other values that satisfy it: the other sign of a square root.
-    via : str
-        The formula in letters that all have numbers, where its own have not: z_6 for R e_3.
-    """
-
-    name: str
-    formula: str
-    given: Given
-    value: float | Array
-    unit: str = ""
-    others: tuple[float, ...] = ()
-    via: str = ""
-
-    @property
-    def numbers(self) -> str:
-        """The formula with its numbers put in; empty where that would show matrices."""
-        letters = {t.text for t in tokens(self.via or self.formula)}
-        matrices = any(np.ndim(v) == 2 for key, v in self.given.items() if key in letters)
-        letters = letters if len(letters) > 1 else set()
-        told = self.given and not matrices and letters & set(self.given)
-        return with_numbers(self.via or self.formula, self.given) if told else ""
-
-    @property
-    def found(self) -> str:
-        """The value with its unit, and the other values; a matrix over three lines."""
-        if np.ndim(self.value) == 2:
-            rows = [[shown(float(v)) for v in row] for row in np.asarray(self.value)]
-            return grid_matrix(rows)
-        if np.ndim(self.value) == 1:
-            return f"{vector_shown(np.asarray(self.value))} {self.unit}".rstrip()
-        values = float(self.value), *self.others
-        return ", or ".join(measured(v, self.unit) for v in values)
-
-    @property
-    def text(self) -> str:
-        """The equation in lines of text, equal signs below each other."""
-        lines = [self.formula.replace("+- ", "±"), self.numbers]
-        lines += [] if np.ndim(self.value) == 2 else [self.found]
-        indent = " " * len(self.name)
-        if np.ndim(self.value) == 1 and self.numbers == vector_shown(np.asarray(self.value)):
-            lines[1] = ""
-        unlike = [line for k, line in enumerate(lines) if line and line not in lines[:k]]
-        out = f"{self.name} = " + f"\n{indent} = ".join(unlike)
-        return f"{out}\n{self.found}" if np.ndim(self.value) == 2 else out
-
-    @property
-    def latex(self) -> str:
-        """The equation in LaTeX's mathematics, a sign of equality a line."""
-        lines = [latex(self.formula)]
-        if self.numbers:
-            lines.append(latex(self.via or self.formula, self.given))
-        lines.append(self._latex_found())
-        unlike = [line for k, line in enumerate(lines) if line not in lines[:k]]
-        return f"{latex_name(self.name)} &= " + " \\\\\n&= ".join(unlike)
-
-    def _latex_found(self) -> str:
-        if np.ndim(self.value) == 2:
-            rows = [[shown(float(v)) for v in row] for row in np.asarray(self.value)]
-            inside = r" \\ ".join(" & ".join(map(latex_number, row)) for row in rows)
-            return rf"\begin{{bmatrix}} {inside} \end{{bmatrix}}"
-        text = latex_number(self.found)
-        for plain, spelt in ((", or ", r"\text{, or }"), (" rad", r"\,\mathrm{rad}")):
-            text = text.replace(plain, spelt)
-        text = re.sub(r" \((\S+) deg\)", r"\\ (\1^\\circ)", text)
-        return text.replace(" m", r"\,\mathrm{m}")
-
-    def as_data(self) -> dict[str, Any]:
-        """Plain values, full precision."""
-        keys = "name", "formula", "numbers", "latex", "value", "unit"
-        return {key: getattr(self, key) for key in keys} | {"others": list(self.others)}
+__all__ = ["Equation", "IKExplanation", "Mark", "Step"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +74,10 @@ class Step:
         """The step in plain text, its title after a number."""
         title = number + self.title
         parts = [f"{title}\n{'-' * len(title)}\n{paragraphs(self.words)}"]
-        parts += [textwrap.indent(e.text, "    ") for e in self.equations]
+        lines = [textwrap.indent(e.text, "    ") for e in self.equations]
+        for line, before in zip(lines, ["\n", *lines], strict=False):
+            short = "\n" not in line and "\n" not in before
+            parts[-1:] = [f"{parts[-1]}\n{line}"] if short else [parts[-1], line]
         return "\n\n".join(parts)
 
     __str__ = text
@@ -270,45 +174,3 @@ class IKExplanation:
             "q": self.q,
             "steps": [step.as_data() for step in self.steps],
         }
-
-
-def paragraphs(words: str) -> str:
-    """Words in lines; lines that are set out already (a table) stay as they are."""
-    blocks = words.split("\n\n")
-    return "\n\n".join(b if "\n" in b else textwrap.fill(b, WIDTH) for b in blocks)
-
-
-def markdown_block(block: str) -> str:
-    """A paragraph; lines that are set out already as they are."""
-    return f"```text\n{block}\n```" if "\n" in block else markdown_words(block)
-
-
-def markdown_words(words: str) -> str:
-    """Plain words, letters of formulas as such, in which nothing is taken for emphasis."""
-    return _with_letters(words, lambda text: re.sub(r"([*_|<])", r"\\\1", text))
-
-
-def latex_block(block: str) -> str:
-    """A paragraph; lines that are set out already as they are."""
-    if "\n" in block:
-        return f"\\begin{{verbatim}}\n{block}\n\\end{{verbatim}}"
-    return latex_words(block) + "\n"
-
-
-ESCAPES = {"\\": r"\textbackslash{}", "^": r"\textasciicircum{}", "~": r"\textasciitilde{}"}
-ESCAPES |= {sign: f"\\{sign}" for sign in "&%$#_{}"}
-
-
-def latex_words(words: str) -> str:
-    """Plain words, letters of formulas as such, with what LaTeX would take for orders escaped."""
-    words = re.sub(r"`(\w+)`", r"\1", words)
-    return _with_letters(words, lambda text: "".join(ESCAPES.get(sign, sign) for sign in text))
-
-
-def _with_letters(words: str, escaped: Callable[[str], str]) -> str:
-    """Words with the letters of formulas between dollar signs, the rest escaped."""
-    out, at = "", 0
-    for match in LETTER.finditer(words):
-        out += f"{escaped(words[at : match.start()])}${latex_name(match.group())}$"
-        at = match.end()
-    return out + escaped(words[at:])

@@ -76,6 +76,8 @@ def joint_step(
         formula = f"{name} - {zero}" if row.sign > 0 else f"{zero} - {name}"
         formula = formula if constant else f"-{name}"
         own.append(Equation(f"q_{i}", formula, {name: variable, zero: constant}, q, unit))
+        if constant:
+            words += f" Row {i} of the table says {name} = {'-' * (row.sign < 0)}q_{i} + {zero}."
     return Step(title, words, tuple(own), joint, marks, choice)
 
 

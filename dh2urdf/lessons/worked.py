@@ -10,12 +10,15 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.ik.arm import Task, hold, select_solver
 from dh2urdf.ik.families import with_tool_joint
-from dh2urdf.lessons.arm import arm_of, without_ends
+from dh2urdf.lessons.arm import Arm, Row, arm_of, without_ends
 from dh2urdf.lessons.ends import letters, taken_off
+from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
 from dh2urdf.lessons.notation import shown, vector_shown
 from dh2urdf.lessons.planar import planar, planar_place
-from dh2urdf.lessons.spherical_wrist import covers, spherical_wrist
+from dh2urdf.lessons.spherical_wrist import spherical_wrist
 from dh2urdf.lessons.steps import Equation, IKExplanation, Step
+from dh2urdf.lessons.three_parallel import fits as fits_three_parallel
+from dh2urdf.lessons.three_parallel import three_parallel
 from dh2urdf.lessons.way import Asked, Way
 from dh2urdf.transforms import Array, inverse, pose_error
 
@@ -23,10 +26,18 @@ Lesson = Callable[[Asked], Iterator[Way]]
 
 LESSONS: dict[tuple[str, Task], Lesson] = {
     ("spherical wrist", Task.POSE): spherical_wrist,
+    ("three parallel axes", Task.POSE): three_parallel,
     ("planar arm", Task.POSE): planar,
     ("planar arm", Task.POSITION): planar_place,
 }
 """The derivation of a family, by the name of its solver and the task."""
+
+SHORT: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
+    (fits_three_parallel, three_parallel),
+    (is_polar, polar),
+    (moves_point, place_and_compare),
+]
+"""Derivations of arms of up to five joints, which one solver covers, by what their rows are."""
 
 REVERSED = {
     "spherical shoulder": "spherical wrist",
@@ -78,6 +89,16 @@ class Question:
     held: Mapping[int, float] = field(default_factory=dict)
 
 
+def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:
+    """The derivation for an arm that a solver covers; None: there is none here."""
+    if solver == "short chain":
+        return next((lesson for fits, lesson in SHORT if fits(arm.rows)), None)
+    if solver == "position arm":
+        return place_only if moves_point(arm.rows) else None
+    lesson = LESSONS.get((solver, task))
+    return None if lesson is three_parallel and not fits_three_parallel(arm.rows) else lesson
+
+
 class Case:
     """A question brought to a family that has a lesson: joints held, the tool's turn, turned round.
 
@@ -103,10 +124,8 @@ class Case:
             self.chain, table, self.T = self.chain.reversed(), None, inverse(self.T)
             self.joints, self.solver = self.joints[::-1], REVERSED[self.solver]
             self.notes.append(_turned_round(self.chain.n))
-        self.lesson = LESSONS.get((self.solver, self.task))
         self.arm = arm_of(self.chain, table)
-        if self.lesson is spherical_wrist and not covers(self.arm):
-            self.lesson = None
+        self.lesson = lesson_of(self.arm, self.solver, self.task)
         if self.lesson is not None:
             modified = table is not None and table.convention is DHConvention.MODIFIED
             self.notes += letters(self.arm, modified)

@@ -1,0 +1,119 @@
+"""Equations in the cosine and sine of one angle: linear ones, and those of degree two."""
+
+import cmath
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from dh2urdf.lessons.notation import shown
+from dh2urdf.lessons.steps import Equation
+from dh2urdf.lessons.way import RIM
+from dh2urdf.transforms import Array
+
+VOID = 1e-14
+"""Amplitude of an equation, relative to its size, that says nothing of its angle."""
+
+ON_CIRCLE = 1e-5
+"""Distance from the unit circle at which a root may be a real one that rounding has moved."""
+
+BARS = "▁▂▃▄▅▆▇█"
+
+
+class Linear:
+    """``A cos x + B sin x = C``."""
+
+    def __init__(self, name: str, A: float, B: float, C: float) -> None:
+        self.name, self.A, self.B, self.C = name, A, B, C
+        self.amplitude = math.hypot(A, B)
+
+    @property
+    def solvable(self) -> bool:
+        """Whether C is within the amplitude, rounding aside."""
+        return abs(self.C) <= self.amplitude * (1.0 + RIM)
+
+    @property
+    def test(self) -> str:
+        """The test of the cosine, in words."""
+        amplitude, C = shown(self.amplitude), shown(abs(self.C))
+        if self.solvable:
+            return f"|C| = {C} is not more than sqrt(A^2 + B^2) = {amplitude}: it has solutions."
+        return (
+            f"|C| = {C} is more than sqrt(A^2 + B^2) = {amplitude}, the most that the left side "
+            f"can be: it has no solution, it misses by {shown(abs(self.C) - self.amplitude)}."
+        )
+
+    def roots(self) -> list[float]:
+        """Its solutions, two or one where both are the same."""
+        if not self.solvable:
+            return []
+        room = max(self.amplitude - abs(self.C), 0.0)
+        half = math.atan2(math.sqrt(room) * math.sqrt(self.amplitude + abs(self.C)), self.C)
+        middle = math.atan2(self.B, self.A)
+        both = (middle + half, middle - half) if room else (middle + half,)
+        return [math.remainder(x, math.tau) for x in both]
+
+    def equation(self, root: float) -> Equation:
+        """How a root is found."""
+        formula = "atan2(B, A) +- acos(C / sqrt(A^2 + B^2))"
+        given = {"A": self.A, "B": self.B, "C": self.C}
+        others = tuple(x for x in self.roots() if x != root)
+        return Equation(self.name, formula, given, root, "rad", others)
+
+
+def series_of(f: Callable[[float], float], degree: int) -> Array:
+    """Complex coefficients of ``exp(i m x)``, m = -degree ... degree, of a real function."""
+    count = 2 * degree + 1
+    values = [f(math.tau * k / count) for k in range(count)]
+    return np.array(
+        [
+            sum(v * cmath.exp(-1j * m * math.tau * k / count) for k, v in enumerate(values)) / count
+            for m in range(-degree, degree + 1)
+        ]
+    )
+
+
+def real_roots(f: Callable[[float], float], degree: int) -> list[float]:
+    """Angles in (-pi, pi] at which a trigonometric polynomial vanishes, ascending."""
+    series = series_of(f, degree)
+    largest = float(np.abs(series).max())
+    while degree > 0 and abs(series[0]) <= 1e-13 * largest:
+        series, degree = series[1:-1], degree - 1
+    if degree == 0:
+        return []
+    slope = series * 1j * np.arange(-degree, degree + 1)
+
+    def slope_at(x: float) -> float:
+        turns = np.exp(1j * x * np.arange(-degree, degree + 1))
+        return float((slope * turns).sum().real)
+
+    found: list[float] = []
+    for z in np.roots(series[::-1]):
+        if abs(abs(z) - 1.0) > ON_CIRCLE:
+            continue
+        x = cmath.phase(z)
+        for _ in range(4):
+            steep = slope_at(x)
+            x -= f(x) / steep if steep else 0.0
+        x = math.remainder(x, math.tau)
+        if all(abs(math.remainder(x - y, math.tau)) > 1e-9 for y in found):
+            found.append(x)
+    return sorted(found)
+
+
+def sparkline(f: Callable[[float], float], roots: Sequence[float], width: int = 72) -> str:
+    """A function of an angle from -180 to 180 degrees in one line of bars, its roots below.
+
+    Heights are compressed, so that small values show; zero is in the middle.
+    """
+    x = -math.pi + math.tau * (np.arange(width) + 0.5) / width
+    y = np.array([f(float(v)) for v in x])
+    scale = float(np.median(np.abs(y))) or 1.0
+    level = np.arcsinh(y / scale)
+    level /= max(float(np.abs(level).max()), 1e-300)
+    bars = "".join(BARS[min(int(4.0 * (v + 1.0)), 7)] for v in level)
+    marks = [" "] * width
+    for root in roots:
+        marks[min(int((root + math.pi) / math.tau * width), width - 1)] = "^"
+    ends = "-180" + "0".center(width - 7) + "180"
+    return f"{bars}\n{''.join(marks).rstrip()}\n{ends}"

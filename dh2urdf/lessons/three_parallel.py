@@ -1,0 +1,136 @@
+"""Axis 1, then three parallel axes 2, 3, 4: UR and its kin, and arms of four and five joints.
+
+What lies along the common direction k of the three, and what leans against it, the three leave as
+it is: from that the outer joints follow, and the three are a planar arm (lecture notes 8.2).
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from dh2urdf.lessons.arm import Row
+from dh2urdf.lessons.notation import Given
+from dh2urdf.lessons.parallel_fewer import fewer_joints
+from dh2urdf.lessons.parallel_plane import PLANE, before_last, bend_in_plane, beside, common_axis
+from dh2urdf.lessons.position_arm import shoulders
+from dh2urdf.lessons.steps import Equation, Step
+from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
+from dh2urdf.transforms import Array
+
+FREE = 5e-10
+"""Sine up to which an axis is in line with another."""
+
+
+def fits(rows: tuple[Row, ...]) -> bool:
+    """Whether rows are an axis, three parallel ones not in line with it, and up to two more."""
+    if not 4 <= len(rows) <= 6 or any(row.slides for row in rows) or rows[0].sa == 0.0:
+        return False
+    after = len(rows) == 4 or rows[3].sa != 0.0
+    meet = len(rows) < 6 or (rows[4].a == 0.0 and rows[4].sa != 0.0)
+    return rows[1].sa == rows[2].sa == 0.0 and after and meet
+
+
+def three_parallel(asked: Asked) -> Iterator[Way]:
+    """All ways of an arm with a turning axis before three parallel ones and up to two after."""
+    n = asked.arm.n
+    words = (
+        f"{PLANE}So what the pose has across the plane is due to joint 1"
+        f"{' and the joints after 4' if n > 4 else ''} alone: these come first. In the plane three "
+        "joints are left for x, y and a direction: the planar arm of section 8.2."
+    )
+    way = Way().then(Step("What decouples", words))
+    if n == 6:
+        yield from _six(asked, way)
+    else:
+        yield from fewer_joints(asked, way)
+
+
+def _six(asked: Asked, way: Way) -> Iterator[Way]:
+    """Joints 1, 5, 6, then the plane."""
+    point, step = before_last(asked)
+    for turned, _ in shoulders(asked, way.then(step), point, beside(asked), PLANE):
+        if turned.stopped:
+            yield turned
+            continue
+        k = common_axis(asked, turned.variables[0])
+        for bent in _fifth(asked, turned, k):
+            yield from _after_fifth(asked, bent, k)
+
+
+def _after_fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
+    """Joint 6, and the plane."""
+    if way.stopped:
+        yield way
+    else:
+        yield from bend_in_plane(asked, _sixth(asked, way, k))
+
+
+def _fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
+    """theta_5 from how axis 6 leans against the common direction."""
+    four, five = asked.arm.rows[3:5]
+    z6 = asked.H[:3, 2]
+    slope = float(k @ z6)
+    cosine = (four.ca * five.ca - slope) / (four.sa * five.sa)
+    given: Given = {"k": k, "z_5": z6, "alpha_4": four.alpha, "alpha_5": five.alpha}
+    given = {**given, "w": slope}
+    equations = [
+        Equation("k", "z_1", {}, k),
+        Equation("w", "k^T z_5", given, slope),
+        Equation(
+            "c_5",
+            "(cos(alpha_4) cos(alpha_5) - w) / (sin(alpha_4) sin(alpha_5))"
+            if four.ca or five.ca
+            else "-w / (sin(alpha_4) sin(alpha_5))",
+            given,
+            cosine,
+        ),
+    ]
+    words = (
+        "k is the common direction of axes 2, 3, 4; joints 2, 3 and 4 turn about it and leave the "
+        "angle between it and axis 6 (z_5 = R e_3) to joint 5: k^T z_5 = cos(alpha_4) cos(alpha_5) "
+        "- sin(alpha_4) sin(alpha_5) cos(theta_5)."
+    )
+    if abs(cosine) > 1.0 + RIM:
+        end = " It is not between -1 and 1: axis 6 cannot lean so. Here the solution ends."
+        yield way.stop(Step("theta_5", words + end, tuple(equations)))
+        return
+    bent = math.acos(min(max(cosine, -1.0), 1.0))
+    if not (four.ca or five.ca):
+        bent = math.atan2(float(np.linalg.norm(np.cross(k, z6))), cosine)
+    both = (bent, -bent) if math.sin(bent) > FREE else (bent,)
+    for value in both:
+        others = tuple(v for v in both if v != value)
+        found = Equation("theta_5", "+- acos(c_5)", {"c_5": cosine}, value, "rad", others)
+        said = words + (" It bends either way: two wrists." if others else "")
+        title = "theta_5: the wrist"
+        step = joint_step(asked.arm, 4, title, said, [*equations, found], value, (), "wrist")
+        yield way.then(step).put(4, value)
+
+
+def _sixth(asked: Asked, way: Way, k: Array) -> Way:
+    """theta_6 turns the common direction, seen in frame 6, to where the pose has it."""
+    four, five = asked.arm.rows[3:5]
+    theta5 = way.variables[4]
+    e = five.motion(theta5)[:3, :3].T @ [0.0, four.sa, four.ca]
+    n = asked.H[:3, :3].T @ k
+    words = (
+        "Seen from frame 5 the common direction is e = R_5^4^T (0, sin(alpha_4), cos(alpha_4)), "
+        "from frame 6 it is n = R^T k. Rz(theta_6)^T turns e into n."
+    ).replace("R_5^4^T", "(R_5^4)^T")
+    given: Given = {"e_x": float(e[0]), "e_y": float(e[1])}
+    given = {**given, "n_x": float(n[0]), "n_y": float(n[1])}
+    value = math.remainder(math.atan2(e[1], e[0]) - math.atan2(n[1], n[0]), math.tau)
+    formula = "atan2(e_y, e_x) - atan2(n_y, n_x)"
+    if math.hypot(n[0], n[1]) <= FREE:
+        words += (
+            " Both are along axis 6, which is parallel to axes 2, 3, 4: joint 6 turns the tool as "
+            "these do. It is free, and stays where it is asked to be (at q_6 = 0 if nothing is)."
+        )
+        value, formula = asked.free_value(5), "theta_6"
+    equations = [
+        Equation("e", "(R_5^4)^T (0, sin(alpha_4), cos(alpha_4))", {}, e),
+        Equation("n", "R^T k", {}, n),
+        Equation("theta_6", formula, given, value, "rad"),
+    ]
+    return way.then(joint_step(asked.arm, 5, "theta_6", words, equations, value)).put(5, value)
