@@ -59,6 +59,10 @@ def main(argv: Sequence[str] | None = None) -> None:
         if debug:
             raise
         status = _lost_output(error)
+    except ImportError as error:
+        if debug:
+            raise
+        status = _failed(Dh2UrdfError(_unloaded(error)), tokens)
     except BaseException as error:
         if not _is_interrupt(error):
             raise
@@ -173,6 +177,14 @@ def _failed(error: Dh2UrdfError, tokens: list[str]) -> int:
         except OSError as lost:
             return _lost_output(lost)
     return 1 if isinstance(error, UnreachedError) else 2
+
+
+def _unloaded(error: BaseException) -> str:
+    """Which library cannot be loaded, and what small systems need for it."""
+    while error.__cause__ or error.__context__:
+        error = error.__cause__ or error.__context__ or error
+    gomp = "; on Debian and Ubuntu, apt-get install libgomp1" if "libgomp" in str(error) else ""
+    return f"a library cannot be loaded: {error}{gomp}"
 
 
 def _lost_output(error: OSError) -> int:

@@ -67,6 +67,17 @@ cli.main(["ik"])
 """
 
 
+def test_a_library_that_cannot_be_loaded_is_one_message(tmp_path):
+    """Where Pinocchio lacks a system library, as on slim images, that is named."""
+    (tmp_path / "pinocchio.py").write_text(
+        "raise ImportError('libgomp.so.1: cannot open shared object file: No such file')"
+    )
+    done = shell("dh2urdf fk ur5 0 0 0 0 0 0", PYTHONPATH=f"{tmp_path}:{os.getcwd()}")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("dh2urdf: a library cannot be loaded: libgomp.so.1")
+    assert done.stderr.endswith("apt-get install libgomp1\n")
+
+
 def test_an_interrupt_that_a_library_swallows_comes_again():
     """A bare ``except`` on the way, as imports have, delays Ctrl-C by a second."""
     process = begun(SWALLOW)

@@ -51,6 +51,10 @@ DEVELOPERS = {
 """What each extra of the developers is for, in the source distribution's folder."""
 
 
+LOWEST = "tests/dh tests/dh_io tests/cli tests/robot tests/conversions tests/figures tests/page"
+"""What is run on the lowest versions: all that calls other packages."""
+
+
 def uv(*argv):
     """Run uv, which has to succeed."""
     done = subprocess.run(
@@ -172,6 +176,15 @@ def test_an_extra_for_developers_is_enough(built, sources, tmp_path, extra):
     environment = Environment(tmp_path, f"{built[1]}[{extra}]")
     done = environment.run(DEVELOPERS[extra], sources)
     assert done.returncode == 0, (done.stdout[-2000:], done.stderr[-2000:])
+
+
+def test_the_lowest_versions_that_are_allowed_are_enough(built, sources, tmp_path):
+    """The tests pass on the oldest of everything that pyproject.toml names; old ones may warn."""
+    lowest = "--resolution", "lowest-direct", f"{built[1]}[test]"
+    environment = Environment(tmp_path, *lowest)
+    run = "rm -r dh2urdf && python -m pytest -q -n 2 -W ignore::DeprecationWarning"
+    done = environment.run(f"{run} {LOWEST}", sources)
+    assert done.returncode == 0, done.stdout[-4000:]
 
 
 def test_the_citation_is_valid():

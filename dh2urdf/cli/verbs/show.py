@@ -71,21 +71,10 @@ def show_(
     except NoSolverError as error:
         name, why = "none", str(error)
     if json:
+        solver = {"joint_names": arm.joint_names, "solver": name, "solver_explained": why}
+        told = {"text": text} if format != "text" else {}
         emit_json(
-            "show",
-            name=dh.name,
-            convention=str(dh.convention),
-            source=dh.source,
-            checked=dh.checked,
-            joint_names=arm.joint_names,
-            q=config,
-            transforms=dh.transforms(config),
-            T_base_tool=dh.fk(config),
-            solver=name,
-            solver_explained=why,
-            table=loads(table_to_text(dh, "json")),
-            **(_symbols(dh) if symbolic else {}),
-            **({"text": text} if format != "text" else {}),
+            "show", **_table(dh, config), **solver, **(_symbols(dh) if symbolic else {}), **told
         )
         return
     emit(text)
@@ -107,6 +96,20 @@ def _show_transforms(dh: DHTable, config: Array) -> None:
     emit(f"\nH_{dh.n}^0 =\n{matrix_text(np.linalg.inv(frames[0]) @ frames[-1])}")
     if not (dh.tool.is_identity and np.array_equal(frames[0], np.eye(4))):
         emit(f"\nT_base_tool =\n{matrix_text(dh.fk(config))}")
+
+
+def _table(dh: DHTable, config: Array) -> dict[str, Any]:
+    """A table and its transforms as JSON has them."""
+    return {
+        "name": dh.name,
+        "convention": str(dh.convention),
+        "source": dh.source,
+        "checked": dh.checked,
+        "q": config,
+        "transforms": dh.transforms(config),
+        "T_base_tool": dh.fk(config),
+        "table": loads(table_to_text(dh, "json")),
+    }
 
 
 def _symbols(dh: DHTable) -> dict[str, Any]:

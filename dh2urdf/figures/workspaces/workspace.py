@@ -112,9 +112,30 @@ def workspace_figure(
 
     _check_plane(robot, plane)
     R = _orientation(robot, task, rpy)
+    counts, shares, tried = _panels(
+        robot,
+        partial(reach.section, robot, plane, at),
+        R,
+        points,
+        orientations,
+        within_limits,
+        progress,
+    )
+    return section_picture(robot, counts, shares, R, within_limits=within_limits, tried=tried)
+
+
+def _panels(
+    robot: Robot,
+    grid: Callable[[int], Section],
+    R: Array,
+    points: int | None,
+    orientations: int | None,
+    within_limits: bool,
+    progress: Callable[[str, int, int], None] | None,
+) -> tuple[Branches | None, Shares | None, str]:
+    """Branches and shares of a section, and what they were tried with."""
     mapped, off = reach.mapped_robot(robot)
     told = [partial(progress, what) if progress else None for what in ("branches", "orientations")]
-    grid = partial(reach.section, robot, plane, at)
     counts = shares = None
     if robot.n <= 6:
         counts = _branches(
@@ -125,7 +146,7 @@ def workspace_figure(
             told[0],
         )
     held = reach.held_values(robot, within_limits=within_limits) if robot.n > 6 else None
-    if task.sides != "none":
+    if reach.task_of(robot).sides != "none":
         shares = _shares(mapped, grid, points, orientations, within_limits, held, told[1])
     if not any(panel[1].any() for panel in (counts, shares) if panel):
         name = f"{robot.tip} of {robot.model.name}"
@@ -133,9 +154,7 @@ def workspace_figure(
     tried = [f"{robot.joint_names[k]} held at {len(v)} values" for k, v in (held or {}).items()]
     if off:
         tried.append(f"mapped on its nominal arm, up to {1000 * off:.2g} mm off")
-    return section_picture(
-        robot, counts, shares, R, within_limits=within_limits, tried="; ".join(tried)
-    )
+    return counts, shares, "; ".join(tried)
 
 
 def _alone(**options: object) -> None:
