@@ -169,7 +169,8 @@ def ik(T{letters}):
 
     ``T`` is the pose of the tool in the base, 4 rows of 4 numbers. A list with a list of joint
     values for each branch; empty out of reach, and where a joint other than the wrist's is free.
-    An arm of fewer than six joints cannot take every pose: of others, only what is used counts.
+    An arm of fewer than six joints cannot take every pose, so its branches have to be checked:
+    each meets what of the pose is used here.
     """
 '''
 

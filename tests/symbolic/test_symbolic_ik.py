@@ -122,6 +122,30 @@ def test_every_solution_of_three_parallel_axes_is_a_branch(twists, seeds):
 
 
 @pytest.mark.parametrize("seeds", SEEDS)
+@pytest.mark.parametrize("twists", ["00", "0P", "PP"])
+@pytest.mark.parametrize("joints", [4, 5])
+def test_every_solution_of_four_or_five_joints_is_a_branch(joints, twists, seeds):
+    """A turntable, three parallel axes, and a last joint across them or none."""
+    for seed in seeds:
+        t = "TR"[seed % 2]
+        shapes = (t + "R", twists[0] + "R", twists[1] + "R", t + "R", "RR")[:joints]
+        check(table_of("R" * joints, shapes, np.random.default_rng(seed)))
+
+
+@pytest.mark.parametrize("seeds", SEEDS)
+@pytest.mark.parametrize("twists", ["00", "0P", "P0", "PP"])
+def test_every_solution_of_three_parallel_axes_at_the_base_is_a_branch(twists, seeds):
+    """Axes 1, 2, 3 parallel in either direction, axes 4 and 5 across or oblique, and mirrored."""
+    for seed in seeds:
+        t = "TR"[seed % 2]
+        shapes = (twists[0] + "R", twists[1] + "R", t + "R", t + "R", t + "0", t + "R")
+        table = table_of("RRRRRR", shapes, np.random.default_rng(seed))
+        check(table)
+        chain = dh2urdf.Robot.from_dh(table).chain.reversed()
+        check(chain_to_dh(chain, compact=False).table, poses=4)
+
+
+@pytest.mark.parametrize("seeds", SEEDS)
 @pytest.mark.parametrize("kind", ["RRR, 2 || 3", "RRP, 1 meets 2", "PPR", "three parallel"])
 def test_every_solution_of_a_mirrored_arm_is_a_branch(kind, seeds):
     """A shoulder whose axes meet; axes 3, 4, 5 that are parallel: arms seen from the tool."""
@@ -158,7 +182,7 @@ def test_shipped_arms_have_formulas_or_a_reason(name):
     """Every shipped arm with a closed form has formulas; the others are told what is covered."""
     robot = dh2urdf.Robot.from_dh(name)
     closed = {"spherical wrist", "three parallel axes", "planar arm"}
-    if str(robot.solver) in closed or robot.n == 3:
+    if str(robot.solver) in closed or robot.n < 6:
         check(robot.table, poses=5)
     else:
         with pytest.raises(NoSolverError, match="formulas cover: spherical wrists"):
@@ -219,6 +243,16 @@ def test_poses_with_a_free_joint_have_branches_or_none(name):
     for T in (robot.fk(np.clip(0.0, robot.lower, robot.upper)), np.eye(4)):
         for q in solve(T.tolist()):
             assert np.isfinite(q).all()
+
+
+@pytest.mark.parametrize("name", ["puma560", "denso_vs6556", "stanford", "abb_irb120"])
+def test_every_branch_reaches_a_pose_with_axes_4_and_6_in_one_line(name):
+    """With joint 5 at zero joint 4 is free: a branch has one value of it and reaches the pose."""
+    robot = dh2urdf.Robot.from_dh(name)
+    T = robot.fk([0.3, -0.5, 0.7, 0.4, 0.0, 0.2])
+    errors = [np.abs(robot.fk(q) - T).max() for q in symbolic_ik(name).function(T.tolist())]
+    assert len(errors) == 8
+    assert max(errors) < 1e-12
 
 
 def test_latex_is_balanced():
