@@ -20,6 +20,7 @@ WORK = (
     "edges",
     "building",
     "breakdown",
+    "limits",
     "scaling",
     "sweep",
     "memory",

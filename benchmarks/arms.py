@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -10,13 +10,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks import referee
-from dh2urdf import DHRow, DHTable, load_table
+from dh2urdf import DHRow, DHTable, Robot, extract_dh, load_table
 
 __all__ = ["ARMS", "FAMILIES", "Arm", "arm_named"]
 
 Array = NDArray[np.float64]
 
-FAMILIES = ("spherical wrist", "three parallel axes", "non-Pieper 6R", "any 6R", "7R, one held")
+FAMILIES = (
+    "spherical wrist",
+    "three parallel axes",
+    "calibrated",
+    "five joints",
+    "non-Pieper 6R",
+    "any 6R",
+    "7R, one held",
+    "7R, no wrist",
+)
 """Classes in the order in which tables show them."""
 
 
@@ -30,9 +39,13 @@ class Arm:
 
     @cached_property
     def table(self) -> DHTable:
-        """The DH table, in metres and radians."""
+        """The DH table, in metres and radians; a row a joint, as the peers take it."""
         own = Path(__file__).parent / "arms" / f"{self.key}.yaml"
-        return load_table(own if own.exists() else self.key)
+        table = load_table(own if own.exists() else self.key)
+        if all(row.is_joint for row in table.rows):
+            return table
+        rows = extract_dh(Robot.from_dh(table).chain, compact=False).table
+        return replace(rows, name=self.key, source=table.source)
 
     @property
     def n(self) -> int:
@@ -63,6 +76,8 @@ ARMS = (
     Arm("puma560", "spherical wrist"),
     Arm("kuka_kr6_r700", "spherical wrist"),
     Arm("ur5", "three parallel axes"),
+    Arm("ur5e_calibrated", "calibrated"),
+    Arm("so101", "five joints"),
     Arm("fanuc_crx10ia", "non-Pieper 6R"),
     Arm("jaco2_urdf", "non-Pieper 6R"),
     Arm("xarm6_urdf", "non-Pieper 6R"),
@@ -70,6 +85,7 @@ ARMS = (
     Arm("generic_6r", "any 6R"),
     Arm("franka_fer", "7R, one held", held=(6, 0.5)),
     Arm("kuka_iiwa14", "7R, one held", held=(2, 0.4)),
+    Arm("flexiv_rizon4", "7R, no wrist", held=(2, 0.4)),
 )
 
 

@@ -57,14 +57,14 @@ def memory(key: str, contestant: str, poses: str) -> dict[str, object]:
     from benchmarks.results import Results
 
     arm = arm_named(key)
-    own = next(c for c in contestants(arm, Results()) if c.name == contestant)
+    (own,) = contestants(arm, Results(), only=contestant)
     assert isinstance(own, BatchContestant)
     _, T = arm.draw(int(poses))
-    own.solve_batch(own.encode_batch(T[:1000]), 2)
+    own.solve_batch(own.encode_batch(T[:1000]), own.threads[-1])
     native = own.encode_batch(T)
     Path("/proc/self/clear_refs").write_text("5")
     before = _peak()
-    answer = own.solve_batch(native, 2)
+    answer = own.solve_batch(native, own.threads[-1])
     after = _peak()
     parts = [getattr(answer, name, None) for name in OUTPUTS]
     arrays = sum(a.nbytes for a in parts if isinstance(a, np.ndarray))

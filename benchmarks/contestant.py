@@ -33,6 +33,10 @@ class IKContestant(ABC):
     distribution: ClassVar[str]
     keeps_limits: ClassVar[bool] = False
     """It leaves out what is beyond the joint limits and cannot be told not to."""
+    searches: ClassVar[bool] = False
+    """It looks for one solution a call: its share of all solutions is no fault of it."""
+    seconds_to_build: float | None = None
+    """What its building took, where that is done once a process."""
 
     @abstractmethod
     def __init__(self, arm: Arm) -> None:
@@ -61,6 +65,9 @@ class IKContestant(ABC):
 
 class BatchContestant(IKContestant):
     """A solver that also takes many poses at once."""
+
+    threads: ClassVar[tuple[int, ...]] = (1, 2)
+    """Numbers of threads that it can be told."""
 
     def encode_batch(self, Ts: Array) -> Any:
         """Poses (m, 4, 4) in the form that the batch call takes."""

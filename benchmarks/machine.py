@@ -23,6 +23,7 @@ PACKAGES = (
     "ik-geo",
     "py-ikgeo-kinematics",
     "py-opw-kinematics",
+    "spherical-wrist",
     "ur-analytic-ik",
     "frankik",
     "crx-kinematics",

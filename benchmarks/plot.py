@@ -46,7 +46,7 @@ def draw(results: Results, path: Path) -> None:
         ax.tick_params(axis="x", labelbottom=True)
     figure.suptitle(
         f"●  one pose a call     ◆  batch on {'one thread' if results.busy else 'two threads'}     "
-        "%  share of all known solutions found",
+        "%  share of all known solutions found, one: a search for one",
         fontsize=9.5,
         color=INK,
     )
@@ -87,13 +87,13 @@ def _panel(ax: Any, results: Results, arm: Arm, lines: int) -> None:
         label = ax.get_yticklabels()[line]
         label.set_color(colour if mine else INK)
         label.set_weight("bold" if mine else "normal")
-        share = one.recall or 0.0
+        share, search = one.recall or 0.0, one.extra.get("searches")
         ax.annotate(
-            f"{100 * share:.4g} %",
+            "one" if search else f"{100 * share:.4g} %",
             (1.0, line),
             xycoords=("axes fraction", "data"),
             ha="right",
             va="center",
             fontsize=8,
-            color=LOST if share < 0.9 else INK,
+            color=LOST if share < 0.9 and not search else INK,
         )

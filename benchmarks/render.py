@@ -90,6 +90,10 @@ def figures(results: Results) -> str:
         "Solutions that hold within 1e-8; a one-parameter family counts once where its members "
         "are recognised as one.",
         table(("pose", *sections.edge_names(results)), sections.edge_rows(results)),
+        "### How far from the limit",
+        "One thread; beside our own time what no program could do without, and how many times as "
+        "long ours takes. `benchmarks/work/limits.py` says what each is.",
+        table(("work", "arm", "measured", "limit", "ratio"), sections.limit_rows(results)),
         "### Parts of a call",
         table(("arm", "part", "time per pose"), sections.part_rows(results)),
         "### Left out",

@@ -27,6 +27,7 @@ __all__ = [
     "growth_rows",
     "ik_rows",
     "left_out_rows",
+    "limit_rows",
     "other_rows",
     "part_rows",
     "solver_rows",
@@ -51,7 +52,7 @@ def ik_rows(results: Results) -> Cells:
             _with_ratio(one, fastest(single)),
             seconds(many.seconds if many else None),
             _with_ratio(many, fastest(peers)),
-            " / ".join(share(r.recall) for r in (one, fastest(single)) if r),
+            " / ".join(_found(r) for r in (one, fastest(single)) if r),
         )
 
 
@@ -77,10 +78,16 @@ def solver_rows(results: Results) -> Cells:
                 _spread(bare),
                 _spread(row),
                 *(_spread(batch) for batch in batches),
-                share(row.recall),
+                _found(row),
                 str(row.wrong or 0),
                 f"{row.residual or 0.0:.0e}",
             )
+
+
+def _found(row: Row) -> str:
+    """The share of all known solutions; a search looks for one a call."""
+    one = row.extra.get("searches") and row.recall
+    return "one, by search" if one else share(row.recall)
 
 
 def _like(row: Row, others: Iterable[Row], threads: int | None = None) -> Row | None:
@@ -191,6 +198,26 @@ def part_rows(results: Results) -> Cells:
     """What a call of ours is made of."""
     for row in results.of("breakdown"):
         yield row.arm, row.contestant, seconds(row.seconds)
+
+
+BOUNDS = {
+    "one pose": ("one pose, `robot.ik`", ("entry", "batch, out")),
+    "batch, out": ("a pose of a batch, `out=`", ("arctangents", "memory")),
+    "batch": ("a pose of a batch", ("arctangents", "fresh memory")),
+    "fk": ("a configuration of a batch of FK", ("fk: memory",)),
+}
+"""Work, and what it cannot do without."""
+
+
+def limit_rows(results: Results) -> Cells:
+    """How far from what no program could do without."""
+    for key in dict.fromkeys(row.arm for row in results.of("limit")):
+        found = {row.contestant: row.seconds or 0.0 for row in results.of("limit", key)}
+        for name, (words, needs) in BOUNDS.items():
+            bound = sum(found[part] for part in needs)
+            named = {"batch, out": "a pose of a batch"}
+            said = (f"{named.get(p, p.removeprefix('fk: '))} {seconds(found[p])}" for p in needs)
+            yield words, key, seconds(found[name]), " + ".join(said), times(found[name] / bound)
 
 
 def left_out_rows(results: Results) -> Cells:

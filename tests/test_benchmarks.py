@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import dh2urdf
 from benchmarks import families, machine, referee
 from benchmarks.apart import do_apart
 from benchmarks.arms import ARMS, arm_named
@@ -17,6 +18,7 @@ from benchmarks.peers import IK_PEERS
 from benchmarks.peers.forward import BUILDERS
 from benchmarks.render import BEGIN, END, PAGES, between, shown
 from benchmarks.results import LATEST, Results, Row
+from benchmarks.sections import limit_rows, solver_rows
 from benchmarks.targets import target_rows
 from benchmarks.work.edges import EDGES
 
@@ -199,6 +201,35 @@ def test_a_peer_that_misses_solutions_is_not_the_fastest():
         Row("w", "a", "dh2urdf", 1e-7, recall=1.0),
     ]
     assert fastest(rows).contestant == "careful"
+
+
+def test_a_search_is_shown_for_what_it_is():
+    """Its share of all solutions is no figure; that of the others is."""
+    rows = [
+        Row("ik one, public", "ur5", name, 1e-5, recall=recall, wrong=0, residual=1e-9, extra=extra)
+        for name, recall, extra in (("s", 0.125, {"searches": True}), ("a", 0.5, {}))
+    ]
+    found = {row[1]: row[6] for row in solver_rows(Results(rows=rows))}
+    assert found == {"s": "one, by search", "a": "50 %"}
+
+
+def test_the_distance_from_the_limit_is_over_all_that_cannot_be_spared():
+    """A ratio is the measured time over the sum of what is named."""
+    parts = {"one pose": 1.2e-6, "entry": 1e-7, "batch, out": 2e-7, "arctangents": 4e-8}
+    parts |= {"memory": 1e-8, "batch": 3e-7, "fresh memory": 2e-8, "fk": 2e-8, "fk: memory": 5e-9}
+    results = Results(rows=[Row("limit", "ur5", name, t) for name, t in parts.items()])
+    assert [row[4] for row in limit_rows(results)] == ["4 ×", "4 ×", "5 ×", "4 ×"]
+
+
+def test_a_calibrated_arm_has_a_row_a_joint():
+    """The peers' form of a UR5e as it left the factory is its chain, 2 mm from the nominal arm."""
+    arm = arm_named("ur5e_calibrated")
+    assert (arm.n, len(arm.table.rows)) == (6, 6)
+    q, T = arm.draw(50)
+    nominal = referee.fk(dh2urdf.load_table("ur5e"), q)
+    own = dh2urdf.Robot.from_dh(ROOT / "benchmarks" / "arms" / "ur5e_calibrated.yaml").fk(q)
+    assert np.abs(own - T).max() < 1e-12
+    assert 5e-4 < np.linalg.norm((nominal - T)[:, :3, 3], axis=1).max() < 5e-3
 
 
 def test_durations_have_three_digits_and_a_unit():

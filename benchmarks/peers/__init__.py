@@ -21,6 +21,8 @@ class Entry:
     name: str
     module: str
     cls: str
+    slow: bool = False
+    """Building takes seconds and is done once a process."""
 
     def load(self) -> type[IKContestant]:
         """Import the adapter and with it the peer."""
@@ -36,21 +38,28 @@ IK_PEERS = (
     Entry("ik-geo", "ik_geo", "IkGeo"),
     Entry("py-ikgeo", "py_ikgeo", "PyIkgeo"),
     Entry("py-opw", "py_opw", "PyOpw"),
+    Entry("spherical-wrist", "spherical_wrist", "SphericalWristRust"),
     Entry("ur-analytic-ik", "ur_analytic", "UrAnalytic"),
     Entry("ssik prebuilt", "ssik", "SsikPrebuilt"),
     Entry("ssik from_axes", "ssik", "SsikAxes"),
     Entry("crx-kinematics", "crx", "CrxKinematics"),
     Entry("ikdh", "ikdh", "Ikdh"),
     Entry("frankik", "frankik", "Frankik"),
-    Entry("roboticstoolbox", "toolbox", "Toolbox"),
+    Entry("roboticstoolbox C", "toolbox_analytic", "ToolboxC", slow=True),
+    Entry("roboticstoolbox analytic", "toolbox_analytic", "ToolboxAnalytic", slow=True),
+    Entry("roboticstoolbox search", "toolbox", "ToolboxSearch"),
 )
 """All solvers of inverse kinematics, ours first."""
 
 
-def contestants(arm: Arm, results: Results) -> Iterator[IKContestant]:
-    """Solvers built for an arm; ``left_out`` learns of those that are not there or refuse."""
+def contestants(
+    arm: Arm, results: Results, *, only: str | None = None, slow: bool = True
+) -> Iterator[IKContestant]:
+    """Solvers built for an arm, or one; ``left_out`` has those that are not there or refuse."""
     for entry in IK_PEERS:
-        if entry.name in results.excluded:
+        if entry.name in results.excluded or only not in (None, entry.name):
+            continue
+        if entry.slow and not slow:
             continue
         at_work(entry.name)
         try:

@@ -89,7 +89,8 @@ def _py_ikgeo(arm: Arm) -> FKContestant | None:
 
 
 def _py_opw(arm: Arm) -> FKContestant | None:
-    from benchmarks.peers.py_opw import MODELS, PyOpw
+    from benchmarks.peers.opw_models import MODELS
+    from benchmarks.peers.py_opw import PyOpw
 
     if arm.key not in MODELS:
         return None

@@ -12,25 +12,11 @@ from scipy.spatial.transform import RigidTransform
 
 from benchmarks.arms import Arm
 from benchmarks.contestant import BatchContestant, NotCoveredError
+from benchmarks.peers.opw_models import MODELS
 
 __all__ = ["PyOpw"]
 
 Array = NDArray[np.float64]
-
-HALF_PI = np.pi / 2
-MODELS = {
-    "kuka_kr6_r700": {
-        "a1": 0.025,
-        "a2": -0.035,
-        "c1": 0.4,
-        "c2": 0.315,
-        "c3": 0.365,
-        "c4": 0.08,
-        "offsets": (0.0, -HALF_PI, 0.0, 0.0, 0.0, 0.0),
-        "flip_axes": (True, False, False, True, False, True),
-    }
-}
-"""Its parameters for the arms here; same base, tool and joints as the arm's."""
 
 
 class PyOpw(BatchContestant):

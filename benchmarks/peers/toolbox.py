@@ -1,4 +1,4 @@
-"""robotics-toolbox-python: any arm, one solution a call, by damped Newton steps in C."""
+"""robotics-toolbox-python: one solution of any arm, by damped Newton steps in C."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from benchmarks.arms import Arm
 from benchmarks.contestant import IKContestant, NotCoveredError
 from dh2urdf import DHConvention
 
-__all__ = ["Toolbox", "elementary_transforms"]
+__all__ = ["ToolboxSearch", "elementary_transforms"]
 
 Array = NDArray[np.float64]
 
@@ -31,11 +31,12 @@ def elementary_transforms(arm: Arm) -> Any:
     return ETS([*parts, ET.SE3(arm.table.tool.matrix)])
 
 
-class Toolbox(IKContestant):
+class ToolboxSearch(IKContestant):
     """``ETS.ik_LM`` from random starts, without limits."""
 
-    name = "roboticstoolbox"
+    name = "roboticstoolbox search"
     distribution = "roboticstoolbox-python"
+    searches = True
 
     def __init__(self, arm: Arm) -> None:
         if arm.held:

@@ -1,4 +1,7 @@
-"""Building a solver for an arm, kernels compiled and packages imported."""
+"""Building a solver for an arm, kernels compiled and packages imported.
+
+Where it takes seconds it is timed once, in :mod:`benchmarks.work.inverse`, and not here.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,8 @@ QUICK = ("puma560", "ur5")
 def run(results: Results, keys: tuple[str, ...]) -> None:
     """Construction alone; ours includes the robot, its model and its first solution."""
     for arm in map(arm_named, keys):
-        blocks = {type(c).name: _block(type(c), arm) for c in contestants(arm, results)}
+        quick = (c for c in contestants(arm, results, slow=False))
+        blocks = {c.name: _block(type(c), arm) for c in quick}
         for name, timing in interleaved(blocks, 0.1 if results.quick else 3.0, most=20).items():
             results.add(Row.timed("build", arm.key, name, timing))
 

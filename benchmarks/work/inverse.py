@@ -22,7 +22,7 @@ __all__ = ["KEYS", "QUICK", "run"]
 Array = NDArray[np.float64]
 
 KEYS = tuple(arm.key for arm in ARMS)
-QUICK = ("puma560", "ur5", "jaco2_urdf", "franka_fer")
+QUICK = ("puma560", "ur5", "ur5e_calibrated", "so101", "jaco2_urdf", "franka_fer", "flexiv_rizon4")
 """Arms of the short run: one a class."""
 
 BATCH = {"spherical wrist": 100_000, "three parallel axes": 100_000, "7R, one held": 100_000}
@@ -33,6 +33,9 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
     """One pose a call and many, of these arms."""
     for arm in map(arm_named, keys):
         entrants = list(contestants(arm, results))
+        for c in entrants:
+            if c.seconds_to_build is not None:
+                results.add(Row("build", arm.key, c.name, seconds=c.seconds_to_build))
         _single(results, arm, entrants)
         _batch(results, arm, [c for c in entrants if isinstance(c, BatchContestant)])
 
@@ -82,7 +85,11 @@ def _judged(
         "recall": verdict.recall(known),
         "wrong": verdict.wrong,
         "residual": verdict.worst,
-        "extra": {"claimed": verdict.claimed, "known": sum(len(k) for k in known)},
+        "extra": {
+            "claimed": verdict.claimed,
+            "known": sum(len(k) for k in known),
+            "searches": own.searches,
+        },
     }
 
 
@@ -103,12 +110,12 @@ def _batch(results: Results, arm: Arm, entrants: Sequence[BatchContestant]) -> N
     for c in entrants:
         at_work(c.name)
         few = min(m, 2_000)
-        answer = c.solve_batch(c.encode_batch(T[:few]), 2)
+        answer = c.solve_batch(c.encode_batch(T[:few]), c.threads[-1])
         verdicts[c.name] = referee.judge(arm.table, T[:few], c.batch_configurations(answer))
         if not verdicts[c.name].found:
             continue
         share = _affordable(c, T)
-        for threads in (1, 2):
+        for threads in c.threads:
             blocks[f"{c.name}|{threads}"] = _batch_block(c, T[:share], threads)
     known = referee.truth(list(verdicts.values()), q[:2_000])
     for key, timing in interleaved(blocks, 0.5 if results.quick else 15.0, most=15).items():

@@ -20,7 +20,7 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
     """All batch solvers on the closed-form arms."""
     m = 20_000 if results.quick else 200_000
     for key in keys:
-        for c in contestants(arm_named(key), results):
+        for c in contestants(arm_named(key), results, slow=False):
             if isinstance(c, BatchContestant):
                 found = child("memory", key, c.name, str(m), **GIVE_BACK)
                 results.add(Row("memory", key, c.name, size=m, threads=2, extra=found))
