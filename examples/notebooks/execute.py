@@ -30,7 +30,9 @@ def executed(path: Path) -> nbformat.NotebookNode:
     notebook = nbformat.read(path, as_version=4)
     with tempfile.TemporaryDirectory() as folder:
         resources = {"metadata": {"path": folder}}
-        NotebookClient(notebook, timeout=SECONDS, resources=resources).execute()
+        client = NotebookClient(notebook, timeout=SECONDS, resources=resources)
+        client.coalesce_streams = True
+        client.execute()
     return notebook
 
 
