@@ -5,6 +5,7 @@ The only package that imports matplotlib (extra ``plot``).
 
 from dh2urdf.figures.arm import figure
 from dh2urdf.figures.branches import branch_ghosts
+from dh2urdf.figures.curve import curve_figure
 from dh2urdf.figures.joint_path import path_figure
 from dh2urdf.figures.save import save_picture
 from dh2urdf.figures.style import picture_bytes
@@ -12,6 +13,7 @@ from dh2urdf.figures.workspaces.workspace import workspace_figure
 
 __all__ = [
     "branch_ghosts",
+    "curve_figure",
     "figure",
     "path_figure",
     "picture_bytes",

@@ -5,7 +5,8 @@ kernels: `notation` writes formulas, `steps` holds what is said, `arm` the rows,
 on the way; then a module a family, and `worked` the entry.
 """
 
+from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.steps import Equation, IKExplanation, Mark, Step
 from dh2urdf.lessons.worked import Question, explain_pose
 
-__all__ = ["Equation", "IKExplanation", "Mark", "Question", "Step", "explain_pose"]
+__all__ = ["Curve", "Equation", "IKExplanation", "Mark", "Question", "Step", "explain_pose"]

@@ -2,10 +2,11 @@
 
 import cmath
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 
+from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation
 from dh2urdf.lessons.way import RIM
@@ -14,10 +15,11 @@ from dh2urdf.transforms import Array
 VOID = 1e-14
 """Amplitude of an equation, relative to its size, that says nothing of its angle."""
 
+SAMPLES = 144
+"""Values of a function that is plotted: every 2.5 degrees."""
+
 ON_CIRCLE = 1e-5
 """Distance from the unit circle at which a root may be a real one that rounding has moved."""
-
-BARS = "▁▂▃▄▅▆▇█"
 
 
 class Linear:
@@ -101,19 +103,7 @@ def real_roots(f: Callable[[float], float], degree: int) -> list[float]:
     return sorted(found)
 
 
-def sparkline(f: Callable[[float], float], roots: Sequence[float], width: int = 72) -> str:
-    """A function of an angle from -180 to 180 degrees in one line of bars, its roots below.
-
-    Heights are compressed, so that small values show; zero is in the middle.
-    """
-    x = -math.pi + math.tau * (np.arange(width) + 0.5) / width
-    y = np.array([f(float(v)) for v in x])
-    scale = float(np.median(np.abs(y))) or 1.0
-    level = np.arcsinh(y / scale)
-    level /= max(float(np.abs(level).max()), 1e-300)
-    bars = "".join(BARS[min(int(4.0 * (v + 1.0)), 7)] for v in level)
-    marks = [" "] * width
-    for root in roots:
-        marks[min(int((root + math.pi) / math.tau * width), width - 1)] = "^"
-    ends = "-180" + "0".center(width - 7) + "180"
-    return f"{bars}\n{''.join(marks).rstrip()}\n{ends}"
+def curve_of(name: str, f: Callable[[float], float], roots: list[float]) -> Curve:
+    """A function of an angle, sampled for a plot."""
+    x = -math.pi + math.tau * (np.arange(SAMPLES) + 0.5) / SAMPLES
+    return Curve(name, np.array([f(float(v)) for v in x]), tuple(roots))

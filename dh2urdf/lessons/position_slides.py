@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from dh2urdf.lessons.circle import Linear, real_roots, sparkline
+from dh2urdf.lessons.circle import Linear, curve_of, real_roots
 from dh2urdf.lessons.notation import shown, vector_shown
 from dh2urdf.lessons.seen import ON_AXIS, Seen, freely, linear_step, slid
 from dh2urdf.lessons.steps import Equation, Step
@@ -108,9 +108,9 @@ def _oblique(asked: Asked, way: Way, turn: Seen, slide: Seen) -> Iterator[Way]:
         f"is left has degree two in them: a quartic equation in tan({turn.name}/2). "
         f"{len(roots) or 'None'} of its roots {'is' if len(roots) == 1 else 'are'} real"
     )
-    plot = f"f from -180 to 180 deg, its roots below:\n\n{sparkline(f, roots)}"
+    curve = curve_of(turn.name, f, roots)
     if not roots:
-        yield way.stop(Step(turn.name, f"{words}: here the solution ends.\n\n{plot}"))
+        yield way.stop(Step(turn.name, f"{words}: here the solution ends.", curve=curve))
         return
     for root in roots:
         others = tuple(x for x in roots if x != root)
@@ -118,9 +118,10 @@ def _oblique(asked: Asked, way: Way, turn: Seen, slide: Seen) -> Iterator[Way]:
             asked.arm,
             turn.joint,
             f"{turn.name}: a quartic",
-            f"{words}.\n\n{plot}",
+            f"{words}.",
             [Equation(turn.name, turn.name, {}, root, "rad", others)],
             root,
+            curve=curve,
         )
         value = reached(root)
         given = {"y_z": float(turn.at(root)[2]), "k_z": float(slide.k[2]), "e_z": steep}

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from dh2urdf.lessons.circle import VOID, Linear, real_roots, sparkline
+from dh2urdf.lessons.circle import VOID, Linear, curve_of, real_roots
 from dh2urdf.lessons.seen import ON_AXIS, Seen, freely, linear_step
 from dh2urdf.lessons.steps import Equation, Step
 from dh2urdf.lessons.way import Asked, Way, joint_step
@@ -130,15 +130,14 @@ def _quartic(
         f"in cos and sin of {v.name}: a quartic equation in tan({v.name}/2), four roots at most. "
         f"{len(roots) or 'None'} of them {'is' if len(roots) == 1 else 'are'} real"
     )
-    plot = f"f from -180 to 180 deg, its roots below:\n\n{sparkline(f, roots)}"
+    curve = curve_of(v.name, f, roots)
     if not roots:
-        yield way.stop(Step(v.name, f"{words}: here the solution ends.\n\n{plot}"))
+        yield way.stop(Step(v.name, f"{words}: here the solution ends.", curve=curve))
         return
     for root in roots:
         equation = Equation(v.name, v.name, {}, root, "rad", tuple(x for x in roots if x != root))
-        third = joint_step(
-            asked.arm, v.joint, f"{v.name}: a quartic", f"{words}.\n\n{plot}", [equation], root
-        )
+        title = f"{v.name}: a quartic"
+        third = joint_step(asked.arm, v.joint, title, f"{words}.", [equation], root, curve=curve)
         c, s = (float(t) for t in outer(root))
         value = math.atan2(s, c)
         then = [Equation(y.name, "atan2(s_1, c_1)", {"s_1": s, "c_1": c}, value, "rad")]

@@ -4,6 +4,7 @@ import textwrap
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.equation import Equation
 from dh2urdf.lessons.wording import (
     latex_block,
@@ -44,6 +45,8 @@ class Step:
     joint : int or None
         Index of the joint whose value q that is.
     marks : tuple of Mark
+    curve : Curve or None
+        A function whose roots are the values that the step finds.
     choice : str
         ``shoulder``, ``elbow`` or ``wrist`` where one of two values was taken; else empty.
     """
@@ -54,6 +57,7 @@ class Step:
     joint: int | None = None
     marks: tuple[Mark, ...] = ()
     choice: str = ""
+    curve: Curve | None = None
 
     @property
     def formula(self) -> str:
@@ -78,6 +82,8 @@ class Step:
         for line, before in zip(lines, ["\n", *lines], strict=False):
             short = "\n" not in line and "\n" not in before
             parts[-1:] = [f"{parts[-1]}\n{line}"] if short else [parts[-1], line]
+        if self.curve:
+            parts[1:1] = [textwrap.indent(self.curve.text, "    ")]
         return "\n\n".join(parts)
 
     __str__ = text
@@ -88,6 +94,7 @@ class Step:
             f"### {number}{markdown_words(self.title)}",
             *map(markdown_block, self.words.split("\n\n")),
         ]
+        parts += [f"```text\n{self.curve.text}\n```"] if self.curve else []
         begin, end = "$$\n\\begin{aligned}\n", "\n\\end{aligned}\n$$"
         return "\n\n".join([*parts, *(f"{begin}{e.latex}{end}" for e in self.equations)])
 
@@ -95,6 +102,7 @@ class Step:
         """The step as a LaTeX subsection."""
         title = latex_words(number + self.title)
         parts = [rf"\subsection*{{{title}}}", *map(latex_block, self.words.split("\n\n"))]
+        parts += [self.curve.latex] if self.curve else []
         begin, end = "\\begin{align*}\n", "\n\\end{align*}"
         return "\n".join([*parts, *(f"{begin}{e.latex}{end}" for e in self.equations)])
 
@@ -102,7 +110,8 @@ class Step:
         """Plain values, full precision."""
         equations = [equation.as_data() for equation in self.equations]
         keys = "title", "words", "joint", "choice"
-        return {key: getattr(self, key) for key in keys} | {"equations": equations}
+        curve = {"curve": self.curve.as_data()} if self.curve else {}
+        return {key: getattr(self, key) for key in keys} | {"equations": equations} | curve
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from dh2urdf.lessons.arm import Arm, wrapped
+from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.steps import Equation, Mark, Step
 from dh2urdf.transforms import Array
 
@@ -64,6 +65,7 @@ def joint_step(
     variable: float,
     marks: tuple[Mark, ...] = (),
     choice: str = "",
+    curve: Curve | None = None,
 ) -> Step:
     """A step that finds a DH variable, whose last equation is the joint's value q."""
     row, i = arm.rows[joint], joint + 1
@@ -78,7 +80,7 @@ def joint_step(
         own.append(Equation(f"q_{i}", formula, {name: variable, zero: constant}, q, unit))
         if constant:
             words += f" Row {i} of the table says {name} = {'-' * (row.sign < 0)}q_{i} + {zero}."
-    return Step(title, words, tuple(own), joint, marks, choice)
+    return Step(title, words, tuple(own), joint, marks, choice, curve)
 
 
 def opposite(angle: float) -> float:

@@ -11,6 +11,8 @@ from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.ik.arm import Task, hold, select_solver
 from dh2urdf.ik.families import with_tool_joint
 from dh2urdf.lessons.arm import Arm, Row, arm_of, without_ends
+from dh2urdf.lessons.elimination import fits as fits_six_turns
+from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters, taken_off
 from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
 from dh2urdf.lessons.notation import shown, vector_shown
@@ -19,6 +21,8 @@ from dh2urdf.lessons.spherical_wrist import spherical_wrist
 from dh2urdf.lessons.steps import Equation, IKExplanation, Step
 from dh2urdf.lessons.three_parallel import fits as fits_three_parallel
 from dh2urdf.lessons.three_parallel import three_parallel
+from dh2urdf.lessons.two_parallel import fits as fits_two_parallel
+from dh2urdf.lessons.two_parallel import two_parallel
 from dh2urdf.lessons.way import Asked, Way
 from dh2urdf.transforms import Array, inverse, pose_error
 
@@ -38,6 +42,9 @@ SHORT: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
     (moves_point, place_and_compare),
 ]
 """Derivations of arms of up to five joints, which one solver covers, by what their rows are."""
+
+ELIMINATED = frozenset({"two parallel axes", "nearly two parallel axes", "general 6R"})
+"""Solvers without a closed form."""
 
 REVERSED = {
     "spherical shoulder": "spherical wrist",
@@ -95,6 +102,9 @@ def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:
         return next((lesson for fits, lesson in SHORT if fits(arm.rows)), None)
     if solver == "position arm":
         return place_only if moves_point(arm.rows) else None
+    if task is Task.POSE and solver in ELIMINATED:
+        lessons = (fits_two_parallel, two_parallel), (fits_six_turns, general_6r)
+        return next((lesson for fits, lesson in lessons if fits(arm.rows)), None)
     lesson = LESSONS.get((solver, task))
     return None if lesson is three_parallel and not fits_three_parallel(arm.rows) else lesson
 
@@ -270,7 +280,7 @@ def _branches(question: Question) -> Step:
     lines = []
     for k, (q, branch) in enumerate(zip(question.q, question.branches, strict=True)):
         mark = "  <- this one" if k == question.index else ""
-        lines.append(f"{question.numbers[k] + 1}: {vector_shown(q)}  {branch}{mark}")
+        lines.append(f"{question.numbers[k] + 1}: {vector_shown(q)}  {branch}{mark}".rstrip())
     words = (
         "What `ik` finds, one for each choice on the way; the steps above lead to the one marked."
     )

@@ -39,6 +39,7 @@ ANSWERS = {
     "ik out of reach": ["ik", "denso_vs6556", "--xyz=9,0,0", "--rpy=0,0,0"],
     "ik singular": ["ik", "puma560", "--xyz=0.4,-0.15,0.3", "--rpy=0,pi,0"],
     "ik explained": ["ik", "denso_vs6556", *POSE, "--explain", "--solution", "2"],
+    "ik explained by a polynomial": ["ik", "xarm6", "--xyz=.3,0,.3", "--rpy=pi,0,0", "--explain"],
     "ik explained to the end": ["ik", "ur5", "--xyz=9,0,0", "--rpy=0,0,0", "--explain"],
     "ik symbolic": ["ik", "denso_vs6556", "--symbolic"],
     "ik csv": ["ik", "denso_vs6556", "--csv", "poses.csv"],

@@ -8,6 +8,10 @@ import pytest
 from formulas import is_plain, off
 
 import dh2urdf
+from dh2urdf.lessons.circle import real_roots
+from dh2urdf.lessons.elimination import Elimination, links_of
+from dh2urdf.lessons.two_parallel import Polynomial, two_parallel
+from dh2urdf.lessons.way import Asked
 from dh2urdf.lessons.worked import Case
 from dh2urdf.robot.explained import question_of
 
@@ -92,13 +96,46 @@ def test_any_three_joints_place_the_wrist_as_the_kernels_do(kinds):
             assert_agrees(robot, T, k, 1e-10)
 
 
-def test_arms_without_a_derivation_are_those_without_a_closed_form():
-    """A table that ships and is in a closed family has its steps; no other one claims to."""
-    for name in ("xarm6", "ur5", "px150", "cylindrical"):
-        robot = dh2urdf.Robot.from_dh(name)
-        found = robot.ik(robot.fk(np.full(robot.n, 0.3)), within_limits=False)
-        lesson = Case(question_of(robot, found)).lesson
-        assert (lesson is None) == (name in NO_CLOSED_FORM)
+def assert_roots(robot, f, q, joint):
+    """Every solution q (k, n) has its joint among the real roots of a polynomial."""
+    roots = real_roots(f, 8)
+    assert len(roots) <= 16
+    for value in q[:, joint]:
+        away = [abs(math.remainder(root - value, math.tau)) for root in roots]
+        assert min(away) <= 1e-8, (robot.table.name, joint, value)
+
+
+@pytest.mark.parametrize("name", sorted(NO_CLOSED_FORM))
+def test_polynomials_of_arms_without_a_closed_form_have_all_solutions_as_roots(name):
+    """The polynomial of axis pairs, in joint 1, and the determinant of five joints eliminated."""
+    robot = dh2urdf.Robot.from_dh(name)
+    for T in regular_poses(robot, 3, np.random.default_rng(8)):
+        found = robot.ik(T, within_limits=False)
+        case = Case(question_of(robot, found))
+        assert case.lesson is two_parallel
+        asked = Asked(case.arm, case.pose(), case.guide)
+        assert_roots(robot, Polynomial(asked), found.q, 0)
+        each = [Elimination(links_of(asked), shift) for shift in range(6)]
+        best = min(each, key=lambda one: one.noise)
+        assert best.noise < 1e-12
+        assert_roots(robot, best, found.q, best.joint)
+
+
+def test_any_six_turns_are_explained_by_their_determinant():
+    """Random arms: the hidden joint's value, its real roots, and the check."""
+    rng = np.random.default_rng(9)
+    for _ in range(3):
+        rows = rng.uniform(-0.5, 0.5, (6, 4)) * [2.0, 1.0, 1.0, 5.0]
+        robot = dh2urdf.Robot.from_dh(dh2urdf.DHTable.from_array(rows, "standard"))
+        T = next(regular_poses(robot, 1, rng))
+        found = robot.ik(T, within_limits=False)
+        told = robot.explain_ik(found, len(found) - 1)
+        step = next(step for step in told.steps if step.curve)
+        roots = {round(root, 6) for root in step.curve.roots}
+        assert {round(math.remainder(v, math.tau), 6) for v in found.q[:, step.joint]} <= roots
+        assert step.value == pytest.approx(found.q[-1, step.joint], abs=1e-8)
+        assert "degree 16" in step.words
+        assert "^" in step.curve.text
 
 
 @pytest.mark.exhaustive
