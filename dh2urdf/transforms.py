@@ -8,6 +8,7 @@ radians, lengths in metres. Roll, pitch and yaw follow URDF: ``R = Rz(yaw) Ry(pi
 import math
 from collections.abc import Sequence
 from functools import reduce
+from operator import add, mul
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -211,14 +212,26 @@ def moved(T: Array, points: Array) -> Array:
 def product(first: Array, *others: Array) -> Array:
     """Product of matrices (..., m, n): ``@`` with the same order of sums on every machine."""
     for other in others:
-        terms = (first[..., :, k, None] * other[..., k, None, :] for k in range(first.shape[-1]))
-        first = reduce(np.add, terms)
+        if first.ndim == other.ndim == 2:  # all terms at once: few calls for few numbers
+            terms = first[:, :, None] * other
+            sums = [terms[:, k] for k in range(first.shape[1])]
+        else:
+            sums = [first[..., :, k, None] * other[..., k, None, :] for k in range(first.shape[-1])]
+        first = reduce(np.add, sums)
     return first
 
 
 def dot(a: Array, b: Array) -> Array:
     """Product of vectors (..., n), summed from the first number to the last."""
+    if a.ndim == b.ndim == 1:
+        return np.float64(reduce(add, map(mul, a.tolist(), b.tolist())))  # type: ignore[return-value]
     return product(a[..., None, :], b[..., :, None])[..., 0, 0]
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Cross product of two vectors (3,), in a tenth of the time of `numpy.cross`, the same bits."""
+    (x, y, z), (u, v, w) = a.tolist(), b.tolist()
+    return np.array([y * w - z * v, z * u - x * w, x * v - y * u])
 
 
 def length(v: Array) -> float:
@@ -234,7 +247,11 @@ def inverse(T: ArrayLike) -> Array:
     >>> inverse(trans(1, 2, 3))[:3, 3]
     array([-1., -2., -3.])
     """
-    m = _matrices(T, "T", 4)
+    return inverted(_matrices(T, "T", 4))
+
+
+def inverted(m: Array) -> Array:
+    """:func:`inverse` of poses that are known to be some."""
     out = np.zeros_like(m)
     Rt = np.swapaxes(m[..., :3, :3], -1, -2)
     out[..., :3, :3] = Rt

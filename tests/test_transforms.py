@@ -80,3 +80,13 @@ def test_what_is_no_pose_is_refused(bad, message):
     """Each kind of bad pose has its message, with the index in a stack."""
     with pytest.raises(PoseError, match=message):
         tf.check_pose(bad)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_quick_forms_for_few_numbers_have_the_bits_of_the_general_ones(seed):
+    """A cross product is that of NumPy, a product of two matrices that of two stacks."""
+    rng = np.random.default_rng(seed)
+    A, B = rng.normal(size=(2, 4, 4)) * 10.0 ** rng.integers(-3, 4, (2, 4, 4))
+    assert np.array_equal(tf.cross(A[0, :3], B[0, :3]), np.cross(A[0, :3], B[0, :3]))
+    assert np.array_equal(tf.product(A, B), tf.product(A[None], B[None])[0])
+    assert tf.dot(A[0], B[0]) == tf.dot(A, B)[0]

@@ -172,6 +172,10 @@ class SerialChain:
 
         ``Z(q)^-1 = Z(-q) = S Z(q) S`` with ``S = Rot_x(pi)`` keeps the joint values.
         """
+        return self._reversed
+
+    @cached_property
+    def _reversed(self) -> Self:
         S = np.diag([1.0, -1.0, -1.0, 1.0])
         inv = inverse(self.links)[::-1]
         links = np.stack([L if k == 0 else product(S, L) for k, L in enumerate(inv)])

@@ -7,14 +7,15 @@ which is what the closed forms are written in. The residual is always measured o
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.shared_tolerances import EXACT, FORM_ERROR, SNAP
+from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.kernels.numbers import atan2, hypot, sincos
-from dh2urdf.transforms import Array, dot, inverse, length, pose_error, product
+from dh2urdf.transforms import Array, cross, dot, inverted, length, pose_error, product
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,7 @@ class AxisLines:
         axes, signs = self.chain.axes.copy(), np.ones(self.chain.n)
         for i in range(1, self.chain.n):
             along = float(dot(axes[i], axes[i - 1]))
-            if np.linalg.norm(np.cross(axes[i], axes[i - 1])) <= self.tolerance:
+            if np.linalg.norm(cross(axes[i], axes[i - 1])) <= self.tolerance:
                 signs[i] = math.copysign(1.0, along)
                 axes[i] = axes[i - 1]
             elif abs(along) <= EXACT:
@@ -85,7 +86,7 @@ class AxisLines:
 
     def _meeting(self, points: Array, i: int, j: int) -> Array | None:
         """Where lines i and j meet, the point of j nearest to i; None if they are apart."""
-        normal = np.cross(self.axes[i], self.axes[j])
+        normal = cross(self.axes[i], self.axes[j])
         square = float(dot(normal, normal))
         gap = points[i] - points[j]
         if square <= self.tolerance**2:
@@ -93,9 +94,7 @@ class AxisLines:
             return points[i] if np.linalg.norm(apart) <= self.length else None
         if abs(dot(gap, normal)) > self.length * math.sqrt(square):
             return None
-        point: Array = points[j] + self.axes[j] * (
-            dot(np.cross(self.axes[i], gap), normal) / square
-        )
+        point: Array = points[j] + self.axes[j] * (dot(cross(self.axes[i], gap), normal) / square)
         point += normal * (dot(gap, normal) / square)
         return point
 
@@ -103,13 +102,14 @@ class AxisLines:
         """Point within the tolerance of lines i, i + 1, i + 2, neighbours not parallel."""
         if self.parallel(i) or self.parallel(i + 1):
             return None
-        planes = np.array([np.eye(3) - np.outer(a, a) for a in self.axes[i : i + 3]])
+        axes = self.axes[i : i + 3]
+        planes = np.eye(3) - axes[:, :, None] * axes[:, None, :]
         near, some = points[i + 1], points[i : i + 3]
         # normal equations (sum P) x = sum P (p - near), by Cramer's rule
         x, y, z = planes[0] + planes[1] + planes[2]
         moments = product(planes, (some - near)[:, :, None])[:, :, 0]
         right = moments[0] + moments[1] + moments[2]
-        crossed = np.array([np.cross(y, z), np.cross(z, x), np.cross(x, y)])
+        crossed = np.array([cross(y, z), cross(z, x), cross(x, y)])
         centre: Array = near + dot(crossed, right) / dot(x, crossed[0])
         gaps = [length(v) for v in product(planes, (centre - some)[:, :, None])[:, :, 0]]
         return centre if max(gaps) <= self.length else None
@@ -143,6 +143,18 @@ class AxisLines:
         return ", ".join(words) or "all neighbouring axes are skew"
 
 
+@lru_cache(maxsize=8)
+def lines_of(chain: SerialChain, tolerance: float = SNAP) -> AxisLines:
+    """The lines of a chain, which its families ask for one after the other."""
+    return AxisLines(chain, tolerance)
+
+
+@lru_cache(maxsize=8)
+def form_of(chain: SerialChain, tolerance: float = SNAP) -> "DHForm":
+    """The form of :func:`lines_of`."""
+    return DHForm(lines_of(chain, tolerance))
+
+
 @dataclass(frozen=True, eq=False)
 class DHForm:
     """Snapped lines as standard Denavit-Hartenberg rows between a base and a tool transform.
@@ -157,7 +169,7 @@ class DHForm:
     def frames(self) -> Array:
         """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
         axes, points = self.lines.axes, self.lines.points
-        x, origin = np.cross(axes[0], np.eye(3)[np.abs(axes[0]).argmin()]), points[0]
+        x, origin = cross(axes[0], np.eye(3)[np.abs(axes[0]).argmin()]), points[0]
         x /= length(x)
         frames: list[Array] = []
         for i in range(len(axes)):
@@ -179,10 +191,10 @@ class DHForm:
             gap = foot - origin
             distance = length(gap)
             return (gap / distance, foot) if distance > lines.length else (x, origin)
-        normal = np.cross(z, z_next)
+        normal = cross(z, z_next)
         square = float(dot(normal, normal))
         gap = lines.points[i] - p_next
-        foot = p_next + z_next * (dot(np.cross(z, gap), normal) / square)
+        foot = p_next + z_next * (dot(cross(z, gap), normal) / square)
         normal /= math.sqrt(square)
         if dot(gap, normal) > lines.length:
             normal = -normal
@@ -199,7 +211,7 @@ class DHForm:
             rows[i, 1] = 1.0
             if i == n - 1:
                 break
-            step = product(inverse(frames[i]), frames[i + 1])
+            step = product(inverted(frames[i]), frames[i + 1])
             x = step[:3, 0]
             rows[i, 4] = atan2(float(x[1]), float(x[0]))
             rows[i, 3] = step[2, 3]
@@ -215,18 +227,29 @@ class DHForm:
     @cached_property
     def tool(self) -> Array:
         """``T_dhn_tool``; frame n is frame n - 1 at q = 0, shape (4, 4)."""
-        return product(inverse(self.frames[-1]), self.lines.chain.tool)
+        return product(inverted(self.frames[-1]), self.lines.chain.tool)
 
     @cached_property
     def ends(self) -> Array:
         """Inverse of base, inverse of tool, tool; shape (3, 4, 4): what the kernels need."""
-        return np.stack([inverse(self.frames[0]), inverse(self.tool), self.tool])
+        return np.stack([inverted(self.frames[0]), inverted(self.tool), self.tool])
 
     def fk(self, q: Array) -> Array:
-        """Forward kinematics of the snapped arm at q (n,), shape (4, 4)."""
+        """Forward kinematics of the snapped arm at q (m, n), shape (m, 4, 4)."""
+        a, ca, sa, d, theta, slides, sign = self.rows.T
+        turn = sign * q
+        t, d = np.where(slides, theta, turn + theta), np.where(slides, turn + d, d)
+        st, ct = np.array([sincos(angle) for angle in t.ravel().tolist()]).T.reshape(2, *t.shape)
+        motions = np.zeros((*t.shape, 4, 4))
+        motions[..., 0, 0], motions[..., 0, 1] = ct, -st * ca
+        motions[..., 0, 2], motions[..., 0, 3] = st * sa, a * ct
+        motions[..., 1, 0], motions[..., 1, 1] = st, ct * ca
+        motions[..., 1, 2], motions[..., 1, 3] = -ct * sa, a * st
+        motions[..., 2, 1], motions[..., 2, 2], motions[..., 2, 3] = sa, ca, d
+        motions[..., 3, 3] = 1.0
         T: Array = self.frames[0]
-        for row, qi in zip(self.rows, q, strict=True):
-            T = product(T, row_motion(row, float(qi)))
+        for i in range(t.shape[1]):
+            T = product(T, motions[:, i])
         return product(T, self.tool)
 
     @cached_property
@@ -234,7 +257,9 @@ class DHForm:
         """Largest difference from the exact chain over a few configurations [m and rad]."""
         chain = self.lines.chain
         draws = np.random.default_rng(0).uniform(-3.0, 3.0, (8, chain.n))
-        return max(pose_error(self.fk(q), chain.fk(q)) for q in draws)
+        T = np.empty((len(draws), 4, 4))
+        chain_fk_batch(chain.links, chain.prismatic, draws, T)
+        return pose_error(self.fk(draws), T)
 
     @property
     def exact(self) -> bool:
@@ -271,5 +296,5 @@ def pose_along(x: Array, z: Array, origin: Array) -> Array:
     """Frame with the given z, the direction of x, and origin, shape (4, 4)."""
     T = np.eye(4)
     x = x / length(x)
-    T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, np.cross(z, x), z, origin
+    T[:3, 0], T[:3, 1], T[:3, 2], T[:3, 3] = x, cross(z, x), z, origin
     return T

@@ -1,6 +1,7 @@
 """What of a pose is asked: its error and Jacobian, and how chains move in it nearly everywhere."""
 
 from enum import StrEnum
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -86,6 +87,7 @@ def scaled_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
     return J
 
 
+@lru_cache(maxsize=8)
 def _singular_values(chain: SerialChain, task: Task) -> NDArray[np.floating[Any]]:
     """Singular values of the Jacobian at a few configurations, shape (``TRIALS``, k)."""
     J = scaled_jacobian(chain, task, random_configurations(chain, TRIALS))

@@ -14,15 +14,15 @@ from dh2urdf.ik.arm import (
     SLACK,
     SLACK_OF_NOISE,
     TWO_PI,
-    AxisLines,
     BatchKernel,
-    DHForm,
     IntArray,
     Others,
     Outputs,
     SolverBase,
     Task,
+    form_of,
     keep_sharp,
+    lines_of,
     plain_ranges,
     search_in_doubt,
     unite_families,
@@ -70,8 +70,7 @@ class ClosedForm(SolverBase):
         tolerance: float = NOMINAL,
     ) -> None:
         super().__init__(chain, task, others)
-        self.lines = AxisLines(chain, tolerance)
-        self.form = DHForm(self.lines)
+        self.lines, self.form = lines_of(chain, tolerance), form_of(chain, tolerance)
         if self.lines.axes[0, 2] < 0.0:  # of joint 1, in the base
             self.branch_words = UPSIDE_DOWN
         slack = max(SLACK, SLACK_OF_NOISE * tolerance)
@@ -166,7 +165,7 @@ class ThreeParallel(ClosedForm):
         """Say what keeps the family from covering the chain; None if nothing does."""
         if unfit := not_six_revolute(chain):
             return unfit
-        lines = AxisLines(chain, tolerance)
+        lines = lines_of(chain, tolerance)
         if not (lines.three_parallel(0) or lines.three_parallel(1)):
             return "no three neighbouring axes are parallel"
         return None

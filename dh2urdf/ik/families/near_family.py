@@ -18,6 +18,7 @@ from dh2urdf.ik.arm import (
     Outputs,
     SolverBase,
     Task,
+    lines_of,
     search_in_doubt,
     spare_joints,
 )
@@ -114,10 +115,10 @@ class NearFamily(Refereed):
 @lru_cache(maxsize=4)
 def _match(chain: SerialChain) -> tuple[_Family, bool, float] | None:
     """The nearest family, whether seen from the tool, and within which tolerance its axes snap."""
-    if not _candidates(AxisLines(chain, NEAR[-1])):
+    if not _candidates(lines_of(chain, NEAR[-1])):
         return None
     for tolerance in NEAR:
-        for family, reversed_ in _candidates(AxisLines(chain, tolerance)):
+        for family, reversed_ in _candidates(lines_of(chain, tolerance)):
             seen = chain.reversed() if reversed_ else chain
             if family.obstacle(seen, tolerance=tolerance) is None:
                 return family, reversed_, tolerance

@@ -5,10 +5,11 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import REGULAR, AxisLines, BatchKernel, DHForm, plain_ranges, row_motion
+from dh2urdf.ik.arm import REGULAR, BatchKernel, DHForm, form_of, lines_of, plain_ranges, row_motion
 from dh2urdf.ik.families.closed_form import ClosedForm
 from dh2urdf.kernels.nearly import wrist_seeds
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
+from dh2urdf.transforms import cross
 
 
 class SphericalWrist(ClosedForm):
@@ -24,10 +25,10 @@ class SphericalWrist(ClosedForm):
         """Say what keeps decoupling from covering the chain; None if nothing does."""
         if chain.n != 6:
             return f"it needs 6 joints, the chain has {chain.n}"
-        lines = AxisLines(chain, tolerance)
+        lines = lines_of(chain, tolerance)
         if not lines.spherical(3):
             return "axes 4, 5 and 6 do not meet in one point"
-        if not _places_wrist(DHForm(lines)):
+        if not _places_wrist(form_of(chain, tolerance)):
             return "joints 1, 2 and 3 cannot move the wrist centre in all directions"
         return None
 
@@ -80,7 +81,7 @@ def _places_wrist(form: DHForm) -> bool:
         centre = T[:3, 3] + rows[3, 3] * T[:3, 2]
         J = np.stack(
             [
-                z if chain.prismatic[i] else np.cross(z, (centre - p) / chain.size)
+                z if chain.prismatic[i] else cross(z, (centre - p) / chain.size)
                 for i, (z, p) in enumerate(screws)
             ]
         )

@@ -6,13 +6,23 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
-from dh2urdf.ik.arm import NEAR, NOMINAL, AxisLines, DHForm, Others, Outputs, Task, pose_along
+from dh2urdf.ik.arm import (
+    NEAR,
+    NOMINAL,
+    AxisLines,
+    Others,
+    Outputs,
+    Task,
+    form_of,
+    lines_of,
+    pose_along,
+)
 from dh2urdf.ik.families.closed_form import not_six_revolute
 from dh2urdf.ik.families.general_6r import Arm, blank_general_6r
 from dh2urdf.ik.families.near_family import Refereed
 from dh2urdf.kernels.two_parallel import TwoParallel as Form
 from dh2urdf.kernels.two_parallel import solve_two_parallel
-from dh2urdf.transforms import Array, dot, inverse, length, product
+from dh2urdf.transforms import Array, cross, dot, inverse, length, product
 
 ROUNDED = 3e-5
 """Distance from the nominal arm [rad, sizes] of rounded tables. Calibrated arms are farther from it
@@ -78,9 +88,12 @@ def _match(chain: SerialChain) -> tuple[AxisLines, bool] | None:
     """The axes of the family, snapped as little as will do, and whether seen from the tool."""
     for tolerance in (NOMINAL, *NEAR):
         for mirrored in (False, True):
-            lines = AxisLines(chain.reversed() if mirrored else chain, tolerance)
+            seen = chain.reversed() if mirrored else chain
+            lines = lines_of(seen, tolerance)
             if lines.parallel(1) and not lines.parallel(2) and (lines.meet(3) or lines.meet(4)):
-                near = tolerance == NOMINAL or DHForm(lines).error <= ROUNDED * chain.size
+                near = (
+                    tolerance == NOMINAL or form_of(seen, tolerance).error <= ROUNDED * chain.size
+                )
                 return (lines, mirrored) if near else None
     return None
 
@@ -95,7 +108,7 @@ def _form(lines: AxisLines, mirrored: bool) -> Form:
     else:
         points[4] = points[5]
         points[3] += axes[3] * dot(axes[3], points[4] - points[3])
-    across = [np.cross(a, np.eye(3)[np.abs(a).argmin()]) for a in axes[[1, 5]]]
+    across = [cross(a, np.eye(3)[np.abs(a).argmin()]) for a in axes[[1, 5]]]
     frame = pose_along(across[0], axes[1], points[0])
     turn = frame[:3, :3].T
     steps = np.diff(points, axis=0, prepend=points[:1])
