@@ -159,14 +159,17 @@ class HeldAtAnyValue(HeldSolver):
         """The solver made anew for each special value."""
         return HeldOneByOne(self.chain, self.held, self.task, (float(self.values[0]),))
 
-    def _singular_values(self, values: Array) -> Array:
-        """Relative singular values (m, k) of the rest's Jacobian at values (m,), generic ones."""
+    def _jacobians(self, values: Array) -> Array:
+        """The rest's Jacobian at values (m,) and in generic configurations, (m, trials, 6, k)."""
         joint, n = self.held[0], self.chain.n
         q = np.repeat(random_configurations(self.chain, TRIALS)[None], len(values), axis=0)
         q[:, :, joint] = values[:, None]
         J = scaled_jacobian(self.chain, self.task, q.reshape(-1, n))
-        sigma = np.linalg.svd(np.delete(J, joint, axis=2), compute_uv=False)
-        sigma = sigma.reshape(len(values), TRIALS, -1)
+        return np.delete(J, joint, axis=2).reshape(len(values), TRIALS, -1, n - 1)
+
+    def _singular_values(self, values: Array) -> Array:
+        """Relative singular values (m, k) of the rest's Jacobian at values (m,), generic ones."""
+        sigma = np.linalg.svd(self._jacobians(values), compute_uv=False)
         largest: Array = (sigma / sigma[:, :, :1]).max(axis=1)
         return largest
 
@@ -180,6 +183,14 @@ class HeldAtAnyValue(HeldSolver):
         gap: Array = self._singular_values(values)[:, self._rank - 1]
         return gap
 
+    def _depth(self, values: Array) -> Array:
+        """What vanishes at values (m,) where the rest loses rank, in the least time, (m,)."""
+        rows = 6 if self.task is Task.POSE else 0
+        if self.chain.n - 1 == rows == self._rank:
+            largest: Array = np.abs(np.linalg.det(self._jacobians(values))).max(axis=1)
+            return largest
+        return self._rank_gap(values)
+
     @cached_property
     def values(self) -> Array:
         """Special values, to within ``BESIDE``, shape (k,)."""
@@ -188,17 +199,15 @@ class HeldAtAnyValue(HeldSolver):
         if self.chain.prismatic[joint]:
             (low, high), count = (float(end[joint]) for end in near_ranges(self.chain)), GRID + 1
         grid = low + (high - low) * np.arange(count) / GRID
-        gaps, step = self._rank_gap(grid), (high - low) / GRID
+        gaps, step = self._depth(grid), (high - low) / GRID
         around = np.concatenate([[np.inf], gaps, [np.inf]])
         dips = grid[(gaps <= around[:-2]) & (gaps <= around[2:])]
-        least = np.full(len(dips), np.inf)
         for _ in range(ROUNDS if len(dips) else 0):
             trial = dips[:, None] + step * np.linspace(-1.0, 1.0, CLOSER)
-            gaps = self._rank_gap(trial.ravel()).reshape(trial.shape)
-            best = gaps.argmin(axis=1)
-            dips, least = trial[np.arange(len(dips)), best], gaps.min(axis=1)
+            best = self._depth(trial.ravel()).reshape(trial.shape).argmin(axis=1)
+            dips = trial[np.arange(len(dips)), best]
             step *= 2.0 / (CLOSER - 1)
-        return dips[least <= DIP]
+        return dips[self._rank_gap(dips) <= DIP] if len(dips) else dips
 
 
 def at_any_value(solver: HeldSolver, task: Task) -> HeldSolver:
