@@ -44,7 +44,7 @@ def real_array(
         return values
     try:
         array = np.asanyarray(values)
-        if np.ma.is_masked(array):
+        if type(array) is not ndarray and np.ma.is_masked(array):
             raise TypeError
         array = np.asarray(array)
         if array.dtype.kind == "O":

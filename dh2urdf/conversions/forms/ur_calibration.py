@@ -13,7 +13,6 @@ same numbers as a URDF does, ``Rot_z Rot_y Rot_x``; how far that moves the tool 
 is the controller's (ROS: ``base``), the tip is ``tool0``.
 """
 
-import configparser
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -167,6 +166,8 @@ def _which(misses: Mapping[str, float]) -> str:
 
 def _cells(text: str) -> dict[str, str]:
     """Keys of all sections; comments begin with #."""
+    import configparser
+
     parser = configparser.ConfigParser(interpolation=None, inline_comment_prefixes=("#",))
     try:
         parser.read_string(text)

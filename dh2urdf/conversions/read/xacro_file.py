@@ -8,10 +8,10 @@ import glob
 import os
 import re
 from collections.abc import Iterable, Mapping
+from html import unescape
 from itertools import islice
 from pathlib import Path
 from typing import Any, NamedTuple
-from xml.sax.saxutils import unescape
 
 from dh2urdf.bounds import CELL_CHARACTERS, ROBOT_BYTES, XACRO_ARGS
 from dh2urdf.conversions.read.packages import find_package, package_of
