@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from dh2urdf.conversions.assign import chain_to_dh
-from dh2urdf.dh import DHTable
 from dh2urdf.robot.forms import RobotForms
 
 if TYPE_CHECKING:
+    from dh2urdf.dh import DHTable
     from dh2urdf.symbolic.inverse import SymbolicIK
 
 
@@ -41,5 +40,7 @@ class RobotFormulas(RobotForms):
 
         table = self.table
         if table is None or table.has_steps_between:
+            from dh2urdf.conversions.assign import chain_to_dh
+
             table = chain_to_dh(self._own_chain(), name=self._called(), compact=False).table
         return symbolic_ik(table)

@@ -87,7 +87,7 @@ def _plain(value: Any) -> str:
     text: str = _Text({"full_prec": False}).doprint(_decimal(value))
     for word, letter in GREEK.items():
         text = text.replace(f"{word}_", f"{letter}_")
-    text = text.replace("**", "^").replace("*", "·").replace("sqrt", "√")
+    text = text.replace("**", "^").replace("*", "·").replace("sqrt", "√").replace("pi", "π")
     return text.replace("-", "\N{MINUS SIGN}")
 
 
