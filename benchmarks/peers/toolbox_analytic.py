@@ -8,10 +8,12 @@ from __future__ import annotations
 
 import ctypes
 import shutil
+import signal
 import subprocess
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -49,14 +51,44 @@ void many(const double *T, long m, double *q, int *count) {
 """A loop over poses, beside what was generated."""
 
 
-@cache
+LONGEST = 45.0
+"""Processor time [s] that a derivation may take: those that end take a third of it."""
+
+
+class TooLongError(BaseException):
+    """A derivation that has not come to an end; nothing in between catches it."""
+
+
+@contextmanager
+def at_most(seconds: float) -> Iterator[None]:
+    """Raise TooLongError when this process has worked for so long."""
+
+    def stop(number: int, frame: object) -> None:
+        raise TooLongError
+
+    before = signal.signal(signal.SIGVTALRM, stop)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
+
+
 def derived(key: str) -> tuple[Any, float]:
     """The solver of an arm and the seconds that its derivation took."""
+    solver, seconds, reason = _derived(key)
+    if reason:
+        raise NotCoveredError(reason)
+    return solver, seconds
+
+
+@cache
+def _derived(key: str) -> tuple[Any, float, str]:
+    """The same, or the reason why there is none."""
     table = arm_named(key).table
     if len(table.rows) != 6 or table.convention is not DHConvention.STANDARD:
-        raise NotCoveredError("six joints in a standard table only")
-    if key == "generic_6r":
-        raise NotCoveredError("no derivation within seven minutes")
+        return None, 0.0, "six joints in a standard table only"
     links = [
         RevoluteDH(d=row.d, a=row.a, alpha=row.alpha, offset=row.theta, flip=row.sign < 0)
         for row in table.rows
@@ -64,10 +96,13 @@ def derived(key: str) -> tuple[Any, float]:
     base, tool = (SE3(T.matrix, check=False) for T in (table.base, table.tool))
     start = time.perf_counter()
     try:
-        solver = DHRobot(links, name=key, base=base, tool=tool).analytic_ik()
+        with at_most(LONGEST):
+            solver = DHRobot(links, name=key, base=base, tool=tool).analytic_ik()
     except (ImportError, ValueError) as error:  # without SymPy; of arms for which it finds none
-        raise NotCoveredError(str(error).splitlines()[0]) from error
-    return solver, time.perf_counter() - start
+        return None, 0.0, str(error).splitlines()[0]
+    except TooLongError:
+        return None, 0.0, f"no derivation within {LONGEST:.0f} s of the processor"
+    return solver, time.perf_counter() - start, ""
 
 
 class ToolboxAnalytic(IKContestant):
