@@ -76,8 +76,7 @@ class _Builder:
         at = model.addJoint(i - 1, _joint_model(row), place, name, *bounds[:, None])
         v, friction = model.joints[at].idx_v, row.friction or 0.0
         model.damping[v], model.friction[v] = row.damping or 0.0, friction
-        if hasattr(model, "lowerDryFrictionLimit"):  # since Pinocchio 4
-            model.lowerDryFrictionLimit[v] = -friction
+        model.lowerDryFrictionLimit[v] = -friction
         self._link(f"link_{i}", i, model.addJointFrame(at, before))
 
     def _fixed(self, name: str, i: int, before: int, T: Array) -> None:
