@@ -67,7 +67,8 @@ class InverseKinematics:
         self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
-        self._at_once: tuple[AtOnce, ...] = (nothing_at_once,) * 4
+        self._at_once: list[AtOnce] = [nothing_at_once] * 4
+        self._learnt = [False] * 4
         self._held = HeldCalls()
 
     def __getstate__(self) -> dict[str, Any]:
@@ -99,7 +100,7 @@ class InverseKinematics:
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside, samples)
         if usual:
-            self._learn(problem, locked, inside)
+            self._learn(problem, locked, 2 * (seed is not None) + inside)
         goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
         most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
         if most is not None and goal is None:
@@ -133,14 +134,14 @@ class InverseKinematics:
             problem, memory = held
         return None if memory is None or problem is None else IKSolutions(problem, memory)
 
-    def _learn(self, problem: Problem, locked: Locked | None, within_limits: bool) -> None:
-        """Make functions that answer in one call what was asked."""
+    def _learn(self, problem: Problem, locked: Locked | None, way: int) -> None:
+        """Make the function that answers in one call what was asked: with a seed, within limits."""
         if locked is not None:
-            self._held.learn(problem, locked, within_limits)
-        elif self._plain is None:
-            both = False, True
-            calls = [make(problem, limits) for make in (call_of, seeded_call_of) for limits in both]
-            self._plain, self._at_once = problem, tuple(calls)
+            self._held.learn(problem, locked, way % 2 == 1)
+        elif not self._learnt[way]:
+            self._plain, make = problem, seeded_call_of if way > 1 else call_of
+            self._at_once[way] = make(problem, way % 2 == 1)
+            self._learnt[way] = True
 
     def solve_batch(
         self,

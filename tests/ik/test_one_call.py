@@ -23,8 +23,11 @@ SEARCHED = ("px150", "rx150", "rx200", "vx250", "vx300", "wx200", "wx250")
 
 
 def taken(robot):
-    """The functions without and with limits, after a first call; None where Python helps."""
-    robot.ik(robot.fk(np.zeros(robot.n)))
+    """The functions without and with limits, after a call of each kind; None where Python helps."""
+    zero = np.zeros(robot.n)
+    for seed in (None, zero):
+        for inside in (False, True):
+            robot.ik(robot.fk(zero), seed=seed, within_limits=inside)
     both = robot._ik._at_once
     return None if engine.nothing_at_once in both else both
 
