@@ -29,6 +29,9 @@ are shorter."""
 MOST = 150
 SHORT = 0.004
 
+ANGLES = 24
+"""Directions round a point where curves may cross that are looked at."""
+
 
 def wrapped(arm, d):
     """Joint differences, angles in (-pi, pi]."""
@@ -150,7 +153,34 @@ def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS):
         for length in lengths
         for way in ways
         for side in (1.0, -1.0)
+    ) or any(
+        _walks(arm, p, T, free, length * way, accept * length / LENGTHS[0])
+        for length in lengths
+        for way in crossing_ways(arm, p, T, free, length)
     )
+
+
+def crossing_ways(arm, p, T, free, length):
+    """Directions between two flat ones in which the pose is kept best: where curves cross at p."""
+    sigma, V = directions(arm, p, free)
+    flat = V[sigma < FLAT * sigma[0]]
+    if len(flat) != 2:
+        return []
+
+    def off(angle):
+        way = np.cos(angle) * flat[0] + np.sin(angle) * flat[1]
+        return residuals(arm, newton(arm, p + length * way, T, free, FLAT, 8, 1e-14), T)
+
+    angles = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
+    least = np.array([off(angle) for angle in angles])
+    ways = []
+    for k in np.flatnonzero((least <= np.roll(least, 1)) & (least < np.roll(least, -1))):
+        angle, reach = angles[k], angles[1]
+        while reach > 1e-3:
+            reach *= 0.5
+            angle = min((angle, angle - reach, angle + reach), key=off)
+        ways.append(np.cos(angle) * flat[0] + np.sin(angle) * flat[1])
+    return ways
 
 
 def _walks(arm, p, T, free, way, accept):

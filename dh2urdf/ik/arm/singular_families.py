@@ -14,7 +14,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.shared_tolerances import ACCEPT, FAMILY_STEP
-from dh2urdf.ik.arm.task import Task, task_error
+from dh2urdf.ik.arm.task import Task, scaled_jacobian, task_error
 from dh2urdf.kernels.certificate import find_solutions
 from dh2urdf.kernels.redundant import nearest_members, walk_family
 from dh2urdf.transforms import Array, length
@@ -27,6 +27,9 @@ ARRIVED = 1e-5
 
 BESIDE = 2.0 * FAMILY_STEP
 """Distance [rad or m] of a member from the points of a walk along its family."""
+
+FLAT = 1e-5
+"""Singular value, relative to the largest, of a direction in which a family goes on."""
 
 MOST_STEPS = 200
 """Steps each way of a walk along a family."""
@@ -72,10 +75,11 @@ class Family:
     def contains(self, others: Array, trials: int = 2) -> NDArray[np.bool_]:
         """Which configurations (k, n) of the same free joints a walk along the family arrives at.
 
-        From the point of a walk both ways that is nearest, and straight towards each of them, for
-        a family may have more than one dimension; until this has failed in so many ``trials``.
+        From the point of a walk both ways that is nearest; where a family has more than one
+        dimension straight towards each of them, too, until this has failed in so many ``trials``.
         """
-        found, failed = np.zeros(len(others), np.bool_), 0
+        found = np.zeros(len(others), np.bool_)
+        failed = 0 if self._dimensions() > 1 else trials
         walked = np.empty((0, len(self.free)))
         for k, other in enumerate(others):
             if self._apart(self.q, other) > SAME:
@@ -90,6 +94,12 @@ class Family:
                 found[k] = self._arrives(self.q, other)
                 failed += not found[k]
         return found
+
+    def _dimensions(self) -> int:
+        """In how many directions the family leaves the representative."""
+        J = scaled_jacobian(self.moving, self.task, self.q[None, self.free])[0]
+        sigma = np.linalg.svd(J, compute_uv=False)
+        return len(self.free) - int((sigma > FLAT * sigma[0]).sum())
 
     def _arrives(self, start: Array, goal: Array) -> bool:
         """Whether going nearer to a goal (n,) along the family, from a member, ends there."""

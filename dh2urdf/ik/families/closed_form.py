@@ -47,6 +47,9 @@ SAME = 1e-6
 UPSIDE_DOWN = (BRANCH_WORDS[0], BRANCH_WORDS[1][::-1], BRANCH_WORDS[2])
 """Names of the branches where axis 1 points down in the base, from where the kernels look up."""
 
+NEAR = 0.01
+"""Joint distance [rad] within which solutions may have been united; the certificate's own."""
+
 STUCK = "the arm cannot move its tool in all six directions"
 
 
@@ -136,13 +139,24 @@ class ClosedForm(SolverBase):
         return far
 
     def _add_new(self, found: Outputs, known: Array, out: Outputs) -> None:
-        """Add solutions of one pose that are not known (k, 6) yet."""
-        for k in range(found.counts[0]):
-            count, p = out.counts[0], found.q[0, k]
-            new = not (self._far(known, p) <= SAME).any()
-            if found.residual[0, k] <= SHARP and count < self.kmax and new:
-                out.q[0, count], out.residual[0, count] = p, found.residual[0, k]
-                out.branch[0, count], out.free[0, count] = -1, found.free[0, k]
+        """Add solutions of one pose that are not known (k, 6) yet.
+
+        One that is known, and was united with a sharper one, is replaced by that.
+        """
+        q = found.q[0, : found.counts[0]]
+        for k, p in enumerate(q):
+            count = out.counts[0]
+            if found.residual[0, k] > SHARP or (self._far(known, p) <= SAME).any():
+                continue
+            near = np.flatnonzero(self._far(out.q[0, :count], p) <= NEAR)
+            gone = [j for j in near if not (self._far(q, out.q[0, j]) <= SAME).any()]
+            if not gone and count == self.kmax:
+                continue
+            row = gone[0] if gone else count
+            out.q[0, row], out.residual[0, row] = p, found.residual[0, k]
+            out.free[0, row] = found.free[0, k]
+            if not gone:
+                out.branch[0, row] = -1
                 out.counts[0] += 1
 
 

@@ -225,7 +225,7 @@ def merge_families(chain, T, rows, count, trial, work):
     q, _, _, free = rows
     count = merge_solutions(chain, T, *rows, count, trial, work)
     for k in range(count):
-        free[k] = free_joints(chain, T, q[k], EVERY_JOINT, False, work)
+        free[k] = free_joints(chain, T, q[k], EVERY_JOINT, True, work)
     return count
 
 

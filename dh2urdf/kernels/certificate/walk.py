@@ -15,6 +15,7 @@ import numpy as np
 from dh2urdf.kernels.certificate.certify import ACCEPT
 from dh2urdf.kernels.certificate.directions import add_step, look_at_some
 from dh2urdf.kernels.newton import make_damped, pose_residual
+from dh2urdf.kernels.numbers import sincos
 
 LENGTHS = (0.05, 2e-3, 1e-4)
 """Length of the part [rad or m]: solutions on a shorter loop count as isolated. The last two are
@@ -32,6 +33,9 @@ NOTHING = 1e-12
 
 STEPS, MOST = 24, 0.1
 """Newton steps back to the family, and the longest of them [rad or m]."""
+
+ANGLES, HALVINGS = 24, 10
+"""Directions between two that are tried, in half a turn, and steps to the best of them."""
 
 DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
@@ -118,15 +122,82 @@ def _walks_turned(chain, T, q, ways, flat, length, part, mask, trial, room, move
     return found
 
 
+def _off(chain, T, q, ways, angle, length, mask, trial, room):
+    """How far off the pose a point is, ``length`` from q (n,) at an angle between two directions.
+
+    They are the first two of ``ways``; the one that is gone in is left in the third.
+    """
+    s, c = sincos(angle)
+    for i in range(q.shape[0]):
+        ways[2, i] = c * ways[0, i] + s * ways[1, i]
+    if not _come_back(chain, T, q, ways[2], length, FLAT, mask, trial, room):
+        return math.inf
+    return pose_residual(chain, T, trial)
+
+
+def _walks_between(chain, T, q, ways, length, part, mask, trial, room, moved):
+    """Whether a walk arrives in a direction between two in which the tool stays.
+
+    Where curves of solutions cross, each leaves in one of them: where the pose is kept best.
+    """
+    found, step = False, math.pi / ANGLES
+    off = np.empty(ANGLES)
+    for k in range(ANGLES):
+        off[k] = _off(chain, T, q, ways, k * step, length, mask, trial[0], room)
+    for k in range(ANGLES):
+        if off[k] > off[k - 1 if k > 0 else ANGLES - 1] or off[k] >= off[(k + 1) % ANGLES]:
+            continue
+        angle, best, reach = k * step, off[k], step
+        for _ in range(HALVINGS):
+            reach *= 0.5
+            for side in range(2):
+                other = angle + (reach if side == 0 else -reach)
+                less = _off(chain, T, q, ways, other, length, mask, trial[0], room)
+                if less < best:
+                    angle, best = other, less
+                    break
+        for side in range(2):
+            _off(chain, T, q, ways, angle + side * math.pi, length, mask, trial[0], room)
+            if _walks(chain, T, q, ways[2], length, part, NOTHING, mask, trial, room):
+                found = True
+                _add_moved(q, trial[0], moved)
+                break
+    return found
+
+
+def _walks_one(chain, T, q, way, length, part, floor, mask, trial, room, moved):
+    """Whether a walk along ``way`` or against it arrives."""
+    for _ in range(2):
+        if _walks(chain, T, q, way, length, part, floor, mask, trial, room):
+            _add_moved(q, trial[0], moved)
+            return True
+        for i in range(q.shape[0]):
+            way[i] = -way[i]
+    return False
+
+
+def _floor_above(sigma, k, mask, largest):
+    """Singular value, relative to the largest, half way from number k to the next of the mask.
+
+    ``FLAT`` at most.
+    """
+    next_ = FLAT * largest
+    for i in range(sigma.shape[0]):
+        if mask >> i & 1 and i != k and sigma[k] <= sigma[i] < next_:
+            next_ = sigma[i]
+    return min(FLAT, math.sqrt(sigma[k] * next_) / largest)
+
+
 def joints_that_move(chain, T, q, length, part, mask, moved):
     """How far joints of a mask move along a family of solutions through q (n,); if at all.
 
-    Each direction in which the tool stays is walked both ways, unless the first arrives. ``moved``
-    (n,) is the largest motion of each joint.
+    Each direction in which the tool stays is walked both ways, unless the first arrives. If none
+    does, and there are several, one at a time is, and the less flat ones lead back; then those
+    between them. ``moved`` (n,) is the largest motion of each joint.
     """
     n, found = q.shape[0], False
     room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
-    ways, trial = np.empty((n + 1, n)), np.empty((PARTS, n))
+    ways, floors, trial = np.empty((n + 1, n)), np.empty(n), np.empty((PARTS, n))
     trial[0] = q
     moved[:] = 0.0
     _, largest = look_at_some(chain, T, trial[0], mask, room)
@@ -134,17 +205,23 @@ def joints_that_move(chain, T, q, length, part, mask, moved):
     for k in range(n):
         if mask >> k & 1 and room[2][k] <= FLAT * largest:
             ways[flat] = room[1][k]
+            floors[flat] = _floor_above(room[2], k, mask, largest)
             flat += 1
     for k in range(flat):
-        for _ in range(2):
-            if _walks(chain, T, q, ways[k], length, part, FLAT, mask, trial, room):
-                found = True
-                _add_moved(q, trial[0], moved)
-                break
-            for i in range(n):
-                ways[k, i] = -ways[k, i]
-    if flat > 1 and not found:
+        if _walks_one(chain, T, q, ways[k], length, part, FLAT, mask, trial, room, moved):
+            found = True
+    if found or flat < 2:
+        return found
+    for k in range(flat):
+        own = floors[k]
+        if own <= NOTHING or own >= FLAT:
+            continue
+        if _walks_one(chain, T, q, ways[k], length, part, own, mask, trial, room, moved):
+            found = True
+    if not found:
         found = _walks_turned(chain, T, q, ways, flat, length, part, mask, trial, room, moved)
+    if not found and flat == 2:
+        found = _walks_between(chain, T, q, ways, length, part, mask, trial, room, moved)
     return found
 
 
