@@ -68,6 +68,10 @@ ALMOST = 1e-10
 FEW = 24
 """Starts after which a pose is given up that none of them came near to."""
 
+HARDLY, PATIENCE = 1e-5, 8
+"""Residual [m and rad] to which starts came without a solution, as an arm that hardly moves in some
+directions does, and then how many times as many steps they may take."""
+
 NEAR = 0.05
 """Residual [m and rad] from which on plain steps are tried."""
 
@@ -95,8 +99,11 @@ def _solve(A, step):
     return longest
 
 
-def _converges(chain, T, q, A, step, damped):
-    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution."""
+def _converges(chain, T, q, ended, A, step, damped):
+    """Newton's method from q (6,) in place, downhill or not; whether it ends at a solution.
+
+    ``ended`` is the largest residual of one.
+    """
     for k in range(STEPS + MORE):
         residual = error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
         if k >= STEPS and (residual <= POLISH or residual > HALVED):
@@ -112,7 +119,7 @@ def _converges(chain, T, q, A, step, damped):
         q += step * scale
     for j in range(6):
         q[j] = principal(q[j])
-    return pose_residual(chain, T, q) <= ENDED
+    return pose_residual(chain, T, q) <= ended
 
 
 def _is_new(chain, T, q, count, p):
@@ -128,7 +135,7 @@ def _is_new(chain, T, q, count, p):
 
 def _add_if_new(chain, T, q, count, trial, A, step, damped):
     """Append what Newton's method leads to from trial (6,), if it is new; the new count."""
-    if not _converges(chain, T, trial, A, step, damped):
+    if not _converges(chain, T, trial, ENDED, A, step, damped):
         return count
     if count < q.shape[0] and _is_new(chain, T, q, count, trial):
         q[count] = trial
@@ -155,17 +162,17 @@ def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
                 way = -way if w % 2 == 0 else -FARTHER * way
 
 
-def _approach(chain, goal, q, best, dq, damped):
+def _approach(chain, goal, patience, q, best, dq, damped):
     """Levenberg's steps from q (6,); the residual of the best configuration, which is left in q."""
     least, since = math.inf, 0
-    for _ in range(DAMPED):
+    for _ in range(patience * DAMPED):
         residual = error_and_jacobian(chain, goal, q, damped)
         if residual < least:
             since = since if residual > 0.9 * least else 0
             least = residual
             best[:] = q
         since += 1
-        if residual <= DONE or since > (SETTLED if least <= POLISH else STUCK):
+        if residual <= DONE or since > (SETTLED if least <= POLISH else patience * STUCK):
             break
         square = 0.0
         for a in range(6):
@@ -182,6 +189,26 @@ def _approach(chain, goal, q, best, dq, damped):
     return least
 
 
+def _try_starts(chain, goal, starts, patience, q, count, room):
+    """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen."""
+    trial, best, dq, step, A, damped = room
+    least = math.inf
+    for s in range(starts.shape[0]):
+        if s == FEW and least > NEAR and count == 0:
+            break
+        trial[:] = starts[s]
+        residual = _approach(chain, goal, patience, trial, best, dq, damped)
+        least = min(least, residual)
+        found = residual <= ALMOST
+        if not found and residual <= NEAR:
+            ended = ENDED if patience == 1 else ALMOST
+            found = _converges(chain, goal[1], trial, ended, A, step, damped)
+        if found and count < q.shape[0] and _is_new(chain, goal[1], q, count, trial):
+            q[count] = trial
+            count += 1
+    return count, least
+
+
 @entry(n=6)
 def search_from(
     chain: Chain, starts: Annotated[Floats, "starts", 6], unit: float, Ts: Poses, outputs: Outputs
@@ -191,19 +218,10 @@ def search_from(
     ``unit`` is the size of the arm [m].
     """
     q, _, count, _, _ = outputs
-    trial, best, dq, step = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
-    A, damped = np.empty((6, 7)), make_damped(6)
+    vectors = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
+    room = *vectors, np.empty((6, 7)), make_damped(6)
     for i in range(Ts.shape[0]):
-        goal, least = (POSE, Ts[i], unit), math.inf
-        for s in range(starts.shape[0]):
-            if s == FEW and least > NEAR and count[i] == 0:
-                break
-            trial[:] = starts[s]
-            residual = _approach(chain, goal, trial, best, dq, damped)
-            least = min(least, residual)
-            found = residual <= ALMOST
-            if not found and residual <= NEAR:
-                found = _converges(chain, Ts[i], trial, A, step, damped)
-            if found and count[i] < q.shape[1] and _is_new(chain, Ts[i], q[i], count[i], trial):
-                q[i, count[i]] = trial
-                count[i] += 1
+        goal = POSE, Ts[i], unit
+        count[i], least = _try_starts(chain, goal, starts, 1, q[i], count[i], room)
+        if count[i] == 0 and least <= HARDLY:
+            count[i], _ = _try_starts(chain, goal, starts, PATIENCE, q[i], count[i], room)

@@ -144,8 +144,11 @@ def on_family(arm, p, q, T, free, tolerance):
     return False
 
 
-def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS):
-    """Whether a walk from p by these joints, of one of some lengths, is one."""
+def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS, crossing=True):
+    """Whether a walk from p by these joints, of one of some lengths, is one.
+
+    ``crossing``: between two flat directions, too.
+    """
     sigma, V = directions(arm, p, free)
     ways = V[sigma < 1e-4 * max(sigma[0], 1e-300)] if len(V) else V
     return any(
@@ -156,7 +159,7 @@ def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS):
     ) or any(
         _walks(arm, p, T, free, length * way, accept * length / LENGTHS[0])
         for length in lengths
-        for way in crossing_ways(arm, p, T, free, length)
+        for way in (crossing_ways(arm, p, T, free, length) if crossing else ())
     )
 
 

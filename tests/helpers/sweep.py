@@ -128,6 +128,6 @@ def _check_solutions(tally, table, arm, solutions, T, q):
         if mask and not is_family(arm, p, T, bits):
             tally.note("no family", table, q)
             break
-        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE, LENGTHS[:1]):
+        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE, LENGTHS[:1], False):
             tally.note("unnamed", table, q)
             break

@@ -79,9 +79,7 @@ def test_the_referee_walks_no_way_from_a_regular_configuration():
         assert not is_family(arm, p, forward(arm, p), np.ones(6, bool))
 
 
-@pytest.mark.parametrize(
-    "row", [3, pytest.param(9, marks=pytest.mark.xfail(strict=True, reason="two valleys meet"))]
-)
+@pytest.mark.parametrize("row", [3, 9])
 def test_a_planar_arm_of_rounded_angles_has_an_answer(row):
     """All axes nearly parallel: three joints nearly to spare, each pose a double root."""
     table, q = posed(53, row, 4)
