@@ -26,6 +26,8 @@ exclude_patterns = ["_build", "schemas", "**/files"]
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 copybutton_selector = "div:not(.output) > div.highlight > pre"
+smartquotes = False  # options begin with two hyphens
+autodoc_typehints = "none"  # docstrings say types, shapes and units
 napoleon_use_ivar = True
 suppress_warnings = ["ref.python"]  # words of types, such as the n of a shape, that are names, too
 

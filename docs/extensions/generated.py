@@ -119,7 +119,8 @@ def _described(value: dict[str, Any], schema: dict[str, Any]) -> tuple[str, str]
 def measured(part: str) -> str:
     """A part of the benchmark's results file."""
     results = render.shown(ROOT / "benchmarks" / "results" / "latest.json")
-    return _PARTS[part](results)
+    text = _PARTS[part](results)
+    return "This run did not measure it." if text.startswith("|") and text.count("\n") < 2 else text
 
 
 def _edges(results: Results) -> str:
@@ -143,6 +144,9 @@ _PARTS = {
         ("work", "dh2urdf", "fastest peer", "ratio"), sections.other_rows(results)
     ),
     "edges": _edges,
+    "limits": lambda results: table(
+        ("work", "arm", "measured", "limit", "ratio"), sections.limit_rows(results)
+    ),
     "left_out": lambda results: table(("peer", "reason", "where"), sections.left_out_rows(results)),
     "machine": render.provenance,
 }
