@@ -1,5 +1,6 @@
 """Parts of pages that are made from the code: each function returns Markdown."""
 
+import ast
 import json
 import tempfile
 from collections.abc import Iterable
@@ -14,7 +15,7 @@ from benchmarks.targets import target_rows
 from dh2urdf.checks import RULES, Finding, check_urdf
 from tests.helpers import urdf_faults
 
-__all__ = ["arms", "commands", "measured", "rules", "schemas"]
+__all__ = ["arms", "commands", "examples", "measured", "rules", "schemas"]
 
 ROOT = Path(__file__).parents[2]
 SUBJECTS = {
@@ -150,6 +151,22 @@ _PARTS = {
     "left_out": lambda results: table(("peer", "reason", "where"), sections.left_out_rows(results)),
     "machine": render.provenance,
 }
+
+
+def examples() -> str:
+    """The scripts of ``examples/``, each by its docstring and in full."""
+    parts = []
+    for path in sorted((ROOT / "examples").glob("*.py")):
+        source = path.read_text(encoding="utf-8")
+        told = ast.get_docstring(ast.parse(source)) or ""
+        title, _, rest = told.partition("\n\n")
+        code = source.split('"""', 2)[2].strip()
+        parts += [
+            f"## {title.rstrip('.')}",
+            rest,
+            f"```{{code-block}} python\n:caption: {path.name}\n\n{code}\n```",
+        ]
+    return "\n\n".join(parts)
 
 
 def arms() -> str:
