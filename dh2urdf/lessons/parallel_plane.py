@@ -5,8 +5,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from dh2urdf.lessons.marks import Mark
+from dh2urdf.lessons.marks import triangle as triangle_marks
 from dh2urdf.lessons.notation import Given, shown
-from dh2urdf.lessons.steps import Equation, Mark, Step
+from dh2urdf.lessons.steps import Equation, Step
 from dh2urdf.lessons.triangle import Elbow, Letters, Triangle
 from dh2urdf.lessons.way import Asked, Way, joint_step
 from dh2urdf.transforms import Array, inverse, moved
@@ -91,7 +93,10 @@ def bend_in_plane(asked: Asked, way: Way) -> Iterator[Way]:
         return
     elbows = triangle.elbows()
     for elbow in elbows:
-        steps, theta4 = _bent(asked, elbow, phi, len(elbows))
+        H_2 = arm.frames([*way.first(1), elbow.shoulder])[2]
+        corners = np.stack([H_1[:3, 3], H_2[:3, 3], point])
+        sides = triangle_marks(arm.base, corners, ("a_2", "a_3", "r_4"))
+        steps, theta4 = _bent(asked, elbow, phi, len(elbows), sides)
         found = way.then(seen, *steps).put(1, elbow.shoulder).put(2, elbow.elbow)
         yield found.put(3, theta4)
 
@@ -105,7 +110,7 @@ def _fourth_frame(asked: Asked, way: Way) -> tuple[Array, Array]:
 
 
 def _bent(
-    asked: Asked, elbow: Elbow, phi: float, count: int
+    asked: Asked, elbow: Elbow, phi: float, count: int, sides: tuple[Mark, ...]
 ) -> tuple[tuple[Step, Step, Step], float]:
     """One elbow: theta_3, theta_2, and what theta_4 has to add."""
     sign = "negative" if elbow.elbow < 0.0 else "positive"
@@ -115,7 +120,7 @@ def _bent(
         else "The arm is stretched or folded: both elbows are one."
     )
     title, equations = "theta_3: the elbow", elbow.elbow_equations[1:]
-    step3 = joint_step(asked.arm, 2, title, both, equations, elbow.elbow, (), "elbow")
+    step3 = joint_step(asked.arm, 2, title, both, equations, elbow.elbow, sides, "elbow")
     step2 = joint_step(
         asked.arm,
         1,
@@ -123,6 +128,7 @@ def _bent(
         "The direction to axis 4, less gamma, the angle in the triangle at the shoulder.",
         elbow.shoulder_equations,
         elbow.shoulder,
+        sides,
     )
     given = {"phi": phi, "theta_2": elbow.shoulder, "theta_3": elbow.elbow}
     theta4 = math.remainder(phi - elbow.shoulder - elbow.elbow, math.tau)

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from dh2urdf.lessons.marks import Mark
+from dh2urdf.lessons.marks import triangle as triangle_marks
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation, Step
 from dh2urdf.lessons.triangle import Elbow, Letters, Triangle
@@ -204,7 +206,11 @@ def _elbows(asked: Asked, plane: Plane, way: Way, x: float, y: float) -> Iterato
         return
     elbows = triangle.elbows()
     for elbow in elbows:
-        yield _bent(asked, plane, way, elbow, len(elbows), (bent1, bent2), names)
+        middle = plane.before + abs(z1) * cmath.exp(1j * elbow.shoulder)
+        tip = plane.before + complex(x, y)
+        flat = [(z.real, z.imag, asked.H[2, 3]) for z in (plane.before, middle, tip)]
+        sides = triangle_marks(asked.arm.base, np.array(flat), ("l_1", "l_2", "r"))
+        yield _bent(asked, plane, way, elbow, len(elbows), (bent1, bent2), names, sides)
 
 
 def _bent(
@@ -215,6 +221,7 @@ def _bent(
     count: int,
     bends: tuple[float, float],
     names: tuple[str, str],
+    sides: tuple[Mark, ...],
 ) -> Way:
     """One elbow: its joint, then the first one."""
     one, two = plane.turning[:2]
@@ -240,7 +247,8 @@ def _bent(
         words,
         equations[1],
         values[1],
-        choice="elbow",
+        sides,
+        "elbow",
     )
     first = joint_step(
         asked.arm,
@@ -250,6 +258,7 @@ def _bent(
         f"{one + 1}, between the first link and that direction.",
         equations[0],
         values[0],
+        sides,
     )
     return way.then(second, first).put(one, values[0]).put(two, values[1])
 

@@ -5,8 +5,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from dh2urdf.lessons.marks import Mark
+from dh2urdf.lessons.marks import triangle as triangle_marks
 from dh2urdf.lessons.notation import shown
-from dh2urdf.lessons.steps import Equation, Mark, Step
+from dh2urdf.lessons.steps import Equation, Step
 from dh2urdf.lessons.triangle import Elbow, Letters, Triangle
 from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
 from dh2urdf.transforms import Array, moved
@@ -170,15 +172,18 @@ def _elbows(asked: Asked, way: Way, centre: Array, reach: tuple[float, float]) -
     equations = (*_seen_from_shoulder(asked, centre, reach), *forearm, distance, triangle.cosine)
     shoulder = arm.frames(way.first(1))[1][:3, 3]
     ends = moved(arm.base, np.stack([shoulder, centre]))
-    marks = Mark("line", ends, "r_c"), Mark("point", ends[:1], "o_1")
-    seen = Step("The triangle in the arm's plane", words, equations, marks=marks)
+    found: tuple[Mark, ...] = Mark("line", ends, "r_c"), Mark("point", ends[:1], "o_1")
+    seen = Step("The triangle in the arm's plane", words, equations, marks=found)
     if not triangle.reaches:
         yield way.stop(seen)
         return
     elbows = triangle.elbows()
     for elbow in elbows:
         theta3 = math.remainder(elbow.elbow - lean, 2.0 * math.pi)
-        steps = _bent(asked, elbow, theta3, lean, len(elbows))
+        H_2 = arm.frames([*way.first(1), elbow.shoulder])[2]
+        corners = np.stack([shoulder, H_2[:3, 3], centre])
+        marks = triangle_marks(arm.base, corners, ("a_2", "l_3", "r_c"))
+        steps = _bent(asked, elbow, (theta3, lean), len(elbows), marks)
         yield way.then(seen, *steps).put(2, theta3).put(1, elbow.shoulder)
 
 
@@ -198,8 +203,11 @@ def _seen_from_shoulder(
     )
 
 
-def _bent(asked: Asked, elbow: Elbow, theta3: float, lean: float, count: int) -> tuple[Step, Step]:
-    """One elbow: theta_3, then theta_2."""
+def _bent(
+    asked: Asked, elbow: Elbow, angles: tuple[float, float], count: int, marks: tuple[Mark, ...]
+) -> tuple[Step, Step]:
+    """One elbow: theta_3, then theta_2; angles: theta_3 and beta."""
+    theta3, lean = angles
     given = {"eta": elbow.elbow, "beta": lean}
     third = Equation("theta_3", "eta - beta", given, theta3, "rad")
     sign = "negative" if elbow.elbow < 0.0 else "positive"
@@ -215,7 +223,8 @@ def _bent(asked: Asked, elbow: Elbow, theta3: float, lean: float, count: int) ->
         f"eta = theta_3 + beta is the angle between upper arm and forearm. {both}",
         [*elbow.elbow_equations[1:], third],
         theta3,
-        choice="elbow",
+        marks,
+        "elbow",
     )
     step2 = joint_step(
         asked.arm,
@@ -225,5 +234,6 @@ def _bent(asked: Asked, elbow: Elbow, theta3: float, lean: float, count: int) ->
         "angle in the triangle between the upper arm and the way to the wrist centre.",
         elbow.shoulder_equations,
         elbow.shoulder,
+        marks,
     )
     return step3, step2

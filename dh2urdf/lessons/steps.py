@@ -2,10 +2,11 @@
 
 import textwrap
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.equation import Equation
+from dh2urdf.lessons.marks import Mark
 from dh2urdf.lessons.wording import (
     latex_block,
     latex_words,
@@ -16,19 +17,6 @@ from dh2urdf.lessons.wording import (
 from dh2urdf.transforms import Array
 
 __all__ = ["Equation", "IKExplanation", "Mark", "Step"]
-
-
-@dataclass(frozen=True, eq=False)
-class Mark:
-    """Something that a picture of a step draws, in the base frame.
-
-    ``line``: points (k, 3), one after the other; ``arc``: centre, then points on it; ``frame``: a
-    pose (4, 4); ``point``: (1, 3).
-    """
-
-    kind: Literal["line", "arc", "frame", "point"]
-    points: Array
-    label: str = ""
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from dh2urdf.lessons.elimination import fits as fits_six_turns
 from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters, taken_off
 from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
+from dh2urdf.lessons.marks import joint_mark
 from dh2urdf.lessons.notation import shown, vector_shown
 from dh2urdf.lessons.planar import planar, planar_place
 from dh2urdf.lessons.spherical_wrist import spherical_wrist
@@ -119,6 +120,8 @@ class Case:
         self.question, self.chain = question, question.chain
         self.T, self.solver, self.task = question.T, question.solver, question.task
         self.joints, self.notes = list(range(self.chain.n)), list[Step]()
+        self.base = np.eye(4)
+        """The base of the lesson's chain in the arm's: the tool, where it is turned round."""
         table = question.table
         if question.held:
             self.chain, table = hold(self.chain, question.held), None
@@ -131,6 +134,7 @@ class Case:
             self.solver = select_solver(self.chain, self.task).name
             self.notes.append(_about_the_tool(self.chain.n))
         if self.solver in REVERSED:
+            self.base = self.T
             self.chain, table, self.T = self.chain.reversed(), None, inverse(self.T)
             self.joints, self.solver = self.joints[::-1], REVERSED[self.solver]
             self.notes.append(_turned_round(self.chain.n))
@@ -193,13 +197,28 @@ def explain_pose(question: Question) -> IKExplanation:
     else:
         steps.append(taken_off(case.arm, case.T, case.pose(), case.task is Task.POSITION))
         way = case.chosen()
-        steps += [_named(step, branch, case.joints) for step in way.steps]
+        steps += [_named(_drawn(step, case, way), branch, case.joints) for step in way.steps]
+        steps = [_in_base(step, case.base) for step in steps]
         if not way.stopped:
             q, check = _placed(case, way)
             steps.append(check)
     if len(question.q) > 1:
         steps.append(_branches(question))
     return IKExplanation(question.name, question.solver, question.T, tuple(steps), q, index, branch)
+
+
+def _drawn(step: Step, case: Case, way: Way) -> Step:
+    """A step with its joint's arc or slide, once the joints before it are known, too."""
+    known = [way.variables.get(i) for i in range(case.arm.n)]
+    if step.joint is None or any(v is None for v in known[: step.joint + 1]):
+        return step
+    values = [float(v or 0.0) for v in known]
+    return replace(step, marks=(*step.marks, joint_mark(case.arm, values, step.joint)))
+
+
+def _in_base(step: Step, base: Array) -> Step:
+    """A step whose marks are seen from the arm's own base."""
+    return replace(step, marks=tuple(mark.seen_from(base) for mark in step.marks))
 
 
 def _named(step: Step, branch: str, joints: list[int]) -> Step:

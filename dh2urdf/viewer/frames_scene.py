@@ -41,7 +41,7 @@ TUBE = 1.7
 """Radius of a measure against that of the arrows' shafts, which it covers."""
 
 
-def _arrows(server: Any, name: str, length: float, size: float) -> None:
+def add_arrows(server: Any, name: str, length: float, size: float) -> None:
     """Three arrows along x, y and z under a scene name, in the colours of the axes."""
     for letter, direction in zip("xyz", np.eye(3), strict=True):
         thin = 0.7 if letter == "y" else 1.0
@@ -51,7 +51,8 @@ def _arrows(server: Any, name: str, length: float, size: float) -> None:
         server.scene.add_arrows(f"{name}/{letter}", ends, rgb(AXIS[letter]), **sizes)
 
 
-def _label(server: Any, name: str, text: str, place: Array, **options: Any) -> Any:
+def add_label(server: Any, name: str, text: str, place: Array, **options: Any) -> Any:
+    """A text in the middle of a place (3,) of the scene."""
     return server.scene.add_label(name, text, position=place, anchor="center-center", **options)
 
 
@@ -81,11 +82,11 @@ class FramesScene:
         length = 0.8 * AXIS_LENGTH * self.arm.size
         for i in range(self.arm.table.n + 1):
             self.roots.append(self.server.scene.add_frame(f"/dh/{i}", show_axes=False))
-            _arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
+            add_arrows(self.server, f"/dh/{i}", length, 0.7 * self.arm.size)
             for letter, direction in (("x", 0), ("z", 2)):
                 name, place = f"/dh/{i}/name_{letter}", 1.15 * length * np.eye(3)[direction]
                 text, small = axis_name(self.arm, letter, i), {"font_screen_scale": 0.9}
-                self.labels.append(_label(self.server, name, text, place, **small))
+                self.labels.append(add_label(self.server, name, text, place, **small))
 
     def show(self, q: Array) -> None:
         """Place the frames at q (n,)."""
@@ -151,7 +152,7 @@ class RowScene:
         self.ends = []
         for name in ("prev", "next"):
             self.ends.append(server.scene.add_frame(f"/row/{name}", show_axes=False))
-            _arrows(server, f"/row/{name}", self.length, 0.7 * arm.size)
+            add_arrows(server, f"/row/{name}", self.length, 0.7 * arm.size)
         self.picture: DHRowPicture | None = None
 
     def show(self, q: Array) -> None:
@@ -236,7 +237,7 @@ class RowScene:
         self.server.scene.add_line_segments(f"/row/{name}", ends, rgb(colour), **style)
 
     def _label(self, name: str, text: str, place: Array, *, visible: bool = True) -> None:
-        _label(self.server, f"/row/label_{name}", text, place, visible=visible)
+        add_label(self.server, f"/row/label_{name}", text, place, visible=visible)
 
     def remove(self) -> None:
         """Take the row out of the scene."""

@@ -18,10 +18,12 @@ from dh2urdf.viewer.door import LOOPBACK, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.options import Options
 from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
+from dh2urdf.viewer.step_scene import StepScene
 from dh2urdf.viewer.tabs.editor import page_title
 from dh2urdf.viewer.tabs.ik_tab import IKTab
 from dh2urdf.viewer.tabs.joints_tab import JointsTab
 from dh2urdf.viewer.tabs.table_tab import TableTab
+from dh2urdf.viewer.tabs.worked_tab import WorkedTab
 from dh2urdf.viewer.urdf_drawing import urdf_drawing
 
 CLOSE = 1.15
@@ -96,6 +98,8 @@ class ArmView:
         self._joints = JointsTab(self._server.gui, tabs.add_tab("Joints"), self._moved)
         table_tab = tabs.add_tab("DH table")
         self._ik = IKTab(self._server, tabs.add_tab("IK"), self._lock, self._moved, self._target_on)
+        worked_tab = tabs.add_tab("Worked solution")
+        self._worked = WorkedTab(self._server.gui, worked_tab, self._step)
         self._table = TableTab(self._server.gui, table_tab, self._explain, self._edited)
         self._titled = self._server.gui.add_html("")
         self._options = Options(
@@ -150,11 +154,13 @@ class ArmView:
             self._options.meshes.visible = own is not None
             self._scene = ArmScene(self._server, drawing)
             self._frames = FramesScene(self._server, arm)
-            self._scenes = [self._scene, self._frames]
+            self._step_scene = StepScene(self._server, arm.size)
+            self._scenes = [self._scene, self._frames, self._step_scene]
             self._name()
             self._joints.build(robot, q, self._options.units)
             self._table.build(arm.table, self._options.units)
             self._ik.build(robot, drawing, q, self._options.units)
+            self._worked.build(robot)
             for note in notes:
                 self._table.say(note)
             self._stage = set_stage(self._server, robot, arm, drawing, q)
@@ -182,6 +188,9 @@ class ArmView:
         self._frames.show(q)
         self._joints.show(self._q)
         self._ik.show(self._q)
+        marks = self._worked.show(self._q)
+        if marks or self._step_scene.marks:
+            self._step_scene.show(marks)
         if self._row_scene:
             self._row_scene.show(q)
             self._table.explain(self._row_scene.picture, self._row_scene.steps)
@@ -191,6 +200,7 @@ class ArmView:
         with self._lock, self._server.atomic():
             if i:
                 self._ik.put_away()
+                self._worked.put_away()
             self._show_row(i)
             self._redraw()
         self._bring_near(visitor)
@@ -211,6 +221,20 @@ class ArmView:
             self._table.choose(0)
             self._explain(0, visitor)
 
+    def _step(self) -> None:
+        """Draw the step of the worked solution that was chosen, alone."""
+        with self._lock, self._server.atomic():
+            if self._worked.step and self._table.row:
+                self._table.choose(0)
+                self._show_row(0)
+            self._see_through()
+            self._redraw()
+
+    def _see_through(self) -> None:
+        """See through the arm where something is drawn within it."""
+        inside = self._table.row > 0 or self._worked.step > 0 or self._options.frames.value
+        self._scene.set_translucent(inside)
+
     def _show_row(self, i: int) -> None:
         if self._row_scene:
             self._row_scene.remove()
@@ -220,11 +244,11 @@ class ArmView:
             self._row_scene.step = self._table.step
         else:
             self._table.explain(None)
-        self._scene.set_translucent(i > 0 or self._options.frames.value)
+        self._see_through()
 
     def _switch_frames(self) -> None:
         with self._lock, self._server.atomic():
-            self._scene.set_translucent(self._table.row > 0 or self._options.frames.value)
+            self._see_through()
             self._redraw()
 
     def _switch_units(self) -> None:
