@@ -5,18 +5,21 @@ import math
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation
-from dh2urdf.lessons.way import RIM
-from dh2urdf.transforms import Array
+from dh2urdf.lessons.way import MERGED, RIM
 
 VOID = 1e-14
 """Amplitude of an equation, relative to its size, that says nothing of its angle."""
 
 SAMPLES = 144
 """Values of a function that is plotted: every 2.5 degrees."""
+
+FIRST = 0.1973
+"""First angle [rad] at which a function is sampled: none that a user's pose would have."""
 
 ON_CIRCLE = 1e-5
 """Distance from the unit circle at which a root may be a real one that rounding has moved."""
@@ -49,7 +52,8 @@ class Linear:
         """Its solutions, two or one where both are the same."""
         if not self.solvable:
             return []
-        room = max(self.amplitude - abs(self.C), 0.0)
+        room = self.amplitude - abs(self.C)
+        room = room if room > MERGED * self.amplitude else 0.0
         half = math.atan2(math.sqrt(room) * math.sqrt(self.amplitude + abs(self.C)), self.C)
         middle = math.atan2(self.B, self.A)
         both = (middle + half, middle - half) if room else (middle + half,)
@@ -63,16 +67,14 @@ class Linear:
         return Equation(self.name, formula, given, root, "rad", others)
 
 
-def series_of(f: Callable[[float], float], degree: int) -> Array:
+def series_of(f: Callable[[float], float], degree: int) -> NDArray[np.complex128]:
     """Complex coefficients of ``exp(i m x)``, m = -degree ... degree, of a real function."""
     count = 2 * degree + 1
-    values = [f(math.tau * k / count) for k in range(count)]
-    return np.array(
-        [
-            sum(v * cmath.exp(-1j * m * math.tau * k / count) for k, v in enumerate(values)) / count
-            for m in range(-degree, degree + 1)
-        ]
-    )
+    x = [FIRST + math.tau * k / count for k in range(count)]
+    values = np.array([f(angle) for angle in x])
+    turns = np.exp(-1j * np.outer(np.arange(-degree, degree + 1), x))
+    series: NDArray[np.complex128] = turns @ values / count
+    return series
 
 
 def real_roots(f: Callable[[float], float], degree: int) -> list[float]:

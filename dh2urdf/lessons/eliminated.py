@@ -2,35 +2,38 @@
 
 import math
 
-import numpy as np
-
 from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.equation import Equation
+from dh2urdf.lessons.notation import measured
 from dh2urdf.lessons.steps import Step
 from dh2urdf.lessons.way import Asked, Way
+
+BLUNT = 1e-7
+"""Distance [rad] of a root from the joint's own value at which roots have met."""
 
 
 def led_by(asked: Asked, way: Way, joint: int, words: str, curve: Curve) -> Way:
     """The step that finds a joint as a root of a polynomial, the one of the solution explained."""
     count, name = len(curve.roots), f"q_{joint + 1}"
     said = f"{words}It has {count or 'no'} real root{'' if count == 1 else 's'}"
-    if not count:
-        return way.stop(Step(name, f"{said}: here the solution ends.", curve=curve))
     if asked.guide is None:
-        words = f"{said}, but none of them leads to a solution."
-        return way.stop(Step(name, words, curve=curve))
+        end = ", but none of them leads to a solution" if count else ": here the solution ends"
+        return way.stop(Step(name, f"{said}{end}.", curve=curve))
     goal = float(asked.guide[joint])
-    apart = [abs(math.remainder(x - goal, math.tau)) for x in curve.roots]
-    best = int(np.argmin(apart))
-    root = curve.roots[best]
-    others = tuple(x for k, x in enumerate(curve.roots) if k != best)
-    equation = Equation(name, name, {}, root, "rad", others)
+    near = sorted(curve.roots, key=lambda x: abs(math.remainder(x - goal, math.tau)))
+    root = near[0] if count else goal
+    equation = Equation(name, name, {}, root, "rad", tuple(near[1:]))
     said += (
         "; several solutions may share one, and one that solves only the product leads to none. "
         "Here take the one of the solution that is explained."
     )
+    if not count or abs(math.remainder(root - goal, math.tau)) > BLUNT:
+        said += (
+            " Roots meet here, of which rounding leaves fewer digits, or takes them off the real "
+            f"line: the joint itself is at {measured(goal, 'rad')}."
+        )
     step = Step(f"{name}: a root of the polynomial", said, (equation,), joint, curve=curve)
-    return way.then(step).put(joint, asked.arm.variable(joint, root))
+    return way.then(step).put(joint, asked.arm.variable(joint, goal))
 
 
 def back(asked: Asked, way: Way, words: str) -> Way:

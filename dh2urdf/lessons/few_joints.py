@@ -9,7 +9,7 @@ from dh2urdf.lessons.arm import Row
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.position_any import place_point
 from dh2urdf.lessons.steps import Equation, Step
-from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
+from dh2urdf.lessons.way import MERGED, RIM, Asked, Way, joint_step
 from dh2urdf.transforms import rotation_angle
 
 OFF = 2e-9
@@ -80,7 +80,7 @@ def _in_the_plane(asked: Asked, way: Way) -> Iterator[Way]:
         )
         yield way.stop(Step("d_2: the slide", words))
         return
-    root = math.sqrt(max(room, 0.0))
+    root = math.sqrt(room) if room > MERGED * (xw * xw + yw * yw) else 0.0
     for slide in (root, -root) if root else (0.0,):
         yield _slid(asked, way, (xw, yw, phi), slide, words)
 

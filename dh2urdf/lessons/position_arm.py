@@ -10,7 +10,7 @@ from dh2urdf.lessons.marks import triangle as triangle_marks
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation, Step
 from dh2urdf.lessons.triangle import Elbow, Letters, Triangle
-from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
+from dh2urdf.lessons.way import MERGED, RIM, Asked, Way, joint_step
 from dh2urdf.transforms import Array, moved
 
 ON_AXIS = 5e-10
@@ -71,7 +71,7 @@ def shoulders(
         )
         yield way.stop(Step("theta_1", words + end, tuple(equations))), (0.0, 0.0)
         return
-    root = math.sqrt(max(square, 0.0))
+    root = math.sqrt(square) if square > MERGED * (x * x + y * y) else 0.0
     if x * x + y * y <= ON_AXIS**2 and root <= ON_AXIS:
         facings = [_any_facing(asked, words)]
         root = 0.0

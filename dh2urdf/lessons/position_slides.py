@@ -9,7 +9,7 @@ from dh2urdf.lessons.circle import Linear, curve_of, real_roots
 from dh2urdf.lessons.notation import shown, vector_shown
 from dh2urdf.lessons.seen import ON_AXIS, Seen, freely, linear_step, slid
 from dh2urdf.lessons.steps import Equation, Step
-from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
+from dh2urdf.lessons.way import MERGED, RIM, Asked, Way, joint_step
 from dh2urdf.transforms import Array
 
 SQUARE = 1e-9
@@ -82,7 +82,7 @@ def _slide_length(asked: Asked, way: Way, turn: Seen, slide: Seen) -> Iterator[W
         )
         yield way.stop(Step(slide.name, words))
         return
-    root = math.sqrt(max(room, 0.0))
+    root = math.sqrt(room) if room > MERGED * max(square, rest) else 0.0
     for side in (root, -root) if root else (0.0,):
         value = side - along
         others = (-side - along,) if root else ()

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation
-from dh2urdf.lessons.way import RIM
+from dh2urdf.lessons.way import MERGED, RIM
 
 
 @dataclass(frozen=True)
@@ -102,6 +102,8 @@ class Triangle:
         if self.l1 * self.l2 < 0.0:
             outer = max(square - (self.l1 + self.l2) ** 2, 0.0)
             inner = max((self.l1 - self.l2) ** 2 - square, 0.0)
+        least = MERGED * self.far**2
+        outer, inner = (room if room > least else 0.0 for room in (outer, inner))
         sine = math.sqrt(outer) * math.sqrt(inner)
         cosine = self.cosine
         top = float(cosine.value) * abs(2.0 * self.l1 * self.l2)

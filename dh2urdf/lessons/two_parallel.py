@@ -24,6 +24,9 @@ Complex = NDArray[np.complex128]
 
 DEGREE = 8
 
+TINY = 1e-12
+"""In place of the squared sine of axis 6 to axes 2 and 3, where that vanishes."""
+
 
 def fits(rows: tuple[Row, ...]) -> bool:
     """Whether rows are six turns, axis 2 parallel to 3, and 4 meets 5."""
@@ -59,7 +62,7 @@ class Polynomial:
         R1 = rotation(self.h[0], q1)
         u, l6 = R1.T @ (self.place - self.P1) - self.r1, R1.T @ self.R @ h6
         c1, c2 = float(h2 @ l6), float(h2 @ u - h2 @ self.r3)
-        a = 1.0 - c1 * c1
+        a = max(1.0 - c1 * c1, TINY)
         flat_u, flat_l = u - h2 * (h2 @ u), l6 - h2 * c1
         U = complex(float(flat_u @ flat_l), float(h2 @ np.cross(u, l6)))
         n = np.cross(h6, r5)

@@ -15,6 +15,11 @@ RIM = 1e-9
 pose, which may also be one of the arm's own on the rim."""
 
 
+MERGED = 1e-14
+"""Relative distance from its rim at which an equation has one root instead of two: rounding would
+part them by 1e-7."""
+
+
 @dataclass(frozen=True)
 class Way:
     """The steps so far, the DH variables found, by joint from 0; whether a step has no solution."""

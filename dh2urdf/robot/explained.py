@@ -85,7 +85,7 @@ def question_of(
     """What :mod:`dh2urdf.lessons` is asked: solutions of a robot, which, joints held and task."""
     from dh2urdf.ik.arm import Task
     from dh2urdf.ik.problem import held_values
-    from dh2urdf.ik.redundant import SweptJoint
+    from dh2urdf.ik.redundant import RedundantChain, SweptJoint
     from dh2urdf.lessons import Question
 
     index = 0 if solution is None else integer(solution, "solution", 0, max(len(found) - 1, 0))
@@ -93,9 +93,10 @@ def question_of(
     joints, values = held_values(robot.chain, locked, False)
     held = dict(zip(joints, values[0].tolist(), strict=True))
     rows = np.arange(len(found))
-    if isinstance(solver, SweptJoint):
-        held[solver.joint] = float(found.q[index, solver.joint]) if found else 0.0
-        rows = np.flatnonzero(found.q[:, solver.joint] == held[solver.joint])
+    if found and isinstance(solver, (SweptJoint, RedundantChain)):
+        spare = solver.held if isinstance(solver, RedundantChain) else (solver.joint,)
+        held |= {i: float(found.q[index, i]) for i in spare}
+        rows = np.flatnonzero((found.q[:, spare] == found.q[index, spare]).all(axis=1))
     return Question(
         name=robot.table.name if robot.table else robot.model.name,
         chain=robot.chain,

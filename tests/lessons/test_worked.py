@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -145,3 +146,82 @@ def test_values_of_the_steps_are_the_kernels_for_a_thousand_poses(name):
     robot = dh2urdf.Robot.from_dh(name)
     for k, T in enumerate(regular_poses(robot, 1000, np.random.default_rng(6))):
         assert_agrees(robot, T, k)
+
+
+def turned(table):
+    """The same arm on a leaning base, with a tool, joints that turn the other way, other zeros."""
+    rows = [
+        replace(row, sign=-row.sign, theta=row.theta + 0.1 * i)
+        if i % 2 and row.joint_type is dh2urdf.JointType.REVOLUTE
+        else row
+        for i, row in enumerate(table.rows)
+    ]
+    base = dh2urdf.Origin((0.1, -0.2, 0.3), (0.2, 0.1, -0.4))
+    tool = dh2urdf.Origin((0.02, 0.03, 0.05), (0.3, -0.2, 0.1))
+    return replace(table, rows=tuple(rows), base=base, tool=tool)
+
+
+FORMS = {
+    "as it ships": lambda table: table,
+    "modified": lambda table: dh2urdf.to_convention(table, "modified"),
+    "turned": turned,
+    "turned and modified": lambda table: dh2urdf.to_convention(turned(table), "modified"),
+}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(
+    "name", ["denso_vs6556", "ur5", "stanford", "px150", "denso_hsr065", "planar_rrr", "franka_fer"]
+)
+def test_base_tool_signs_and_convention_change_no_value(name, form):
+    """Both conventions, mirrored joints, offsets, base and tool: values are the kernel's."""
+    robot = dh2urdf.Robot.from_dh(FORMS[form](dh2urdf.load_table(name)))
+    for k, T in enumerate(regular_poses(robot, 2, np.random.default_rng(10))):
+        assert_agrees(robot, T, k)
+
+
+def test_robot_of_a_file_is_explained_in_frames_of_its_axes(tmp_path):
+    """A URDF has no table: the steps show the frames that they use, and meet the kernel."""
+    dh2urdf.write_urdf("ur5", tmp_path / "arm.urdf")
+    robot = dh2urdf.Robot.from_urdf(tmp_path / "arm.urdf", tip="tool0")
+    T = robot.fk([0.3, -1.2, 1.0, -0.4, 0.8, 0.1])
+    told = robot.explain_ik(T)
+    assert told.steps[0].title == "The frames"
+    assert "standard DH" in told.steps[0].words
+    assert np.abs(told.q - robot.ik(T).q[0]).max() <= ROUNDING
+
+
+def test_tasks_and_held_joints_are_explained():
+    """Position alone, position and axis, a joint held or to spare: a smaller arm is left."""
+    rng = np.random.default_rng(11)
+    cases = [
+        ("planar_rr", {"task": "position"}),
+        ("cylindrical", {"task": "position"}),
+        ("px150", {"task": "position+axis"}),
+        ("kuka_iiwa14", {"locked": {"joint_a3": 0.4}}),
+        ("franka_fer", {"locked": {6: -0.5}}),
+    ]
+    for name, asked in cases:
+        robot = dh2urdf.Robot.from_dh(name)
+        q = np.where(robot.slides, 0.4, rng.uniform(-1.0, 1.0, robot.n))
+        for key, value in asked.get("locked", {}).items():
+            q[robot.joint_names.index(key) if isinstance(key, str) else key] = value
+        T = robot.fk(q)
+        found = robot.ik(T, within_limits=False, **asked)
+        for k in range(len(found)):
+            told = robot.explain_ik(found, k, **asked)
+            assert np.abs(told.q - found.q[k]).max() <= 1e-10, (name, asked)
+            assert told.solution == k
+
+
+def test_every_pose_of_a_grid_is_explained_to_its_end():
+    """Right angles and their halves, where solutions meet and joints are free, on every arm."""
+    rng = np.random.default_rng(12)
+    for name in dh2urdf.list_tables():
+        robot = dh2urdf.Robot.from_dh(name)
+        for step in (0.25 * np.pi, 0.5 * np.pi):
+            q = np.where(robot.slides, 0.3, step * rng.integers(-2, 3, robot.n))
+            T = robot.fk(q)
+            told = robot.explain_ik(T, within_limits=False)
+            assert told.q is not None, (name, q)
+            assert np.abs(robot.fk(told.q) - T).max() < 1e-9, (name, q)
