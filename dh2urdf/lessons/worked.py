@@ -22,6 +22,7 @@ from dh2urdf.lessons.spherical_wrist import spherical_wrist
 from dh2urdf.lessons.steps import Equation, IKExplanation, Step
 from dh2urdf.lessons.three_parallel import fits as fits_three_parallel
 from dh2urdf.lessons.three_parallel import three_parallel
+from dh2urdf.lessons.three_slides import three_slides
 from dh2urdf.lessons.two_parallel import fits as fits_two_parallel
 from dh2urdf.lessons.two_parallel import two_parallel
 from dh2urdf.lessons.way import Asked, Way
@@ -101,6 +102,8 @@ def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:
     """The derivation for an arm that a solver covers; None: there is none here."""
     if solver == "short chain":
         return next((lesson for fits, lesson in SHORT if fits(arm.rows)), None)
+    if solver == "three slides":
+        return three_slides
     if solver == "position arm":
         return place_only if moves_point(arm.rows) else None
     if task is Task.POSE and solver in ELIMINATED:

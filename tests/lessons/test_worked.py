@@ -97,6 +97,19 @@ def test_any_three_joints_place_the_wrist_as_the_kernels_do(kinds):
             assert_agrees(robot, T, k, 1e-10)
 
 
+@pytest.mark.parametrize("kinds", ["RPPRPR", "PRPRPR", "RPRPRP", "RPPPRR", "PRPRP", "RPPPR"])
+def test_three_slides_come_apart_from_the_turns(kinds):
+    """Random arms of five and six joints, three of them sliding."""
+    rng = np.random.default_rng(13)
+    for _ in range(2):
+        rows = rng.uniform(-0.5, 0.5, (len(kinds), 4)) * [2.0, 1.0, 1.0, 4.0]
+        table = dh2urdf.DHTable.from_array(rows, "standard", joint_types=kinds)
+        robot = dh2urdf.Robot.from_dh(table)
+        assert robot.solver.name == "three slides"
+        for k, T in enumerate(regular_poses(robot, 2, rng)):
+            assert_agrees(robot, T, k, 1e-10)
+
+
 def assert_roots(robot, f, q, joint):
     """Every solution q (k, n) has its joint among the real roots of a polynomial."""
     roots = real_roots(f, 8)
