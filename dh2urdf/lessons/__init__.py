@@ -1,12 +1,16 @@
 """Inverse kinematics as a worked solution: each step with its formula, numbers, value and reason.
 
 A derivation of its own, in plain Python on the table's letters, that shares nothing with the
-kernels: `notation` writes formulas, `steps` holds what is said, `arm` the rows, `way` the choices
-on the way; then a module a family, and `worked` the entry.
+kernels. `notation` writes formulas, `equation`, `steps`, `wording` what is said, `curve` and
+`marks` what is drawn; `arm` has the rows, `way` the choices on the way. Then the families:
+`planar`; `spherical_wrist` with `position*`, `seen` and `wrist`; `three_parallel` with
+`parallel_*`; `few_joints`, `three_slides`; without a closed form `two_parallel` and `elimination`.
+`case` picks one, `worked` is the entry.
 """
 
+from dh2urdf.lessons.case import Question
 from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.steps import Equation, IKExplanation, Mark, Step
-from dh2urdf.lessons.worked import Question, explain_pose
+from dh2urdf.lessons.worked import explain_pose
 
 __all__ = ["Curve", "Equation", "IKExplanation", "Mark", "Question", "Step", "explain_pose"]

@@ -75,13 +75,15 @@ def bend_in_plane(asked: Asked, way: Way) -> Iterator[Way]:
     back = f"a_4 = {shown(a4)} m back along it" if a4 else "at its origin, as a_4 = 0"
     words = (
         "Frame 4 is known from the joints after it. Its x_4 points along phi, seen in the plane "
-        f"from frame 1, and axis 4 is {back}: at (u, v) from o_1. Links 2 and 3 have to reach it. "
+        f"from frame 1, and axis 4 is {back}: it passes p_4, at (u, v) from o_1. Links 2 and 3 "
+        "have to reach it. "
         f"{triangle.test}"
     )
+    seen_from: Given = {"x_1": H_1[:3, 0], "y_1": H_1[:3, 1], "p_4": point, "o_1": H_1[:3, 3]}
     equations = (
         Equation("phi", "atan2(x_y, x_x)", {"x_x": float(cx), "x_y": float(cy)}, phi, "rad"),
-        Equation("u", "u", {}, float(u), "m"),
-        Equation("v", "v", {}, float(v), "m"),
+        Equation("u", "x_1^T (p_4 - o_1)", seen_from, float(u), "m"),
+        Equation("v", "y_1^T (p_4 - o_1)", seen_from, float(v), "m"),
         Equation("r_4", "sqrt(u^2 + v^2)", {"u": u, "v": v}, triangle.distance, "m"),
         triangle.cosine,
     )

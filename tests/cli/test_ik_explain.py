@@ -58,6 +58,7 @@ def test_solution_outside_the_limits_is_explained(run):
     status, out, err = run("ik", "denso_vs6556", *pose, "--explain")
     assert status == 1
     assert "outside the joint limits" in err
+    assert "It is outside the limits of joint_" in " ".join(out.split())
     assert "The check" in out
 
 

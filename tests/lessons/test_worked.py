@@ -9,11 +9,11 @@ import pytest
 from formulas import is_plain, off
 
 import dh2urdf
+from dh2urdf.lessons.case import Case
 from dh2urdf.lessons.circle import real_roots
 from dh2urdf.lessons.elimination import Elimination, links_of
 from dh2urdf.lessons.two_parallel import Polynomial, two_parallel
 from dh2urdf.lessons.way import Asked
-from dh2urdf.lessons.worked import Case
 from dh2urdf.robot.explained import question_of
 
 ROUNDING = 1e-12
