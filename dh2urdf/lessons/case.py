@@ -47,6 +47,9 @@ SHORT: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
 ELIMINATED = frozenset({"two parallel axes", "nearly two parallel axes", "general 6R"})
 """Solvers without a closed form."""
 
+ALIKE = " The other choices on the way end without a solution, too."
+"""What is said where none of several ways has one."""
+
 REVERSED = {
     "spherical shoulder": "spherical wrist",
     "three parallel axes, from the tool": "three parallel axes",
@@ -182,8 +185,11 @@ class Case:
         """The way that leads to the solution; without one the way that got farthest."""
         found, guide = self.ways(), self.guide
         whole = [way for way in found if not way.stopped]
-        if guide is None or not whole:
-            return max(whole or found, key=lambda way: len(way.steps))
+        if not whole:
+            farthest = max(found, key=lambda way: len(way.steps))
+            return farthest.saying(ALIKE) if len(found) > 1 else farthest
+        if guide is None:
+            return whole[0]
         return min(whole, key=lambda way: self.apart(self.values(way), guide))
 
 

@@ -40,6 +40,11 @@ class Way:
         """The way that ends in a step without a solution."""
         return replace(self, steps=(*self.steps, step), stopped=True)
 
+    def saying(self, words: str) -> "Way":
+        """The way with more words in its last step."""
+        last = self.steps[-1]
+        return replace(self, steps=(*self.steps[:-1], replace(last, words=last.words + words)))
+
     def first(self, count: int) -> list[float]:
         """The first so many DH variables."""
         return [self.variables[i] for i in range(count)]

@@ -119,6 +119,7 @@ def test_out_of_reach_the_denso_ends_at_the_triangle_in_metres():
     assert "0.7294 m from the shoulder" in last.words
     assert "0.0384234 m, to their sum, 0.578423 m" in last.words
     assert "0.150977 m too far" in last.words
+    assert last.words.endswith("The other choices on the way end without a solution, too.")
 
 
 def test_singular_wrist_is_said_in_words():
