@@ -188,6 +188,8 @@ def _closing(found: list[Token], start: int) -> int:
 
 def _bare(piece: str) -> str:
     r"""A piece without the ``\\left( \\right)`` that is all about it."""
+    if not piece.startswith(r"\left("):
+        return piece
     depth = 0
     for bracket in re.finditer(r"\\(left\(|right\))", piece):
         depth += 1 if bracket[1] == "left(" else -1

@@ -6,6 +6,9 @@ from collections.abc import Callable
 
 from dh2urdf.lessons.notation import LETTER, latex_name
 
+ASCII = str.maketrans({"─": "-", "−": "-", "°": "d", "α": "alpha", "θ": "theta", "·": "*"})
+"""Signs of tables that not every LaTeX takes; degrees keep their column."""
+
 WIDTH = 88
 """Columns of text."""
 
@@ -32,7 +35,7 @@ def markdown_words(words: str) -> str:
 def latex_block(block: str) -> str:
     """A paragraph; lines that are set out already as they are."""
     if "\n" in block:
-        return f"\\begin{{verbatim}}\n{block}\n\\end{{verbatim}}"
+        return f"\\begin{{verbatim}}\n{block.translate(ASCII)}\n\\end{{verbatim}}"
     return latex_words(block) + "\n"
 
 

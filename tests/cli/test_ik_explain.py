@@ -43,6 +43,16 @@ def test_formulas_are_written_for_markdown_and_latex(run, form, line):
     assert line in out.splitlines()
 
 
+def test_latex_is_plain_ascii(run):
+    """Every LaTeX takes it, the table of an arm in the modified convention, too."""
+    pose = ["--xyz=0.4,0,0.3", "--rpy=0,pi,0"]
+    for name in ("puma560_modified", "xarm6", "stanford"):
+        _, out, _ = run("ik", name, *pose, "--explain", "--no-within-limits", "--format", "latex")
+        assert out.isascii(), [c for c in out if not c.isascii()]
+        assert out.count(r"\begin{") == out.count(r"\end{")
+        assert out.count(r"\left(") == out.count(r"\right)")
+
+
 def test_pose_out_of_reach_is_explained_up_to_the_step_that_fails(run):
     """Exit 1, and the last step says by how much in metres."""
     status, out, err = run("ik", "denso_vs6556", "--xyz=0.8,0,0.335", "--rpy=0,0,0", "--explain")
