@@ -227,12 +227,12 @@ class ArmView:
             if self._worked.step and self._table.row:
                 self._table.choose(0)
                 self._show_row(0)
-            self._see_through()
+            self._see_through(self._table.row)
             self._redraw()
 
-    def _see_through(self) -> None:
-        """See through the arm where something is drawn within it."""
-        inside = self._table.row > 0 or self._worked.step > 0 or self._options.frames.value
+    def _see_through(self, row: int) -> None:
+        """See through the arm where a row, a step or all frames are drawn within it."""
+        inside = row > 0 or self._worked.step > 0 or self._options.frames.value
         self._scene.set_translucent(inside)
 
     def _show_row(self, i: int) -> None:
@@ -244,11 +244,11 @@ class ArmView:
             self._row_scene.step = self._table.step
         else:
             self._table.explain(None)
-        self._see_through()
+        self._see_through(i)
 
     def _switch_frames(self) -> None:
         with self._lock, self._server.atomic():
-            self._see_through()
+            self._see_through(self._table.row)
             self._redraw()
 
     def _switch_units(self) -> None:
