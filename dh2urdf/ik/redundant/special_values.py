@@ -200,6 +200,8 @@ class HeldAtAnyValue(HeldSolver):
             (low, high), count = (float(end[joint]) for end in near_ranges(self.chain)), GRID + 1
         grid = low + (high - low) * np.arange(count) / GRID
         gaps, step = self._depth(grid), (high - low) / GRID
+        if np.ptp(gaps) <= LINED_UP * gaps.max():  # the joint at an end turns nothing of the rest
+            return grid[:0]
         around = np.concatenate([[np.inf], gaps, [np.inf]])
         dips = grid[(gaps <= around[:-2]) & (gaps <= around[2:])]
         for _ in range(ROUNDS if len(dips) else 0):

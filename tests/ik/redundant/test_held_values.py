@@ -127,6 +127,23 @@ def test_a_special_value_does_not_end_a_batch(name, joint, value):
         assert batch[i].free_joints == alone.free_joints
 
 
+LINING_UP = {
+    ("franka_fer", 1): [-np.pi, 0.0, np.pi],
+    ("franka_fer", 3): [0.0, 2.0 * np.arctan2(0.316, 0.0825)],
+    ("kuka_iiwa14", 5): [-np.pi, 0.0, np.pi],
+    **{("franka_fer", joint): [] for joint in (2, 4, 5, 6)},
+    **{("kuka_iiwa14", joint): [] for joint in (0, 2, 4, 6)},
+}
+"""Held joints and the values that line two of the other axes up, or put them into one plane."""
+
+
+@pytest.mark.parametrize(("name", "joint"), LINING_UP)
+def test_the_values_that_line_axes_up_are_all_found_and_no_others(name, joint):
+    """Each is found to the distance within which the rank decides."""
+    found = Robot.from_dh(name).solver_for(locked={joint: 0.4}).values
+    assert np.sort(found) == pytest.approx(LINING_UP[name, joint], abs=1e-4)
+
+
 @pytest.mark.parametrize("gap", [1e-7, 1e-8, 1e-9, 6e-10, 3e-10, 2e-10, 1e-10, 1e-11, 1e-13])
 def test_beside_a_special_value_no_configuration_is_lost(gap):
     """A little away from it, what tells joints 1 and 3 apart is known to rounding over the gap."""
