@@ -75,8 +75,9 @@ class Equation:
     def text(self) -> str:
         """The equation in lines of text, equal signs below each other."""
         lines = [self.formula.replace(" +- ", " ± ").replace("+- ", "±"), self.numbers]
-        lines += [] if np.ndim(self.value) == 2 else [self.found]
         indent = " " * len(self.name)
+        if np.ndim(self.value) != 2:
+            lines.append(self.found.replace(", or ", f",\n{indent}   or "))
         if np.ndim(self.value) == 1 and self.numbers == vector_shown(np.asarray(self.value)):
             lines[1] = ""
         lines[0] = "" if self.formula == self.name else lines[0]

@@ -127,23 +127,11 @@ def _facing(
             "Here the second solution: the plane is turned half round, r < 0, the point is behind "
             "axis 1, and the arm reaches back over it."
         )
-    title, marks = "theta_1: which way the arm faces", _plan(asked, centre, both[0])
+    title, level = "theta_1: which way the arm faces", np.array([0.0, 0.0, centre[2]])
+    marks = (Mark("line", moved(asked.arm.base, np.stack([level, centre])), "r"),)
     equations = [*equations, *found]
     step = joint_step(asked.arm, 0, title, words, equations, both[0], marks, "shoulder")
     return both[0], step
-
-
-def _plan(asked: Asked, centre: Array, theta: float) -> tuple[Mark, ...]:
-    """Seen from above: from axis 1 to the wrist centre, and the angle."""
-    level = np.array([0.0, 0.0, centre[2]])
-    radius = 0.3 * max(math.hypot(centre[0], centre[1]), 1e-3)
-    turn = np.linspace(0.0, theta, 24)
-    ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(24)]) * radius + level
-    base = asked.arm.base
-    return (
-        Mark("line", moved(base, np.stack([level, centre])), "r"),
-        Mark("arc", moved(base, np.vstack([level, ring])), "theta_1"),
-    )
 
 
 def _elbows(asked: Asked, way: Way, centre: Array, reach: tuple[float, float]) -> Iterator[Way]:

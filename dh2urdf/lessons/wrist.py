@@ -3,8 +3,6 @@
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
 from dh2urdf.lessons.notation import shown
 from dh2urdf.lessons.steps import Equation, Mark, Step
 from dh2urdf.lessons.way import RIM, Asked, Way, joint_step
@@ -17,9 +15,10 @@ FREE = 5e-10
 def wrists(asked: Asked, way: Way) -> Iterator[Way]:
     """Both wrists of a way on which joints 1 to 3 are known."""
     arm = asked.arm
-    R_03 = arm.frames(way.first(3))[3][:3, :3]
+    H_3 = arm.frames(way.first(3))[3]
+    R_03 = H_3[:3, :3]
     R, four, five = R_03.T @ asked.H[:3, :3], arm.rows[3], arm.rows[4]
-    way = way.then(_left_over(asked, R_03, R))
+    way = way.then(_left_over(asked, H_3, R))
     in_line = math.hypot(R[0, 2], R[1, 2]) <= FREE
     if four.ca or five.ca:
         yield from _skew(asked, way, R, in_line)
@@ -32,9 +31,10 @@ def wrists(asked: Asked, way: Way) -> Iterator[Way]:
         yield _regular(asked, way, R, sign, opposite)
 
 
-def _left_over(asked: Asked, R_03: Array, R: Array) -> Step:
+def _left_over(asked: Asked, H_3: Array, R: Array) -> Step:
     """``R_3^0`` and what is left for the wrist."""
-    at = asked.arm.base @ np.vstack([np.c_[R_03, asked.H[:3, 3]], [0.0, 0.0, 0.0, 1.0]])
+    base, R_03 = asked.arm.base, H_3[:3, :3]
+    marks = Mark("frame", base @ H_3, "3"), Mark("frame", base @ asked.H, "6")
     return Step(
         "What is left of the orientation",
         "R_3^0 is known from theta_1, theta_2, theta_3, so R = R_3^0 R_6^3 leaves R_6^3 = "
@@ -43,7 +43,7 @@ def _left_over(asked: Asked, R_03: Array, R: Array) -> Step:
             Equation("R_3^0", "R_1^0 R_2^1 R_3^2", {"R": R_03}, R_03),
             Equation("R_6^3", "(R_3^0)^T R", {"R": R}, R),
         ),
-        marks=(Mark("frame", at, "3"),),
+        marks=marks,
     )
 
 

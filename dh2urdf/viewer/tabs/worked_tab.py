@@ -93,4 +93,4 @@ def step_html(step: Step) -> str:
     texts = [step.curve.text] if step.curve else []
     texts += [equation.text for equation in step.equations]
     shown = (f'<pre style="{code}">{escape(text)}</pre>' for text in texts)
-    return "".join([html.message(step.words), *shown])
+    return "".join([html.message(step.words.replace("`", "")), *shown])
