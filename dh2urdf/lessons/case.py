@@ -15,7 +15,7 @@ from dh2urdf.lessons.elimination import fits as fits_six_turns
 from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters
 from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
-from dh2urdf.lessons.notation import shown
+from dh2urdf.lessons.notation import measured
 from dh2urdf.lessons.planar import planar, planar_place
 from dh2urdf.lessons.spherical_wrist import spherical_wrist
 from dh2urdf.lessons.steps import Step
@@ -196,7 +196,8 @@ class Case:
 def _held(question: Question, joints: list[int]) -> Step:
     """Which joints are held; what the others are called."""
     names, held = question.chain.names, question.held
-    parts = (f"{names[i]} at {shown(v)}" for i, v in held.items())
+    units = {i: "m" if question.chain.prismatic[i] else "rad" for i in held}
+    parts = (f"{names[i]} at {measured(v, units[i])}" for i, v in held.items())
     left = (f"{k} is {names[i]}" for k, i in enumerate(joints, 1))
     return Step(
         "What is held",
