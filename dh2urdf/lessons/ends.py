@@ -14,7 +14,7 @@ def letters(arm: Arm, modified: bool) -> tuple[Step, ...]:
     why = (
         "The arm's table is in the modified convention"
         if modified
-        else "There is no table of these joints in standard rows alone whose parallel axes point one way"
+        else "These joints have no table of standard rows whose parallel axes point one way"
     )
     words = (
         f"{why}; the steps below use the standard frames of the same axes (section 4 of the "
