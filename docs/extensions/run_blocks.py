@@ -61,6 +61,8 @@ def _shown(source: str, block: Block, runner: Runner) -> str:
     if block.kind.startswith("{generated}"):
         name, *arguments = block.kind.split()[1:]
         return str(getattr(generated, name)(*arguments))
+    if block.mark.startswith("not run: "):
+        return f"{source}\n\n*Not run here: {block.mark.removeprefix('not run: ')}.*"
     output = runner(block).strip("\n")
     if block.mark == "hidden":
         return ""
