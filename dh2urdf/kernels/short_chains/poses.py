@@ -33,7 +33,8 @@ FUZZY = 1e-4
 roots of the determinant are known to the square root of rounding."""
 
 CLOSE = 1e-3
-"""Distance of two roots x [rad] at which they may hide a third solution or more."""
+"""Distance of roots x [rad] that are one; if they are more than its null vectors, solutions may be
+hidden. Arms whose poses have two null vectors at each root have roots that are double."""
 
 ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
@@ -70,13 +71,12 @@ def _from_matrix(columns, cut, x, scratch, order, q, count):
     return count, tried
 
 
-def _are_close(roots, found):
-    """Whether two of the roots x, cosines and sines in rows 1 and 2, nearly coincide."""
-    close = False
-    for k in range(1, found):
-        for j in range(k):
-            c, s = roots[1, k] - roots[1, j], roots[2, k] - roots[2, j]
-            close = close or c * c + s * s < CLOSE * CLOSE
+def _close_ones(roots, found, k):
+    """How many of the roots x, cosines and sines in rows 1 and 2, nearly coincide with number k."""
+    close = 0
+    for j in range(found):
+        c, s = roots[1, k] - roots[1, j], roots[2, k] - roots[2, j]
+        close += 1 if c * c + s * s < CLOSE * CLOSE else 0
     return close
 
 
@@ -102,11 +102,10 @@ def _candidates(loop, cut, scratch, order, roots, q, count):
         found = 1
     else:
         found = trig_roots(series, 2, roots[1], roots[2])
-        doubt = _are_close(roots, found)
     for k in range(found):
         v, u = sincos(0.5 * atan2(roots[2, k], roots[1, k]))
         count, nullity = _from_matrix(columns, cut, (u, v), scratch, order, q, count)
-        doubt = doubt or nullity > shape[7]
+        doubt = doubt or nullity > shape[7] or _close_ones(roots, found, k) > max(nullity, 1)
     return count, doubt
 
 

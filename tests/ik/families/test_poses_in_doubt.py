@@ -25,6 +25,7 @@ FOLD = np.radians([0.0, 0.0, 180.0, -123.4, 0.0, 14.0])
 @pytest.mark.parametrize(
     ("family", "size"),
     [(select_solver, 1e-6)]
+    + [pytest.param(select_solver, size, marks=pytest.mark.exhaustive) for size in (1e-8, 1e-7)]
     + [(family, size) for family in (select_solver, General6R) for size in (1e-5, 1e-4, 1e-3)],
 )
 def test_beside_a_fold_no_pose_is_without_an_answer(family, size):

@@ -27,6 +27,13 @@ def ur(right):
     return DHTable.from_array(rows, "standard", "theta d a alpha")
 
 
+def ur_as_printed(right):
+    """The same with lengths along x and a tool that is turned by half a turn."""
+    rows = [(0, 0.1625, 0, -right), (0, 0, 0.425, 0), (0, 0, 0.3922, 0)]
+    rows += [(0, 0.1333, 0, -right), (0, 0.0997, 0, right), (np.pi, 0.0996, 0, 0)]
+    return DHTable.from_array(rows, "standard", "theta d a alpha")
+
+
 def puma(right):
     """An arm with a spherical wrist and an angle for a right one."""
     rows = [(0, 0.3, 0.05, -right), (0, 0, 0.4, 0), (0, 0, 0.03, -right)]
@@ -41,6 +48,14 @@ def test_a_wrist_at_zero_loses_no_configuration(arm, right, noise):
     """With joint 5 at zero, or next to it, axis 6 hardly says anything, and nothing is lost."""
     q0 = np.radians([-23, 180, -7.3, -28.7, 0, 87.7])
     assert lost(arm(right), q0 + noise * np.random.default_rng(0).standard_normal((40, 6))) == []
+
+
+@pytest.mark.parametrize("noise", [1e-9, 1e-7, 1e-5])
+def test_nine_digits_lose_no_configuration(noise):
+    """The same of a table as it is printed, half a turn in its last row."""
+    q0 = np.radians([-23, 180, -7.3, -28.7, 0, 87.7])
+    q = q0 + noise * np.random.default_rng(0).standard_normal((40, 6))
+    assert lost(ur_as_printed(1.570796327), q) == []
 
 
 def test_a_home_pose_of_a_rounded_arm_is_found():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from dh_arm import arm_of
 from ik_referee import forward, gaps, search
-from structured import random_tables, rounded
+from structured import random_tables, rounded, structured_configurations
 from sweep import Tally, judge
 
 import dh2urdf
@@ -121,3 +121,19 @@ def test_a_batch_with_poses_in_doubt_equals_single_calls():
         batch = robot.ik_batch(Ts, within_limits=inside)
         for k, T in enumerate(Ts):
             assert np.array_equal(batch.q[k, : batch.count[k]], robot.ik(T, within_limits=inside).q)
+
+
+@pytest.mark.parametrize("poses", [12, pytest.param(400, marks=pytest.mark.exhaustive)])
+def test_a_chain_that_is_redundant_but_for_a_hair_loses_no_configuration(poses):
+    """A slide in the plane of three parallel axes, 5e-6 rad off it, and one axis across."""
+    axes = [
+        *((0.0, 0.0, 0.0, -1.0, -2.4e-6, 4.1e-6), (0.0, -1.0, 0.0, 0.3, 0.0, 0.0)),
+        *((0.0, -1.0, 0.0, 0.3, 0.0, -0.3), (0.0, -1.0, 0.0, 0.7, 0.0, -0.3)),
+        (0.0, 0.0, 1.0, 0.1, -0.4, 0.0),
+    ]
+    home = np.eye(4)
+    home[:3, 3] = 0.4, 0.1, 0.6
+    table = dh2urdf.Robot.from_screws(axes, home).table
+    assert_nothing_is_lost(table, structured_configurations(arm_of(table), poses, 0))
+    anyhow = np.random.default_rng(0).uniform(-2.0, 2.0, (poses, 5))
+    assert_nothing_is_lost(table, anyhow * np.array([0.2, 1.0, 1.0, 1.0, 1.0]))
