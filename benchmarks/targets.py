@@ -63,13 +63,13 @@ def _why_batch(results: Results) -> str:
 
 
 def _why_one_pose(results: Results) -> str:
-    whole, entry, arrays, solver = (
+    whole, entry, solver = (
         _part(results, "puma560", name)
-        for name in ("robot.ik", "solver, no pose", "arrays of the answer", "solver, one pose")
+        for name in ("robot.ik", "solver, no pose", "solver, one pose")
     )
     return (
-        f"of {whole} (puma560) the solver takes {solver}, {entry} of it without a pose, and the "
-        f"arrays of the answer {arrays}; the rest checks the pose and makes Python objects"
+        f"of {whole} (puma560) the solver takes {solver}, {entry} of it without a pose; the rest "
+        "checks the pose and makes the object of the answer"
     )
 
 
@@ -144,7 +144,7 @@ TARGETS = (
         "building robot and solver, any class",
         "under 1.5 ms",
         below(1.5e-3, "build"),
-        _see("it includes the robot's check against its Pinocchio model and a first solution"),
+        _see("it includes a Pinocchio model, its comparison with the chain and a first solution"),
     ),
     Target(
         "a new process: import, robot and first solutions",

@@ -1,4 +1,4 @@
-"""What the time of a call is made of: entry into a kernel, the kernel, the answer's memory."""
+"""What the time of a call is made of: entry into a kernel, the kernel, fresh memory."""
 
 from __future__ import annotations
 
@@ -64,7 +64,6 @@ def _inverse_parts(arm: Arm) -> Parts:
         "robot.ik": (lambda: robot.ik(T[0], within_limits=False), 1),
         "solver, one pose": (lambda: solver.solve_batch(single, False, one), 1),
         "solver, no pose": (lambda: solver.solve_batch(empty, False, none), 1),
-        "arrays of the answer": (lambda: Outputs.of(1, solver.kmax, arm.n), 1),
         "solver, a pose of many": (lambda: solver.solve_batch(T, False, many), MANY),
         "filling fresh memory of its answer": (lambda: np.full((FRESH, row), 1.0), FRESH),
     }
