@@ -99,6 +99,7 @@ def extract_dh(
     names: Sequence[str] | None = None,
     xacro_args: Mapping[str, object] | None = None,
     packages: Mapping[str, str | os.PathLike[str]] | None = None,
+    model: str | None = None,
 ) -> Extraction:
     """The DH table of a chain, by the frame assignment of lecture notes section 4.
 
@@ -130,6 +131,8 @@ def extract_dh(
         For typed axes only: ``"RRPR"``, ``T_base_tool`` at q = 0, joint names.
     xacro_args, packages : dict, optional
         Arguments of a xacro, and folders of ROS packages by name.
+    model : str, optional
+        The UR that a ``calibration.conf`` belongs to, as ``"ur5e"``.
 
     Returns
     -------
@@ -157,7 +160,7 @@ def extract_dh(
     tolerance = snap_tolerance(snap)
     xacro = xacro_given(xacro_args, packages)
     typed: dict[str, Any] = {"joint_types": joint_types, "tool": tool, "names": names}
-    given = read_source(source, base, tip, xacro, **typed)
+    given = read_source(source, base, tip, xacro, model, **typed)
     found, chain = given.found, given.found.chain
     size = references(chain.links).size
     qs = configurations(chain, CONFIGURATIONS, size)

@@ -54,6 +54,7 @@ def extract_(
     compact: Annotated[bool, Parameter(negative="--no-compact")] = True,
     flip: tuple[str, ...] = (),
     embedded: Annotated[bool, Parameter(negative="--no-embedded")] = True,
+    model: str | None = None,
     reading: Description = PLAIN,
     json: Json = False,
 ) -> None:
@@ -96,12 +97,15 @@ def extract_(
         Joint whose z is to point against its positive direction; repeat for several.
     embedded
         Return the table that a file of dh2urdf carries, unless --explain asks for the frames.
+    model
+        The UR that a calibration.conf belongs to, such as ur5e.
     """
     if format in FORMS:
-        arm = robot_of(source, base, tip, Reading(**vars(reading)))
+        arm = robot_of(source, base, tip, Reading(**vars(reading), model=model))
         return _extract_form(arm, source, format, output, force=force, json=json)
     given, own = _stdin() if source == "-" else source, embedded and not explain
-    options = {"x_axis": x_axis, "compact": compact, "flip": flip, "embedded": own, **reading.given}
+    options: dict[str, Any] = {"x_axis": x_axis, "compact": compact, "flip": flip}
+    options |= {"embedded": own, "model": model, **reading.given}
     found = extract_dh(given, base, tip, convention, snap, **options)
     to_stdout = str(output or "-") == "-"
     asked = output is not None or format is not None

@@ -22,7 +22,7 @@ from dh2urdf.conversions.chains.typed_axes import SUFFIXES, read_axes, typed_to_
 from dh2urdf.conversions.read import NOTHING, Actuation, Xacro, link_name, read_description
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.dh_io.files import shown
-from dh2urdf.exceptions import UrdfError
+from dh2urdf.exceptions import ArgumentError, UrdfError
 
 WRITTEN_ENDS = ("base_link", "tool0")
 """Base and tip of every URDF that this package writes; an MJCF has the first in its world."""
@@ -41,6 +41,7 @@ def read_source(
     base: str | None,
     tip: str | None,
     given: Xacro = NOTHING,
+    model: str | None = None,
     *,
     joint_types: str | Sequence[JointType | str] | None = None,
     tool: Any = None,
@@ -55,7 +56,7 @@ def read_source(
         if isinstance(source, pin.Model):
             found, path = model_source(source, link_name(base, "base"), link_name(tip, "tip"))
             return Source(found, model_referee(source, path.base, path.tip, found.chain.names))
-        return _from_file(source, base, tip, given)
+        return _from_file(source, base, tip, given, model)
     if base is not None or tip is not None:
         raise UrdfError("base and tip: typed axes go from the base frame to the tool")
     chain = source if isinstance(source, SerialChain) else typed_to_chain(source, **typed)
@@ -69,7 +70,11 @@ def _from_chain(chain: SerialChain, name: str, origin: str) -> Source:
 
 
 def _from_file(
-    source: str | os.PathLike[str], base: str | None, tip: str | None, xacro: Xacro
+    source: str | os.PathLike[str],
+    base: str | None,
+    tip: str | None,
+    xacro: Xacro,
+    model: str | None,
 ) -> Source:
     """A path, or the text of a URDF."""
     if not (isinstance(source, str) and source.lstrip().startswith("<")):
@@ -78,7 +83,9 @@ def _from_file(
             if base is not None or tip is not None:
                 where = shown(source)
                 raise UrdfError(f"{where}: base and tip: typed axes go from the base to the tool")
-            return _from_chain(*read_axes(path), path.name)
+            return _from_chain(*read_axes(path, model), path.name)
+    if model is not None:
+        raise ArgumentError("model: only a calibration.conf needs it, not a robot description")
     given = read_description(source, base, tip, given=xacro)
     found = tree_to_chain(given.tree, given.base, given.tip)
     found = replace(found, warnings=(*given.mends, *found.warnings))

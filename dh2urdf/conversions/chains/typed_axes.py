@@ -35,7 +35,7 @@ from dh2urdf.dh_io.formats.yaml import yaml_values
 from dh2urdf.dh_io.forms import CONF, READERS
 from dh2urdf.dh_io.load import load_table
 from dh2urdf.doors import found, real_array, text
-from dh2urdf.exceptions import PoseError, TableError, TableFileError, UrdfError
+from dh2urdf.exceptions import ArgumentError, PoseError, TableError, TableFileError, UrdfError
 from dh2urdf.transforms import Array
 
 SUFFIXES = (".yaml", ".yml", ".json", CONF)
@@ -178,8 +178,10 @@ def _frame(i: int, axis: Array, point: Array) -> Array:
     return tf.pose(frame_with_z(axis if length == 1.0 else axis / length), point)
 
 
-def read_axes(path: Path) -> tuple[SerialChain, str]:
+def read_axes(path: Path, model: str | None = None) -> tuple[SerialChain, str]:
     """The chain of a file of joint axes or in another form, and its name.
+
+    A calibration.conf may need the UR ``model`` that it belongs to.
 
     Raises
     ------
@@ -188,7 +190,9 @@ def read_axes(path: Path) -> tuple[SerialChain, str]:
     """
     where = shown(path)
     if path.suffix.lower() == CONF:
-        return _chain_of_table(path)
+        return _chain_of_table(path, model)
+    if model is not None:
+        raise ArgumentError(f"model: only a calibration.conf needs it, not {where}")
     try:
         content = yaml_values(read_text(path, TABLE_BYTES, UrdfError), where)
     except TableFileError as error:
@@ -203,9 +207,9 @@ def read_axes(path: Path) -> tuple[SerialChain, str]:
         raise UrdfError(f"{where}: {error}") from None
 
 
-def _chain_of_table(path: Path) -> tuple[SerialChain, str]:
+def _chain_of_table(path: Path, model: str | None = None) -> tuple[SerialChain, str]:
     """The chain of a file that is read as a table, and its name."""
-    table = load_table(path)
+    table = load_table(path, model=model)
     return dh_to_chain(table), table.name
 
 

@@ -114,6 +114,16 @@ def draws(k=20):
     return np.random.default_rng(1).uniform(-2 * math.pi, 2 * math.pi, (k, 6))
 
 
+def test_extract_takes_the_model_that_its_message_asks_for(tmp_path, run, refused):
+    """Deltas that fit every UR are refused with a hint that works; elsewhere a model is refused."""
+    (tmp_path / "calibration.conf").write_text(conf(dict.fromkeys(UR10, "0, 0, 0, 0, 0, 0")))
+    assert "--model ur3" in refused("extract", "calibration.conf")
+    status, out, _ = run("extract", "calibration.conf", "--model", "ur10")
+    assert (status, "0.1639" in out) == (0, True)
+    (tmp_path / "arm.urdf").write_text(dh2urdf.urdf_text("planar_rr"))
+    assert "model" in refused("extract", "arm.urdf", "--model", "ur10")
+
+
 @pytest.mark.parametrize("deltas", MEASURED)
 def test_deltas_add_to_the_nominal_table(tmp_path, deltas):
     """FK of the file is the DH product of the sums, though frames are 446 m away."""
