@@ -41,7 +41,10 @@ SLOW = {
     "search_starts": 1,
     "add_curves": 1,
     "onward": 1,
-    "enter_limits": 3,
+    "find_starts": 1,
+    "sweep_pose": 1,
+    "enter_all": 2,
+    "nearest_of": 2,
     "walk_family": 2,
     "nearest_members": 9,
 }

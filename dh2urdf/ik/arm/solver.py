@@ -215,16 +215,21 @@ class HeldSolver:
         """
         return -np.inf, np.inf
 
-    def points_on_curves(self, T: Array, values: Array) -> Array:
-        """Solutions of a pose (4, 4) at or near values (m,) of the one held joint, (k, n).
+    @property
+    def quick(self) -> bool:
+        """Whether many values take little time, and `sweep` tells its solutions' branches."""
+        return False
 
-        Limits do not count here.
+    def sweep(self, T: Array, values: Array, out: Outputs) -> None:
+        """Solve a pose (4, 4) at or near values (m,) of the one held joint, limits or not.
+
+        Solutions of one branch in neighbouring rows are on one curve; -1 says nothing. There may
+        be more rows than values.
         """
-        m, n = len(values), self.chain.n
-        out, Ts = Outputs.of(m, self.kmax, n), np.repeat(T[None], m, axis=0)
-        self.solve_held(Ts, np.ascontiguousarray(values[:, None]), False, out)
-        points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
-        return points
+        Ts = np.repeat(T[None], len(values), axis=0)
+        found = out.rows(slice(len(values)))
+        self.solve_held(Ts, np.ascontiguousarray(values[:, None]), False, found)
+        out.branch[:] = -1
 
     def explain(self) -> str:
         """Name the held joints and say how the others are solved for."""

@@ -22,7 +22,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.families import SphericalWrist
 from dh2urdf.kernels.newton import POSE
-from dh2urdf.kernels.redundant import points_on_curves, solve_held_blocks, solve_held_wrist
+from dh2urdf.kernels.redundant import solve_held_blocks, solve_held_wrist, sweep_pose
 from dh2urdf.transforms import Array, inverse, product
 
 TRIAL_VALUE = 0.731
@@ -162,13 +162,16 @@ class HeldWrist(HeldSolver):
         """The kernel of poses Ts (m, 4, 4), each with its held value (m,)."""
         return ((self.kernel, (self.constants, values, Ts, within_limits, out), False),)
 
-    def points_on_curves(self, T: Array, values: Array) -> Array:
-        """Solutions of a pose (4, 4) at or near values (m,) of the held joint, (k, 7)."""
-        chain, out = self.chain, Outputs.of(len(values), self.kmax, self.chain.n)
-        arm = *self.constants[:4], MISS
-        points_on_curves(arm, chain.tables, (POSE, T, chain.size), values, out)
-        points: Array = out.q[np.arange(self.kmax) < out.counts[:, None]]
-        return points
+    @property
+    def quick(self) -> bool:
+        """Whether many values take little time, and their solutions have branches."""
+        return self.kernel is solve_held_blocks
+
+    def sweep(self, T: Array, values: Array, out: Outputs) -> None:
+        """Solve a pose (4, 4) at or near values (m,) of the held joint, of a whole turn."""
+        arm, goal = (*self.constants[:4], MISS), (POSE, T, self.chain.size)
+        margin = np.empty((len(values), 2))
+        sweep_pose(arm, self.chain.tables, goal, self.quick, values, out, margin)
 
 
 @lru_cache(maxsize=4)

@@ -6,6 +6,7 @@ ends of the intervals of the swept joint in which the pose is reached.
 """
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -22,14 +23,13 @@ from dh2urdf.ik.arm import (
     Outputs,
     Task,
     beside_seed,
+    inside,
     middle,
     near_ranges,
-    turned_to,
 )
 from dh2urdf.kernels.certificate import measure_all
 from dh2urdf.kernels.newton import POSE
-from dh2urdf.kernels.redundant import enter_limits
-from dh2urdf.kernels.redundant import nearest_members as nearest_on_curves
+from dh2urdf.kernels.redundant import WALKED, Starts, enter_all, find_starts, nearest_of, spread
 from dh2urdf.transforms import Array
 
 VALUES = 128
@@ -42,18 +42,19 @@ reach."""
 APART = 0.1
 """Joint distance [rad or m] of members that are worth returning side by side."""
 
-STARTS = 64
-"""Solutions that are followed towards a seed, the nearest ones of those found inside and of those
-found outside the limits. Neighbouring ones lead to the same member."""
+STARTS = 16
+"""Places from which curves are followed towards a seed, and as many into the limits, the nearest
+ones; each is the nearest of its part of a curve."""
 
-FAR = 1.5
-"""Excess over a limit [rad or m] from which a solution is not followed inwards."""
-
-SAME = 1e-5
-"""Joint distance [rad or m] at which two nearest members are one."""
+PARTS = 16
+"""Parts that what an end lies in is divided into."""
 
 GRID = 720
 """Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
+
+FINER = (GRID // 8, GRID)
+"""Values of the swept joint at which a pose is tried that a coarse sweep has missed: most parts of
+curves are found by the first."""
 
 
 class Sweep(Protocol):
@@ -73,6 +74,7 @@ class Sweep(Protocol):
         """Solve poses (m, 4, 4) at values (s,) of the joint."""
 
 
+@lru_cache(maxsize=64)
 def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: bool) -> Array:
     """Values of a joint at the middles of equal parts of its range, shape (samples,).
 
@@ -90,20 +92,18 @@ def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: b
 
 def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tuple[Array, Array]:
     """Solutions (k, n) of a pose on curves that a coarse sweep has missed; their residuals."""
-    chain = solver.chain
-    values = sample_values(chain, solver.joint, GRID, within_limits)
-    outputs = Outputs.of(1, GRID * solver.held.kmax, chain.n)
-    solver.solve_at(values, np.array(T[None]), within_limits, outputs)
-    q = outputs.q[0, : outputs.counts[0]]
-    if not len(q) and within_limits:
-        q = inside_members(solver, T, middle(chain), most, FEW)
-    elif not len(q):
-        q = turned_to(chain, _on_curves(solver, T, FEW), middle(chain))
-    kept: list[int] = []
-    for k in range(len(q)):
-        if len(kept) < most and all(np.abs(q[k] - q[j]).max() > APART for j in kept):
-            kept.append(k)
-    return _measured(solver, T, q[kept])
+    chain, q = solver.chain, np.empty((0, solver.chain.n))
+    for samples in FINER:
+        outputs = Outputs.of(1, samples * solver.held.kmax, chain.n)
+        values = sample_values(chain, solver.joint, samples, within_limits)
+        solver.solve_at(values, np.array(T[None]), within_limits, outputs)
+        q = outputs.q[0, : outputs.counts[0]]
+        if len(q):
+            break
+    else:
+        q = members(solver, T, middle(chain), within_limits, FEW)
+    q = q.copy()
+    return _measured(solver, T, q[: min(spread(APART, q), most)])
 
 
 def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
@@ -113,40 +113,44 @@ def _measured(solver: Sweep, T: Array, q: Array) -> tuple[Array, Array]:
     return q, residual
 
 
-def inside_members(solver: Sweep, T: Array, goal: Array, most: int, values: int = VALUES) -> Array:
-    """Members (k, n) inside the limits of the curves of a pose, those nearest to a goal first.
+def members(
+    solver: Sweep, T: Array, goal: Array, within_limits: bool, values: int = VALUES
+) -> Array:
+    """Members (k, n) of the curves of a pose at some values and between, nearest to a goal first.
 
-    The curves are looked for in sweeps of two joints over a whole turn, for one that is short in
-    one joint is seldom short in the other. Those found outside the limits are followed inwards,
-    at ``most`` so many, the nearest to the goal and the limits.
+    At least one of each curve, and of each part of it within the limits.
     """
-    chain = solver.chain
-    q = turned_to(chain, _on_curves(solver, T, values), goal)
-    outside = (q < chain.lower - LIMIT_SLACK) | (q > chain.upper + LIMIT_SLACK)
-    other_turn = np.where(outside, turned_to(chain, q, middle(chain)), q)
-    q = np.concatenate([q, other_turn[np.any(other_turn != q, axis=1)]])
-    clipped = np.clip(q, chain.lower, chain.upper)
-    excess = np.abs(q - clipped).max(axis=1, initial=0.0)
-    order = np.argsort(np.linalg.norm(clipped - goal, axis=1) + 2.0 * excess, kind="stable")
-    q, excess = q[order], excess[order]
-    inside = excess <= LIMIT_SLACK
-    outer = np.ascontiguousarray(q[(excess > LIMIT_SLACK) & (excess < FAR)][:most])
-    entered = np.zeros(len(outer), np.bool_)
-    enter_limits(chain.tables, (POSE, T, chain.size), outer, entered)
-    members = np.concatenate([q[inside], outer[entered]])
-    order = np.argsort(np.linalg.norm(members - goal, axis=1), kind="stable")
-    ordered: Array = members[order]
+    starts, out = _swept(solver, T, goal, within_limits, values)
+    found = out.q[np.arange(out.q.shape[1]) < out.counts[:, None]]
+    q = np.concatenate([found, starts.inner[: starts.counts[0]]])
+    q = q[inside(solver.chain, q)] if within_limits else q
+    ordered: Array = q[np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")]
     return ordered
 
 
-def _on_curves(solver: Sweep, T: Array, values: int) -> Array:
-    """Solutions of a pose near values over a whole turn of two joints, limits or not, (k, n)."""
-    return np.concatenate(
-        [
-            held.points_on_curves(T, sample_values(solver.chain, held.held[0], values, False))
-            for held in solver.sweeps
-        ]
-    )
+def _swept(
+    solver: Sweep, T: Array, goal: Array, within_limits: bool, values: int
+) -> tuple[Starts, Outputs]:
+    """Where the curves of a pose come nearest to a goal (n,), and sweeps that they were found in.
+
+    They are looked for in sweeps of two joints over a whole turn, limits or not, for a curve that
+    is short in one joint is seldom short in the other. Those found outside the limits are followed
+    inwards, the nearest to the goal and the limits.
+    """
+    chain, starts = solver.chain, Starts.of(STARTS, solver.chain.n)
+    quick = [held for held in solver.sweeps if held.quick] or solver.sweeps
+    each, ends = values * len(solver.sweeps) // len(quick), np.empty((len(quick), 2), np.int64)
+    out = Outputs.of((each + WALKED) * len(quick), solver.held.kmax, chain.n)
+    for k, held in enumerate(quick):
+        joint, first = held.held[0], k * (each + WALKED)
+        rows = out.rows(slice(first, first + each + WALKED))
+        held.sweep(T, sample_values(chain, joint, each, False), rows)
+        ends[k] = (first + each) * (-1 if chain.prismatic[joint] else 1), -first - each - WALKED
+    pose = POSE, T, chain.size
+    find_starts(chain.tables, pose, LIMIT_SLACK, within_limits, goal, ends.ravel(), out, starts)
+    if within_limits:
+        enter_all(chain.tables, pose, goal, starts)
+    return starts, out
 
 
 def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -> Array:
@@ -155,39 +159,23 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
     The first is the nearest of all, on every curve that was found.
     """
     chain = solver.chain
-    if within_limits:
-        q = inside_members(solver, T, seed, STARTS)
-    else:
-        q = turned_to(chain, _on_curves(solver, T, VALUES), seed)
-        q = q[np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")]
+    starts, _ = _swept(solver, T, seed, within_limits, VALUES)
     beside = beside_seed(chain, Task.POSE, T, seed, within_limits)
-    q = np.concatenate([q[:STARTS], beside])
-    goal = POSE, T, chain.size
-    nearest_on_curves(chain.tables, goal, within_limits, q, seed, np.empty(len(q)))
-    distance = np.linalg.norm(q - seed, axis=1)
-    from_curves = len(q) - len(beside)
-    order = [
-        *np.argsort(distance[:from_curves], kind="stable").tolist(),
-        *range(from_curves, len(q)),
-    ]
-    kept: list[int] = []
-    for k in order:
-        if all(np.abs(q[k] - q[j]).max() > SAME for j in kept):
-            kept.append(k)
-    nearest: Array = q[sorted(kept, key=lambda k: float(distance[k]))]
-    return nearest
+    goal, nearest = (POSE, T, chain.size), np.empty((STARTS + len(beside), chain.n))
+    count = nearest_of(chain.tables, goal, within_limits, seed, starts, beside, nearest)
+    return nearest[:count]
 
 
 def reach_intervals(solver: Sweep, T: Array, within_limits: bool) -> Array:
     """Intervals of the swept joint in which a pose is reached, shape (k, 2), ascending.
 
     Reach is tried at ``GRID`` values a turn and at the members of narrow curves; between a value
-    that has a solution and one that has none the end is found by halving.
+    that has a solution and one that has none the end is found by dividing.
     """
     values = _grid(solver, within_limits)
     reached = _reached(solver, T, values, within_limits)
     if within_limits:
-        extra = inside_members(solver, T, middle(solver.chain), 16 * VALUES)[:, solver.joint]
+        extra = members(solver, T, middle(solver.chain), True)[:, solver.joint]
         extra = _every_turn(solver, extra[_reached(solver, T, extra, True)])
         values = np.concatenate([values, extra])
         reached = np.concatenate([reached, np.ones(len(extra), np.bool_)])
@@ -246,10 +234,12 @@ def _reached(solver: Sweep, T: Array, values: Array, within_limits: bool) -> Arr
 def _ends(
     solver: Sweep, T: Array, left: Array, right: Array, reached: Array, within_limits: bool
 ) -> Array:
-    """Ends between values of which the pose is reached at one, halved until they are known."""
-    left, right = left.copy(), right.copy()
-    while np.any(right - left > INTERVAL_END):
-        middle = 0.5 * (left + right)
-        as_left = _reached(solver, T, middle, within_limits) == reached
-        left, right = np.where(as_left, middle, left), np.where(as_left, right, middle)
+    """Ends between values of which the pose is reached at one, divided until they are known."""
+    parts, rows = np.arange(1.0, PARTS) / PARTS, np.arange(len(left))
+    while np.any(right - left > INTERVAL_END + 4.0 * np.spacing(np.abs(right))):
+        values = left[:, None] + (right - left)[:, None] * parts
+        there = _reached(solver, T, values.ravel(), within_limits).reshape(values.shape)
+        values = np.column_stack([left, values, right])
+        first = np.argmin(np.column_stack([there == reached[:, None], np.zeros(len(left))]), axis=1)
+        left, right = values[rows, first], values[rows, first + 1]
     return np.where(reached, left, right)

@@ -12,6 +12,7 @@ from dh2urdf.kernels.certificate.arrange import (
     distance2,
     measure_all,
     measure_and_sort,
+    turn_one,
     turn_to,
 )
 from dh2urdf.kernels.certificate.certify import (

@@ -24,6 +24,9 @@ from dh2urdf.kernels.shapes import (
     Values,
 )
 
+HALF = 3.14
+"""Distance [rad] from a reference that is less than half a turn, rounding included."""
+
 
 @entry()
 def turn_to(joints: Joints, slack: float, reference: Annotated[Floats, "references", "n"], q: Some):
@@ -34,13 +37,15 @@ def turn_to(joints: Joints, slack: float, reference: Annotated[Floats, "referenc
     of a full turn, is put onto it.
     """
     for k in range(q.shape[0]):
-        _turn(joints, slack, reference[min(k, len(reference) - 1)], q[k])
+        turn_one(joints, slack, reference[min(k, len(reference) - 1)], q[k])
 
 
-def _turn(joints, slack, reference, q):
+def turn_one(joints, slack, reference, q):
     """Bring each angle of q (n,) into the turn nearest to the reference (n,), in place."""
     for i in range(len(q)):
         lower, upper = joints[i, 1], joints[i, 2]
+        if lower <= q[i] <= upper and abs(reference[i] - q[i]) < HALF:
+            continue
         if joints[i, 0] == 0.0:
             value = q[i]
             turns = np.rint((reference[i] - value) / TWO_PI)
@@ -138,7 +143,7 @@ def arrange_plain(
     damped = make_damped(len(seed))
     well = True
     for k in range(counts[0]):
-        _turn(chain[1], slack, seed, q[0, k])
+        turn_one(chain[1], slack, seed, q[0, k])
         _sort_in(
             chain, task, Ts[0], seed, (q[0], residual[0], branch[0], free[0]), distance, k, damped
         )

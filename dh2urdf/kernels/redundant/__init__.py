@@ -1,12 +1,16 @@
 """Joints to spare: one of seven held or swept, and motions that leave the tool where it is.
 
 `held_wrist` solves with a joint held, and gathers the solutions of many values; `held_wrist_blocks`
-solves many poses side by side, from what `held_wrist_load` makes of them; `self_motion` walks along
-solutions, `curves` finds all curves of them, `paths` shortens a path.
+solves many poses side by side, from what `held_wrist_load` makes of them, `sweeps` one pose at many
+values; `self_motion` walks along solutions, `starts` says from where and `nearest` where to,
+`curves` finds all curves of them, `paths` shortens a path.
 """
 
 from dh2urdf.kernels.redundant.curves import DULL, add_curves
-from dh2urdf.kernels.redundant.held_wrist import gather_samples, points_on_curves, solve_held_wrist
+from dh2urdf.kernels.redundant.held_wrist import gather_samples, solve_held_wrist
 from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
+from dh2urdf.kernels.redundant.nearest import Starts, enter_all, nearest_of, spread
 from dh2urdf.kernels.redundant.paths import onward, shorten
-from dh2urdf.kernels.redundant.self_motion import enter_limits, nearest_members, walk_family
+from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
+from dh2urdf.kernels.redundant.starts import find_starts
+from dh2urdf.kernels.redundant.sweeps import WALKED, sweep_pose

@@ -25,10 +25,10 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT, finish_pose, reverse_joints
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
-from dh2urdf.kernels.newton import make_damped, restore
+from dh2urdf.kernels.newton import restore
 from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
 from dh2urdf.kernels.rigid import applied, applied_inverse, invert_pose, turned_back
-from dh2urdf.kernels.shapes import Chain, Floats, Goal, Held, Integers, Outputs, Poses
+from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
     SHOULDER_FREE,
@@ -178,25 +178,21 @@ def solve_held_wrist(arm: HeldForm, values: Held, Ts: Poses, within_limits: bool
     solve_rough(arm, values, Ts, within_limits, 0, Ts.shape[0], outputs)
 
 
-@entry(n=7, solutions=8)
-def points_on_curves(arm: HeldForm, chain: Chain, goal: Goal, values: Held, outputs: Outputs):
-    """Solutions of one pose on its curves near the held values (m,): q (m, 8, 7) and counts.
+def points_at(arm, chain, goal, value, out, scratch, damped, dq):
+    """Solutions of a pose on its curves near one held value, to rows of q (8, 7); how many.
 
     With a large slack also a value that just misses a curve gives a candidate. All seven joints of
     the chain take part in putting it on the curve, so that a loop between two values is found.
     """
-    q, residual, count, branch, free = outputs
-    scratch, damped, work = make_scratch(), make_damped(7), np.empty(7)
-    for i in range(values.shape[0]):
-        rest = scratch[7], residual[i], branch[i], free[i]
-        found = held_candidates(arm, values[i], goal[1], rest, scratch)
-        insert_held(arm[1][HELD], values[i], scratch[7], q[i], free[i], found)
-        kept = 0
-        for k in range(found):
-            q[i, kept] = q[i, k]
-            if restore(chain, goal, q[i, kept], work, damped) <= ACCEPT:
-                kept += 1
-        count[i] = kept
+    q, residual, branch, free = out
+    found = held_candidates(arm, value, goal[1], (scratch[7], residual, branch, free), scratch)
+    insert_held(arm[1][HELD], value, scratch[7], q, free, found)
+    kept = 0
+    for k in range(found):
+        q[kept] = q[k]
+        if restore(chain, goal, q[kept], dq, damped) <= ACCEPT:
+            kept += 1
+    return kept
 
 
 class Samples(NamedTuple):

@@ -73,7 +73,8 @@ FORE = LOADED
 """Columns of the rotation ``S1 Z3 S2`` and the point ``S1 Z3 w``, twelve rows for each elbow."""
 
 REACHED = FORE + 24
-"""Whether there are elbows."""
+"""How far inside their rim the elbows are, relative; negative where there are none. `VALID` of an
+arm is the same of its elbow and its shoulder."""
 
 ARM = BLOCK * (REACHED + 1)
 """Where the arm at hand starts: columns of the rotation of A and its position (twelve rows)."""
@@ -102,7 +103,7 @@ def place_elbows(S2, reach, slack, n, S):
         c, s, dc, ds = a * d * inverse, b * d * inverse, b * root * inverse, a * root * inverse
         S[BLOCK * T3 + i], S[TURN + BLOCK * T3 + i] = c - dc, s + ds
         S[BLOCK * (T3 + 1) + i], S[TURN + BLOCK * (T3 + 1) + i] = c + dc, s - ds
-        S[BLOCK * REACHED + i] = 1.0 if gap > 0.0 else 0.0
+        S[BLOCK * REACHED + i] = gap / size
         dirty = -slack * size < gap < MERGED * size or square < MERGED * size
         S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
     for elbow in range(2):
@@ -139,6 +140,8 @@ def place_shoulders(S0, slack, n, S):
             a, b, d = gx * px + gy * py, gx * py - gy * px, uz - gz * pz
             square, around, size = a * a + b * b, ux * ux + uy * uy, px * px + py * py + pz * pz
             gap = square - d * d
+            reached, margin = S[BLOCK * REACHED + i], gap / size
+            margin = min(reached, margin) if reached > 0.0 else reached
             root = math.sqrt(max(gap, 0.0))
             both = 1.0 / (max(square, 1e-30) * max(around, 1e-30))
             per_square, per_around = around * both, square * both
@@ -152,8 +155,7 @@ def place_shoulders(S0, slack, n, S):
                 inverse = per_around * (1.5 - 0.5 * ratio)
                 S[arm + BLOCK * T1], S[arm + BLOCK * T1 + TURN] = c, s
                 S[arm + BLOCK * T2], S[arm + BLOCK * T2 + TURN] = along * inverse, across * inverse
-                exists = S[BLOCK * REACHED + i] if gap > 0.0 else 0.0
-                S[arm + BLOCK * VALID], S[arm + BLOCK * (VALID + 4)] = exists, exists
+                S[arm + BLOCK * VALID], S[arm + BLOCK * (VALID + 4)] = margin, margin
                 root = -root
             touching = -slack * size < gap < MERGED * size
             dirty = touching or square < MERGED * size or around < MERGED * size
@@ -255,33 +257,47 @@ def _turned_upright(c, s, sa, x, y, z):
     return x, (sa * z[0], sa * z[1], sa * z[2]), (-sa * y0, -sa * y1, -sa * y2)
 
 
+def prepare(arm, values, oriented, place, S):
+    """What all blocks have in common: limits and columns of the oriented joints, rows of S.
+
+    Returns whether all held values are the same.
+    """
+    frames, which, _, joints, _ = arm
+    for j in range(6):
+        moving = 5 - j if which[REVERSED] != 0 else j
+        place[j] = moving if moving < which[HELD] else moving + 1
+        oriented[j] = joints[moving]
+    prepare_block(frames, which, values, S)
+    return all_equal(values)
+
+
+def place_block(arm, values, Ts, same, slack, first, n, S):
+    """All eight solutions of n poses from the first one on, and their residuals."""
+    frames, which, form, _, _ = arm
+    S0, S2, seen_from_tool = frames[LINK], frames[LINK + 2], which[REVERSED] != 0
+    load_block(frames, which, values, Ts, same, seen_from_tool, first, n, S)
+    place_elbows(S2, form[3, 3], slack, n, S)
+    place_shoulders(S0, slack, n, S)
+    for k in range(4):
+        finish_arm(form, S0, seen_from_tool, k, n, S)
+
+
 @entry(n=7, solutions=8)
 def solve_held_blocks(
     arm: HeldForm, values: Held, Ts: Poses, within_limits: bool, outputs: Outputs
 ):
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
-    frames, which, form, joints, slack = arm
-    q, S, m = outputs[0], np.empty(ROWS * BLOCK), Ts.shape[0]
+    q, S, m, held = outputs[0], np.empty(ROWS * BLOCK), Ts.shape[0], arm[1][HELD]
     if m == 0:
         return
-    same, seen_from_tool = all_equal(values), which[REVERSED] != 0
     oriented, place = np.empty((6, 3)), np.empty(6, np.int64)
-    for j in range(6):
-        moving = 5 - j if seen_from_tool else j
-        place[j] = moving if moving < which[HELD] else moving + 1
-        oriented[j] = joints[moving]
-    S0, S2 = frames[LINK], frames[LINK + 2]
-    prepare_block(frames, which, values, S)
+    same = prepare(arm, values, oriented, place, S)
     for first in range(0, m, LANES):
         n = min(LANES, m - first)
-        load_block(frames, which, values, Ts, same, seen_from_tool, first, n, S)
-        place_elbows(S2, form[3, 3], slack, n, S)
-        place_shoulders(S0, slack, n, S)
-        for k in range(4):
-            finish_arm(form, S0, seen_from_tool, k, n, S)
-        clean = emit(form, oriented, ANGLES, within_limits, place, False, first, n, S, outputs)
+        place_block(arm, values, Ts, same, arm[4], first, n, S)
+        clean = emit(arm[2], oriented, ANGLES, within_limits, place, False, first, n, S, outputs)
         for i in range(first, first + n):
             for k in range(8):
-                q[i, k, which[HELD]] = values[i]
+                q[i, k, held] = values[i]
         if clean < n:
             solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)

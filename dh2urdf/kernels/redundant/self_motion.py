@@ -21,9 +21,10 @@ from dh2urdf.kernels.newton import (
     make_damped,
     restore,
     solve_damped,
+    substitute,
 )
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Configuration, Flags, Floats, Goal, Integers, Sizes, Some
+from dh2urdf.kernels.shapes import Chain, Configuration, Floats, Goal, Integers, Sizes, Some
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -41,6 +42,9 @@ INSIDE = 1e-9
 HELD = 0.9 * ACCEPT
 """Residual of a member; that of a solution, less what another way of measuring makes of it."""
 
+FEW_STEPS = 6
+"""Steps of Newton's method from near a member; three are usual."""
+
 SHORTEST = 1e-10
 """Part of a step below which there is no way on: a limit is in the way."""
 
@@ -48,6 +52,11 @@ SHORTEST = 1e-10
 def _project(chain, goal, q, seed, step, damped):
     """``P (seed - q)`` to step (n,); returns its length."""
     error_and_jacobian(chain, goal, q, damped)
+    return _project_at(q, seed, step, damped)
+
+
+def _project_at(q, seed, step, damped):
+    """The same with the Jacobian at q in ``damped``."""
     J, work = damped
     step[:] = seed - q
     for a in range(6):
@@ -81,6 +90,39 @@ def first_guess(guess):
         guess[i] = 1.0 + 0.1 * i
 
 
+def settle(chain, goal, q, seed, length, scratch, damped):
+    """Newton's method from near the member nearest to a seed, q (n,) in place; whether it arrives.
+
+    A step goes back on the pose and along the self-motion, ``length`` times the projected distance
+    at first and then as the secant method says; the last one only back on the pose.
+    """
+    work, step, last, move = damped[1], scratch[0], scratch[1], scratch[2]
+    for k in range(FEW_STEPS):
+        residual = error_and_jacobian(chain, goal, q, damped)
+        ex, ey, ez = work[0, 6], work[1, 6], work[2, 6]
+        eu, ev, ew = work[3, 6], work[4, 6], work[5, 6]
+        size = _project_at(q, seed, step, damped)
+        arrived = size <= ARRIVED and residual <= ARRIVED
+        if k > 0 and not arrived:
+            last -= step
+            across, along = dot(move, move), dot(move, last)
+            if not along > 0.1 * across:
+                return False
+            length = across / along
+        if not length * size <= LONGEST:
+            return False
+        work[0, 6], work[1, 6], work[2, 6] = ex, ey, ez
+        work[3, 6], work[4, 6], work[5, 6] = eu, ev, ew
+        substitute(work)
+        last[:] = step
+        move[:] = 0.0 if arrived else length * step
+        add_transposed(damped, 1.0, move)
+        q += move
+        if arrived:
+            return True
+    return False
+
+
 def part_inside(joints, q, step, length):
     """Part of ``length`` that a straight step can go inside the limits."""
     part = length
@@ -93,7 +135,7 @@ def part_inside(joints, q, step, length):
     return part
 
 
-def _outside(joints, q):
+def is_outside(joints, q):
     """Whether a joint is beyond its limits."""
     for i in range(q.shape[0]):
         if q[i] > joints[i, 2] or q[i] < joints[i, 1]:
@@ -101,7 +143,7 @@ def _outside(joints, q):
     return False
 
 
-def _go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
+def go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
     """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
     _, joints = chain
@@ -124,7 +166,7 @@ def _go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
             trial[:] = q + length * step
             good = restore(chain, goal, trial, work, damped) <= HELD
             good = good and distance2(trial, seed) < gap2
-            good = good and not (within_limits and _outside(joints, trial))
+            good = good and not (within_limits and is_outside(joints, trial))
             length *= 0.5
         if not good:
             break
@@ -145,7 +187,7 @@ def nearest_members(
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((5, n))
     for k in range(q.shape[0]):
-        _go_nearer(chain, goal, within_limits, q[k], seed, scratch, damped)
+        go_nearer(chain, goal, within_limits, q[k], seed, scratch, damped)
         residual[k] = error_and_jacobian(chain, goal, q[k], damped)
 
 
@@ -167,41 +209,45 @@ def tangent_near(chain, goal, q, guess, tangent, damped):
     return size > 1e-6
 
 
-@entry()
-def enter_limits(chain: Chain, goal: Goal, q: Some, entered: Annotated[Flags, "solutions"]):
+def enter(chain, goal, q, scratch, damped):
+    """Move one solution q (n,) along its curve into the limits; whether it arrives."""
+    (_, joints), last = chain, math.inf
+    tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
+    first_guess(guess)
+    for _ in range(MOST_STEPS):
+        along, across, total = 0.0, 0.0, 0.0
+        if not tangent_near(chain, goal, q, guess, tangent, damped):
+            break
+        guess[:] = tangent
+        for i in range(q.shape[0]):
+            way = excess(joints, q, i)
+            if way != 0.0:
+                along += way * tangent[i]
+                across += tangent[i] * tangent[i]
+                total += way * way
+        if total == 0.0:
+            return True
+        if total >= last or across < 1e-12 or abs(along) <= 1e-3 * math.sqrt(total * across):
+            break
+        last = total
+        step = min(max(along / across, -LONGEST), LONGEST)
+        trial[:] = q + step * tangent
+        if not restore(chain, goal, trial, work, damped) <= ACCEPT:
+            break
+        q[:] = trial
+    return False
+
+
+def enter_limits(chain, goal, q, entered):
     """Move solutions q (k, n) along their curves into the limits; one joint to spare.
 
     They are in the turns nearest to their limits. Where ``entered`` (k,) says that one is not
     inside, its row means nothing.
     """
-    (_, joints), n = chain, q.shape[1]
+    n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((4, n))
-    tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(q.shape[0]):
-        entered[k], last = False, math.inf
-        first_guess(guess)
-        for _ in range(MOST_STEPS):
-            along, across, total = 0.0, 0.0, 0.0
-            if not tangent_near(chain, goal, q[k], guess, tangent, damped):
-                break
-            guess[:] = tangent
-            for i in range(n):
-                way = excess(joints, q[k], i)
-                if way != 0.0:
-                    along += way * tangent[i]
-                    across += tangent[i] * tangent[i]
-                    total += way * way
-            if total == 0.0:
-                entered[k] = True
-                break
-            if total >= last or across < 1e-12 or abs(along) <= 1e-3 * math.sqrt(total * across):
-                break
-            last = total
-            step = min(max(along / across, -LONGEST), LONGEST)
-            trial[:] = q[k] + step * tangent
-            if not restore(chain, goal, trial, work, damped) <= ACCEPT:
-                break
-            q[k] = trial
+        entered[k] = enter(chain, goal, q[k], scratch, damped)
 
 
 @entry()

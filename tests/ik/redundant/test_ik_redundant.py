@@ -13,7 +13,7 @@ from margins import assert_apart, assert_margin
 import dh2urdf
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik.arm import limits
-from dh2urdf.ik.redundant.self_motion import nearest_members, sample_values
+from dh2urdf.ik.redundant.self_motion import members, nearest_members, sample_values
 
 ARMS = ["franka_fer", "franka_fr3", "kuka_iiwa7", "kuka_iiwa14", "xarm7", "kinova_gen3"]
 SWEPT = {"franka_fer": "fer_joint7", "franka_fr3": "fr3_joint7", "xarm7": "joint7"}
@@ -188,6 +188,21 @@ def test_the_nearest_solution_is_nearer_than_any_sample(name):
         assert limits.inside(robot.chain, found.q).all()
         measured += found.verify().tolist()
     assert_margin(measured, RESIDUAL)
+
+
+def test_a_curve_between_two_values_of_the_swept_joint_is_found():
+    """Of a curve on which joint 7 moves by less than from value to value points are known.
+
+    The elbow is nearly straight, and joints 3 and 5 turn against each other.
+    """
+    robot = robot_of("franka_fr3")
+    q = np.array([-0.4944, 1.5475, 3.0308, 0.0119, 1.6535, 2.1627, -0.8802])
+    found = members(robot.solver, robot.fk(q), q, within_limits=False)
+    far = np.abs(np.remainder(found - q + math.pi, 2 * math.pi) - math.pi).max(axis=1)
+    on_curve = np.abs(found[:, 3]) < 0.1
+    assert far.min() < 0.2
+    assert np.ptp(found[on_curve, 6]) < 2 * math.pi / 256
+    assert np.ptp(found[on_curve, 2]) > 2.0
 
 
 @pytest.mark.parametrize("name", ["franka_fer", "kuka_iiwa14"])
