@@ -12,7 +12,9 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-__all__ = ["Watch", "commit", "describe", "load_average", "versions", "worked"]
+import numpy as np
+
+__all__ = ["Watch", "commit", "describe", "load_average", "touch_memory", "versions", "worked"]
 
 PACKAGES = (
     "dh2urdf",
@@ -101,6 +103,11 @@ def commit() -> str:
 def load_average() -> list[float]:
     """Load of the machine over 1, 5 and 15 minutes."""
     return [round(v, 2) for v in os.getloadavg()]
+
+
+def touch_memory(size: int = 1 << 30) -> None:
+    """Write to some memory and give it back: what a virtual machine never had is slow at first."""
+    np.full(size // 8, 1.0)
 
 
 def worked() -> float:

@@ -96,13 +96,13 @@ def entry(**lengths: int) -> Callable[[Kernel], Kernel]:
     return mark
 
 
-def at_once(memory: Any, *steps: Step, more: Any = None) -> AtOnce:
+def at_once(memory: Any, *steps: Step, more: tuple[Any, ...] = ()) -> AtOnce:
     """The function of a pose (4, 4) that calls entries one after the other.
 
     It copies the pose to the beginning of ``memory``, of which all arrays that change are a part,
-    and answers a copy of the memory. With an array ``more`` (k,) it takes k numbers after the pose
-    that it copies there. It answers None where a step does not answer what it has to, where the
-    pose or the numbers are no usual arrays, and if a kernel is interpreted.
+    and answers a copy of the memory. For each array of ``more``, (k,), it takes k numbers after the
+    pose and copies them there. It answers None where a step does not answer what it has to, where
+    the pose or the numbers are no usual arrays, and if a kernel is interpreted.
     """
     if any(getattr(_COMPILED, step[0].__name__, None) is not step[0] for step in steps):
         return nothing_at_once

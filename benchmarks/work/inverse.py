@@ -12,6 +12,7 @@ from benchmarks import referee
 from benchmarks.arms import ARMS, Arm, arm_named
 from benchmarks.clock import Block, each, interleaved
 from benchmarks.contestant import BatchContestant, IKContestant
+from benchmarks.machine import touch_memory
 from benchmarks.marker import at_work
 from benchmarks.peers import contestants
 from benchmarks.referee import Verdict
@@ -118,6 +119,7 @@ def _batch(results: Results, arm: Arm, entrants: Sequence[BatchContestant]) -> N
         for threads in c.threads:
             blocks[f"{c.name}|{threads}"] = _batch_block(c, T[:share], threads)
     known = referee.truth(list(verdicts.values()), q[:2_000])
+    touch_memory()
     for key, timing in interleaved(blocks, 0.5 if results.quick else 15.0, most=15).items():
         name, threads = key.split("|")
         own = next(c for c in entrants if c.name == name)

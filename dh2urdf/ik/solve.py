@@ -130,7 +130,7 @@ class InverseKinematics:
             memory = self._at_once[within_limits](T)
         elif locked is None:
             memory = self._at_once[2 + within_limits](T, seed)
-        elif seed is None and (held := self._held.answer(T, locked, within_limits)):
+        elif held := self._held.answer(T, locked, within_limits, seed):
             problem, memory = held
         return None if memory is None or problem is None else IKSolutions(problem, memory)
 

@@ -9,7 +9,7 @@ typedef struct {
 } Step;
 
 /* The steps, and the memory that they share, of which the pose is the beginning and a copy the
- * answer; the array to which numbers go that are given with the pose. */
+ * answer; the tuple of arrays to which numbers go that are given with the pose. */
 typedef struct {
     PyObject *kept, *memory, *more;
     Py_ssize_t count;
@@ -81,12 +81,14 @@ static PyObject *solve(PyObject *capsule, PyObject *const *args, Py_ssize_t coun
 {
     const Steps *all = PyCapsule_GetPointer(capsule, NULL);
     PyArrayObject *memory = (PyArrayObject *)all->memory;
-    if (count != (all->more == Py_None ? 1 : 2)) {
-        PyErr_SetString(PyExc_TypeError, "at_once: a pose, and numbers if there is room for them");
+    if (count != 1 + PyTuple_Size(all->more)) {
+        PyErr_SetString(PyExc_TypeError, "at_once: a pose, and numbers for which there is room");
         return NULL;
     }
-    int go_on = copy_pose(args[0], PyArray_BYTES(memory)) &&
-        (count == 1 || copy_numbers(args[1], (PyArrayObject *)all->more));
+    int go_on = copy_pose(args[0], PyArray_BYTES(memory));
+    for (Py_ssize_t i = 1; go_on && i < count; i++) {
+        go_on = copy_numbers(args[i], (PyArrayObject *)PyTuple_GetItem(all->more, i - 1));
+    }
     for (Py_ssize_t i = 0; go_on && i < all->count; i++) {
         const Step *step = all->steps + i;
         PyObject *found = step->door->call(step->lengths, step->given);
@@ -133,15 +135,16 @@ static int prepare(PyObject *given, Step *step)
     return take_all(*door, items, count, step->given, step->lengths);
 }
 
-/* at_once(memory, more, steps): the function of a pose, and of numbers for more if it is not None,
- * that goes through the steps. All arrays of their arguments are in these two, or in what the
+/* at_once(memory, more, steps): the function of a pose, and of numbers for each array of the tuple
+ * more, that goes through the steps. All arrays of their arguments are in these two, or in what the
  * caller does not change. */
 static PyObject *at_once(PyObject *self, PyObject *args)
 {
     static PyMethodDef method = {"solve", (PyCFunction)(void (*)(void))solve, METH_FASTCALL, NULL};
     PyObject *memory, *more, *given;
     (void)self;
-    if (!PyArg_ParseTuple(args, "O!OO!", &PyArray_Type, &memory, &more, &PyTuple_Type, &given)) {
+    if (!PyArg_ParseTuple(args, "O!O!O!", &PyArray_Type, &memory, &PyTuple_Type, &more, &PyTuple_Type,
+                          &given)) {
         return NULL;
     }
     Steps *all = calloc(1, sizeof *all);

@@ -68,7 +68,10 @@ def same_answers(a, b):
         np.testing.assert_array_equal(x, y)
 
 
-@pytest.mark.parametrize("name", ["puma560", "ur5", "fanuc_crx10ia", "omron_cobra600", "stanford"])
+SEEDED = ["puma560", "ur5", "fanuc_crx10ia", "omron_cobra600", "stanford"]
+
+
+@pytest.mark.parametrize("name", [*SEEDED, "franka_fer", "kuka_iiwa14", "kinova_gen3"])
 def test_one_call_with_a_seed_answers_as_the_calls_in_turn_do(name):
     """Turned and sorted; seeds are arrays, lists, and what only Python takes."""
     robot, rng = Robot.from_dh(name), np.random.default_rng(1)
@@ -109,7 +112,7 @@ HOLDS = [("franka_fer", 6), ("kuka_iiwa7", 2), ("xarm7", 6), ("kinova_gen3", 2),
 
 @pytest.mark.parametrize(("name", "joint"), HOLDS)
 def test_one_call_with_a_joint_held_answers_as_the_calls_in_turn_do(name, joint):
-    """Also beside and at values that line two axes up, at limits, by index and by name."""
+    """Also beside and at values that line two axes up, at limits, by index, by name, seeded."""
     robot = on_rail(name) if name == "ur5" else Robot.from_dh(name)
     rng = np.random.default_rng(2)
     lower, upper = robot.lower[joint], robot.upper[joint]
@@ -120,15 +123,19 @@ def test_one_call_with_a_joint_held_answers_as_the_calls_in_turn_do(name, joint)
     for value in values[(lower <= values) & (values <= upper)].tolist():
         q = rng.uniform(-1.5, 1.5, robot.n)
         q[joint] = value
-        T = robot.fk(q)
+        T, seed = robot.fk(q), rng.uniform(-3.0, 3.0, robot.n)
         for inside in (False, True):
             apart = robot._ik.problem("pose", {joint: value}, inside).solve_one(T, inside)
+            near = robot._ik.problem("pose", {joint: value}, inside).arranged(apart, seed, inside)
             for locked in ({joint: value}, {robot.chain.names[joint]: value}):
                 for _ in range(2):
                     same_answers(robot.ik(T, locked=locked, within_limits=inside), apart)
-                answer = robot._ik._held.answer(T, locked, inside)
-                some += answer is not None and answer[1] is not None
-    assert some > 40
+                    asked = {"seed": seed, "locked": locked, "within_limits": inside}
+                    same_answers(robot.ik(T, **asked), near)
+                for towards in (None, seed):
+                    answer = robot._ik._held.answer(T, locked, inside, towards)
+                    some += answer is not None and answer[1] is not None
+    assert some > 80
 
 
 def test_a_held_value_that_is_none_is_refused_at_the_first_call_and_later():
@@ -139,6 +146,8 @@ def test_a_held_value_that_is_none_is_refused_at_the_first_call_and_later():
         for _ in range(2):
             with pytest.raises((ConfigurationError, NameNotFoundError)):
                 robot.ik(T, locked=locked)
+            with pytest.raises(ConfigurationError):
+                robot.ik(T, locked={6: 0.3}, seed=[np.nan] * 7)
             assert len(robot.ik(T, locked={6: 0.3}))
             assert len(robot.ik(T, locked={1: 0.2}))
 

@@ -39,7 +39,7 @@ from dh2urdf.ik.arm.shared_tolerances import (
     SNAP,
     SPARE_RANK,
 )
-from dh2urdf.ik.arm.singular_families import Family, beside_seed, slide_to_seed
+from dh2urdf.ik.arm.singular_families import Family, beside_seed, coupled, slide_to_seed
 from dh2urdf.ik.arm.solver import (
     BRANCH_WORDS,
     BatchKernel,

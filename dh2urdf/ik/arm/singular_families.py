@@ -5,7 +5,7 @@ moved along it by the kernels for self-motions, on the chain whose other joints 
 """
 
 import itertools
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -158,15 +158,23 @@ def beside_seed(
     A curve of solutions that is short, or close to another one, may have none of the values at
     which joints are held.
     """
-    bounds = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
-    if not within_limits:
-        bounds[:, 1:] = -np.inf, np.inf
-    start = np.clip(seed[None], bounds[:, 1], bounds[:, 2])
+    arm = coupled(chain, within_limits)
+    start = np.clip(seed[None], arm[3][:, 1], arm[3][:, 2])
     found, residual = np.empty((1, chain.n)), np.empty(1)
-    arm = chain.tables, np.eye(chain.n), np.zeros(chain.n), bounds
     goal = task.number, np.array(T), chain.size
     count, _ = find_solutions(arm, goal, start, found, residual)
     return found[:count]
+
+
+@lru_cache(maxsize=16)
+def coupled(
+    chain: SerialChain, within_limits: bool
+) -> tuple[tuple[Array, Array], Array, Array, Array]:
+    """A chain as a search takes it, with or without its limits: no joint follows another."""
+    bounds = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
+    if not within_limits:
+        bounds[:, 1:] = -np.inf, np.inf
+    return chain.tables, np.eye(chain.n), np.zeros(chain.n), bounds
 
 
 def _principal(chain: SerialChain, gap: Array) -> Array:

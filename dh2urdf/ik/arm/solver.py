@@ -220,12 +220,16 @@ class HeldSolver:
         """Whether many values take little time, and `sweep` tells its solutions' branches."""
         return False
 
-    def sweep(self, T: Array, values: Array, out: Outputs) -> None:
-        """Solve a pose (4, 4) at or near values (m,) of the one held joint, limits or not.
+    def sweep(self, T: Array, values: Array, out: Outputs) -> Step:
+        """What solves a pose (4, 4) at or near values (m,) of the one held joint, limits or not.
 
         Solutions of one branch in neighbouring rows are on one curve; -1 says nothing. There may
         be more rows than values.
         """
+        return self._solve_rows, (T, values, out), False
+
+    def _solve_rows(self, T: Array, values: Array, out: Outputs) -> None:
+        """Solve a pose (4, 4) at values (m,), into the first rows."""
         Ts = np.repeat(T[None], len(values), axis=0)
         found = out.rows(slice(len(values)))
         self.solve_held(Ts, np.ascontiguousarray(values[:, None]), False, found)

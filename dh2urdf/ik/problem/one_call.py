@@ -11,10 +11,11 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.engine import AtOnce, Step, at_once, nothing_at_once
-from dh2urdf.ik.arm import LIMIT_SLACK, HeldSolver, Room, SolverBase
+from dh2urdf.ik.arm import LIMIT_SLACK, HeldSolver, Outputs, Room, SolverBase
 from dh2urdf.ik.problem.locked import Locked
 from dh2urdf.ik.problem.problem import Problem
-from dh2urdf.ik.redundant import RedundantChain
+from dh2urdf.ik.problem.swept_problem import SweptProblem
+from dh2urdf.ik.redundant import MOST_MEMBERS, RedundantChain, SweptJoint, towards_seed
 from dh2urdf.kernels.certificate import arrange_plain
 from dh2urdf.kernels.numbers import any_family, is_pose
 from dh2urdf.transforms import Array
@@ -31,21 +32,43 @@ def call_of(problem: Problem, within_limits: bool) -> AtOnce:
 
 def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
     """The function of a pose and a seed (n,); a singular family is nothing for it."""
-    chain, room = problem.chain, _room(problem)
-    seed, distance = np.empty(chain.n), np.empty(problem.solver.kmax)
-    largest = np.where(chain.prismatic, LENGTH, ANGLE)
-    arguments = chain.tables, largest, LIMIT_SLACK, problem.task.number
+    if isinstance(problem.solver, SweptJoint):
+        return _swept_call_of(problem, problem.solver, within_limits)
+    room, seed = _room(problem), np.empty(problem.chain.n)
     steps = _steps(problem, room, within_limits)
     if not steps or isinstance(problem.solver, RedundantChain):
         return nothing_at_once
-    arrange: Step = arrange_plain, (*arguments, room.Ts, seed, room.out, distance), True
-    return _call(room, (*steps, arrange), False, seed)
+    return _call(room, (*steps, _arrange(problem, room, seed)), False, seed)
+
+
+def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) -> AtOnce:
+    """The function of a pose and a seed (n,), of which a sample of the swept joint is near."""
+    n, some = solver.chain.n, Outputs.of(1, solver.kmax, solver.chain.n)
+    room, seed = Room(MOST_MEMBERS + solver.kmax, n), np.empty(n)
+    steps = solver.steps(room.Ts, within_limits, some)
+    if not steps or type(problem) is not SweptProblem:
+        return nothing_at_once
+    families: Step = any_family, (some.counts, some.free), False
+    arrange = towards_seed(solver, room.Ts, seed, within_limits, some, room.out)
+    return _call(room, (*steps, families, *arrange), False, seed)
+
+
+def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
+    """Turn and sort what has been found towards a seed (n,)."""
+    chain, distance = problem.chain, np.empty(problem.solver.kmax)
+    largest = np.where(chain.prismatic, LENGTH, ANGLE)
+    arguments = chain.tables, largest, LIMIT_SLACK, problem.task.number
+    return arrange_plain, (*arguments, room.Ts, seed, room.out, distance), True
 
 
 class HeldCall(NamedTuple):
-    """The function of a pose and the value of one held joint, between two values."""
+    """The function of a pose and the value of one held joint, between two values.
+
+    ``seeded`` is that of a seed (n,), too.
+    """
 
     call: AtOnce
+    seeded: AtOnce
     low: float
     high: float
     problem: Problem
@@ -55,6 +78,7 @@ class HeldCall(NamedTuple):
         """That of a problem of one held joint, for values about the one that it is held at."""
         assert isinstance(problem.solver, HeldSolver)
         chain, room, held = problem.chain, _room(problem), np.empty(1)
+        seed = np.empty(chain.n)
         steps = problem.solver.steps(room.Ts, held, within_limits, room.out)
         joint, (low, high) = problem.solver.held[0], problem.solver.clear_about(value)
         bound = LENGTH if chain.prismatic[joint] else ANGLE
@@ -62,14 +86,16 @@ class HeldCall(NamedTuple):
             (chain.lower[joint], chain.upper[joint]) if within_limits else (-bound, bound)
         )
         low, high = max(low, float(lower), -bound), min(high, float(upper), bound)
-        return cls(_call(room, steps, within_limits, held), low, high, problem)
+        arranged = (*steps, _arrange(problem, room, seed)) if steps else ()
+        call = _call(room, steps, within_limits, held)
+        return cls(call, _call(room, arranged, False, held, seed), low, high, problem)
 
 
 class HeldCalls(dict[tuple[int | str, type, bool], HeldCall]):
     """The latest function for each joint that was held, as it was named, with limits or without."""
 
     def answer(
-        self, T: ArrayLike, locked: Locked, within_limits: bool
+        self, T: ArrayLike, locked: Locked, within_limits: bool, seed: ArrayLike | None
     ) -> tuple[Problem, bytes | None] | None:
         """A problem, and the memory of its answer to a pose, if there is a function for it."""
         if type(locked) is not dict or len(locked) != 1:
@@ -78,7 +104,7 @@ class HeldCalls(dict[tuple[int | str, type, bool], HeldCall]):
         held = self.get((key, type(key), within_limits))
         if not held or type(value) is not float or not held.low < value < held.high:
             return None
-        memory = held.call(T, value)
+        memory = held.call(T, value) if seed is None else held.seeded(T, value, seed)
         if memory is not None and not any(memory[COUNT]):  # what is searched, is so in Python
             return None
         return held.problem, memory
@@ -100,14 +126,12 @@ def _room(problem: Problem) -> Room:
 
 def _steps(problem: Problem, room: Room, within_limits: bool) -> tuple[Step, ...]:
     """The kernels that solve; none where Python helps."""
-    if type(problem) is not Problem or not isinstance(problem.solver, SolverBase):
+    if type(problem) not in (Problem, SweptProblem) or not isinstance(problem.solver, SolverBase):
         return ()
     return problem.solver.steps(room.Ts, within_limits, room.out)
 
 
-def _call(
-    room: Room, steps: tuple[Step, ...], within_limits: bool, more: Array | None = None
-) -> AtOnce:
+def _call(room: Room, steps: tuple[Step, ...], within_limits: bool, *more: Array) -> AtOnce:
     """The function that checks a pose and goes through steps; none if there are none."""
     if not steps:
         return nothing_at_once

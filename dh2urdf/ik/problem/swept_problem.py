@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.ik.arm import turned_to
+from dh2urdf.ik.arm import Outputs, Room
 from dh2urdf.ik.problem.path import BREAK, MOST_STATES, PathFinder, Stage, trace
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.solutions import IKSolutions
-from dh2urdf.ik.redundant import SweptJoint, nearest_members, reach_intervals
+from dh2urdf.ik.redundant import MOST_MEMBERS, SweptJoint, reach_intervals, run, towards_seed
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import onward, shorten
 from dh2urdf.transforms import Array
@@ -41,13 +41,12 @@ class SweptProblem(Problem):
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The nearest members to the seed (n,) on all self-motions, then the samples."""
-        near = nearest_members(self.solver, found.T, seed, within_limits)
-        q = np.concatenate([near, turned_to(self.chain, found.q, seed)])
-        order = np.argsort(np.linalg.norm(q - seed, axis=1), kind="stable")
-        none = zip((-1, 0), found.codes, strict=True)
-        codes = [np.append(np.full(len(near), nothing), code)[order] for nothing, code in none]
-        arranged = IKSolutions.of(self, found.T, q[order], np.empty(len(q)), *codes)
-        return self._accepted(self._at(arranged, q[order]))
+        k = len(found)
+        some, room = Outputs.of(1, max(k, 1), self.chain.n), Room(MOST_MEMBERS + k, self.chain.n)
+        some.q[0, :k], some.counts[0], room.Ts[0] = found.q, k, found.T
+        some.branch[0, :k], some.free[0, :k] = found.codes
+        run(towards_seed(self.solver, room.Ts, seed, within_limits, some, room.out))
+        return IKSolutions(self, room.memory.tobytes())
 
     def intervals(self, T: Array, within_limits: bool) -> Array:
         """Intervals of the swept joint in which a pose (4, 4) is reached, shape (k, 2)."""

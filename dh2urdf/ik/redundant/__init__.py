@@ -8,6 +8,13 @@ between them, `held_at_rest` holds idle joints, `searched` helps arms with weak 
 from dh2urdf.ik.redundant.held_at_rest import RedundantChain
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.searched import nearly_reaching
-from dh2urdf.ik.redundant.self_motion import nearest_members, reach_intervals, sample_values
+from dh2urdf.ik.redundant.self_motion import (
+    MOST_MEMBERS,
+    nearest_members,
+    reach_intervals,
+    run,
+    sample_values,
+    towards_seed,
+)
 from dh2urdf.ik.redundant.special_values import at_any_value
 from dh2urdf.ik.redundant.swept import SweptJoint

@@ -167,11 +167,11 @@ class HeldWrist(HeldSolver):
         """Whether many values take little time, and their solutions have branches."""
         return self.kernel is solve_held_blocks
 
-    def sweep(self, T: Array, values: Array, out: Outputs) -> None:
-        """Solve a pose (4, 4) at or near values (m,) of the held joint, of a whole turn."""
+    def sweep(self, T: Array, values: Array, out: Outputs) -> Step:
+        """What solves a pose (4, 4) at or near values (m,) of the held joint, of a whole turn."""
         arm, goal = (*self.constants[:4], MISS), (POSE, T, self.chain.size)
         margin = np.empty((len(values), 2))
-        sweep_pose(arm, self.chain.tables, goal, self.quick, values, out, margin)
+        return sweep_pose, (arm, self.chain.tables, goal, self.quick, values, out, margin), False
 
 
 @lru_cache(maxsize=4)

@@ -5,14 +5,15 @@ joint. Here they are followed: to the member nearest to a seed, into the joint l
 ends of the intervals of the swept joint in which the pose is reached.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
 
-from dh2urdf.bounds import SAMPLES
+from dh2urdf.bounds import ANGLE, LENGTH, SAMPLES
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik.arm import (
     INTERVAL_END,
@@ -21,15 +22,26 @@ from dh2urdf.ik.arm import (
     TWO_PI,
     HeldSolver,
     Outputs,
-    Task,
-    beside_seed,
+    coupled,
     inside,
     middle,
     near_ranges,
 )
 from dh2urdf.kernels.certificate import measure_all
 from dh2urdf.kernels.newton import POSE
-from dh2urdf.kernels.redundant import WALKED, Starts, enter_all, find_starts, nearest_of, spread
+from dh2urdf.kernels.redundant import (
+    INNER,
+    MEMBERS,
+    WALKED,
+    Starts,
+    arrange_members,
+    enter_all,
+    find_starts,
+    nearest_of,
+    repeat_pose,
+    spread,
+    start_beside,
+)
 from dh2urdf.transforms import Array
 
 VALUES = 128
@@ -52,9 +64,8 @@ PARTS = 16
 GRID = 720
 """Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
 
-FINER = (GRID // 8, GRID)
-"""Values of the swept joint at which a pose is tried that a coarse sweep has missed: most parts of
-curves are found by the first."""
+MOST_MEMBERS = STARTS + 1
+"""Members that are returned with a seed."""
 
 
 class Sweep(Protocol):
@@ -92,15 +103,12 @@ def sample_values(chain: SerialChain, joint: int, samples: int, within_limits: b
 
 def few_members(solver: Sweep, T: Array, within_limits: bool, most: int) -> tuple[Array, Array]:
     """Solutions (k, n) of a pose on curves that a coarse sweep has missed; their residuals."""
-    chain, q = solver.chain, np.empty((0, solver.chain.n))
-    for samples in FINER:
-        outputs = Outputs.of(1, samples * solver.held.kmax, chain.n)
-        values = sample_values(chain, solver.joint, samples, within_limits)
-        solver.solve_at(values, np.array(T[None]), within_limits, outputs)
-        q = outputs.q[0, : outputs.counts[0]]
-        if len(q):
-            break
-    else:
+    chain = solver.chain
+    values = sample_values(chain, solver.joint, GRID, within_limits)
+    outputs = Outputs.of(1, GRID * solver.held.kmax, chain.n)
+    solver.solve_at(values, np.array(T[None]), within_limits, outputs)
+    q = outputs.q[0, : outputs.counts[0]]
+    if not len(q):
         q = members(solver, T, middle(chain), within_limits, FEW)
     q = q.copy()
     return _measured(solver, T, q[: min(spread(APART, q), most)])
@@ -120,37 +128,55 @@ def members(
 
     At least one of each curve, and of each part of it within the limits.
     """
-    starts, out = _swept(solver, T, goal, within_limits, values)
+    steps, starts, out = _curve_steps(solver, T, goal, within_limits, values)
+    run(steps)
     found = out.q[np.arange(out.q.shape[1]) < out.counts[:, None]]
-    q = np.concatenate([found, starts.inner[: starts.counts[0]]])
+    q = np.concatenate([found, starts.inner[: starts.counts[INNER]]])
     q = q[inside(solver.chain, q)] if within_limits else q
     ordered: Array = q[np.argsort(np.linalg.norm(q - goal, axis=1), kind="stable")]
     return ordered
 
 
-def _swept(
-    solver: Sweep, T: Array, goal: Array, within_limits: bool, values: int
-) -> tuple[Starts, Outputs]:
-    """Where the curves of a pose come nearest to a goal (n,), and sweeps that they were found in.
+def run(steps: Iterable[Step]) -> None:
+    """Go through steps one by one."""
+    for kernel, arguments, _ in steps:
+        kernel(*arguments)
 
-    They are looked for in sweeps of two joints over a whole turn, limits or not, for a curve that
+
+def _curve_steps(
+    solver: Sweep, T: Array, goal: Array, within_limits: bool, values: int
+) -> tuple[tuple[Step, ...], Starts, Outputs]:
+    """Steps that find the curves of a pose, where they come nearest to a goal (n,), the sweeps.
+
+    The curves are looked for in sweeps of two joints over a whole turn, limits or not, for one that
     is short in one joint is seldom short in the other. Those found outside the limits are followed
     inwards, the nearest to the goal and the limits.
     """
     chain, starts = solver.chain, Starts.of(STARTS, solver.chain.n)
     quick = [held for held in solver.sweeps if held.quick] or solver.sweeps
     each, ends = values * len(solver.sweeps) // len(quick), np.empty((len(quick), 2), np.int64)
-    out = Outputs.of((each + WALKED) * len(quick), solver.held.kmax, chain.n)
+    out, steps = Outputs.of((each + WALKED) * len(quick), solver.held.kmax, chain.n), []
     for k, held in enumerate(quick):
         joint, first = held.held[0], k * (each + WALKED)
         rows = out.rows(slice(first, first + each + WALKED))
-        held.sweep(T, sample_values(chain, joint, each, False), rows)
+        steps.append(held.sweep(T, sample_values(chain, joint, each, False), rows))
         ends[k] = (first + each) * (-1 if chain.prismatic[joint] else 1), -first - each - WALKED
-    pose = POSE, T, chain.size
-    find_starts(chain.tables, pose, LIMIT_SLACK, within_limits, goal, ends.ravel(), out, starts)
-    if within_limits:
-        enter_all(chain.tables, pose, goal, starts)
-    return starts, out
+    pose = chain.tables, (POSE, T, chain.size)
+    find = find_starts, (*pose, LIMIT_SLACK, within_limits, goal, ends.ravel(), out, starts), False
+    enter = enter_all, (*pose, goal, starts), False
+    return (*steps, find, *((enter,) if within_limits else ())), starts, out
+
+
+def _nearest_steps(
+    solver: Sweep, T: Array, seed: Array, within_limits: bool
+) -> tuple[tuple[Step, ...], Starts, Array]:
+    """Steps that find the members nearest to a seed (n,) on all curves, their number and room."""
+    chain, nearest = solver.chain, np.empty((MOST_MEMBERS, solver.chain.n))
+    steps, starts, _ = _curve_steps(solver, T, seed, within_limits, VALUES)
+    goal = POSE, T, chain.size
+    beside = start_beside, (coupled(chain, within_limits), goal, seed, starts), False
+    follow = nearest_of, (chain.tables, goal, within_limits, seed, starts, nearest), False
+    return (*steps, beside, follow), starts, nearest
 
 
 def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -> Array:
@@ -158,12 +184,24 @@ def nearest_members(solver: Sweep, T: Array, seed: Array, within_limits: bool) -
 
     The first is the nearest of all, on every curve that was found.
     """
-    chain = solver.chain
-    starts, _ = _swept(solver, T, seed, within_limits, VALUES)
-    beside = beside_seed(chain, Task.POSE, T, seed, within_limits)
-    goal, nearest = (POSE, T, chain.size), np.empty((STARTS + len(beside), chain.n))
-    count = nearest_of(chain.tables, goal, within_limits, seed, starts, beside, nearest)
-    return nearest[:count]
+    steps, starts, nearest = _nearest_steps(solver, T, seed, within_limits)
+    run(steps)
+    return nearest[: starts.counts[MEMBERS]]
+
+
+def towards_seed(
+    solver: Sweep, Ts: Array, seed: Array, within_limits: bool, found: Outputs, out: Outputs
+) -> tuple[Step, ...]:
+    """Steps from what was found of a pose (1, 4, 4) to all that is known of it near a seed (n,).
+
+    The nearest members, `MOST_MEMBERS` at most, and what was found, nearest first.
+    """
+    chain, most = solver.chain, out.q.shape[1]
+    steps, starts, nearest = _nearest_steps(solver, Ts[0], seed, within_limits)
+    largest = np.where(chain.prismatic, LENGTH, ANGLE)
+    known = chain.tables, Ts, largest, LIMIT_SLACK, seed, starts, nearest, found, out
+    room = np.empty(most), np.empty(most, np.int64)
+    return (*steps, (arrange_members, (*known, *room), True))
 
 
 def reach_intervals(solver: Sweep, T: Array, within_limits: bool) -> Array:
@@ -224,7 +262,8 @@ def _grid(solver: Sweep, within_limits: bool) -> Array:
 def _reached(solver: Sweep, T: Array, values: Array, within_limits: bool) -> Array:
     """Whether the pose has a sharp solution at each of the values (s,), bool shape (s,)."""
     m = len(values)
-    out, Ts = Outputs.of(m, solver.held.kmax, solver.chain.n), np.repeat(T[None], m, axis=0)
+    out, Ts = Outputs.of(m, solver.held.kmax, solver.chain.n), np.empty((m, 4, 4))
+    repeat_pose(T[None], Ts)
     solver.held.solve_held(Ts, np.ascontiguousarray(values[:, None]), within_limits, out)
     out.residual[np.arange(solver.held.kmax) >= out.counts[:, None]] = np.inf
     sharp: Array = out.residual.min(axis=1) <= SHARP * max(1.0, solver.chain.size)

@@ -6,6 +6,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import (
     HeldSolver,
@@ -19,7 +20,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.redundant.held_values import select_held
 from dh2urdf.ik.redundant.held_wrist import HeldWrist
 from dh2urdf.ik.redundant.self_motion import few_members, sample_values
-from dh2urdf.kernels.redundant import gather_samples
+from dh2urdf.kernels.redundant import gather_samples, repeat_pose
 from dh2urdf.transforms import Array
 
 SAMPLES = 16
@@ -99,6 +100,14 @@ class SweptJoint(SolverBase):
             k = out.counts[i] = len(q)
             out.q[i, :k], out.residual[i, :k] = q, residual
             out.branch[i, :k], out.free[i, :k] = -1, 0
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The same in kernels, of one pose that a value reaches."""
+        poses, some = np.empty((self.samples, 4, 4)), Outputs.of(self.samples, self.held.kmax, 7)
+        values = sample_values(self.chain, self.joint, self.samples, within_limits)
+        held = self.held.steps(poses, values, within_limits, some)
+        copy, join = (repeat_pose, (Ts, poses), False), (some, 0, 1, self.samples, out)
+        return (copy, *held, (gather_samples, join, True)) if held else ()
 
     def solve_at(self, values: Array, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses at given values (s,) of the swept joint, s kmax of the held rows a pose."""

@@ -43,5 +43,5 @@ from dh2urdf.kernels.certificate.finish import (
     side_by_side,
     turn_back,
 )
-from dh2urdf.kernels.certificate.numeric import find_solutions
+from dh2urdf.kernels.certificate.numeric import Coupled, find_solutions
 from dh2urdf.kernels.certificate.valley import search_valleys

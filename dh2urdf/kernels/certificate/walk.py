@@ -185,7 +185,7 @@ def _floor_above(sigma, k, mask, largest):
     for i in range(sigma.shape[0]):
         if mask >> i & 1 and i != k and sigma[k] <= sigma[i] < next_:
             next_ = sigma[i]
-    return min(FLAT, math.sqrt(sigma[k] * next_) / largest)
+    return min(FLAT, math.sqrt(sigma[k] * next_) / largest) if largest > 0.0 else FLAT
 
 
 def joints_that_move(chain, T, q, length, part, mask, moved):

@@ -7,9 +7,18 @@ values; `self_motion` walks along solutions, `starts` says from where and `neare
 """
 
 from dh2urdf.kernels.redundant.curves import DULL, add_curves
-from dh2urdf.kernels.redundant.held_wrist import gather_samples, solve_held_wrist
+from dh2urdf.kernels.redundant.held_wrist import gather_samples, repeat_pose, solve_held_wrist
 from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
-from dh2urdf.kernels.redundant.nearest import Starts, enter_all, nearest_of, spread
+from dh2urdf.kernels.redundant.nearest import (
+    INNER,
+    MEMBERS,
+    Starts,
+    arrange_members,
+    enter_all,
+    nearest_of,
+    spread,
+    start_beside,
+)
 from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
 from dh2urdf.kernels.redundant.starts import find_starts

@@ -210,10 +210,12 @@ def gather_samples(found: Samples, first: int, last: int, samples: int, outputs:
     """Join the solutions of the samples of a pose, rows in the order of the values.
 
     ``found`` are the five arrays of a solver for (last - first) samples poses; the others are
-    the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`.
+    the caller's, with room for all, see :class:`dh2urdf.ik.arm.solver.Solver`. Returns whether
+    every pose has one.
     """
     q, residual, count, branch, free = outputs
     some_q, some_residual, some_count, some_branch, some_free = found
+    every = True
     for i in range(first, last):
         total = 0
         for k in range(samples):
@@ -224,3 +226,12 @@ def gather_samples(found: Samples, first: int, last: int, samples: int, outputs:
                 branch[i, total], free[i, total] = some_branch[row, r], some_free[row, r]
                 total += 1
         count[i] = total
+        every = every and total > 0
+    return every
+
+
+@entry()
+def repeat_pose(T: Annotated[Floats, 1, 4, 4], Ts: Poses):
+    """Copy one pose to all the others, Ts (m, 4, 4)."""
+    for i in range(Ts.shape[0]):
+        Ts[i] = T[0]

@@ -103,7 +103,7 @@ def place_elbows(S2, reach, slack, n, S):
         c, s, dc, ds = a * d * inverse, b * d * inverse, b * root * inverse, a * root * inverse
         S[BLOCK * T3 + i], S[TURN + BLOCK * T3 + i] = c - dc, s + ds
         S[BLOCK * (T3 + 1) + i], S[TURN + BLOCK * (T3 + 1) + i] = c + dc, s - ds
-        S[BLOCK * REACHED + i] = gap / size
+        S[BLOCK * REACHED + i] = gap / max(size, 1e-300)
         dirty = -slack * size < gap < MERGED * size or square < MERGED * size
         S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
     for elbow in range(2):
@@ -140,7 +140,7 @@ def place_shoulders(S0, slack, n, S):
             a, b, d = gx * px + gy * py, gx * py - gy * px, uz - gz * pz
             square, around, size = a * a + b * b, ux * ux + uy * uy, px * px + py * py + pz * pz
             gap = square - d * d
-            reached, margin = S[BLOCK * REACHED + i], gap / size
+            reached, margin = S[BLOCK * REACHED + i], gap / max(size, 1e-300)
             margin = min(reached, margin) if reached > 0.0 else reached
             root = math.sqrt(max(gap, 0.0))
             both = 1.0 / (max(square, 1e-30) * max(around, 1e-30))

@@ -48,7 +48,7 @@ def find_starts(
     that is known. ``slack``: excess over a limit [rad or m] that is rounding of a full turn.
     """
     (_, joints), (q, size, count, _, _) = chain, outputs
-    inner, distance, outer, measure, counts = starts
+    inner, distance, outer, measure, _, counts = starts
     most, n, first, found = q.shape[1], q.shape[2], 0, 0
     trial, room = np.empty(n), (np.empty((5, n)), make_damped(n))
     rows, sizes = np.empty((distance.shape[0], 3), np.int64), np.empty(distance.shape[0])
@@ -202,7 +202,7 @@ def _go_between(joints, a, b, c, seed, q):
         right += (gap + after) * (gap + after)
         back += before * before
         on += after * after
-    back, on = math.sqrt(back), math.sqrt(on)
+    back, on = max(math.sqrt(back), 1e-12), max(math.sqrt(on), 1e-12)
     slope_left, slope_right = (left - here) / back, (right - here) / on
     bend = max((slope_left + slope_right) / (back + on), 0.05)
     t = 0.5 * ((slope_left * on - slope_right * back) / (back + on)) / bend
