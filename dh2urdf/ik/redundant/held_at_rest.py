@@ -55,6 +55,9 @@ rounding by one of the searches."""
 SURE = 1e-11
 """Residual [m and rad] of a solution beside which a walk decides whether there is a family."""
 
+SAME = 1e-6
+"""Joint distance [rad or m] at which two solutions are one."""
+
 WEAK = 1e-3
 """Singular value, relative to the largest, of an arm that can hardly move along its curve."""
 
@@ -200,6 +203,19 @@ class RedundantChain(SolverBase):
         if self.task is Task.POSE:
             self._name_again(Ts, out, used)
         out.branch[:] = -1
+        for i in np.flatnonzero(out.counts > 1):
+            self._drop_twice(out.rows(slice(i, i + 1)))
+
+    def _drop_twice(self, out: Outputs) -> None:
+        """Keep the first of solutions of one pose that full turns tell apart, in place."""
+        kept: list[int] = []
+        for k, q in enumerate(out.q[0, : out.counts[0]]):
+            others = turned_to(self.chain, out.q[0, kept], q)
+            if not (np.abs(others - q).max(axis=1) <= SAME).any():
+                kept.append(k)
+        out.counts[0] = len(kept)
+        for array in (out.q, out.residual, out.branch, out.free):
+            array[0, : len(kept)] = array[0, kept]
 
     def _name_again(self, Ts: Array, out: Outputs, used: NDArray[np.bool_]) -> None:
         """Walk where the arm can hardly move: short curves may be points, of which none is free."""

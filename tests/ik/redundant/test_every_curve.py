@@ -47,6 +47,24 @@ def test_no_curve_that_starts_lead_to_is_there_twice():
     assert sum(on_family(arm, p, q, T, free, 1e-6) for p in found) == 1
 
 
+def test_no_solution_of_rounded_angles_is_there_twice_by_a_full_turn():
+    """Axes that are parallel to nine digits: curves that hardly move the tool."""
+    a = 1.570796327
+    rows = [(-a, 0.4, 0.3, 2 * a), (0, 0.4, 0.4, 0), (0, -0.1, 0.3, 2 * a)]
+    rows += [(2 * a, -0.2, 0.1, -a), (2 * a, 0.1, 0.2, 0), (2 * a, 0.2, 0.3, 2 * a)]
+    table = dh2urdf.DHTable.from_array(rows, "standard", "theta d a alpha")
+    robot = dh2urdf.Robot.from_dh(table)
+    for q in (
+        (1.1985348946298655, -2.3561944901917866, 0.4730389515, 0.7853981634, 1.6333, 1.401077737),
+        (1.8324343958980729, -2.1146604101636175, 1.5517063861, -1.58331673, 0.25604, -1.82733371),
+    ):
+        found = robot.ik(robot.fk(np.array(q)), within_limits=False).q
+        assert len(found)
+        for k, p in enumerate(found):
+            away = np.abs(np.remainder(found[:k] - p + np.pi, 2.0 * np.pi) - np.pi)
+            assert (away.max(axis=1) > 1e-6).all()
+
+
 def test_a_pose_beyond_a_redundant_arm_has_no_solution():
     """A tenth of a millimetre beyond the stretched arm, and on its rim one."""
     robot = dh2urdf.Robot.from_dh(FOUR_IN_A_PLANE)
