@@ -51,8 +51,12 @@ DEVELOPERS = {
 """What each extra of the developers is for, in the source distribution's folder."""
 
 
-LOWEST = "tests/dh tests/dh_io tests/cli tests/robot tests/conversions tests/figures tests/page"
-"""What is run on the lowest versions: all that calls other packages."""
+LOWEST = (
+    "tests/dh tests/dh_io tests/cli tests/robot tests/conversions tests/figures tests/page "
+    "-k 'not test_labels'"
+)
+"""What is run on the lowest versions: all that calls other packages. Where letters stand in a
+figure is measured with those of the current matplotlib; older ones set them otherwise."""
 
 
 def uv(*argv):
