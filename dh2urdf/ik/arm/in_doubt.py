@@ -1,5 +1,7 @@
 """Poses of six turning joints in doubt: what many starts find, and a member of each family."""
 
+from functools import cache
+
 import numpy as np
 
 from dh2urdf.chain import SerialChain
@@ -30,6 +32,7 @@ ALIKE = 1e-14
 """Residuals [m and rad] below which one member of a family is as good as another."""
 
 
+@cache
 def _starts() -> Array:
     """Configurations (``STARTS``, 6)."""
     rng = np.random.default_rng(4)
