@@ -17,8 +17,8 @@ def letters(arm: Arm, modified: bool) -> tuple[Step, ...]:
         else "These joints have no table of standard rows whose parallel axes point one way"
     )
     words = (
-        f"{why}; the steps below use the standard frames of the same axes (section 4 of the "
-        f"notes), which have the same joint values q.\n\n{arm.table}"
+        f"{why}; the steps below use the standard frames that `dh2urdf extract` gives the "
+        f"same axes, with the same joint values q.\n\n{arm.table}"
     )
     return (Step("The frames", words),)
 

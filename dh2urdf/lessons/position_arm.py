@@ -152,7 +152,7 @@ def _elbows(asked: Asked, way: Way, centre: Array, reach: tuple[float, float]) -
     )
     triangle = Triangle(letters, row2.a, fore, u, v)
     words = (
-        "In the plane the arm is the RR arm of section 8.2. The wrist centre is at (u, v), seen "
+        "In the plane it is a planar arm of two links. The wrist centre is at (u, v), seen "
         "from frame 1. The upper arm is a_2 long; the forearm, from o_2 to the wrist centre, l_3, "
         f"and it makes the constant angle beta with x_3. {triangle.test}"
     )

@@ -37,7 +37,7 @@ def three_parallel(asked: Asked) -> Iterator[Way]:
     words = (
         f"{PLANE}So what the pose has across the plane is due to joint 1"
         f"{' and the joints after 4' if n > 4 else ''} alone: these come first. In the plane three "
-        "joints are left for x, y and a direction: the planar arm of section 8.2."
+        "joints are left for x, y and a direction: a planar arm of three links."
     )
     way = Way().then(Step("What decouples", words))
     if n == 6:

@@ -120,6 +120,6 @@ def two_parallel(asked: Asked) -> Iterator[Way]:
             asked,
             found,
             "With q_1 the two equations give w, and with it joints 4 and 5 by directions; joints 2 "
-            "and 3 are the planar arm of section 8.2; joint 6 is what is left of the orientation.",
+            "and 3 are a planar arm of two links; joint 6 is what is left of the orientation.",
         )
     yield found
