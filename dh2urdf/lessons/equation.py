@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.grids import grid_matrix
+from dh2urdf.lessons.evaluated import turns_between
 from dh2urdf.lessons.notation import (
     Given,
     latex,
@@ -24,6 +25,9 @@ from dh2urdf.transforms import Array
 @dataclass(frozen=True, eq=False)
 class Equation:
     """One equation: the formula, the numbers put in, the value.
+
+    An angle is given within half a turn of zero; where the numbers add up to more, the turn that
+    is added or taken off stands behind them.
 
     Parameters
     ----------
@@ -58,7 +62,15 @@ class Equation:
         matrices = any(np.ndim(v) == 2 for key, v in self.given.items() if key in letters)
         letters = letters if len(letters) > 1 else set()
         told = self.given and not matrices and letters & set(self.given)
-        return with_numbers(self.via or self.formula, self.given) if told else ""
+        return with_numbers(self.via or self.formula, self.given) + self._turn if told else ""
+
+    @property
+    def _turn(self) -> str:
+        """The turns that lead from the sum of angles to the value: `` + 2π``; mostly empty."""
+        if self.unit != "rad" or np.ndim(self.value):
+            return ""
+        turns = turns_between(self.via or self.formula, self.given, float(self.value))
+        return f" {'+' if turns > 0 else '-'} {2 * abs(turns)}π" if turns else ""
 
     @property
     def found(self) -> str:
@@ -90,7 +102,8 @@ class Equation:
         """The equation in LaTeX's mathematics, a sign of equality a line."""
         lines = [latex(self.formula)]
         if self.numbers:
-            lines.append(latex(self.via or self.formula, self.given))
+            turn = self._turn.replace("π", r" \pi")
+            lines.append(latex(self.via or self.formula, self.given) + turn)
         lines.append(self._latex_found())
         lines = lines[1:] if self.formula == self.name else lines
         unlike = [line for k, line in enumerate(lines) if line not in lines[:k]]

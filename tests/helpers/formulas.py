@@ -1,6 +1,7 @@
 """Formulas of worked solutions, computed as they are printed."""
 
 import math
+import re
 
 import numpy as np
 
@@ -20,11 +21,17 @@ def computed(equation):
 
 
 def off(equation):
-    """How far the value of an equation is from its formula, angles on the circle."""
+    """How far the value of an equation is from its formula and the turn that is shown behind it.
+
+    Angles without numbers, and those with either sign, are compared on the circle.
+    """
     gaps = []
+    shown = re.search(r" ([-+] \d+)π$", equation.numbers)
+    turn = int(shown[1].replace(" ", "")) * math.pi if shown else 0.0
+    free = not equation.numbers or "+-" in (equation.via or equation.formula)
     for value in computed(equation):
-        gap = np.asarray(value) - np.asarray(equation.value)
-        if equation.unit == "rad":
+        gap = np.asarray(value) + turn - np.asarray(equation.value)
+        if equation.unit == "rad" and free:
             gap = np.remainder(gap + math.pi, 2.0 * math.pi) - math.pi
         gaps.append(float(np.abs(gap).max()))
     return min(gaps)

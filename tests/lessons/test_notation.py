@@ -1,7 +1,11 @@
 """Formulas are written once: as text with numbers put in, and as LaTeX."""
 
+import math
+
 import pytest
 
+from dh2urdf.lessons.equation import Equation
+from dh2urdf.lessons.evaluated import turns_between
 from dh2urdf.lessons.notation import latex, latex_name, measured, shown, with_numbers
 
 
@@ -49,3 +53,35 @@ def test_names_and_values_are_short():
     assert shown(-0.12345678) == "-0.123457"
     assert measured(0.5, "rad") == "0.5 rad (28.6479 deg)"
     assert measured(0.25, "m") == "0.25 m"
+
+
+def test_a_turn_that_is_left_out_is_shown():
+    """theta_6 - theta_06 = -4.57 is given as 1.71: numbers put in have + 2π behind them."""
+    given = {"theta_6": -1.42694, "theta_06": 3.14159}
+    turned = Equation("q_6", "theta_6 - theta_06", given, -4.56853 + math.tau, "rad")
+    assert turned.numbers == "-1.42694 - 3.14159 + 2π"
+    assert r"3.14159 + 2 \pi \\" in turned.latex
+    same = Equation("q_6", "theta_6 - theta_06", given, -4.56853, "rad")
+    assert same.numbers == "-1.42694 - 3.14159"
+
+
+@pytest.mark.parametrize(
+    ("formula", "number"),
+    [
+        ("a - b - a", -2.0),
+        ("-a^2 b / (2 a)", -1.0),
+        ("atan2(-a, -(b - 1)) - sqrt(a^2 + 3)", -0.75 * math.pi - 2.0),
+        ("acos(a) cos(-a + 1)", 0.0),
+    ],
+)
+def test_formulas_are_computed_as_they_are_read(formula, number):
+    """Signs, powers, products and brackets, by the turns to a value three turns away."""
+    assert turns_between(formula, {"a": 1.0, "b": 2.0}, number + 6 * math.pi) == 3
+    assert turns_between(formula, {"a": 1.0, "b": 2.0}, number + 1e-3) == 0
+
+
+@pytest.mark.parametrize("formula", ["+- acos(a)", "k + a", "c + a", "acos(b)", "a / 0"])
+def test_formulas_without_one_number_have_no_turn(formula):
+    """Either sign, a vector, a letter without a number, no such angle: nothing is added."""
+    given = {"a": 1.0, "b": 2.0, "k": [1.0, 0.0, 0.0]}
+    assert turns_between(formula, given, 7.0) == 0
