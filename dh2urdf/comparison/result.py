@@ -78,7 +78,8 @@ class Comparison:
         lines += [f"  {difference}" for difference in self.differences]
         if self.mistakes:
             texts = dict.fromkeys(mistake.text for mistake in self.mistakes)
-            lines.append(f"  B reads as A with a mistake: {self._joint().join(texts)}")
+            lead = "taken as they stand, " if self.same else ""
+            lines.append(f"  {lead}B reads as A with a mistake: {self._joint().join(texts)}")
         return "\n".join(lines)
 
     def _joint(self) -> str:

@@ -35,7 +35,7 @@ def explain_pose(question: Question) -> IKExplanation:
         if not way.stopped:
             q, check = _placed(case, way)
             steps.append(check)
-    if len(question.q) > 1:
+    if len(question.q):
         steps.append(_branches(question))
     return IKExplanation(question.name, question.solver, question.T, tuple(steps), q, index, branch)
 
@@ -104,12 +104,24 @@ def _check(case: Case, q: Array, miss: float, turned: bool) -> Step:
 
 
 def _branches(question: Question) -> Step:
-    """All solutions, and what each is called."""
-    lines = []
+    """All solutions, what each is called, and which are outside the limits."""
+    chain, count, lines = question.chain, len(question.q), []
+    excess = np.maximum(chain.lower - question.q, question.q - chain.upper)
+    outside = excess.max(axis=1) > LIMIT
     for k, (q, branch) in enumerate(zip(question.q, question.branches, strict=True)):
-        mark = "  <- this one" if k == question.index else ""
-        lines.append(f"{question.numbers[k] + 1}: {vector_shown(q)}  {branch}{mark}".rstrip())
-    words = (
-        "What `ik` finds, one for each choice on the way; the steps above lead to the one marked."
+        named = [branch] if branch else []
+        named += ["outside the limits"] if outside[k] else []
+        mark = "  <- this one" if k == question.index and count > 1 else ""
+        numbered = f"{question.numbers[k] + 1}: {vector_shown(q)}  {', '.join(named)}"
+        lines.append(f"{numbered.rstrip()}{mark}")
+    held = " with what is held" if question.held else ""
+    limits = (
+        ", those outside the joint limits counted" if outside.any() else " within the joint limits"
+    )
+    words = f"`ik` finds {count} solution{'s' if count > 1 else ''}{held}{limits}"
+    words += (
+        "; the steps above lead to the one marked, other choices on the way to the others."
+        if count > 1
+        else ", the one that the steps above lead to."
     )
     return Step("All solutions", f"{words}\n\n" + "\n".join(lines))

@@ -35,10 +35,11 @@ def _left_over(asked: Asked, H_3: Array, R: Array) -> Step:
     """``R_3^0`` and what is left for the wrist."""
     base, R_03 = asked.arm.base, H_3[:3, :3]
     marks = Mark("frame", base @ H_3, "3"), Mark("frame", base @ asked.H, "6")
+    turning = [f"theta_{i}" for i, row in enumerate(asked.arm.rows[:3], 1) if not row.slides]
+    known = f"known from {', '.join(turning)}" if turning else "the same for all slides"
     return Step(
         "What is left of the orientation",
-        "R_3^0 is known from theta_1, theta_2, theta_3, so R = R_3^0 R_6^3 leaves R_6^3 = "
-        "(R_3^0)^T R to joints 4, 5, 6.",
+        f"R_3^0 is {known}, so R = R_3^0 R_6^3 leaves R_6^3 = (R_3^0)^T R to joints 4, 5, 6.",
         (
             Equation("R_3^0", "R_1^0 R_2^1 R_3^2", {"R": R_03}, R_03),
             Equation("R_6^3", "(R_3^0)^T R", {"R": R}, R),
