@@ -16,6 +16,10 @@ POINTS = 25
 """On an arc."""
 
 
+LEVEL = 1e-6
+"""Height of an elbow above the line that it bends from, as a share of the link, that is none."""
+
+
 @dataclass(frozen=True, eq=False)
 class Mark:
     """Something that a picture of a step draws.
@@ -46,6 +50,23 @@ def triangle(base: Array, corners: Array, sides: tuple[str, str, str]) -> tuple[
     a, b, c = moved(base, corners)
     ends = (a, b), (b, c), (a, c)
     return tuple(Mark("line", np.stack(e), s) for e, s in zip(ends, sides, strict=True))
+
+
+def elbow_side(marks: tuple[Mark, ...], axis: Array) -> Literal["upper", "lower", ""]:
+    """Which of the two elbows along z a :func:`triangle` in the base has; empty of level ones.
+
+    The triangle is seen along the elbow's axis (3,): sides may be offset along it.
+    """
+    lines = [mark.points for mark in marks if mark.kind == "line"][:3]
+    if len(lines) < 3:
+        return ""
+    sides = np.stack([lines[0][1] - lines[0][0], lines[2][1] - lines[2][0]])
+    away, straight = sides - np.outer(sides @ axis, axis)
+    square = float(straight @ straight)
+    above = away - (away @ straight) / square * straight if square else away
+    if abs(above[2]) <= LEVEL * float(np.linalg.norm(away)):
+        return ""
+    return "upper" if above[2] > 0.0 else "lower"
 
 
 def joint_mark(arm: Arm, variables: list[float], joint: int) -> Mark:

@@ -8,7 +8,7 @@ import numpy as np
 from dh2urdf.ik.arm import Task
 from dh2urdf.lessons.case import Case, Question
 from dh2urdf.lessons.ends import taken_off
-from dh2urdf.lessons.marks import joint_mark
+from dh2urdf.lessons.marks import elbow_side, joint_mark
 from dh2urdf.lessons.notation import measured, vector_shown
 from dh2urdf.lessons.steps import Equation, IKExplanation, Step
 from dh2urdf.lessons.way import Way
@@ -31,7 +31,7 @@ def explain_pose(question: Question) -> IKExplanation:
         steps.append(taken_off(case.arm, case.T, case.pose(), case.task is Task.POSITION))
         way = case.chosen()
         steps += [_named(_drawn(step, case, way), branch, case.joints) for step in way.steps]
-        steps = [_in_base(step, case.base) for step in steps]
+        steps = [_leaning(_in_base(step, case.base), case, way, branch) for step in steps]
         if not way.stopped:
             q, check = _placed(case, way)
             steps.append(check)
@@ -57,9 +57,30 @@ def _in_base(step: Step, base: Array) -> Step:
 def _named(step: Step, branch: str, joints: list[int]) -> Step:
     """A step with the arm's own joint, and its choice by the name that ``ik`` prints."""
     joint = None if step.joint is None else joints[step.joint]
-    name = next((w for w in branch.split(", ") if step.choice and w.startswith(step.choice)), "")
+    name = _choice(step, branch)
     words = f"{step.words} `ik` calls this choice: {name}." if name else step.words
     return replace(step, words=words, joint=None if joint == -1 else joint)
+
+
+def _choice(step: Step, branch: str) -> str:
+    """What ``ik`` calls the choice of a step; empty where there is none, or no name."""
+    return next((w for w in branch.split(", ") if step.choice and w.startswith(step.choice)), "")
+
+
+def _leaning(step: Step, case: Case, way: Way, branch: str) -> Step:
+    """A step with a word where the elbow called up is the lower one, or that called down upper."""
+    name = _choice(step, branch)
+    if step.choice != "elbow" or not name or 0 not in way.variables:
+        return step
+    axis = (case.base @ case.arm.base @ case.arm.frames(way.first(1))[1])[:3, 2]
+    side = elbow_side(step.marks, axis)
+    if side == {"elbow up": "upper", "elbow down": "lower"}[name] or not side:
+        return step
+    return replace(
+        step,
+        words=f"{step.words} The name is that of an arm that leans forward; as this one leans, "
+        f"the elbow is the {side} of the two.",
+    )
 
 
 def _placed(case: Case, way: Way) -> tuple[Array, Step]:

@@ -265,37 +265,3 @@ def test_every_pose_of_a_grid_is_explained_to_its_end():
             told = robot.explain_ik(T, within_limits=False)
             assert told.q is not None, (name, q)
             assert np.abs(robot.fk(told.q) - T).max() < 1e-9, (name, q)
-
-
-def test_the_last_step_says_how_many_solutions_there_are():
-    """Their number, whether they are within the limits, which are not, and which is explained."""
-    robot = dh2urdf.Robot.from_dh("denso_vs6556")
-    T = robot.fk([0.3, 0.5, 1.0, 0.4, 0.7, 0.2])
-    inside, every = robot.ik(T), robot.ik(T, within_limits=False)
-    assert 1 < len(inside) < len(every)
-    words = robot.explain_ik(T).steps[-1].words
-    assert words.startswith(f"`ik` finds {len(inside)} solutions within the joint limits; ")
-    assert "outside the limits" not in words
-    words = robot.explain_ik(every, 1).steps[-1].words
-    counted = f"`ik` finds {len(every)} solutions, those outside the joint limits counted; "
-    assert words.startswith(counted)
-    assert words.count("outside the limits") == len(every) - len(inside)
-    assert [line[:2] for line in words.splitlines() if line.endswith("  <- this one")] == ["2:"]
-    narrow = robot.ik(T, seed=every.q[1], seed_tolerance=1e-3, within_limits=False)
-    assert "finds 1 solution" in robot.explain_ik(narrow).steps[-1].words
-
-
-def test_orientation_behind_three_slides_is_said_to_be_constant():
-    """R_3^0 is known from the joints that turn; behind slides alone it is always the same."""
-    quarter = math.pi / 2
-    alphas = [-quarter, -quarter, 0.0, quarter, -quarter, 0.0]
-    rows = [[-quarter * (i == 1), 0.0, 0.0, alpha] for i, alpha in enumerate(alphas)]
-    table = dh2urdf.DHTable.from_array(rows, convention="standard", joint_types="PPPRRR")
-    gantry = dh2urdf.Robot.from_dh(table)
-    told = gantry.explain_ik(gantry.fk([0.5, 0.3, 0.2, 0.1, 0.2, 0.3]), within_limits=False)
-    said = next(s.words for s in told.steps if s.title == "What is left of the orientation")
-    assert said.startswith("R_3^0 is the same for all slides")
-    stanford = dh2urdf.Robot.from_dh("stanford")
-    told = stanford.explain_ik(stanford.fk([0.5, 0.3, 0.2, 0.1, 0.2, 0.3]), within_limits=False)
-    said = next(s.words for s in told.steps if s.title == "What is left of the orientation")
-    assert said.startswith("R_3^0 is known from theta_1, theta_2, so R")
