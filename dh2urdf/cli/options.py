@@ -157,7 +157,8 @@ ALONE: dict[str, dict[str, str]] = {
         "matrix": "xyz rpy",
         "task=position": "rpy",
         "explain": "csv words format=python",
-        "symbolic": "xyz rpy matrix csv seed locked explain words deg",
+        "symbolic": "xyz rpy matrix csv seed locked explain words deg "
+        "task=position task=position+axis turns=all within_limits=False",
     },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
     "workspace": {"envelope": "plane at rpy points orientations"},
@@ -214,6 +215,8 @@ def check_together(verb: str, given: Mapping[str, Any]) -> None:
 
 def _shown(option: str) -> str:
     """``--task position``, or ``VALUES`` where it has no name on the command line."""
+    if option.endswith("=False"):
+        return f"--no-{option.removesuffix('=False').replace('_', '-')}"
     parts = [part.replace("_", "-").partition("=") for part in option.split("+")]
     return " with ".join(
         f"{name.upper() if name in ('values', 'robot') else '--' + name} {value}".rstrip()

@@ -23,15 +23,19 @@ def led_by(asked: Asked, way: Way, joint: int, words: str, curve: Curve) -> Way:
     near = sorted(curve.roots, key=lambda x: abs(math.remainder(x - goal, math.tau)))
     root = near[0] if count else goal
     equation = Equation(name, name, {}, root, "rad", tuple(near[1:]))
-    said += (
-        "; several solutions may share one, and one that solves only the product leads to none. "
-        "Here take the one of the solution that is explained."
-    )
-    if not count or abs(math.remainder(root - goal, math.tau)) > BLUNT:
-        said += (
-            " Roots meet here, of which rounding leaves fewer digits, or takes them off the real "
-            f"line: the joint itself is at {measured(goal, 'rad')}."
+    itself = f": the joint itself is at {measured(goal, 'rad')}."
+    if not count:
+        said = (
+            f"{words}Its real roots meet in pairs here, and rounding takes all of them off the "
+            f"real line{itself}"
         )
+    else:
+        said += (
+            "; several solutions may share one, and one that solves only the product leads to "
+            "none. Here take the one of the solution that is explained."
+        )
+    if count and abs(math.remainder(root - goal, math.tau)) > BLUNT:
+        said += f" Roots meet here, of which rounding leaves fewer digits or none{itself}"
     step = Step(f"{name}: a root of the polynomial", said, (equation,), joint, curve=curve)
     return way.then(step).put(joint, asked.arm.variable(joint, goal))
 

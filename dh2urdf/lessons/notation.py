@@ -119,9 +119,9 @@ def latex_name(name: str) -> str:
 
 LETTER = re.compile(
     rf"\b(?:(?:{'|'.join(sorted(GREEK))}|[A-Za-z])(?:_[A-Za-z0-9]+(?:\^[A-Za-z0-9]+)?)"
-    rf"|{'|'.join(sorted(GREEK))})\b"
+    rf"|{'|'.join(sorted(GREEK))}|[a-z]\^2)\b"
 )
-"""A letter of a formula within a sentence: it has an index, or is Greek."""
+"""A letter of a formula within a sentence: it has an index, is Greek or squared."""
 
 
 def latex(formula: str, given: Given | None = None) -> str:

@@ -7,6 +7,10 @@ import numpy as np
 import pytest
 
 import dh2urdf
+from dh2urdf.lessons.arm import arm_of
+from dh2urdf.lessons.curve import Curve
+from dh2urdf.lessons.eliminated import led_by
+from dh2urdf.lessons.way import Asked, Way
 
 
 def test_the_last_step_says_how_many_solutions_there_are():
@@ -82,3 +86,23 @@ def test_an_elbow_called_up_that_is_the_lower_one_is_said_to_be_so(name, stand):
                 seen.add(usual)
     level = name == "planar_rr" and stand != "on a wall"
     assert seen == ({True} if level else {True, False})
+
+
+def test_double_roots_that_rounding_loses_are_not_denied():
+    """A polynomial of which rounding leaves no real root is not said to have none."""
+    arm = arm_of(dh2urdf.Robot.from_dh("abb_gofa5").chain, None)
+    asked = Asked(arm, np.eye(4), np.full(6, 0.5))
+    way = led_by(asked, Way(), 0, "A polynomial. ", Curve("q_1", np.ones(72), ()))
+    assert way.steps[-1].words.startswith("A polynomial. Its real roots meet in pairs here")
+    assert "the joint itself is at 0.5 rad" in way.steps[-1].words
+    assert way.variables[0] == arm.variable(0, 0.5)
+    stopped = led_by(replace(asked, guide=None), Way(), 0, "", Curve("q_1", np.ones(72), ()))
+    assert stopped.stopped
+    assert stopped.steps[-1].words == "It has no real roots: here the solution ends."
+
+
+def test_squares_in_sentences_are_formulas():
+    """x^2 in Markdown is between dollar signs, as the letters with an index are."""
+    robot = dh2urdf.Robot.from_dh("planar_rr")
+    told = robot.explain_ik(robot.fk([0.3, 0.8]), task="position")
+    assert "$x^2$ + $y^2$ = $\\ell_{1}^{2}$" in told.markdown

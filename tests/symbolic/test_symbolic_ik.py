@@ -291,6 +291,13 @@ def test_the_verb_prints_what_the_robot_says(form, capsys):
     assert capsys.readouterr().out == said.rstrip() + "\n"
 
 
+@pytest.mark.parametrize("more", ["--task position", "--turns all", "--no-within-limits"])
+def test_the_verb_refuses_what_formulas_do_not_heed(more, capsys):
+    """Formulas are for the pose and leave limits aside: options on these are not passed over."""
+    assert run("ik", "ur5", "--symbolic", *more.split()) == 2
+    assert f"--symbolic stands alone: {more} does nothing" in capsys.readouterr().err
+
+
 def test_the_verb_refuses_a_pose_and_names_what_is_covered(capsys):
     """A pose beside --symbolic, and an arm without formulas, are one message and status 2."""
     assert run("ik", "ur5", "--symbolic", "--xyz=0.1,0.2,0.3") == 2
