@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.grids import grid_matrix
-from dh2urdf.lessons.evaluated import turns_between
+from dh2urdf.lessons.evaluated import turn_shown
 from dh2urdf.lessons.notation import (
     Given,
     latex,
@@ -66,11 +66,11 @@ class Equation:
 
     @property
     def _turn(self) -> str:
-        """The turns that lead from the sum of angles to the value: `` + 2π``; mostly empty."""
+        """The turn between the numbers and the value: `` + 2π``; mostly empty."""
         if self.unit != "rad" or np.ndim(self.value):
             return ""
-        turns = turns_between(self.via or self.formula, self.given, float(self.value))
-        return f" {'+' if turns > 0 else '-'} {2 * abs(turns)}π" if turns else ""
+        values = float(self.value), *self.others
+        return turn_shown(self.via or self.formula, self.given, values)
 
     @property
     def found(self) -> str:
@@ -102,7 +102,7 @@ class Equation:
         """The equation in LaTeX's mathematics, a sign of equality a line."""
         lines = [latex(self.formula)]
         if self.numbers:
-            turn = self._turn.replace("π", r" \pi")
+            turn = self._turn.replace("(mod ", r"\ (\mathrm{mod}\ ").replace("π", r" \pi")
             lines.append(latex(self.via or self.formula, self.given) + turn)
         lines.append(self._latex_found())
         lines = lines[1:] if self.formula == self.name else lines

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 
 import numpy as np
 
@@ -16,20 +17,43 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
 }
 
 CLOSE = 1e-6
-"""Difference [rad] between a formula's number and its value that is no turn."""
+"""Difference [rad] between a formula's number and its value that is rounding."""
+
+NEAR = 1e-3
+"""Difference [rad] of an arc cosine at its rim from the value, of which digits are lost."""
 
 
-def turns_between(formula: str, given: Given, value: float) -> int:
-    """The whole turns that lead from the number of a formula of angles to its value [rad].
+def turn_shown(formula: str, given: Given, values: tuple[float, ...]) -> str:
+    """What leads from the number of a formula of angles to its values [rad]; mostly nothing.
 
-    0 where the formula has either sign, a vector or a letter without a number.
+    `` + 2π`` where a turn is added, `` (mod 2π)`` where the formula has either sign, so that one
+    value may need a turn and the other none. Empty for vectors and letters without a number.
     """
-    try:
-        number = _Sum(tokens(formula), given).read()
-    except (LookupError, ValueError, ZeroDivisionError):
-        return 0
-    turns = round((value - number) / math.tau)
-    return turns if abs(value - number - turns * math.tau) < CLOSE else 0
+    numbers = _numbers(formula, given)
+    gaps = [[value - number for number in numbers] for value in values]
+    if len(numbers) > 1:
+        turned = any(any(map(_turns, gap)) and min(map(abs, gap)) > NEAR for gap in gaps)
+        return " (mod 2π)" if turned else ""
+    turns = _turns(gaps[0][0]) if numbers else 0
+    return f" {'+' if turns > 0 else '-'} {2 * abs(turns)}π" if turns else ""
+
+
+def _turns(gap: float) -> int:
+    """Whole turns in an angle [rad]; 0 where there is more."""
+    turns = round(gap / math.tau)
+    return turns if abs(gap - turns * math.tau) < CLOSE else 0
+
+
+def _numbers(formula: str, given: Given) -> list[float]:
+    """What a formula gives, for each of its signs; nothing where it is no number."""
+    found = tokens(formula)
+    signs = ("+", "-") if any(token.text == "+-" for token in found) else ("",)
+    out = []
+    for sign in signs:
+        signed = [Token("sign", sign) if token.text == "+-" else token for token in found]
+        with suppress(LookupError, ValueError, ZeroDivisionError):
+            out.append(_Sum(signed, given).read())
+    return out if len(out) == len(signs) else []
 
 
 class _Sum:
@@ -57,9 +81,9 @@ class _Sum:
         return number
 
     def _power(self) -> float:
-        if self.rest[0].text == "-":
-            self.rest.pop(0)
-            return -self._power()
+        if self.rest[0].text in {"+", "-"}:
+            sign = -1.0 if self.rest.pop(0).text == "-" else 1.0
+            return sign * self._power()
         number = self._operand()
         if self.rest[0].text != "^":
             return number

@@ -135,13 +135,16 @@ def _branches(question: Question) -> Step:
         mark = "  <- this one" if k == question.index and count > 1 else ""
         numbered = f"{question.numbers[k] + 1}: {vector_shown(q)}  {', '.join(named)}"
         lines.append(f"{numbered.rstrip()}{mark}")
+    apart = question.q - question.q[question.index]
+    turned = int((np.abs(apart - math.tau * np.round(apart / math.tau)).max(axis=1) < LIMIT).sum())
+    ways = "other choices on the way" + (", or whole turns," if turned > 1 else "")
     held = " with what is held" if question.held else ""
     limits = (
         ", those outside the joint limits counted" if outside.any() else " within the joint limits"
     )
     words = f"`ik` finds {count} solution{'s' if count > 1 else ''}{held}{limits}"
     words += (
-        "; the steps above lead to the one marked, other choices on the way to the others."
+        f"; the steps above lead to the one marked, {ways} to the others."
         if count > 1
         else ", the one that the steps above lead to."
     )

@@ -23,12 +23,12 @@ def computed(equation):
 def off(equation):
     """How far the value of an equation is from its formula and the turn that is shown behind it.
 
-    Angles without numbers, and those with either sign, are compared on the circle.
+    Angles without numbers, and those modulo 2π, are compared on the circle.
     """
     gaps = []
     shown = re.search(r" ([-+] \d+)π$", equation.numbers)
     turn = int(shown[1].replace(" ", "")) * math.pi if shown else 0.0
-    free = not equation.numbers or "+-" in (equation.via or equation.formula)
+    free = not equation.numbers or equation.numbers.endswith(" (mod 2π)")
     for value in computed(equation):
         gap = np.asarray(value) + turn - np.asarray(equation.value)
         if equation.unit == "rad" and free:

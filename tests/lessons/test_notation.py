@@ -5,7 +5,7 @@ import math
 import pytest
 
 from dh2urdf.lessons.equation import Equation
-from dh2urdf.lessons.evaluated import turns_between
+from dh2urdf.lessons.evaluated import turn_shown
 from dh2urdf.lessons.notation import latex, latex_name, measured, shown, with_numbers
 
 
@@ -76,12 +76,25 @@ def test_a_turn_that_is_left_out_is_shown():
 )
 def test_formulas_are_computed_as_they_are_read(formula, number):
     """Signs, powers, products and brackets, by the turns to a value three turns away."""
-    assert turns_between(formula, {"a": 1.0, "b": 2.0}, number + 6 * math.pi) == 3
-    assert turns_between(formula, {"a": 1.0, "b": 2.0}, number + 1e-3) == 0
+    given = {"a": 1.0, "b": 2.0}
+    assert turn_shown(formula, given, (number + 3 * math.tau,)) == " + 6π"
+    assert turn_shown(formula, given, (number - math.tau,)) == " - 2π"
+    assert turn_shown(formula, given, (number + 1e-3,)) == ""
 
 
-@pytest.mark.parametrize("formula", ["+- acos(a)", "k + a", "c + a", "acos(b)", "a / 0"])
-def test_formulas_without_one_number_have_no_turn(formula):
-    """Either sign, a vector, a letter without a number, no such angle: nothing is added."""
+@pytest.mark.parametrize("formula", ["k + a", "c + a", "acos(b)", "a / 0", "a +- acos(b)"])
+def test_formulas_without_a_number_have_no_turn(formula):
+    """A vector, a letter without a number, no such angle: nothing is added."""
     given = {"a": 1.0, "b": 2.0, "k": [1.0, 0.0, 0.0]}
-    assert turns_between(formula, given, 7.0) == 0
+    assert turn_shown(formula, given, (7.0,)) == ""
+
+
+def test_either_sign_is_modulo_a_turn_where_one_value_is():
+    """3 ± 1 is 4 or 2; given as -2.28 or 2 it holds modulo 2π, and says so."""
+    given = {"a": 3.0, "b": 1.0}
+    assert turn_shown("a +- b", given, (4.0, 2.0)) == ""
+    assert turn_shown("a +- b", given, (4.0 - math.tau, 2.0)) == " (mod 2π)"
+    assert turn_shown("a +- b", given, (4.0 + 1e-5, 2.0)) == ""
+    equation = Equation("theta_1", "a +- b", given, 4.0 - math.tau, "rad", (2.0,))
+    assert equation.numbers == "3 ± 1 (mod 2π)"
+    assert r"3 \pm 1 \ (\mathrm{mod}\ 2 \pi)" in equation.latex

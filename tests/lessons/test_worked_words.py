@@ -27,6 +27,9 @@ def test_the_last_step_says_how_many_solutions_there_are():
     assert words.startswith(counted)
     assert words.count("outside the limits") == len(every) - len(inside)
     assert [line[:2] for line in words.splitlines() if line.endswith("  <- this one")] == ["2:"]
+    assert "whole turns" not in words
+    turns = robot.explain_ik(robot.ik(T, turns="all")).steps[-1].words
+    assert "other choices on the way, or whole turns, to the others" in turns
     narrow = robot.ik(T, seed=every.q[1], seed_tolerance=1e-3, within_limits=False)
     assert "finds 1 solution" in robot.explain_ik(narrow).steps[-1].words
 
