@@ -45,7 +45,7 @@ PLAIN = {"\u2212": "-", "\u2500": "-", "\u2026": "...", "\u00b0": "deg", "\u03c0
 def main(argv: Sequence[str] | None = None) -> None:
     """Run one verb and exit with its status."""
     tokens = list(sys.argv[1:] if argv is None else argv)
-    debug, before = "--debug" in tokens, dict[int, Any]()
+    debug, before, unraised = "--debug" in tokens, dict[int, Any](), sys.unraisablehook
     try:
         before = _catch_interrupts()
         _open_streams()
@@ -69,6 +69,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         note("interrupted")
         status = 130
     finally:
+        sys.unraisablehook = unraised
         if before:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
         for number, handler in before.items():
@@ -81,6 +82,7 @@ def main(argv: Sequence[str] | None = None) -> None:
 def _catch_interrupts() -> dict[int, Any]:
     """Let Ctrl-C interrupt again, a second later, what has caught it on its way to `main`.
 
+    One that fell where nothing can be raised, as in a callback of the interpreter, says nothing.
     Returns the handlers that were there; none in a program that has a timer running or handlers
     that Python does not know, whose signals stay as they are.
     """
@@ -89,6 +91,10 @@ def _catch_interrupts() -> dict[int, Any]:
         signal.setitimer(signal.ITIMER_REAL, 1.0)
         raise KeyboardInterrupt
 
+    def unraised(lost: "sys.UnraisableHookArgs") -> None:
+        if not isinstance(lost.exc_value, KeyboardInterrupt):
+            sys.__unraisablehook__(lost)
+
     numbers = signal.SIGINT, signal.SIGALRM
     before: dict[int, Any] = {number: signal.getsignal(number) for number in numbers}
     if None in before.values() or any(signal.getitimer(signal.ITIMER_REAL)):
@@ -96,6 +102,7 @@ def _catch_interrupts() -> dict[int, Any]:
     with suppress(ValueError):  # of a thread, which gets no signals
         for number in before:
             signal.signal(number, interrupt)
+        sys.unraisablehook = unraised
         return before
     return {}
 

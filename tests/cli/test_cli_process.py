@@ -66,6 +66,19 @@ cli._run = run
 cli.main(["ik"])
 """
 
+LOSE = """
+import time, dh2urdf.cli as cli
+class Slow:
+    def __del__(self):
+        time.sleep(60)
+def run(tokens):
+    print(end="go", flush=True)
+    Slow()
+    time.sleep(60)
+cli._run = run
+cli.main(["ik"])
+"""
+
 
 def test_a_library_that_cannot_be_loaded_is_one_message(tmp_path):
     """Where Pinocchio lacks a system library, as on slim images, that is named."""
@@ -78,9 +91,10 @@ def test_a_library_that_cannot_be_loaded_is_one_message(tmp_path):
     assert done.stderr.endswith("apt-get install libgomp1\n")
 
 
-def test_an_interrupt_that_a_library_swallows_comes_again():
-    """A bare ``except`` on the way, as imports have, delays Ctrl-C by a second."""
-    process = begun(SWALLOW)
+@pytest.mark.parametrize("code", [SWALLOW, LOSE], ids=["except", "callback"])
+def test_an_interrupt_that_is_lost_on_its_way_comes_again(code):
+    """A bare ``except``, or a callback that cannot raise, delays Ctrl-C by a second, no more."""
+    process = begun(code)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=50)
     assert (process.returncode, err) == (130, "interrupted\n")

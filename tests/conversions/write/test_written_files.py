@@ -148,10 +148,16 @@ def test_a_file_of_ours_is_written_over(embed, tmp_path):
     dh2urdf.write_urdf("ur5", path, options=options, force=True)
 
 
-@pytest.mark.parametrize("name", ["arm.txt", "arm", "arm.urdf.bak", "arm.png"])
-def test_convert_refuses_a_suffix_that_it_does_not_write(name, tmp_path, refused):
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        *[(name, ".urdf, .xml, .mjcf, .yaml") for name in ("arm.txt", "arm", "arm.urdf.bak")],
+        ("arm.png", "dh2urdf figure"),
+    ],
+)
+def test_convert_refuses_a_suffix_that_it_does_not_write(name, told, tmp_path, refused):
     """Another suffix is refused with those there are, before anything is written."""
-    assert ".urdf, .xml, .mjcf, .yaml" in refused("convert", "ur5", "-o", name)
+    assert told in refused("convert", "ur5", "-o", name)
     assert not (tmp_path / name).exists()
 
 
