@@ -16,6 +16,8 @@ from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters
 from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
 from dh2urdf.lessons.notation import measured
+from dh2urdf.lessons.parallel_first import first_parallel
+from dh2urdf.lessons.parallel_first import fits as fits_first_parallel
 from dh2urdf.lessons.planar import planar, planar_place
 from dh2urdf.lessons.spherical_wrist import spherical_wrist
 from dh2urdf.lessons.steps import Step
@@ -31,7 +33,6 @@ Lesson = Callable[[Asked], Iterator[Way]]
 
 LESSONS: dict[tuple[str, Task], Lesson] = {
     ("spherical wrist", Task.POSE): spherical_wrist,
-    ("three parallel axes", Task.POSE): three_parallel,
     ("planar arm", Task.POSE): planar,
     ("planar arm", Task.POSITION): planar_place,
 }
@@ -43,6 +44,12 @@ SHORT: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
     (moves_point, place_and_compare),
 ]
 """Derivations of arms of up to five joints, which one solver covers, by what their rows are."""
+
+PARALLEL: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
+    (fits_three_parallel, three_parallel),
+    (fits_first_parallel, first_parallel),
+]
+"""Derivations of arms with three neighbouring parallel axes."""
 
 ELIMINATED = frozenset({"two parallel axes", "nearly two parallel axes", "general 6R"})
 """Solvers without a closed form."""
@@ -111,8 +118,9 @@ def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:
     if task is Task.POSE and solver in ELIMINATED:
         lessons = (fits_two_parallel, two_parallel), (fits_six_turns, general_6r)
         return next((lesson for fits, lesson in lessons if fits(arm.rows)), None)
-    lesson = LESSONS.get((solver, task))
-    return None if lesson is three_parallel and not fits_three_parallel(arm.rows) else lesson
+    if solver == "three parallel axes":
+        return next((lesson for fits, lesson in PARALLEL if fits(arm.rows)), None)
+    return LESSONS.get((solver, task))
 
 
 class Case:

@@ -32,6 +32,10 @@ class Linear:
         self.name, self.A, self.B, self.C = name, A, B, C
         self.amplitude = math.hypot(A, B)
 
+    def __call__(self, x: float) -> float:
+        """The left side less the right one."""
+        return self.A * math.cos(x) + self.B * math.sin(x) - self.C
+
     @property
     def solvable(self) -> bool:
         """Whether C is within the amplitude, rounding aside."""

@@ -1,4 +1,4 @@
-"""Three parallel axes 2, 3, 4: what the joints outside leave them, a planar arm (notes 8.2)."""
+"""Three parallel axes: what the joints outside leave them, a planar arm (notes 8.2)."""
 
 import math
 from collections.abc import Iterator
@@ -58,83 +58,85 @@ def common_axis(asked: Asked, theta: float) -> Array:
     return np.array([row.sa * math.sin(theta), -row.sa * math.cos(theta), row.ca])
 
 
-def bend_in_plane(asked: Asked, way: Way) -> Iterator[Way]:
-    """Joints 2, 3, 4: a planar arm."""
-    arm = asked.arm
-    R_4, o_4 = _fourth_frame(asked, way)
-    H_1 = arm.frames(way.first(1))[1]
-    a4, point = arm.rows[3].a, o_4 - arm.rows[3].a * R_4[:, 0]
-    (u, v), (cx, cy) = (H_1[:3, :2].T @ w for w in (point - H_1[:3, 3], R_4[:, 0]))
+def bend_in_plane(asked: Asked, way: Way, first: int = 1) -> Iterator[Way]:
+    """The three parallel joints, of which ``first`` is the first (from 0): a planar arm."""
+    arm, (one, two, three) = asked.arm, (first + 1, first + 2, first + 3)
+    R, o = _frame_after(asked, way, three)
+    link, point = arm.rows[three - 1].a, o - arm.rows[three - 1].a * R[:, 0]
+    H = arm.frames(way.first(first))[first]
+    (u, v), (cx, cy) = (H[:3, :2].T @ w for w in (point - H[:3, 3], R[:, 0]))
     phi = math.atan2(cy, cx)
-    letters = Letters(
-        *("u", "v", "a_2", "a_3", "theta_2", "theta_3", "c_3", "s_3"),
-        tip="Axis 4",
-        root="axis 2 (o_1)",
-    )
-    triangle = Triangle(letters, arm.rows[1].a, arm.rows[2].a, float(u), float(v))
-    back = f"a_4 = {shown(a4)} m back along it" if a4 else "at its origin, as a_4 = 0"
+    names = f"a_{one}", f"a_{two}", f"theta_{one}", f"theta_{two}", f"c_{two}", f"s_{two}"
+    letters = Letters("u", "v", *names, tip=f"Axis {three}", root=f"axis {one} (o_{first})")
+    triangle = Triangle(letters, arm.rows[first].a, arm.rows[first + 1].a, float(u), float(v))
+    name = f"a_{three}"
+    back = f"{name} = {shown(link)} m back along it" if link else f"at its origin, as {name} = 0"
     words = (
-        "Frame 4 is known from the joints after it. Its x_4 points along phi, seen in the plane "
-        f"from frame 1, and axis 4 is {back}: it passes p_4, at (u, v) from o_1. Links 2 and 3 "
-        "have to reach it. "
+        f"Frame {three} is known from the joints after it. Its x_{three} points along phi, seen in "
+        f"the plane from frame {first}, and axis {three} is {back}: it passes p_{three}, at (u, v) "
+        f"from o_{first}. Links {one} and {two} have to reach it. "
         f"{triangle.test}"
     )
-    seen_from: Given = {"x_1": H_1[:3, 0], "y_1": H_1[:3, 1], "p_4": point, "o_1": H_1[:3, 3]}
+    x, y, p, root = f"x_{first}", f"y_{first}", f"p_{three}", f"o_{first}"
+    seen_from: Given = {x: H[:3, 0], y: H[:3, 1], p: point, root: H[:3, 3]}
     equations = (
         Equation("phi", "atan2(x_y, x_x)", {"x_x": float(cx), "x_y": float(cy)}, phi, "rad"),
-        Equation("u", "x_1^T (p_4 - o_1)", seen_from, float(u), "m"),
-        Equation("v", "y_1^T (p_4 - o_1)", seen_from, float(v), "m"),
-        Equation("r_4", "sqrt(u^2 + v^2)", {"u": u, "v": v}, triangle.distance, "m"),
+        Equation("u", f"{x}^T ({p} - {root})", seen_from, float(u), "m"),
+        Equation("v", f"{y}^T ({p} - {root})", seen_from, float(v), "m"),
+        Equation(f"r_{three}", "sqrt(u^2 + v^2)", {"u": u, "v": v}, triangle.distance, "m"),
         triangle.cosine,
     )
-    ends = moved(arm.base, np.stack([H_1[:3, 3], point]))
-    marks = Mark("line", ends, "r_4"), Mark("point", ends, "o_1")
+    ends = moved(arm.base, np.stack([H[:3, 3], point]))
+    marks = Mark("line", ends, f"r_{three}"), Mark("point", ends, root)
     seen = Step("The triangle in the arm's plane", words, equations, marks=marks)
     if not triangle.reaches:
         yield way.stop(seen)
         return
-    elbows = triangle.elbows()
-    for elbow in elbows:
-        H_2 = arm.frames([*way.first(1), elbow.shoulder])[2]
-        corners = np.stack([H_1[:3, 3], H_2[:3, 3], point])
-        sides = triangle_marks(arm.base, corners, ("a_2", "a_3", "r_4"))
-        steps, theta4 = _bent(asked, elbow, phi, len(elbows), sides)
-        found = way.then(seen, *steps).put(1, elbow.shoulder).put(2, elbow.elbow)
-        yield found.put(3, theta4)
+    yield from _bends(asked, way.then(seen), first, triangle, phi)
 
 
-def _fourth_frame(asked: Asked, way: Way) -> tuple[Array, Array]:
-    """Rotation (3, 3) and origin (3,) of frame 4 in frame 0: back from the last frame."""
+def _frame_after(asked: Asked, way: Way, count: int) -> tuple[Array, Array]:
+    """Rotation (3, 3) and origin (3,) of frame ``count`` in frame 0: back from the last frame."""
     H: Array = asked.H
-    for i in reversed(range(4, asked.arm.n)):
+    for i in reversed(range(count, asked.arm.n)):
         H = H @ inverse(asked.arm.rows[i].motion(way.variables[i]))
     return H[:3, :3], H[:3, 3]
 
 
+def _bends(asked: Asked, way: Way, first: int, triangle: Triangle, phi: float) -> Iterator[Way]:
+    """Each elbow of the planar arm."""
+    arm, names, elbows = asked.arm, triangle.letters, triangle.elbows()
+    for elbow in elbows:
+        frames = arm.frames([*way.first(first), elbow.shoulder])
+        point = (frames[first] @ [triangle.x, triangle.y, 0.0, 1.0])[:3]
+        corners = np.stack([frames[first][:3, 3], frames[first + 1][:3, 3], point])
+        sides = triangle_marks(arm.base, corners, (names.l1, names.l2, f"r_{first + 3}"))
+        steps, last = _bent(asked, first, elbow, phi, len(elbows), sides)
+        found = way.then(*steps).put(first, elbow.shoulder).put(first + 1, elbow.elbow)
+        yield found.put(first + 2, last)
+
+
 def _bent(
-    asked: Asked, elbow: Elbow, phi: float, count: int, sides: tuple[Mark, ...]
+    asked: Asked, first: int, elbow: Elbow, phi: float, count: int, sides: tuple[Mark, ...]
 ) -> tuple[tuple[Step, Step, Step], float]:
-    """One elbow: theta_3, theta_2, and what theta_4 has to add."""
+    """One elbow: the elbow's angle, the shoulder's, and what the third has to add."""
     sign = "negative" if elbow.elbow < 0.0 else "positive"
     both = (
         f"The cosine does not tell its sign: the elbow bends either way. Here it is {sign}."
         if count > 1
         else "The arm is stretched or folded: both elbows are one."
     )
-    title, equations = "theta_3: the elbow", elbow.elbow_equations[1:]
-    step3 = joint_step(asked.arm, 2, title, both, equations, elbow.elbow, sides, "elbow")
-    step2 = joint_step(
-        asked.arm,
-        1,
-        "theta_2: the shoulder",
-        "The direction to axis 4, less gamma, the angle in the triangle at the shoulder.",
-        elbow.shoulder_equations,
-        elbow.shoulder,
-        sides,
+    one, two, three = (f"theta_{first + k}" for k in (1, 2, 3))
+    arm, title, equations = asked.arm, f"{two}: the elbow", elbow.elbow_equations[1:]
+    middle = joint_step(arm, first + 1, title, both, equations, elbow.elbow, sides, "elbow")
+    words = (
+        f"The direction to axis {first + 3}, less gamma, the angle in the triangle at the shoulder."
     )
-    given = {"phi": phi, "theta_2": elbow.shoulder, "theta_3": elbow.elbow}
-    theta4 = math.remainder(phi - elbow.shoulder - elbow.elbow, math.tau)
-    how = Equation("theta_4", "phi - theta_2 - theta_3", given, theta4, "rad")
-    words = "The three angles add up to the direction phi of x_4."
-    step4 = joint_step(asked.arm, 3, "theta_4", words, [how], theta4)
-    return (step3, step2, step4), theta4
+    title, equations = f"{one}: the shoulder", elbow.shoulder_equations
+    root = joint_step(arm, first, title, words, equations, elbow.shoulder, sides)
+    given = {"phi": phi, one: elbow.shoulder, two: elbow.elbow}
+    last = math.remainder(phi - elbow.shoulder - elbow.elbow, math.tau)
+    how = Equation(three, f"phi - {one} - {two}", given, last, "rad")
+    words = f"The three angles add up to the direction phi of x_{first + 3}."
+    end = joint_step(arm, first + 2, three, words, [how], last)
+    return (middle, root, end), last

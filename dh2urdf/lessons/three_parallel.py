@@ -12,6 +12,7 @@ import numpy as np
 from dh2urdf.lessons.arm import Row
 from dh2urdf.lessons.notation import Given
 from dh2urdf.lessons.parallel_fewer import fewer_joints
+from dh2urdf.lessons.parallel_outer import last_turn
 from dh2urdf.lessons.parallel_plane import PLANE, before_last, bend_in_plane, beside, common_axis
 from dh2urdf.lessons.position_arm import shoulders
 from dh2urdf.lessons.steps import Equation, Step
@@ -63,7 +64,8 @@ def _after_fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
     if way.stopped:
         yield way
     else:
-        yield from bend_in_plane(asked, _sixth(asked, way, k))
+        row = asked.arm.rows[3]
+        yield from bend_in_plane(asked, last_turn(asked, way, k, np.array([0.0, row.sa, row.ca])))
 
 
 def _fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
@@ -106,31 +108,3 @@ def _fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
         title = "theta_5: the wrist"
         step = joint_step(asked.arm, 4, title, said, [*equations, found], value, (), "wrist")
         yield way.then(step).put(4, value)
-
-
-def _sixth(asked: Asked, way: Way, k: Array) -> Way:
-    """theta_6 turns the common direction, seen in frame 6, to where the pose has it."""
-    four, five = asked.arm.rows[3:5]
-    theta5 = way.variables[4]
-    e = five.motion(theta5)[:3, :3].T @ [0.0, four.sa, four.ca]
-    n = asked.H[:3, :3].T @ k
-    words = (
-        "Seen from frame 5 the common direction is e = R_5^4^T (0, sin(alpha_4), cos(alpha_4)), "
-        "from frame 6 it is n = R^T k. Rz(theta_6)^T turns e into n."
-    ).replace("R_5^4^T", "(R_5^4)^T")
-    given: Given = {"e_x": float(e[0]), "e_y": float(e[1])}
-    given = {**given, "n_x": float(n[0]), "n_y": float(n[1])}
-    value = math.remainder(math.atan2(e[1], e[0]) - math.atan2(n[1], n[0]), math.tau)
-    formula = "atan2(e_y, e_x) - atan2(n_y, n_x)"
-    if math.hypot(n[0], n[1]) <= FREE:
-        words += (
-            " Both are along axis 6, which is parallel to axes 2, 3, 4: joint 6 turns the tool as "
-            "these do. It is free, and stays where it is asked to be (at q_6 = 0 if nothing is)."
-        )
-        value, formula = asked.free_value(5), "theta_6"
-    equations = [
-        Equation("e", "(R_5^4)^T (0, sin(alpha_4), cos(alpha_4))", {}, e),
-        Equation("n", "R^T k", {}, n),
-        Equation("theta_6", formula, given, value, "rad"),
-    ]
-    return way.then(joint_step(asked.arm, 5, "theta_6", words, equations, value)).put(5, value)

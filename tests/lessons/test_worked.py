@@ -124,6 +124,39 @@ def test_any_three_joints_place_the_wrist_as_the_kernels_do(kinds):
             assert_agrees(robot, T, k, 1e-10)
 
 
+LAST_TWO = {"apart": {}, "meeting": {(4, 2): 0.0}, "parallel": {(4, 3): 0.0}}
+"""Entries of a table, by row and column (theta, d, a, alpha), of how axes 5 and 6 may lie."""
+
+
+def arm_with(entries, rng):
+    """Random turns, with entries of the table where they are given."""
+    rows = rng.uniform(-0.5, 0.5, (6, 4)) * [2.0, 1.0, 1.0, 4.0]
+    for place, value in entries.items():
+        rows[place] = value
+    return dh2urdf.Robot.from_dh(dh2urdf.DHTable.from_array(rows, "standard"))
+
+
+@pytest.mark.parametrize("last", LAST_TWO)
+def test_axes_1_2_3_parallel_leave_two_equations_in_joints_4_and_5(last):
+    """Random arms whose axes 5 and 6 are anyhow, meet, or are parallel."""
+    rng = np.random.default_rng(14)
+    for _ in range(3):
+        robot = arm_with({(0, 3): 0.0, (1, 3): 0.0} | LAST_TWO[last], rng)
+        assert robot.solver.name == "three parallel axes"
+        for k, T in enumerate(regular_poses(robot, 3, rng)):
+            assert_agrees(robot, T, k, 1e-10)
+
+
+def test_axes_4_5_6_parallel_are_1_2_3_seen_from_the_tool():
+    """Random arms, turned round."""
+    rng = np.random.default_rng(15)
+    for first in ({}, {(0, 2): 0.0}, {(0, 3): 0.0}):
+        robot = arm_with({(3, 3): 0.0, (4, 3): 0.0} | first, rng)
+        assert robot.solver.name == "three parallel axes, from the tool"
+        for k, T in enumerate(regular_poses(robot, 3, rng)):
+            assert_agrees(robot, T, k, 1e-10)
+
+
 @pytest.mark.parametrize("kinds", ["RPPRPR", "PRPRPR", "RPRPRP", "RPPPRR", "PRPRP", "RPPPR"])
 def test_three_slides_come_apart_from_the_turns(kinds):
     """Random arms of five and six joints, three of them sliding."""
