@@ -109,3 +109,13 @@ def test_squares_in_sentences_are_formulas():
     robot = dh2urdf.Robot.from_dh("planar_rr")
     told = robot.explain_ik(robot.fk([0.3, 0.8]), task="position")
     assert "$x^2$ + $y^2$ = $\\ell_{1}^{2}$" in told.markdown
+
+
+def test_value_that_a_held_solver_was_tried_at_is_told_as_an_example():
+    """Held at 1.5 rad, what stands in the solver's own words about another value is an example."""
+    denso = dh2urdf.Robot.from_dh("denso_vs6556")
+    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={3: 1.5})
+    assert "joint_4 at 1.5 rad" in told.steps[0].words
+    words = next(s.words for s in told.steps if s.title == "The solver").splitlines()
+    example = words.index("a solver is made for each value, such as this one")
+    assert [k for k, line in enumerate(words) if line.startswith("held: ")] == [example + 1]

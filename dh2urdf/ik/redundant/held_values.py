@@ -124,7 +124,7 @@ class HeldOneByOne(HeldSolver):
 
     def details(self) -> str:
         """Say how the joints that move are solved for."""
-        return self._first.explain()
+        return f"a solver is made for each value, such as this one\n{self._first.explain()}"
 
     def make(self, values: tuple[float, ...]) -> Solver:
         """The solver for some held values."""
