@@ -165,6 +165,8 @@ USAGE = [
     (["ik", "ur5", "--csv", "x.csv", "--xyz", "1", "2", "3"], "stands alone"),
     (["ik", "ur5", "--csv", "x.csv", "--matrix", "1"], "stands alone"),
     (["ik", "-", "--csv", "-"], "ROBOT -"),
+    (["ik", "ur5", "--symbolic", "--json", "--format", "md"], "--json stands alone: --format"),
+    (["check", "x.urdf", "--json", "--format", "html"], "--format html does nothing"),
     (["fk", "-", "0"], "empty"),
     (["fk", "-", "0", "--tip", "x"], "not XML"),
     (["ik", "ur5", "--matrix", "1", "--rpy", "1", "2", "3"], "--matrix"),
