@@ -8,9 +8,9 @@ import numpy as np
 from dh2urdf.lessons.arm import Row
 from dh2urdf.lessons.circle import Linear
 from dh2urdf.lessons.notation import Given
-from dh2urdf.lessons.parallel_outer import Outer, last_turn, outer_joints
+from dh2urdf.lessons.parallel_outer import Outer, coefficients, last_turn, outer_joints
 from dh2urdf.lessons.parallel_plane import before_last, bend_in_plane
-from dh2urdf.lessons.steps import Equation, Step
+from dh2urdf.lessons.steps import Step
 from dh2urdf.lessons.way import Asked, Way
 from dh2urdf.transforms import Array
 
@@ -56,19 +56,15 @@ def _height_and_slope(asked: Asked, point: Array) -> tuple[Outer, Step]:
     level = sum(row.d for row in rows[:3]) + three.ca * four.d + five.d * flat
     height = Linear("theta_4", five.d * turn, -four.a * three.sa, level - float(point[2]))
     slope = Linear("theta_4", five.ca * turn, 0.0, five.ca * flat - lean)
-    formulas = {
-        "A_1": "d_5 sin(alpha_3) sin(alpha_4)",
-        "B_1": "-a_4 sin(alpha_3)",
-        "C_1": "d_1 + d_2 + d_3 + d_4 cos(alpha_3) + d_5 cos(alpha_3) cos(alpha_4) - z_c",
-        "A_2": "cos(alpha_5) sin(alpha_3) sin(alpha_4)",
-        "B_2": "0",
-        "C_2": "cos(alpha_5) cos(alpha_3) cos(alpha_4) - r_33",
-    }
-    values = height.A, height.B, height.C, slope.A, slope.B, slope.C
-    equations = tuple(
-        Equation(name, formula, given, value, "m" if name.endswith("1") else "")
-        for (name, formula), value in zip(formulas.items(), values, strict=True)
+    formulas = (
+        "d_5 sin(alpha_3) sin(alpha_4)",
+        "-a_4 sin(alpha_3)",
+        "d_1 + d_2 + d_3 + d_4 cos(alpha_3) + d_5 cos(alpha_3) cos(alpha_4) - z_c",
+        "cos(alpha_5) sin(alpha_3) sin(alpha_4)",
+        "0",
+        "cos(alpha_5) cos(alpha_3) cos(alpha_4) - r_33",
     )
+    equations = coefficients(height, slope, formulas, given)
     words = (
         "Seen from frame 4, k is f = (f_x, f_y, f_z) = (R_4^3)^T (0, sin(alpha_3), cos(alpha_3)), "
         "which theta_4 turns. Go up along k from o_0 to o_c: what theta_5 adds is a_5 (f_x "

@@ -47,6 +47,18 @@ class Outer:
         return f"theta_{self.joint + 1}"
 
 
+def coefficients(
+    height: Linear, slope: Linear, formulas: tuple[str, ...], given: Given
+) -> tuple[Equation, ...]:
+    """A_1, B_1, C_1 of the height and A_2, B_2, C_2 of the slope, by their formulas."""
+    values = height.A, height.B, height.C, slope.A, slope.B, slope.C
+    names = ("A_1", "B_1", "C_1", "A_2", "B_2", "C_2")
+    return tuple(
+        Equation(name, formula, given, value, "m" if name.endswith("1") else "")
+        for name, formula, value in zip(names, formulas, values, strict=True)
+    )
+
+
 def outer_joints(asked: Asked, way: Way, outer: Outer) -> Iterator[Way]:
     """All ways of both joints, where a_5 and sin(alpha_5) are not both zero."""
     five = asked.arm.rows[4]

@@ -11,8 +11,9 @@ import numpy as np
 
 from dh2urdf.lessons.arm import Row
 from dh2urdf.lessons.notation import Given
+from dh2urdf.lessons.parallel_behind import first_and_fifth
 from dh2urdf.lessons.parallel_fewer import fewer_joints
-from dh2urdf.lessons.parallel_outer import last_turn
+from dh2urdf.lessons.parallel_outer import last_turn, outer_joints
 from dh2urdf.lessons.parallel_plane import PLANE, before_last, bend_in_plane, beside, common_axis
 from dh2urdf.lessons.position_arm import shoulders
 from dh2urdf.lessons.steps import Equation, Step
@@ -28,8 +29,8 @@ def fits(rows: tuple[Row, ...]) -> bool:
     if not 4 <= len(rows) <= 6 or any(row.slides for row in rows) or rows[0].sa == 0.0:
         return False
     after = len(rows) == 4 or rows[3].sa != 0.0
-    meet = len(rows) < 6 or (rows[4].a == 0.0 and rows[4].sa != 0.0)
-    return rows[1].sa == rows[2].sa == 0.0 and after and meet
+    last = len(rows) < 6 or rows[4].a != 0.0 or rows[4].sa != 0.0
+    return rows[1].sa == rows[2].sa == 0.0 and after and last
 
 
 def three_parallel(asked: Asked) -> Iterator[Way]:
@@ -42,29 +43,36 @@ def three_parallel(asked: Asked) -> Iterator[Way]:
     )
     way = Way().then(Step("What decouples", words))
     if n == 6:
-        yield from _six(asked, way)
+        point, step = before_last(asked)
+        ways = _meeting if asked.arm.rows[4].a == 0.0 else _apart
+        yield from ways(asked, way.then(step), point)
     else:
         yield from fewer_joints(asked, way)
 
 
-def _six(asked: Asked, way: Way) -> Iterator[Way]:
-    """Joints 1, 5, 6, then the plane."""
-    point, step = before_last(asked)
-    for turned, _ in shoulders(asked, way.then(step), point, beside(asked), PLANE):
+def _meeting(asked: Asked, way: Way, point: Array) -> Iterator[Way]:
+    """Joints 1, 5, 6, then the plane, where axes 5 and 6 meet."""
+    for turned, _ in shoulders(asked, way, point, beside(asked), PLANE):
         if turned.stopped:
             yield turned
             continue
-        k = common_axis(asked, turned.variables[0])
-        for bent in _fifth(asked, turned, k):
-            yield from _after_fifth(asked, bent, k)
+        for bent in _fifth(asked, turned, common_axis(asked, turned.variables[0])):
+            yield from _after_fifth(asked, bent)
 
 
-def _after_fifth(asked: Asked, way: Way, k: Array) -> Iterator[Way]:
+def _apart(asked: Asked, way: Way, point: Array) -> Iterator[Way]:
+    """The same where they do not: joints 1 and 5 together."""
+    outer, step = first_and_fifth(asked, point)
+    for turned in outer_joints(asked, way.then(step), outer):
+        yield from _after_fifth(asked, turned)
+
+
+def _after_fifth(asked: Asked, way: Way) -> Iterator[Way]:
     """Joint 6, and the plane."""
     if way.stopped:
         yield way
     else:
-        row = asked.arm.rows[3]
+        row, k = asked.arm.rows[3], common_axis(asked, way.variables[0])
         yield from bend_in_plane(asked, last_turn(asked, way, k, np.array([0.0, row.sa, row.ca])))
 
 

@@ -157,6 +157,18 @@ def test_axes_4_5_6_parallel_are_1_2_3_seen_from_the_tool():
             assert_agrees(robot, T, k, 1e-10)
 
 
+@pytest.mark.parametrize("last", LAST_TWO)
+def test_axes_2_3_4_parallel_leave_two_equations_in_joints_1_and_5(last):
+    """Random arms whose axes 5 and 6 are anyhow, meet, or are parallel; also from the tool."""
+    rng = np.random.default_rng(16)
+    entries = {(1, 3): 0.0, (2, 3): 0.0} | LAST_TWO[last]
+    from_tool = {(2, 3): 0.0, (3, 3): 0.0} | {(0, j): v for (_, j), v in LAST_TWO[last].items()}
+    for robot in (arm_with(which, rng) for which in (entries, entries, from_tool)):
+        assert robot.solver.name.startswith("three parallel axes")
+        for k, T in enumerate(regular_poses(robot, 3, rng)):
+            assert_agrees(robot, T, k, 1e-10)
+
+
 @pytest.mark.parametrize("kinds", ["RPPRPR", "PRPRPR", "RPRPRP", "RPPPRR", "PRPRP", "RPPPR"])
 def test_three_slides_come_apart_from_the_turns(kinds):
     """Random arms of five and six joints, three of them sliding."""
