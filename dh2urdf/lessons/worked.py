@@ -36,7 +36,7 @@ def explain_pose(question: Question) -> IKExplanation:
             q, check = _placed(case, way)
             steps.append(check)
     if len(question.q):
-        steps.append(_branches(question))
+        steps.append(_branches(question, led=case.lesson is not None))
     return IKExplanation(question.name, question.solver, question.T, tuple(steps), q, index, branch)
 
 
@@ -124,15 +124,15 @@ def _check(case: Case, q: Array, miss: float, turned: bool) -> Step:
     )
 
 
-def _branches(question: Question) -> Step:
-    """All solutions, what each is called, and which are outside the limits."""
+def _branches(question: Question, *, led: bool) -> Step:
+    """All solutions, their names, which are outside the limits; ``led``: steps lead to one."""
     chain, count, lines = question.chain, len(question.q), []
     excess = np.maximum(chain.lower - question.q, question.q - chain.upper)
     outside = excess.max(axis=1) > LIMIT
     for k, (q, branch) in enumerate(zip(question.q, question.branches, strict=True)):
         named = [branch] if branch else []
         named += ["outside the limits"] if outside[k] else []
-        mark = "  <- this one" if k == question.index and count > 1 else ""
+        mark = "  <- this one" if k == question.index and count > 1 and led else ""
         numbered = f"{question.numbers[k] + 1}: {vector_shown(q)}  {', '.join(named)}"
         lines.append(f"{numbered.rstrip()}{mark}")
     apart = question.q - question.q[question.index]
@@ -143,9 +143,8 @@ def _branches(question: Question) -> Step:
         ", those outside the joint limits counted" if outside.any() else " within the joint limits"
     )
     words = f"`ik` finds {count} solution{'s' if count > 1 else ''}{held}{limits}"
-    words += (
-        f"; the steps above lead to the one marked, {ways} to the others."
-        if count > 1
-        else ", the one that the steps above lead to."
-    )
+    if led and count > 1:
+        words += f"; the steps above lead to the one marked, {ways} to the others."
+    else:
+        words += ", the one that the steps above lead to." if led else "."
     return Step("All solutions", f"{words}\n\n" + "\n".join(lines))

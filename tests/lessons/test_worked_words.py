@@ -119,3 +119,14 @@ def test_value_that_a_held_solver_was_tried_at_is_told_as_an_example():
     words = next(s.words for s in told.steps if s.title == "The solver").splitlines()
     example = words.index("a solver is made for each value, such as this one")
     assert [k for k, line in enumerate(words) if line.startswith("held: ")] == [example + 1]
+
+
+def test_no_steps_are_said_to_lead_where_there_are_none():
+    """An arm that only its solver's words explain: solutions are counted, none is marked."""
+    denso = dh2urdf.Robot.from_dh("denso_vs6556")
+    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={3: 0.3})
+    assert told.q is None
+    words = told.steps[-1].words
+    assert words.splitlines()[0].endswith(" with what is held within the joint limits.")
+    assert "this one" not in words
+    assert "above" not in words
