@@ -11,7 +11,6 @@ import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
-from shutil import which
 
 import pytest
 
@@ -61,9 +60,8 @@ figure is measured with those of the current matplotlib; older ones set them oth
 
 def uv(*argv):
     """Run uv, which has to succeed."""
-    done = subprocess.run(
-        [which("uv") or "uv", *map(str, argv)], capture_output=True, text=True, check=False
-    )
+    command = [sys.executable, "-m", "uv", *map(str, argv)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     return done
 
