@@ -11,6 +11,8 @@ from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.ik.arm import Task, hold, select_solver
 from dh2urdf.ik.families import with_tool_joint
 from dh2urdf.lessons.arm import Arm, Row, arm_of, without_ends
+from dh2urdf.lessons.closed_loop import closed_loop
+from dh2urdf.lessons.closed_loop import fits as fits_closed_loop
 from dh2urdf.lessons.elimination import fits as fits_six_turns
 from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters
@@ -42,6 +44,7 @@ SHORT: list[tuple[Callable[[tuple[Row, ...]], bool], Lesson]] = [
     (fits_three_parallel, three_parallel),
     (is_polar, polar),
     (moves_point, place_and_compare),
+    (fits_closed_loop, closed_loop),
 ]
 """Derivations of arms of up to five joints, which one solver covers, by what their rows are."""
 

@@ -11,7 +11,7 @@ equations; eight products of cos and sin of joints 1 and 2 are eliminated, six e
 
 import itertools
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import reduce
 
 import numpy as np
@@ -37,17 +37,17 @@ def fits(rows: tuple[Row, ...]) -> bool:
     return len(rows) == 6 and not any(row.slides for row in rows)
 
 
-def links_of(asked: Asked) -> list[Array]:
-    """The rigid links (4, 4) behind each joint of the closed loop, the last with the pose in it.
+def links_of(rows: Sequence[Row], H: Array) -> list[Array]:
+    """The rigid links (4, 4) behind each joint of the closed loop, the last with the pose H in it.
 
     A row is ``Rz(sign q) (row at q = 0)``, and ``Rz(-q) = F Rz(q) F`` with ``F = Rot_x(pi)``: the F
-    go into the links.
+    go into the links. So it is with slides along z.
     """
-    arm = asked.arm
-    flips = [np.diag([1.0, row.sign, row.sign, 1.0]) for row in arm.rows]
-    links = [flip @ row.motion(row.theta) for flip, row in zip(flips, arm.rows, strict=True)]
-    links[-1] = links[-1] @ inverse(asked.H)
-    return [link @ flips[(i + 1) % 6] for i, link in enumerate(links)]
+    flips = [np.diag([1.0, row.sign, row.sign, 1.0]) for row in rows]
+    at_zero = [row.motion(row.d if row.slides else row.theta) for row in rows]
+    links = [flip @ motion for flip, motion in zip(flips, at_zero, strict=True)]
+    links[-1] = links[-1] @ inverse(H)
+    return [link @ flips[(i + 1) % len(rows)] for i, link in enumerate(links)]
 
 
 def _functions(line: Array, p: Array) -> Array:
@@ -112,7 +112,7 @@ class Elimination:
 
 def general_6r(asked: Asked) -> Iterator[Way]:
     """The way to one solution: a joint by the polynomial, then back."""
-    links = links_of(asked)
+    links = links_of(asked.arm.rows, asked.H)
     tried = [Elimination(links, shift) for shift in range(6)]
     f = min(tried, key=lambda each: each.noise)
     hidden, first = f.joint + 1, (f.joint + 4) % 6 + 1

@@ -169,6 +169,37 @@ def test_axes_2_3_4_parallel_leave_two_equations_in_joints_1_and_5(last):
             assert_agrees(robot, T, k, 1e-10)
 
 
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5])
+def test_short_chains_of_any_kind_have_the_null_vectors_of_their_loop(n):
+    """Random arms of every kind that move in n directions; poses of theirs, and others."""
+    rng = np.random.default_rng(17)
+    for kinds in map("".join, itertools.product("RP", repeat=n)):
+        if kinds.count("P") > 2 + (n == 3):
+            continue
+        rows = rng.uniform(-0.5, 0.5, (n, 4)) * [2.0, 1.0, 1.0, 4.0]
+        table = dh2urdf.DHTable.from_array(rows, "standard", joint_types=kinds, name=kinds)
+        robot = dh2urdf.Robot.from_dh(turned(table) if rng.integers(2) else table)
+        for k, T in enumerate(regular_poses(robot, 2, rng)):
+            assert_agrees(robot, T, k, 1e-10)
+            told = robot.explain_ik(T @ dh2urdf.Origin((0.01, 0.02, 0.03), (0.1, 0.2, 0.3)).matrix)
+            assert told.q is None
+            assert any(words in told.text for words in ("ends", "end without")), kinds
+
+
+def test_five_joints_are_explained_by_their_quartic():
+    """The real roots of the determinant have the hidden joint of every solution."""
+    rng = np.random.default_rng(18)
+    for kinds in ("RRRRR", "RRPRR", "PRRRP"):
+        rows = rng.uniform(-0.5, 0.5, (5, 4)) * [2.0, 1.0, 1.0, 4.0]
+        robot = dh2urdf.Robot.from_dh(
+            dh2urdf.DHTable.from_array(rows, "standard", joint_types=kinds)
+        )
+        told = robot.explain_ik(next(regular_poses(robot, 1, rng)))
+        step = next(step for step in told.steps if step.curve)
+        assert min(abs(root - step.value) for root in step.curve.roots) <= 1e-6
+        assert "degree 4" in step.words
+
+
 @pytest.mark.parametrize("kinds", ["RPPRPR", "PRPRPR", "RPRPRP", "RPPPRR", "PRPRP", "RPPPR"])
 def test_three_slides_come_apart_from_the_turns(kinds):
     """Random arms of five and six joints, three of them sliding."""
@@ -201,7 +232,7 @@ def test_polynomials_of_arms_without_a_closed_form_have_all_solutions_as_roots(n
         assert case.lesson is two_parallel
         asked = Asked(case.arm, case.pose(), case.guide)
         assert_roots(robot, Polynomial(asked), found.q, 0)
-        each = [Elimination(links_of(asked), shift) for shift in range(6)]
+        each = [Elimination(links_of(asked.arm.rows, asked.H), shift) for shift in range(6)]
         best = min(each, key=lambda one: one.noise)
         assert best.noise < 1e-12
         assert_roots(robot, best, found.q, best.joint)

@@ -112,10 +112,10 @@ def test_squares_in_sentences_are_formulas():
 
 
 def test_value_that_a_held_solver_was_tried_at_is_told_as_an_example():
-    """Held at 1.5 rad, what stands in the solver's own words about another value is an example."""
+    """Held at 0.3 rad, what stands in the solver's own words about another value is an example."""
     denso = dh2urdf.Robot.from_dh("denso_vs6556")
-    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={3: 1.5})
-    assert "joint_4 at 1.5 rad" in told.steps[0].words
+    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={1: 0.3})
+    assert "joint_2 at 0.3 rad" in told.steps[0].words
     words = next(s.words for s in told.steps if s.title == "The solver").splitlines()
     example = words.index("a solver is made for each value, such as this one")
     assert [k for k, line in enumerate(words) if line.startswith("held: ")] == [example + 1]
@@ -124,7 +124,7 @@ def test_value_that_a_held_solver_was_tried_at_is_told_as_an_example():
 def test_no_steps_are_said_to_lead_where_there_are_none():
     """An arm that only its solver's words explain: solutions are counted, none is marked."""
     denso = dh2urdf.Robot.from_dh("denso_vs6556")
-    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={3: 0.3})
+    told = denso.explain_ik(denso.fk(np.full(6, 0.3)), locked={1: 0.3})
     assert told.q is None
     words = told.steps[-1].words
     assert words.splitlines()[0].endswith(" with what is held within the joint limits.")
