@@ -18,6 +18,7 @@ from dh2urdf.lessons.elimination import general_6r
 from dh2urdf.lessons.ends import letters
 from dh2urdf.lessons.few_joints import is_polar, moves_point, place_and_compare, place_only, polar
 from dh2urdf.lessons.notation import measured
+from dh2urdf.lessons.one_joint import is_one, one_joint
 from dh2urdf.lessons.parallel_first import first_parallel
 from dh2urdf.lessons.parallel_first import fits as fits_first_parallel
 from dh2urdf.lessons.planar import planar, planar_place
@@ -117,7 +118,8 @@ def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:
     if solver == "three slides":
         return three_slides
     if solver == "position arm":
-        return place_only if moves_point(arm.rows) else None
+        lessons = (moves_point, place_only), (is_one, one_joint)
+        return next((lesson for fits, lesson in lessons if fits(arm.rows)), None)
     if task is Task.POSE and solver in ELIMINATED:
         lessons = (fits_two_parallel, two_parallel), (fits_six_turns, general_6r)
         return next((lesson for fits, lesson in lessons if fits(arm.rows)), None)

@@ -200,6 +200,26 @@ def test_five_joints_are_explained_by_their_quartic():
         assert "degree 4" in step.words
 
 
+@pytest.mark.parametrize("kind", ["R", "P"])
+def test_one_joint_moves_a_point_on_a_circle_or_a_line(kind):
+    """Both tasks of an arm of one joint, on a leaning base with a tool; a point off the way."""
+    rng = np.random.default_rng(19)
+    for form in FORMS.values():
+        rows = rng.uniform(-0.5, 0.5, (1, 4)) * [2.0, 1.0, 1.0, 4.0]
+        table = dh2urdf.DHTable.from_array(rows, "standard", joint_types=kind)
+        robot = dh2urdf.Robot.from_dh(form(table))
+        for q in rng.uniform(-1.0, 1.0, (5, 1)):
+            T = robot.fk(q)
+            for task in ("pose", "position"):
+                told = robot.explain_ik(T, task=task)
+                assert np.abs(told.q - q).max() <= 1e-10
+                assert all(off(e) <= 1e-9 for s in told.steps for e in s.equations if is_plain(e))
+            T[:3, 3] += [0.01, 0.02, 0.03]
+            told = robot.explain_ik(T, task="position")
+            assert told.q is None
+            assert "m away" in told.steps[-1].words
+
+
 @pytest.mark.parametrize("kinds", ["RPPRPR", "PRPRPR", "RPRPRP", "RPPPRR", "PRPRP", "RPPPR"])
 def test_three_slides_come_apart_from_the_turns(kinds):
     """Random arms of five and six joints, three of them sliding."""
