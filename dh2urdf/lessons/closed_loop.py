@@ -61,13 +61,23 @@ def closed_loop(asked: Asked) -> Iterator[Way]:
         if not roots:
             words = f"The determinant has no real root in q_{loop.x + 1}: here the solution ends."
             ways = [way.stop(Step(f"q_{loop.x + 1}", words))]
-    if asked.guide is not None and all(found.stopped for found in ways):
+    if asked.guide is not None and not any(_leads(asked, found) for found in ways):
         words = (
-            "The pose is a singular one: M has more than one null vector, or its determinant "
-            "vanishes for all values, and says too little. These joint values come from a search."
+            "M says too little of this solution: it has more than one null vector here, or its "
+            "determinant vanishes for all values. These are the values that `ik` found."
         )
-        ways = [back(asked, way, words)]
+        ways.append(back(asked, way, words))
     yield from ways
+
+
+def _leads(asked: Asked, way: Way) -> bool:
+    """Whether a way leads to the solution that is explained."""
+    if way.stopped or asked.guide is None:
+        return False
+    arm = asked.arm
+    gaps = [arm.joint_value(i, way.variables[i]) - asked.guide[i] for i in range(arm.n)]
+    pairs = zip(gaps, arm.rows, strict=True)
+    return all(abs(v if row.slides else math.remainder(v, math.tau)) <= BLUNT for v, row in pairs)
 
 
 def _best(rows: Sequence[Row], H: Array) -> Loop:

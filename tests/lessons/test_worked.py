@@ -200,6 +200,19 @@ def test_five_joints_are_explained_by_their_quartic():
         assert "degree 4" in step.words
 
 
+def test_each_of_two_solutions_at_one_root_is_explained():
+    """Five joints with right angles, two null vectors at a root: each solution by its values."""
+    rows = np.zeros((5, 4))
+    rows[:, 1:3] = [0.2, 0.25], [0.3, 0.0], [0.3, 0.3], [0.3, 0.3], [0.0, 0.0]
+    rows[:, 3] = 0.5 * np.pi * np.array([1.0, -1.0, 0.0, 0.0, 1.0])
+    table = dh2urdf.DHTable.from_array(rows, "standard", joint_types="PRRRR")
+    robot = dh2urdf.Robot.from_dh(table)
+    found = robot.ik(robot.fk([0.6, 0.7, -0.5, -0.6, -0.9]), within_limits=False)
+    assert len(found) == 2
+    for k, q in enumerate(found.q):
+        assert np.abs(robot.explain_ik(found, k).q - q).max() <= 1e-10
+
+
 @pytest.mark.parametrize("kind", ["R", "P"])
 def test_one_joint_moves_a_point_on_a_circle_or_a_line(kind):
     """Both tasks of an arm of one joint, on a leaning base with a tool; a point off the way."""
