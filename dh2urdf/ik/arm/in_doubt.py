@@ -5,11 +5,10 @@ from functools import cache
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm.limits import TWO_PI
 from dh2urdf.ik.arm.singular_families import Family
 from dh2urdf.ik.arm.solver import IntArray, Outputs
 from dh2urdf.ik.arm.task import Task
-from dh2urdf.kernels.certificate import finish_batch, name_batch
+from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.in_doubt import search_beside, search_from
 from dh2urdf.transforms import Array
 
@@ -64,29 +63,6 @@ def search_in_doubt(
     return wide
 
 
-def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) -> Outputs:
-    """What many starts find of a pose (1, 4, 4); of each family what is known, or a member.
-
-    Candidates are ``found``. Solutions that are known keep their branch.
-    """
-    wide = search_in_doubt(chain, T, found, np.zeros(1, np.int64), False)
-    name_batch(chain.tables, T, wide)
-    keep_sharp(wide, known.q[0, : known.counts[0]])
-    unite_families(chain, T, False, wide)
-    for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
-        away = far(chain, wide.q[0, : wide.counts[0]], p)
-        wide.branch[0, : len(away)][away <= SAME] = branch
-    return wide
-
-
-def far(chain: SerialChain, q: Array, p: Array) -> Array:
-    """Largest difference of a joint from p (n,) of configurations q (k, n)."""
-    gaps = q - p
-    turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
-    largest: Array = np.where(chain.prismatic, np.abs(gaps), turns).max(axis=1)
-    return largest
-
-
 def keep_sharp(out: Outputs, known: Array) -> None:
     """Of one pose with a solution, drop what is accepted beside it along a valley, in place.
 
@@ -97,14 +73,6 @@ def keep_sharp(out: Outputs, known: Array) -> None:
     kept = np.flatnonzero((residual <= SHARP) | (free[: len(q)] != 0) | is_known)
     if len(kept):
         _keep(out, kept)
-
-
-def drop_dull_members(out: Outputs) -> None:
-    """Of one pose with a sharp solution, drop members of families that are none, in place."""
-    count = out.counts[0]
-    sharp = out.residual[0, :count] <= SHARP
-    if sharp.any():
-        _keep(out, np.flatnonzero(sharp | (out.free[0, :count] == 0)))
 
 
 def _keep(out: Outputs, rows: IntArray | list[int]) -> None:

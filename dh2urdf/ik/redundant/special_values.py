@@ -2,40 +2,38 @@
 
 The solver of a held joint is chosen for any of its values. At a special one, as 0 of a shoulder
 whose axes 1 and 3 then are one line, the other joints move along families, and a solver is made
-for that value alone. So is one for poses in doubt, and many starts are followed, too.
+for that value alone. And where an elbow is folded so that the wrist's centre is on the shoulder's,
+the equations for the elbow say nothing at any value: such poses are searched.
 """
 
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
+    ACCEPT,
+    SNAP,
     SPARE_RANK,
     TRIALS,
     TWO_PI,
-    Family,
+    AxisLines,
     HeldSolver,
     IntArray,
     Outputs,
-    Solver,
     SolverBase,
     Task,
-    drop_dull_members,
-    from_starts,
     hold,
-    inside,
-    middle,
     near_ranges,
     random_configurations,
     scaled_jacobian,
-    select_solver,
-    spare_joints,
+    search_in_doubt,
 )
 from dh2urdf.ik.redundant.held_values import HeldEnd, HeldJoints, HeldOneByOne
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE
-from dh2urdf.kernels.certificate import finish_batch, measure_all
-from dh2urdf.transforms import Array
+from dh2urdf.ik.redundant.searched import STARTS, nearly_reaching
+from dh2urdf.transforms import Array, inverse
 
 GRID = 48
 """Values at which the rank is looked at first: a turn in steps of 7.5 degrees."""
@@ -54,81 +52,26 @@ DIP = 1e-3
 """Relative singular value above which a dip is none that a special value makes."""
 
 
-SHARP = 1e-11
-"""Residual [m and rad] of a solution that is put in place of what a search finds."""
+FOLDED = 1e-5
+"""Distance [m] between the centres of shoulder and wrist within which an elbow is folded."""
 
 
 class InDoubt(SolverBase):
-    """Six turning joints: what their solver finds of a pose, and what many starts do."""
+    """Six turning joints by a search alone, for poses of which equations say nothing."""
 
-    def __init__(self, inner: SolverBase) -> None:
-        super().__init__(inner.chain, inner.task)
-        self.inner, self.name, self.kmax = inner, inner.name, inner.kmax
-
-    def details(self) -> str:
-        """Say how the joints that move are solved for."""
-        return self.inner.details()
+    name = "search"
+    kmax = 16
+    known: Array
+    """Solutions that others found, (k, 6)."""
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4), one after the other."""
-        known = Outputs.of(len(Ts), self.kmax, self.chain.n)
-        self.inner.solve_batch(Ts, False, known)
-        for i in range(len(Ts)):
-            mine, T = known.rows(slice(i, i + 1)), Ts[i : i + 1]
-            wide = from_starts(self.chain, T, mine, mine)
-            drop_dull_members(mine)
-            sharp = mine.residual[0, : mine.counts[0]] <= SHARP
-            for k in np.flatnonzero(sharp & (mine.free[0, : mine.counts[0]] != 0)).tolist():
-                self._put_for_its_family(wide, T[0], mine, k)
-            if within_limits:
-                finish_batch(self.chain.tables, T, True, wide)
-                self._enter_limits(wide, T)
-            drop_dull_members(wide)
-            out.put(np.array([i]), wide)
-
-    def _enter_limits(self, wide: Outputs, T: Array) -> None:
-        """Go along families into the limits: some are reached only where they are none."""
-        q, n = wide.q[0, : wide.counts[0]], self.chain.n
-        outside = ~inside(self.chain, q) & (wide.free[0, : len(q)] != 0)
-        for k in np.flatnonzero(outside):
-            joints = np.flatnonzero(wide.free[0, k] >> np.arange(n) & 1).tolist()
-            family = Family(self.chain, self.task, T[0], tuple(joints), q[k].copy())
-            member = family.nearest(middle(self.chain), within_limits=True)
-            if member is not None:
-                q[k] = member
-        if outside.any():
-            tables, number = self.chain.tables, self.task.number
-            measure_all(tables, number, T, wide.q, wide.counts, wide.residual)
-
-    def _put_for_its_family(self, wide: Outputs, T: Array, known: Outputs, k: int) -> None:
-        """Put a known solution, which names its family, in place of what a walk reaches from it.
-
-        What other joints move from stays: that is a member of a larger family.
-        """
-        q, mask = known.q[0, k], known.free[0, k]
-        family = Family(self.chain, self.task, T, tuple(range(self.chain.n)), q.copy())
-        count = int(wide.counts[0])
-        on = family.contains(wide.q[0, :count], count) & (wide.free[0, :count] & ~mask == 0)
-        if on.any():
-            rows = [k, *np.flatnonzero(~on)]
-            for array, source in zip(wide, known, strict=True):
-                if array.ndim > 1:
-                    array[0, 1 : len(rows)] = array[0, rows[1:]]
-                    array[0, 0] = source[0, k]
-            wide.counts[0] = len(rows)
-
-
-class HeldInDoubt(HeldOneByOne):
-    """A solver for every value, of poses in doubt."""
-
-    def make(self, values: tuple[float, ...]) -> Solver:
-        """The solver for some held values; with joints to spare it is the usual one."""
-        held = dict(zip(self.held, values, strict=True))
-        rest = hold(self.chain, held)
-        inner = select_solver(rest, self.task)
-        if isinstance(inner, SolverBase) and not spare_joints(rest, self.task):
-            inner = InDoubt(inner)
-        return HeldJoints(self.chain, held, self.task, inner)
+        """Solve poses Ts (m, 4, 4) from many starts, in valleys too."""
+        every, found = np.arange(len(Ts)), Outputs.of(len(Ts), 2 * STARTS, self.chain.n)
+        for i, T in enumerate(Ts):
+            q, error = nearly_reaching(self.chain, T, self.task)
+            q = np.concatenate([self.known, q[np.abs(error).max(axis=1) <= ACCEPT]])
+            found.q[i, : len(q)], found.counts[i] = q, len(q)
+        out.put(every, search_in_doubt(self.chain, Ts, found, every, within_limits))
 
 
 class HeldAtAnyValue(HeldSolver):
@@ -145,28 +88,39 @@ class HeldAtAnyValue(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1)."""
-        doubt = self.inner.solve_plainly(Ts, values, within_limits, out)
-        special = self._special(values[:, 0])
-        self._solve_again(self.one_by_one, Ts, values, within_limits, out, special)
-        rows = np.setdiff1d(doubt, special)
-        self._solve_again(self.in_doubt, Ts, values, within_limits, out, rows)
-
-    def _solve_again(
-        self,
-        solver: HeldSolver,
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        out: Outputs,
-        rows: IntArray,
-    ) -> None:
-        """Solve some of the poses by another solver; in doubt, what is sharper stays."""
+        self.inner.solve_held(Ts, values, within_limits, out)
+        rows = self._special(values[:, 0])
         if len(rows):
-            found, poses = Outputs.of(len(rows), self.kmax, self.chain.n), Ts[rows]
-            solver.solve_held(np.ascontiguousarray(poses), values[rows], within_limits, found)
-            blunt = (_worst(found) > SHARP) & (_worst(out.rows(rows)) <= SHARP)
-            kept = ~blunt | (out.counts[rows] == 0) | (solver is self.one_by_one)
-            out.put(rows[kept], found.rows(kept))
+            found = Outputs.of(len(rows), self.kmax, self.chain.n)
+            poses = np.ascontiguousarray(Ts[rows])
+            self.one_by_one.solve_held(poses, values[rows], within_limits, found)
+            for whole, part in zip(out, found, strict=True):
+                whole[rows] = part
+        for i in np.flatnonzero(self._folded(Ts)):
+            held = {self.held[0]: float(values[i, 0])}
+            search = InDoubt(hold(self.chain, held))
+            search.known = np.delete(out.q[i, : out.counts[i]], self.held[0], axis=1)
+            solver = HeldJoints(self.chain, held, self.task, search)
+            solver.solve_batch(Ts[i : i + 1], within_limits, out.rows(slice(i, i + 1)))
+
+    def _folded(self, Ts: Array) -> NDArray[np.bool_]:
+        """Which poses (m, 4, 4) put the centre of the wrist onto that of the shoulder."""
+        if self._centres is None:
+            return np.zeros(len(Ts), np.bool_)
+        shoulder, wrist = self._centres
+        away = Ts[:, :3, :3] @ wrist + Ts[:, :3, 3] - shoulder
+        folded: NDArray[np.bool_] = np.abs(away).max(axis=1) <= FOLDED
+        return folded
+
+    @cached_property
+    def _centres(self) -> tuple[Array, Array] | None:
+        """Where axes 1, 2, 3 meet, in the base, and 5, 6, 7, in the tool; None: they do not."""
+        lines, n = AxisLines(self.chain, SNAP), self.chain.n
+        seven = n == 7 and not self.chain.prismatic.any() and self.task is Task.POSE
+        if not seven or not (lines.spherical(0) and lines.spherical(4)):
+            return None
+        home = inverse(self.chain.fk(np.zeros(n)))
+        return lines.points[1], home[:3, :3] @ lines.points[5] + home[:3, 3]
 
     def steps(
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs
@@ -202,13 +156,8 @@ class HeldAtAnyValue(HeldSolver):
 
     @cached_property
     def one_by_one(self) -> HeldOneByOne:
-        """The solver made anew for each value at which it is asked."""
-        return HeldOneByOne(self.chain, self.held, self.task)
-
-    @cached_property
-    def in_doubt(self) -> HeldOneByOne:
-        """The same for poses in doubt."""
-        return HeldInDoubt(self.chain, self.held, self.task)
+        """The solver made anew for each special value."""
+        return HeldOneByOne(self.chain, self.held, self.task, (float(self.values[0]),))
 
     def _jacobians(self, values: Array) -> Array:
         """The rest's Jacobian at values (m,) and in generic configurations, (m, trials, 6, k)."""
@@ -261,13 +210,6 @@ class HeldAtAnyValue(HeldSolver):
             dips = trial[np.arange(len(dips)), best]
             step *= 2.0 / (CLOSER - 1)
         return dips[self._rank_gap(dips) <= DIP] if len(dips) else dips
-
-
-def _worst(out: Outputs) -> Array:
-    """Largest residual of each pose (m,); 0 where there is no solution."""
-    used = np.arange(out.residual.shape[1]) < out.counts[:, None]
-    worst: Array = np.where(used, out.residual, 0.0).max(axis=1)
-    return worst
 
 
 def at_any_value(solver: HeldSolver, task: Task) -> HeldSolver:

@@ -22,10 +22,12 @@ import numpy as np
 
 from dh2urdf.kernels.blocks import (
     BLOCK,
+    CLEAR,
     COS,
     DIRTY,
     HALF_TURN,
     LANES,
+    MERGED,
     NEGATED,
     OWN,
     RESIDUAL,
@@ -52,10 +54,6 @@ from dh2urdf.kernels.redundant.held_wrist_load import (
 )
 from dh2urdf.kernels.rigid import dot, minus
 from dh2urdf.kernels.shapes import Held, Outputs, Poses
-
-ALONE = 1e-4
-"""Sine of an angle from which a lane is clean: of the others it is looked at whether singularities
-meet."""
 
 K, ARM = np.arange(8), np.arange(8) & 3
 ROW_OF = np.stack([2 + ARM, 6 + ARM, K >> 1 & 1, 10 + ARM, 14 + ARM, 18 + ARM], 1)
@@ -86,7 +84,7 @@ WRIST = ARM + BLOCK * 12
 arm would need more checks of what overlaps in one loop than the compiler makes vector code for."""
 
 
-def place_elbows(S2, reach, slack, merged, n, S):
+def place_elbows(S2, reach, slack, n, S):
     """Joint 3 from the distance of the wrist centre, both values, and what it carries."""
     wx, wy = S2[0, 2] * reach + S2[0, 3], S2[1, 2] * reach + S2[1, 3]
     wz = S2[2, 2] * reach + S2[2, 3]
@@ -106,7 +104,7 @@ def place_elbows(S2, reach, slack, merged, n, S):
         S[BLOCK * T3 + i], S[TURN + BLOCK * T3 + i] = c - dc, s + ds
         S[BLOCK * (T3 + 1) + i], S[TURN + BLOCK * (T3 + 1) + i] = c + dc, s - ds
         S[BLOCK * REACHED + i] = gap / max(size, 1e-300)
-        dirty = -slack * size < gap < merged * size or square < merged * size
+        dirty = -slack * size < gap < MERGED * size or square < MERGED * size
         S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
     for elbow in range(2):
         for j in range(4):
@@ -125,7 +123,7 @@ def _carry(wx, wy, wz, moves, elbow, row, n, S):
         S[target + BLOCK * 2 + i] = dot(column(S, M + BLOCK * 6 + i, BLOCK), v) + moves * t[2]
 
 
-def place_shoulders(S0, slack, merged, n, S):
+def place_shoulders(S0, slack, n, S):
     """Joints 1 and 2 of all four arms from the height and the direction of the wrist centre.
 
     Over axis 2 both directions are equally long, up to rounding that a step of Newton's method
@@ -159,12 +157,12 @@ def place_shoulders(S0, slack, merged, n, S):
                 S[arm + BLOCK * T2], S[arm + BLOCK * T2 + TURN] = along * inverse, across * inverse
                 S[arm + BLOCK * VALID], S[arm + BLOCK * (VALID + 4)] = margin, margin
                 root = -root
-            touching = -slack * size < gap < merged * size
-            dirty = touching or square < merged * size or around < merged * size
+            touching = -slack * size < gap < MERGED * size
+            dirty = touching or square < MERGED * size or around < MERGED * size
             S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
-def finish_arm(form, S0, seen_from_tool, clear, arm, n, S):
+def finish_arm(form, S0, seen_from_tool, arm, n, S):
     """Joints 4, 5 and 6 of one arm of every lane, and the residual of both its solutions."""
     _reach(S0, arm, n, S)
     _wrist(form[3, 2], form[4, 2], n, S)
@@ -177,7 +175,7 @@ def finish_arm(form, S0, seen_from_tool, clear, arm, n, S):
     valid, result = at(VALID + arm), at(RESIDUAL + arm)
     for i in side_by_side(n):
         error, exists = S[WRIST + BLOCK * 6 + i], S[valid + i] > 0.0
-        careful = S[WRIST + BLOCK * 4 + i] < clear or not error <= POLISH
+        careful = S[WRIST + BLOCK * 4 + i] < CLEAR or not error <= POLISH
         S[BLOCK * DIRTY + i] += 1.0 if exists and careful else 0.0
         S[result + i], S[result + BLOCK * 4 + i] = error, error
 
@@ -273,19 +271,15 @@ def prepare(arm, values, oriented, place, S):
     return all_equal(values)
 
 
-def place_block(arm, values, Ts, same, slack, clear, first, n, S):
-    """All eight solutions of n poses from the first one on, and their residuals.
-
-    A lane is clean where sines are ``clear`` of zero, and distances from a rim of its square.
-    """
+def place_block(arm, values, Ts, same, slack, first, n, S):
+    """All eight solutions of n poses from the first one on, and their residuals."""
     frames, which, form, _, _ = arm
     S0, S2, seen_from_tool = frames[LINK], frames[LINK + 2], which[REVERSED] != 0
     load_block(frames, which, values, Ts, same, seen_from_tool, first, n, S)
-    merged = clear * clear
-    place_elbows(S2, form[3, 3], slack, merged, n, S)
-    place_shoulders(S0, slack, merged, n, S)
+    place_elbows(S2, form[3, 3], slack, n, S)
+    place_shoulders(S0, slack, n, S)
     for k in range(4):
-        finish_arm(form, S0, seen_from_tool, clear, k, n, S)
+        finish_arm(form, S0, seen_from_tool, k, n, S)
 
 
 @entry(n=7, solutions=8)
@@ -294,18 +288,16 @@ def solve_held_blocks(
 ):
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     q, S, m, held = outputs[0], np.empty(ROWS * BLOCK), Ts.shape[0], arm[1][HELD]
-    doubts = 0
     if m == 0:
-        return doubts
+        return
     oriented, place = np.empty((6, 3)), np.empty(6, np.int64)
     same = prepare(arm, values, oriented, place, S)
     for first in range(0, m, LANES):
         n = min(LANES, m - first)
-        place_block(arm, values, Ts, same, arm[4], ALONE, first, n, S)
+        place_block(arm, values, Ts, same, arm[4], first, n, S)
         clean = emit(arm[2], oriented, ANGLES, within_limits, place, False, first, n, S, outputs)
         for i in range(first, first + n):
             for k in range(8):
                 q[i, k, held] = values[i]
         if clean < n:
-            doubts += solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)
-    return doubts
+            solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)

@@ -113,7 +113,7 @@ def nearest_of(
             q[:] = inner[k]
         else:
             q[:] = beside[k - counts[INNER]]
-        go_nearer(chain, goal, within_limits, 0.0, q, seed, scratch, damped)
+        go_nearer(chain, goal, within_limits, q, seed, scratch, damped)
         known = False
         for i in range(found):
             known = known or is_alike(members[i], q, SAME)

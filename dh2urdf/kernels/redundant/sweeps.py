@@ -9,7 +9,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.blocks import BLOCK, CLEAR, LANES, ROWS, VALID, emit
+from dh2urdf.kernels.blocks import BLOCK, LANES, ROWS, VALID, emit
 from dh2urdf.kernels.certificate import TWO_PI
 from dh2urdf.kernels.newton import make_damped, restore
 from dh2urdf.kernels.numbers import entry
@@ -63,7 +63,7 @@ def sweep_pose(
     count[:] = -1
     for first in range(0, m if in_blocks else 0, LANES):
         n = min(LANES, m - first)
-        place_block(arm, values[first : first + n], Ts, False, 0.0, CLEAR, 0, n, S)
+        place_block(arm, values[first : first + n], Ts, False, 0.0, 0, n, S)
         emit(arm[2], oriented, ANGLES, False, place, True, first, n, S, outputs)
         for i in range(n):
             for elbow in range(2):
