@@ -6,41 +6,19 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
-from py_opw_kinematics import KinematicModel, Robot
-from scipy.spatial.transform import RigidTransform
+import py_opw_kinematics
 
-from benchmarks.arms import Arm
-from benchmarks.contestant import BatchContestant, NotCoveredError
-from benchmarks.peers.opw_models import MODELS
+from benchmarks.peers.opw_arms import Array, OpwArm
 
 __all__ = ["PyOpw"]
 
-Array = NDArray[np.float64]
 
-
-class PyOpw(BatchContestant):
+class PyOpw(OpwArm):
     """``Robot.inverse`` for one pose, ``Robot.reach`` for many."""
 
     name = "py-opw"
     distribution = "py-opw-kinematics"
-
-    def __init__(self, arm: Arm) -> None:
-        if arm.key not in MODELS:
-            raise NotCoveredError("no parameters for this arm")
-        self.robot = Robot(KinematicModel(**MODELS[arm.key]), degrees=False)
-
-    def encode(self, Ts: Array) -> Sequence[Any]:
-        return list(RigidTransform.from_matrix(Ts))
-
-    def solve(self, pose: Any) -> Any:
-        return self.robot.inverse(pose)
-
-    def array(self, answer: Any) -> Array:
-        return np.array(answer).reshape(-1, 6)
-
-    def encode_batch(self, Ts: Array) -> Any:
-        return RigidTransform.from_matrix(Ts)
+    library = py_opw_kinematics
 
     def solve_batch(self, poses: Any, threads: int) -> Any:
         return self.robot.reach(poses, threads=threads)

@@ -32,6 +32,7 @@ from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.redundant import (
     INNER,
     MEMBERS,
+    MOST_STARTS,
     WALKED,
     Starts,
     arrange_members,
@@ -54,17 +55,13 @@ reach."""
 APART = 0.1
 """Joint distance [rad or m] of members that are worth returning side by side."""
 
-STARTS = 16
-"""Places from which curves are followed towards a seed, and as many into the limits, the nearest
-ones; each is the nearest of its part of a curve."""
-
 PARTS = 16
 """Parts that what an end lies in is divided into."""
 
 GRID = 720
 """Values of the swept joint at which reach is tried; half a degree apart for a whole turn."""
 
-MOST_MEMBERS = STARTS + 1
+MOST_MEMBERS = MOST_STARTS + 1
 """Members that are returned with a seed."""
 
 
@@ -152,7 +149,7 @@ def _curve_steps(
     is short in one joint is seldom short in the other. Those found outside the limits are followed
     inwards, the nearest to the goal and the limits.
     """
-    chain, starts = solver.chain, Starts.of(STARTS, solver.chain.n)
+    chain, starts = solver.chain, Starts.of(MOST_STARTS, solver.chain.n)
     quick = [held for held in solver.sweeps if held.quick] or solver.sweeps
     each, ends = values * len(solver.sweeps) // len(quick), np.empty((len(quick), 2), np.int64)
     out, steps = Outputs.of((each + WALKED) * len(quick), solver.held.kmax, chain.n), []

@@ -21,5 +21,5 @@ from dh2urdf.kernels.redundant.nearest import (
 )
 from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
-from dh2urdf.kernels.redundant.starts import find_starts
+from dh2urdf.kernels.redundant.starts import MOST_STARTS, find_starts
 from dh2urdf.kernels.redundant.sweeps import WALKED, sweep_pose

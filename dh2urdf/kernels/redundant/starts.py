@@ -19,8 +19,9 @@ from dh2urdf.kernels.redundant.self_motion import enter, is_outside, settle
 from dh2urdf.kernels.redundant.sweeps import step_between
 from dh2urdf.kernels.shapes import Chain, Configuration, Goal, Integers, Outputs
 
-MOST = 16
-"""How many local minima are noted, the nearest ones."""
+MOST_STARTS = 16
+"""Places from which curves are followed towards a seed, and as many into the limits, the nearest
+ones; each is the nearest of its part of a curve."""
 
 JUMP = 0.5
 """Motion of a joint [rad or m] between two values above which they are not taken for one curve."""
@@ -54,7 +55,7 @@ def find_starts(
     inner, distance, outer, measure, _, counts = starts
     most, n, first, found = q.shape[1], q.shape[2], 0, 0
     trial, room = np.empty(n), (np.empty((5, n)), make_damped(n))
-    rows, sizes = np.empty((MOST, 3), np.int64), np.empty(MOST)
+    rows, sizes = np.empty((MOST_STARTS, 3), np.int64), np.empty(MOST_STARTS)
     for i in range(q.shape[0]):
         for k in range(count[i]):
             turn_one(joints, slack, seed, q[i, k])
