@@ -76,7 +76,8 @@ static int copy_numbers(PyObject *given, PyArrayObject *room)
     return 1;
 }
 
-/* The memory after all steps, or None where one of them answers something else. */
+/* The memory after all steps, or None where one of them answers something else. No other thread
+ * runs meanwhile: the memory is that of all threads. */
 static PyObject *solve(PyObject *capsule, PyObject *const *args, Py_ssize_t count)
 {
     const Steps *all = PyCapsule_GetPointer(capsule, NULL);
@@ -91,7 +92,7 @@ static PyObject *solve(PyObject *capsule, PyObject *const *args, Py_ssize_t coun
     }
     for (Py_ssize_t i = 0; go_on && i < all->count; i++) {
         const Step *step = all->steps + i;
-        PyObject *found = step->door->call(step->lengths, step->given);
+        PyObject *found = step->door->call(step->lengths, step->given, NPY_MAX_INTP);
         if (!found) {
             return NULL;
         }

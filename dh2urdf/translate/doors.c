@@ -89,13 +89,13 @@ static int take(PyObject *given, const Expected **next, Given **to, npy_intp *le
 }
 
 /* An entry: how many parameters it has, numbers and arrays in them, and lengths; what is expected,
- * and its call with what was taken. */
+ * and its call with what was taken, during which others run if poses are as many or more. */
 typedef struct {
     const char *name;
     Py_ssize_t parameters;
     int values, names;
     const Expected *expected;
-    PyObject *(*call)(const npy_intp *lengths, const Given *given);
+    PyObject *(*call)(const npy_intp *lengths, const Given *given, npy_intp many);
 } Door;
 
 /* Take all arguments of an entry. */
@@ -121,9 +121,9 @@ static int take_all(
 #define MANY 64
 
 #define DOOR(public, entry, parameters, values, names, run, answer, ...) \
-static PyObject *call_##entry(const npy_intp *lengths, const Given *given) \
+static PyObject *call_##entry(const npy_intp *lengths, const Given *given, npy_intp many) \
 { \
-    PyThreadState *others = lengths[1] >= MANY ? PyEval_SaveThread() : NULL; \
+    PyThreadState *others = lengths[1] >= many ? PyEval_SaveThread() : NULL; \
     run; \
     entries->leave(); \
     if (others) { \
@@ -140,7 +140,7 @@ static PyObject *py_##entry(PyObject *self, PyObject *const *args, Py_ssize_t co
     Given given[values]; \
     (void)self; \
     const int taken = take_all(&door_##entry, args, count, given, lengths); \
-    return taken ? call_##entry(lengths, given) : NULL; \
+    return taken ? call_##entry(lengths, given, MANY) : NULL; \
 }
 #include "doors.h"
 #undef DOOR

@@ -123,6 +123,24 @@ def test_every_method_answers_in_many_threads_as_it_does_alone(name):
 
 
 @pytest.mark.usefixtures("_restless")
+@pytest.mark.parametrize("name", ["kinova_gen3", "franka_fer"])
+def test_one_call_at_many_values_keeps_its_memory_from_other_threads(name):
+    """Swept joints make many poses of one, in memory that is the call's alone while it runs."""
+    robot = Robot.from_dh(name)
+    rng = np.random.default_rng(0)
+    seeds = [robot.random_configuration(rng) for _ in range(4)]
+    jobs = [(robot.fk(q), {"seed": q}) for q in seeds] + [(robot.fk(q), {}) for q in seeds]
+    alone = [flat(robot.ik(T, **given)) for T, given in jobs]
+
+    def work(rng):
+        for k in rng.permutation(len(jobs)):
+            T, given = jobs[k]
+            assert flat(robot.ik(T, **given)) == alone[k], f"pose {k}, {list(given)}"
+
+    crowd(work)
+
+
+@pytest.mark.usefixtures("_restless")
 @pytest.mark.parametrize("name", ["ur5", "gantry_wrist"])
 def test_poses_and_jacobians_of_single_configurations_keep_to_their_thread(name):
     """fk is the DH product and the Jacobian that of the kernel, however many threads ask."""
