@@ -31,6 +31,7 @@ VERBS = {
     "path": "Find one joint motion through a file of poses.",
     "figure": "Draw an arm with its DH frames.",
     "workspace": "Draw what an arm can reach.",
+    "export": "Take the arm along: a ROS 2 package.",
     "view": "Look at an arm in the browser.",
 }
 """Each is the function ``<verb>_`` of ``dh2urdf.cli.verbs.<verb>``, loaded when it is called."""

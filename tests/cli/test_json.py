@@ -49,6 +49,7 @@ ANSWERS = {
     "path to a file": ["path", "denso_vs6556", "poses.csv", "-o", "q.csv", "--figure", "q.svg"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
+    "export a ROS 2 package": ["export", "ur5", "--ros2", "ur5_description"],
     "view -o": ["view", "planar_rr", "-o", "rr.html"],
 }
 

@@ -33,6 +33,7 @@ from dh2urdf.conversions.write.unfiled_model import add_masses, table_model
 from dh2urdf.conversions.write.urdf_elements import (
     DEFAULT_EFFORT,
     DEFAULT_VELOCITY,
+    default_limits,
     urdf_text_and_warnings,
 )
 from dh2urdf.conversions.write.urdf_file import (

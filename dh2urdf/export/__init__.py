@@ -1,0 +1,1 @@
+"""The arm for other programs to build with: `ros2` writes a ROS 2 package."""
