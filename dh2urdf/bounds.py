@@ -95,5 +95,8 @@ ORIENTATIONS = 10_000
 POINTS = (2, 1_000)
 """Points along a side of a workspace map: a million poses."""
 
+VOXELS = 1_000_000_000
+"""Voxels of a map of the reach: a metre and a half in steps of 1.5 mm."""
+
 DPI = (10.0, 1_000.0)
 """Dots per inch of a picture: more than a printer's take 1 GB."""

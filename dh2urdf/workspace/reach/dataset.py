@@ -1,0 +1,87 @@
+"""A map as a dataset of xarray: variables with units, coordinates, where it came from."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dh2urdf.exceptions import MissingExtraError
+from dh2urdf.workspace.reach.block import Values
+from dh2urdf.workspace.reach.measured import Measures
+from dh2urdf.workspace.reach.settings import MapSettings
+
+if TYPE_CHECKING:
+    import xarray
+
+PURPOSE = "a map of the reach"
+
+WORDS = {
+    "share": ("share of orientations reached", "1"),
+    "solutions_mean": ("solutions of an orientation, mean over all tried", "1"),
+    "solutions_max": ("most solutions of an orientation", "1"),
+    "manipulability": ("largest manipulability sqrt(det(J J^T)), lengths in m", "1"),
+    "singular_value": ("largest of the solutions' smallest singular values of J", "1"),
+    "limit_margin": ("largest of the solutions' distances from a joint limit", "rad or m"),
+}
+"""For each variable what it says and its unit."""
+
+
+def variables(settings: MapSettings) -> dict[str, tuple[str, ...]]:
+    """Names of a map's variables, and their axes."""
+    voxels: tuple[str, ...] = "x", "y", "z"
+    names = dict.fromkeys(WORDS, voxels)
+    if settings.each:
+        each = "solutions_each", *(f"{name}_each" for name in Measures._fields)
+        names |= dict.fromkeys(each, (*voxels, "orientation"))
+    return names
+
+
+def attributes(name: str) -> dict[str, str]:
+    """What a variable says, and its unit."""
+    whole = name.removesuffix("_each")
+    words, unit = WORDS[f"{whole}_max" if whole == "solutions" else whole]
+    return {"long_name": words, "units": unit}
+
+
+def coordinates(settings: MapSettings) -> dict[str, tuple[tuple[str, ...], Any, dict[str, str]]]:
+    """Centres of the voxels [m], and the rotations tried."""
+    metres = {"units": "m"}
+    lines: dict[str, Any] = {
+        axis: ((axis,), settings.grid.centres(k), {"long_name": f"{axis} in base", **metres})
+        for k, axis in enumerate("xyz")
+    }
+    words = {"long_name": "rotation of the tip in base", "units": "1"}
+    axes = "orientation", "spin", "row", "column"
+    return {**lines, "rotation": (axes, settings.turns, words)}
+
+
+def to_dataset(settings: MapSettings, values: Values, attrs: dict[str, Any]) -> xarray.Dataset:
+    """The map of arrays over the whole grid."""
+    xr = load_xarray()
+    data = {
+        name: (axes, values[name], attributes(name)) for name, axes in variables(settings).items()
+    }
+    dataset: xarray.Dataset = xr.Dataset(data, coordinates(settings), attrs)
+    return dataset
+
+
+def empty_values(settings: MapSettings) -> Values:
+    """Room for all variables."""
+    k = len(settings.turns)
+    return {
+        name: np.empty(
+            (*settings.grid.shape, *[k] * (len(axes) - 3)),
+            np.uint16 if name in ("solutions_max", "solutions_each") else np.float32,
+        )
+        for name, axes in variables(settings).items()
+    }
+
+
+def load_xarray() -> Any:
+    """xarray, or the error that names the extra."""
+    try:
+        import xarray
+    except ImportError:
+        raise MissingExtraError("scale", PURPOSE) from None
+    return xarray
