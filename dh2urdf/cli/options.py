@@ -156,7 +156,7 @@ ALONE: dict[str, dict[str, str]] = {
         "best": "turns=all",
         "matrix": "xyz rpy",
         "task=position": "rpy",
-        "explain": "csv words format=python",
+        "explain": "csv words",
         "json": "format",
         "symbolic": "xyz rpy matrix csv seed locked explain words deg "
         "task=position task=position+axis turns=all within_limits=False",
@@ -184,6 +184,7 @@ NEEDED: dict[str, dict[str, str]] = {
         "seed_tolerance": "seed",
         "solution": "explain",
         "format": "explain symbolic",
+        "format=python": "symbolic",
     },
     "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},

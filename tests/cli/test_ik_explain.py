@@ -79,6 +79,7 @@ def test_solution_outside_the_limits_is_explained(run):
         (["--explain", "--solution", "0"], "--solution: expected a whole number from 1"),
         (["--solution", "1"], "--solution does nothing without --explain"),
         (["--format", "md"], "--format does nothing without --explain"),
+        (["--explain", "--format", "python"], "--format python does nothing without --symbolic"),
         (["--explain", "--words", "kuka"], "--explain stands alone: --words does nothing"),
     ],
 )

@@ -109,7 +109,7 @@ class RedundantChain(SolverBase):
         if spare == chain.n:
             return f"no joint moves what task {task.value} asks for"
         if spare > (HELD_FOR_POSE if task is Task.POSE else HELD_OTHERWISE):
-            return f"{spare} joints to spare; hold some with locked="
+            return f"{spare} joints to spare; hold some (locked=, or --locked)"
         return None
 
     def details(self) -> str:
