@@ -5,6 +5,15 @@ configurations, which says where an arm lingers, not what it reaches.
 """
 
 from dh2urdf.workspace.envelope import Envelope, envelope
+from dh2urdf.workspace.exact import (
+    ExtremeReach,
+    ReachSection,
+    Ring,
+    Volume,
+    extreme_reach,
+    reach_section,
+    reach_volume,
+)
 from dh2urdf.workspace.maps import branch_counts, counts_at, dexterity, held_values, shares_at
 from dh2urdf.workspace.nominal import mapped_robot
 from dh2urdf.workspace.planar import PlanarArm, planar_arm

@@ -127,6 +127,7 @@ KINDS = {
     "figure": takes(figures.figure, robot=PLANAR, q=[0.1, 0.2], **LOOK, ghosts=(), ghost_names=()),
     "workspace_figure": takes(figures.workspace_figure, robot=PLANAR, **SECTION, points=5),
     "Robot.figure": takes(PLANAR.figure, q=None, style="schematic", view=None),
+    "extreme_reach": takes(workspace.extreme_reach, robot=PLANAR, point="tip", within_limits=True),
     "uniform_rotations": takes(workspace.uniform_rotations, count=5),
 }
 """Each entry, and arguments that it takes: one of them at a time is replaced by anything."""

@@ -1,0 +1,192 @@
+"""The largest and the smallest reach, by Newton steps from many starts.
+
+At an extreme distance the line from the shoulder to the point meets every axis that is free to turn
+(Kumar and Waldron, "The workspaces of a mechanical manipulator", J. Mech. Des. 103, 1981): its
+derivatives with respect to those joints are zero, and joints at a limit push against it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from dh2urdf.doors import flag
+from dh2urdf.exceptions import ArgumentError
+from dh2urdf.robot import Robot
+from dh2urdf.transforms import Array
+from dh2urdf.workspace.exact.carried_point import CarriedPoint, carried_point
+
+STARTS, FOLLOWED = 20_000, 48
+"""Configurations that are looked at, and the best of them from which steps are made."""
+
+STEPS = 200
+"""Newton steps at most; a handful will do but where a joint hardly counts."""
+
+FLAT = 1e-9
+"""Curvature, relative to the largest, below which a joint does not count."""
+
+Values = Callable[[Array], Array]
+Slopes = Callable[[Array], tuple[Array, Array]]
+
+
+@dataclass(frozen=True, eq=False)
+class ExtremeReach:
+    """Extremes of a point's place.
+
+    Parameters
+    ----------
+    point : str
+        ``tip`` or ``wrist point``.
+    centre : array, shape (3,)
+        The shoulder in base [m]: the point of axis 1 nearest to axis 2.
+    distance : tuple of 2 floats
+        Smallest and largest distance from the shoulder [m].
+    radius : tuple of 2 floats
+        Smallest and largest distance from axis 1 [m].
+    height : tuple of 2 floats
+        Lowest and highest place along axis 1, from the shoulder [m].
+    q : dict of str to array, shape (2, n)
+        Configurations [rad] or [m] in which ``distance``, ``radius`` and ``height`` are so; of the
+        wrist point n is 3.
+    """
+
+    point: str
+    centre: Array
+    distance: tuple[float, float]
+    radius: tuple[float, float]
+    height: tuple[float, float]
+    q: dict[str, Array]
+
+
+def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = True) -> ExtremeReach:
+    """How far and how near an arm reaches.
+
+    Parameters
+    ----------
+    robot : Robot
+    point : {"tip", "wrist"}
+        The wrist point is that of axis 4 nearest to axis 5, where the axes of a spherical wrist
+        meet.
+    within_limits : bool
+        Keep the limits of joints that turn; those that slide always keep theirs.
+
+    Returns
+    -------
+    ExtremeReach
+        Each extreme known to 1e-9 of the arm's size, the best of all starts.
+
+    Raises
+    ------
+    ArgumentError
+        A slide without limits, joints that move together, no wrist point.
+
+    Examples
+    --------
+    >>> from dh2urdf import Robot
+    >>> from dh2urdf.workspace import extreme_reach
+    >>> found = extreme_reach(Robot.from_dh("planar_rr"), within_limits=False)
+    >>> [round(d, 9) for d in found.distance]
+    [0.3, 1.7]
+    """
+    carried = carried_point(robot, point)
+    low, high = bounds_of(carried, flag(within_limits, "within_limits"))
+    ends, q = {}, {}
+    for name, weights in (("distance", (1, 1, 1)), ("radius", (1, 1, 0)), ("height", None)):
+        found = [_extreme(carried, weights, sign, low, high) for sign in (1.0, -1.0)]
+        ends[name] = (found[0][0], found[1][0])
+        q[name] = np.stack([configuration for _, configuration in found])
+    return ExtremeReach(carried.name, carried.T_base_axis[:3, 3].copy(), **ends, q=q)
+
+
+def bounds_of(carried: CarriedPoint, within_limits: bool) -> tuple[Array, Array]:
+    """Bounds of each joint (n,), infinite where it turns without limits.
+
+    Raises
+    ------
+    ArgumentError
+        A slide without limits.
+    """
+    chain = carried.chain
+    endless = chain.prismatic & ~np.isfinite(chain.upper - chain.lower)
+    if endless.any():
+        name = chain.names[int(np.argmax(endless))]
+        raise ArgumentError(f"{name} slides without limits: the reach has no bound")
+    free = ~chain.prismatic & (not within_limits)
+    return np.where(free, -np.inf, chain.lower), np.where(free, np.inf, chain.upper)
+
+
+def _extreme(
+    carried: CarriedPoint, weights: tuple[int, ...] | None, sign: float, low: Array, high: Array
+) -> tuple[float, Array]:
+    """Smallest (sign 1) or largest (-1) value, and where.
+
+    ``weights`` of squares of the coordinates whose root is meant; None for the height.
+    """
+    W = np.zeros(3) if weights is None else np.array(weights, float)
+    up = np.array([0.0, 0.0, 1.0]) if weights is None else np.zeros(3)
+
+    def values(q: Array) -> Array:
+        p = carried.places(q)
+        return np.asarray(sign * (0.5 * (p * p) @ W + p @ up))
+
+    def slopes(q: Array) -> tuple[Array, Array]:
+        """Gradient (k, n) and Hessian (k, n, n)."""
+        J, axes = carried.jacobians(q)
+        force = carried.places(q) * W + up
+        gradient = np.einsum("kx,kxi->ki", force, J)
+        # d2p / dq_i dq_j = z_i x dp/dq_j for i <= j
+        twist = np.cross(axes[..., :, None], J[..., None, :], axis=1)
+        second = np.einsum("kx,kxij->kij", force, twist)
+        upper = np.triu(second)
+        curve = upper + np.triu(second, 1).swapaxes(1, 2)
+        hessian = np.einsum("kxi,x,kxj->kij", J, W, J) + curve
+        return sign * gradient, sign * hessian
+
+    q = _best_starts(values, low, high)
+    q, value = _descended(q, values, slopes, low, high)
+    best = int(np.argmin(value))
+    at = carried.places(q[best : best + 1])[0]
+    end = float(at[2]) if weights is None else float(np.sqrt((at * at) @ W))
+    return end, q[best]
+
+
+def _best_starts(values: Values, low: Array, high: Array) -> Array:
+    """The best of many configurations, the corners of the limits among them, (k, n)."""
+    rng = np.random.default_rng(0)
+    a, b = np.where(np.isfinite(low), low, -np.pi), np.where(np.isfinite(high), high, np.pi)
+    shares = rng.random((STARTS, len(a)))
+    shares[: STARTS // 4] = shares[: STARTS // 4].round()
+    q = a + shares * (b - a)
+    return np.asarray(q[np.argsort(values(q), kind="stable")[:FOLLOWED]])
+
+
+def _descended(
+    q: Array, values: Values, slopes: Slopes, low: Array, high: Array
+) -> tuple[Array, Array]:
+    """Newton steps downhill within bounds from configurations (k, n), and the values there.
+
+    The Hessian's eigenvalues are taken by size, so that a step leads downhill at a saddle too.
+    """
+    value = values(q)
+    for _ in range(STEPS):
+        gradient, hessian = slopes(q)
+        held = ((q <= low) & (gradient > 0.0)) | ((q >= high) & (gradient < 0.0))
+        gradient = np.where(held, 0.0, gradient)
+        free = ~held[:, :, None] & ~held[:, None, :]
+        size, ways = np.linalg.eigh(np.where(free, hessian, 0.0))
+        size = np.abs(size)
+        floor = FLAT * size.max(axis=1, keepdims=True) + 1e-300
+        along = np.einsum("kij,ki->kj", ways, gradient) / np.maximum(size, floor)
+        step = -np.einsum("kij,kj->ki", ways, along)
+        step *= np.minimum(1.0, 1.0 / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
+        gain = np.zeros(len(q))
+        for scale in (1.0, 0.25, 0.0625, 0.0078125):
+            trial = np.clip(q + scale * step, low, high)
+            lower = values(trial)
+            better = (gain == 0.0) & (lower < value)
+            gain = np.where(better, value - lower, gain)
+            q = np.where(better[:, None], trial, q)
+            value = np.where(better, lower, value)
+        if not gain.any():
+            break
+    return q, value
