@@ -48,7 +48,7 @@ Frames: TypeAlias = Annotated[Floats, "poses", "n + 1", 4, 4]
 Whole: TypeAlias = Annotated[Floats, "poses", "solutions", "n + 1"]
 
 
-def _start(link, n, S):
+def start_lanes(link, n, S):
     """All lanes at a link's pose."""
     for r in range(3):
         for c in range(4):
@@ -82,23 +82,27 @@ def _slide(n, S):
         S[BLOCK * COS + i], S[BLOCK * SIN + i] = 1.0, 0.0
 
 
+def move_lanes(slides, link, n, S):
+    """``T Z(q) link`` in all lanes, the joint's values where their cosines are to be."""
+    if slides:
+        _slide(n, S)
+    else:
+        for i in side_by_side(n):
+            S[BLOCK * SIN + i], S[BLOCK * COS + i] = sincos(S[BLOCK * COS + i])
+    _turn_and_step(link, n, S)
+
+
 def lanes_fk(links, prismatic, q, first, n, T, S):
     """``T_base_tool`` of n configurations of q (m, joints) from the first on, to T (m, 4, 4).
 
     S is room for ROWS * BLOCK numbers. Returns whether all x of the tip are finite.
     """
-    _start(links[0], n, S)
+    start_lanes(links[0], n, S)
     for j in range(q.shape[1]):
-        if prismatic[j]:
-            for i in range(n):
-                S[BLOCK * COS + i] = q[first + i, j]
-            _slide(n, S)
-        else:
-            for i in range(n):
-                S[BLOCK * COS + i] = few_turns(q[first + i, j])
-            for i in side_by_side(n):
-                S[BLOCK * SIN + i], S[BLOCK * COS + i] = sincos(S[BLOCK * COS + i])
-        _turn_and_step(links[j + 1], n, S)
+        for i in range(n):
+            value = q[first + i, j]
+            S[BLOCK * COS + i] = value if prismatic[j] else few_turns(value)
+        move_lanes(prismatic[j], links[j + 1], n, S)
     finite = True
     for i in range(n):
         k = first + i

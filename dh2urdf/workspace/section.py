@@ -131,20 +131,52 @@ def reach_ball(robot: Robot) -> tuple[Array, float]:
     axis 1 nearest to the second axis and the radius sums the steps between the joints.
     """
     chain = instance(robot, "robot", Robot).chain
-    points = chain.points
-    centre = points[0]
+    feet = _feet(robot)
+    radius = sum(map(math.dist, feet, [*feet[1:], chain.tool[:3, 3]]))
+    return feet[0], max(radius + _travel(robot), 1e-3)
+
+
+def last_axis_ball(robot: Robot) -> tuple[Array, Array, float]:
+    """A ball that holds every place of a point that is fixed to the tip, on the last axis.
+
+    Joints whose axes meet there do not move it.
+
+    Returns
+    -------
+    point, centre : array, shape (3,)
+        In the tip's frame and in base [m].
+    radius : float
+        [m].
+    """
+    chain, feet = instance(robot, "robot", Robot).chain, _feet(robot)
+    last, k = feet[-1], chain.n - 1
+    while k > 0 and np.linalg.norm(np.cross(chain.axes[k], last - chain.points[k])) < 1e-9:
+        k -= 1
+    radius = sum(map(math.dist, feet[:k], feet[1 : k + 1])) + math.dist(feet[k], last)
+    point = chain.tool[:3, :3].T @ (last - chain.tool[:3, 3])
+    return point, feet[0], radius + _travel(robot)
+
+
+def _feet(robot: Robot) -> list[Array]:
+    """The point of axis 1 nearest to the second axis, and of each axis that nearest to the last.
+
+    Each is fixed to the links on both sides of its joint, at q = 0 in base [m].
+    """
+    chain = robot.chain
+    points, axes = chain.points, chain.axes
+    feet = [points[0]]
     if chain.n > 1:
-        z = chain.axes[0]
-        centre = points[0] + z * float(z @ (points[1] - points[0]))
-    radius, last = 0.0, centre
-    far = np.maximum(np.abs(chain.lower), np.abs(chain.upper))
-    for k in range(1, chain.n):
-        z = chain.axes[k]
-        foot = points[k] + z * float(z @ (last - points[k]))
-        radius, last = radius + math.dist(foot, last), foot
-    radius += math.dist(chain.tool[:3, 3], last)
-    travel = [f if np.isfinite(f) else chain.size for f in far[chain.prismatic]]
-    return centre, max(radius + float(sum(travel)), 1e-3)
+        feet = [points[0] + axes[0] * float(axes[0] @ (points[1] - points[0]))]
+    for point, z in zip(points[1:], axes[1:], strict=True):
+        feet.append(point + z * float(z @ (feet[-1] - point)))
+    return feet
+
+
+def _travel(robot: Robot) -> float:
+    """How far sliding joints can move the tip [m]; without limits as far as the arm is long."""
+    chain = robot.chain
+    far = np.maximum(np.abs(chain.lower), np.abs(chain.upper))[chain.prismatic]
+    return float(np.where(np.isfinite(far), far, chain.size).sum())
 
 
 def caption(robot: Robot, what: str, *, within_limits: bool, tried: str = "") -> str:

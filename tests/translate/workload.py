@@ -13,6 +13,8 @@ import numpy as np
 import dh2urdf
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError, NoSolverError
+from dh2urdf.ik.arm import Task
+from dh2urdf.kernels.measures import best_measures
 
 QUARTER = 1.5707963267948966
 
@@ -100,6 +102,7 @@ def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str
     """Answers of a robot to all that it may be asked, by the name of the task."""
     q = configurations(robot, count, seed)
     T = poses_of(robot, q)
+    measured: Answer = []
     yield "kinematics", [robot.fk(q), robot.frames(q), robot.jacobian(q)]
     yield "kinematics, one by one", [f(row) for row in q[:4] for f in (robot.fk, robot.jacobian)]
     for task in ("pose", "position", "position+axis"):
@@ -107,12 +110,17 @@ def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str
         for inside in (True, False):
             name, asked = f"{task}{' inside' * inside}", {"task": task, "within_limits": inside}
             try:
-                yield name, _batch(robot.ik_batch(T[:few], threads=1, **asked))
+                found = robot.ik_batch(T[:few], threads=1, **asked)
             except NoSolverError:
                 continue
+            yield name, _batch(found)
+            best = np.empty((3, few))
+            best_measures(robot.chain.tables, Task(task).number, found.q, found.count, best)
+            measured.append(best)
             yield f"{name}, one by one", _singles(robot, q, T[: min(few, 4)], asked)
         found = robot.ik_numeric(T[3], task=task, seed=q[4], solutions=2, starts=6)
         yield f"{task}, searched", [found.q, found.residual, np.array(found.tried)]
+    yield "measures", measured
     if robot.chain.n == 7:
         yield from _redundant(robot, q, T)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from dh2urdf.exceptions import MissingExtraError
 from dh2urdf.workspace.reach.block import Values
-from dh2urdf.workspace.reach.measured import Measures
+from dh2urdf.workspace.reach.measured import MEASURES
 from dh2urdf.workspace.reach.settings import MapSettings
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def variables(settings: MapSettings) -> dict[str, tuple[str, ...]]:
     voxels: tuple[str, ...] = "x", "y", "z"
     names = dict.fromkeys(WORDS, voxels)
     if settings.each:
-        each = "solutions_each", *(f"{name}_each" for name in Measures._fields)
+        each = "solutions_each", *(f"{name}_each" for name in MEASURES)
         names |= dict.fromkeys(each, (*voxels, "orientation"))
     return names
 
