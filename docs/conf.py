@@ -21,6 +21,7 @@ extensions = [
     "sphinx_copybutton",
     "mathml",
     "run_blocks",
+    "solver_page",
 ]
 exclude_patterns = ["_build", "schemas", "**/files"]
 myst_enable_extensions = ["attrs_inline", "colon_fence", "deflist", "dollarmath"]
