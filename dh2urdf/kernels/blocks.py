@@ -247,20 +247,20 @@ def emit(form, joints, angles, within_limits, place, named, first, n, S, out):
     """Write the solutions of all clean poses, joint j to column ``place[j]``; how many are clean.
 
     The others get a count of -1. A solution that does not exist is written over by the next one.
-    ``angles`` (48 or 12, 3), for each joint of each solution, or of each wrist of the four arms
+    ``angles`` (48, 12 or 5, 3), for each joint of each solution, or of each wrist of the four arms
     that are lanes: what row its values are found from, how, and in how many arms they differ.
     ``named``: branches have the number of their solution, else -1.
     """
     (q, residual, count, branch, free), clean = out, 0
-    sets = angles.shape[0] // 6
-    arms = 8 // sets
+    width = place.shape[0]
+    sets = angles.shape[0] // width
+    arms = min(8 // sets, ARMS)
     _values(form, joints, angles, within_limits, arms, n, S)
     for k in range(sets if within_limits else 0):
         valid, inside = at(VALID + k), at(INSIDE + 6 * k)
-        for i in side_by_side(arms * n):
-            a, b, c = column(S, inside + i, BLOCK)
-            d, e, f = column(S, inside + BLOCK * 3 + i, BLOCK)
-            S[valid + i] *= a * b * c * d * e * f
+        for j in range(width):
+            for i in side_by_side(arms * n):
+                S[valid + i] *= S[inside + BLOCK * j + i]
     for arm in range(1, arms):
         for i in side_by_side(n):
             S[BLOCK * DIRTY + i] += S[BLOCK * DIRTY + n * arm + i]
@@ -270,7 +270,7 @@ def emit(form, joints, angles, within_limits, place, named, first, n, S, out):
             for arm in range(arms):
                 lane = n * arm + i
                 values = at(VALUES + 6 * k) + lane
-                for j in range(6):
+                for j in range(width):
                     q[row, found, place[j]] = S[values + BLOCK * j]
                 residual[row, found] = S[BLOCK * (RESIDUAL + k) + lane]
                 branch[row, found], free[row, found] = solution if named else -1, 0

@@ -10,9 +10,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task, keep_sharp, unite_families
+from dh2urdf.engine import Step
+from dh2urdf.ik.arm import (
+    NOMINAL,
+    IntArray,
+    Others,
+    Outputs,
+    SolverBase,
+    Task,
+    form_of,
+    keep_sharp,
+    lines_of,
+    plain_ranges,
+    unite_families,
+)
 from dh2urdf.kernels.certificate import finish_batch, search_valleys
 from dh2urdf.kernels.numbers import dual_of_pose
+from dh2urdf.kernels.parallel_axes import solve_five_parallel
 from dh2urdf.kernels.short_chains import (
     close_loop,
     loop_columns,
@@ -78,6 +92,34 @@ class ShortChain(SolverBase):
         known.counts[:] = np.maximum(known.counts, -1 - known.counts)
         out.put(rows, search_short(self.chain, poses, known, within_limits))
 
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4): in lanes where that is possible, the others by the loop."""
+        if self.lanes is None:
+            super().solve_batch(Ts, within_limits, out)
+        elif solve_five_parallel(self.lanes, Ts, within_limits, out):
+            rows = np.flatnonzero(out.counts < 0)
+            rest = Outputs.of(len(rows), self.kmax, self.chain.n)
+            super().solve_batch(Ts[rows], within_limits, rest)
+            out.put(rows, rest)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernel alone, which has no doubt."""
+        if self.lanes is None:
+            return ((self.kernel, (self.constants, Ts, within_limits, out), False),)
+        return ((solve_five_parallel, (self.lanes, Ts, within_limits, out), False),)
+
+    @cached_property
+    def lanes(self) -> tuple[Any, ...] | None:
+        """What the kernel of five joints with axes 2, 3, 4 parallel knows; None of other arms."""
+        chain = self.chain
+        if chain.n != MOST_JOINTS or chain.prismatic.any() or not plain_ranges(chain):
+            return None
+        if not lines_of(chain, NOMINAL).three_parallel(1):
+            return None
+        form = form_of(chain, NOMINAL)
+        fits = form.exact and form.rows[0, 2] != 0.0 and form.rows[3, 2] != 0.0
+        return (chain.tables, form.rows, form.ends, 0.0) if fits else None
+
     @cached_property
     def constants(self) -> tuple[Any, ...]:
         """Links, joints and the cuts of the loop, as the kernel takes them."""
@@ -114,6 +156,10 @@ class ShortChain(SolverBase):
     def details(self) -> str:
         """Name the pairs of joints and what is solved."""
         kinds = "".join("P" if slides else "R" for slides in self.chain.prismatic)
+        if self.lanes is not None:
+            kinds += (
+                ", axes 2, 3, 4 parallel: joints 1 and 5, then a planar arm; near singularities"
+            )
         a, b, x, c, d = (int(i) for i in self.plan[0, 0, :5])
         pairs = [", ".join(str(i + 1) for i in pair if i >= 0) for pair in ((a, b), (c, d))]
         text = f"{kinds}; the closed loop cut into joints {' | '.join(p for p in pairs if p)}"

@@ -107,7 +107,7 @@ def _planes(form, wrist, n, S):
         S[rows + BLOCK * 3 + i] = ca1 * (c1 * h1 - s1 * h0) + sa1 * h2
 
 
-def _elbows(form, slack, wrist, n, S):
+def elbows(form, slack, wrist, n, S):
     """Joints 2, 3 and 4 of all four arms: planar RRR (lecture notes 8.2)."""
     upper, fore, side = form[1, 0], form[2, 0], -1.0 if form[0, 2] > 0.0 else 1.0
     rows, valid, cosine, sine = (
@@ -152,7 +152,7 @@ def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outpu
         share(VALID, VALID + 2, 2 * n, S)
         for wrist in range(2):
             _planes(form, wrist, arms, S)
-            _elbows(form, slack, wrist, arms, S)
+            elbows(form, slack, wrist, arms, S)
             r = 6 * wrist
             measure(form, ends[2], arms, S, wrist, 0, r + 1, r + 2, r + 3, r + 4, r + 5)
         emit(form, joints, ANGLES, within_limits, IN_ORDER, True, first, n, S, outputs)
