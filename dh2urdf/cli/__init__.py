@@ -31,6 +31,7 @@ VERBS = {
     "path": "Find one joint motion through a file of poses.",
     "figure": "Draw an arm with its DH frames.",
     "workspace": "Draw what an arm can reach.",
+    "place": "Find where a robot should stand for a file of poses.",
     "export": "Take the arm along: a ROS 2 package.",
     "view": "Look at an arm in the browser.",
 }

@@ -9,6 +9,7 @@ from dh2urdf.figures.curve import curve_figure
 from dh2urdf.figures.joint_path import path_figure
 from dh2urdf.figures.save import save_picture
 from dh2urdf.figures.style import picture_bytes
+from dh2urdf.figures.workspaces.base_picture import placement_figure
 from dh2urdf.figures.workspaces.workspace import workspace_figure
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "figure",
     "path_figure",
     "picture_bytes",
+    "placement_figure",
     "save_picture",
     "workspace_figure",
 ]

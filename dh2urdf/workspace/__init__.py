@@ -16,6 +16,7 @@ from dh2urdf.workspace.exact import (
 )
 from dh2urdf.workspace.maps import branch_counts, counts_at, dexterity, held_values, shares_at
 from dh2urdf.workspace.nominal import mapped_robot
+from dh2urdf.workspace.placing import BaseMap, Placement, base_map, place
 from dh2urdf.workspace.planar import PlanarArm, planar_arm
 from dh2urdf.workspace.reach import cone, reach_map
 from dh2urdf.workspace.refine import Progress

@@ -178,6 +178,8 @@ USAGE = [
     (["workspace", "franka_fer", "-o", "x.png", "--rpy", "0", "0", "0"], "rpy"),
     (["workspace", "ur5", "-o", "x.png", "--envelope", "--plane", "xz"], "--plane"),
     (["figure", "planar_rr", "-o", "x.png", "--task", "position"], "--branches"),
+    (["place", "ur5", "-", "--against", "-"], "stdin holds one"),
+    (["place", "ur5", "x.csv", "--dpi", "90"], "--output"),
     (["view", "--tip", "x"], "ROBOT"),
     (["view", "-o", "x.html"], "ROBOT"),
     (["view", "ur5", "--force"], "--output"),

@@ -47,6 +47,8 @@ ANSWERS = {
     "ik csv to a file": ["ik", "denso_vs6556", "--csv", "poses.csv", "-o", "joints.csv"],
     "path": ["path", "denso_vs6556", "poses.csv"],
     "path to a file": ["path", "denso_vs6556", "poses.csv", "-o", "q.csv", "--figure", "q.svg"],
+    "place": ["place", "planar_rr", "poses.csv", "--task", "position", "--yaw", "0"],
+    "place two": ["place", "ur5", "poses.csv", "--yaw=0", "--against", "ur3", "-o", "map.svg"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
     "export a ROS 2 package": ["export", "ur5", "--ros2", "ur5_description"],

@@ -36,6 +36,8 @@ MAPPED = {"robot": PLANAR, "grid": GRID, "within_limits": True}
 LOOK = {"style": "schematic", "frames": False, "table": False, "view": (10.0, 20.0)}
 SECTION = {"plane": "xy", "at": 0.0, "rpy": [0, 0, 0], "orientations": 2, "within_limits": True}
 SECTION |= {"progress": None}
+STANDING = {"region": [[0, 1], [0, 1]], "height": 0.0, "yaw": 0.0, "mount": [0, 0, 0]}
+STANDING |= {"task": "position", "within_limits": True, "progress": None}
 ONE = {"joint_types": (JointType.REVOLUTE,), "names": ("a",)}
 ONE |= {"lower": np.zeros(1), "upper": np.ones(1)}
 
@@ -127,6 +129,7 @@ KINDS = {
     "figure": takes(figures.figure, robot=PLANAR, q=[0.1, 0.2], **LOOK, ghosts=(), ghost_names=()),
     "workspace_figure": takes(figures.workspace_figure, robot=PLANAR, **SECTION, points=5),
     "Robot.figure": takes(PLANAR.figure, q=None, style="schematic", view=None),
+    "base_map": takes(workspace.base_map, robot=PLANAR, Ts=[np.eye(4)], **STANDING),
     "extreme_reach": takes(workspace.extreme_reach, robot=PLANAR, point="tip", within_limits=True),
     "uniform_rotations": takes(workspace.uniform_rotations, count=5),
 }

@@ -1,0 +1,9 @@
+"""Where a robot should stand: bases from which all poses of a job are reached with margin.
+
+`job` says what a base is worth, `lattice` which bases are tried, `placement` finds the best one and
+says which poses stand in the way where there is none.
+"""
+
+from dh2urdf.workspace.placing.job import Job
+from dh2urdf.workspace.placing.lattice import BaseMap
+from dh2urdf.workspace.placing.placement import Placement, base_map, place
