@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
     from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
+    from dh2urdf.export.source import Exported, export_solver
     from dh2urdf.extract import Extraction, extract_dh
     from dh2urdf.ik.families import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre
     from dh2urdf.ik.problem import IKBatch, IKPath, IKSolutions
@@ -50,6 +51,7 @@ _LATE = {
         "conversions.write": "ConversionReport UrdfOptions urdf_text write_mjcf write_urdf",
         "dh": "DHConvention DHRow DHTable JointType Origin dh_factors dh_transform",
         "dh.reach": "dh_parameters",
+        "export.source": "Exported export_solver",
         "extract": "Extraction extract_dh",
         "ik.families": "planar_reach planar_rr_ik planar_rrr_ik wrist_centre",
         "ik.problem": "IKBatch IKPath IKSolutions",
@@ -68,6 +70,7 @@ __all__ = [
     "DHRow",
     "DHTable",
     "Dh2UrdfError",
+    "Exported",
     "Extraction",
     "IKBatch",
     "IKPath",
@@ -83,6 +86,7 @@ __all__ = [
     "dh_parameters",
     "dh_transform",
     "exceptions",
+    "export_solver",
     "extract_dh",
     "list_tables",
     "load_table",

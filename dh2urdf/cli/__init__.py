@@ -32,7 +32,7 @@ VERBS = {
     "figure": "Draw an arm with its DH frames.",
     "workspace": "Draw what an arm can reach.",
     "place": "Find where a robot should stand for a file of poses.",
-    "export": "Take the arm along: a ROS 2 package.",
+    "export": "Take the arm along: its solver as source code, or a ROS 2 package.",
     "view": "Look at an arm in the browser.",
 }
 """Each is the function ``<verb>_`` of ``dh2urdf.cli.verbs.<verb>``, loaded when it is called."""

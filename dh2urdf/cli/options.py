@@ -167,6 +167,7 @@ ALONE: dict[str, dict[str, str]] = {
     "check": {"fix": "run", "json": "format=sarif format=junit format=html"},
     "view": {"output": "host port open"},
     "extract": {**_FORMS, "output=-": "force"},
+    "export": {"ros2": "output language prefix held base tip", "output=-": "force"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
 """For each verb, options, and those that say nothing beside them.

@@ -1,1 +1,4 @@
-"""The arm for other programs to build with: `ros2` writes a ROS 2 package."""
+"""The arm for other programs to build with.
+
+`ros2` writes a ROS 2 package, `source` the solver as source code.
+"""

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from dataclasses import replace
 
 from dh2urdf.translate.calls import Calls
 from dh2urdf.translate.source import named
@@ -48,7 +49,7 @@ class Assignments(Calls):
         elif value or isinstance(target, ast.Name):
             value, name = value or self.value(n), _root(target)
             if name in self.source.once and value.known is not None and value.type == "int":
-                self.values[name] = sized(value.known)
+                self.values[name] = sized(value.length)
             else:
                 yield target, n, value
         else:
@@ -81,6 +82,8 @@ class Assignments(Calls):
 
     def _bind(self, s: ast.Assign, target: ast.Name, value: Value) -> None:
         name, c, t = target.id, self.name(target.id), value.type
+        if isinstance(t, Array) and name not in self.source.once:
+            t = replace(t, fixed=None)
         if name == "_" or value.text == c:
             self.values.setdefault(name, value)
             return
@@ -89,13 +92,17 @@ class Assignments(Calls):
             types = f"{told(before.type)} and {told(t)}"
             self.refuse(target, f"one name for two types, {types}", "two names, or 0.0 for 0")
         here, once = name in self.source.declared[0][s], name in self.source.once
+        if isinstance(t, Array) and t.fixed and once:
+            self.values[name] = value
+            return
         if value.maker or value.leaves() != [value]:
             changing = {self.name(x) for x in self.source.changing}
             if not (here and once) or value.words() & changing:
                 self.refuse(s, "arrays that are made, or put together, in a block", "it before")
             self.values[name] = self.stored(value, c)
             return
-        self.values[name], text = Value(t, c), self.text(value)
+        known = value.known if once and isinstance(value.known, bool | float) else None
+        self.values[name], text = Value(t, c, known=known), self.text(value)
         if here:
             const = "const " if once and not isinstance(t, Array | Record) else ""
             if isinstance(t, Tuple):

@@ -1,13 +1,14 @@
 """Calls as C: of kernels, of the mathematical library, and of what makes arrays."""
 
 import ast
+from collections.abc import Callable
 from dataclasses import replace
 from functools import reduce
 
-from dh2urdf.translate.definitions import NUMBER
+from dh2urdf.translate.definitions import NUMBER, number
 from dh2urdf.translate.expressions import Expressions
 from dh2urdf.translate.source import MAKERS, Source
-from dh2urdf.translate.types import Array, Tuple
+from dh2urdf.translate.types import Array, Tuple, is_fixed, type_of_value
 from dh2urdf.translate.values import Binds, Value
 
 OF_TWO = ("math.copysign", "math.fmod")
@@ -24,8 +25,22 @@ ALLOWED = (*OF_ONE, *OF_TWO, *EXTREMES, "len", *MAKERS)
 
 ELEMENT_OF = {"np.float64": "float", "np.int64": "int", "np.bool_": "bool"}
 
+SAME: dict[str, Callable[[float], float]] = {"abs": abs}
+"""What is also done with a number that is known."""
+
 NOTHING = Tuple(())
 """What a kernel gives that returns no value."""
+
+
+def evaluated(found: object) -> Value:
+    """What a kernel returned, as a value that is known."""
+    if isinstance(found, tuple):
+        parts = tuple(map(evaluated, found))
+        return Value(Tuple(tuple(part.type for part in parts)), parts=parts)
+    t, text = type_of_value(found), number(found)
+    assert isinstance(t, str)
+    known = found if isinstance(found, bool | int | float) else None
+    return Value(t, text, Binds.PREFIX if text[0] == "-" else Binds.ATOM, known=known)
 
 
 class Calls(Expressions):
@@ -63,12 +78,19 @@ class Calls(Expressions):
         if name == "abs" and value.type != "float":
             return self.helper("size_int", "int", value)
         t = "bool" if c.startswith("is") else "float"
-        return self.helper("fabs" if name == "abs" else c, t, *values)
+        called = self.helper("fabs" if name == "abs" else c, t, *values)
+        if name in SAME and isinstance(value.known, float):
+            called = replace(called, known=SAME[name](abs(value.known)))
+        return called
 
     def _kernel(self, n: ast.Call, callee: Source) -> Value:
         given = self.spread(n.args)
         if len(given) != len(callee.parameters):
             self.refuse(n, f"{len(given)} arguments", f"{len(callee.parameters)}")
+        if self.file.folds:
+            known = [value.meant() for _, value in given]
+            if not any(x is None for x in known):
+                return evaluated(self.file.definition(callee)(*known))
         pairs = list(zip(callee.parameters, given, strict=True))
         handed = [
             self.stored(value, self.fresh(f"array_{p}") if value.maker else p)
@@ -79,7 +101,8 @@ class Calls(Expressions):
         missing = set(instance.lengths()) - set(self.lengths())
         if missing:
             self.refuse(n, f"the length {missing.pop()} is not known here", "an argument with it")
-        texts = [self.text(leaf) for value in handed for leaf in value.leaves()]
+        leaves = [leaf for value in handed for leaf in value.leaves()]
+        texts = [self.text(leaf) for leaf in leaves if not is_fixed(leaf.type)]
         text = f"{instance.function}({', '.join([*instance.lengths(), *texts])})"
         return Value(instance.returned or NOTHING, text, Binds.POSTFIX)
 
@@ -100,7 +123,7 @@ class Calls(Expressions):
 
     def _array(self, n: ast.Call, maker: str) -> Value:
         shape = n.args[0].elts if isinstance(n.args[0], ast.Tuple) else n.args[:1]
-        lengths = tuple(self.value(x).known for x in shape)
+        lengths = tuple(self.value(x).length for x in shape)
         if None in lengths:
             self.refuse(n, "a shape that is not known before the kernel runs", "lengths, numbers")
         dtype = ast.unparse(n.args[1]) if n.args[1:] else "np.float64"

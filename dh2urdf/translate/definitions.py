@@ -5,10 +5,12 @@ import inspect
 import re
 import sys
 import textwrap
+from collections.abc import Callable
 from functools import cache
 from itertools import accumulate, pairwise
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 
@@ -20,9 +22,11 @@ WIDTH = 100
 _RESERVED = """
 auto bool case char const default do double enum extern false far float goto inline int long near
 register restrict short signed sizeof static struct switch true typedef union unsigned void volatile
+and asm bitand bitor catch class compl delete explicit export friend mutable namespace new not
+operator or private protected public template this throw try typename using virtual wchar_t xor
 """
 RESERVED = {*_RESERVED.split()}
-"""Words of C that no name is."""
+"""Words of C and of C++ that no name is."""
 
 _LIBRARY = """
 abs acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh erf erfc exp exp2 expm1 fabs
@@ -65,7 +69,9 @@ def folded(text: str, indent: int = 0) -> list[str]:
         return textwrap.wrap(text, WIDTH, initial_indent=pad, subsequent_indent=pad + " * ")
     while len(pad) + len(text) > WIDTH:
         depths = [*accumulate((x in "([{") - (x in ")]}") for x in text)]
-        places = (i for i in range(WIDTH // 3 + 1, WIDTH - len(pad) + 1) if text[i] == " ")
+        places = [i for i in range(WIDTH // 3 + 1, WIDTH - len(pad) + 1) if text[i] == " "]
+        if not places:
+            break
         _, back = min((depths[i], -i) for i in places)
         at = -back
         out.append(pad + text[:at])
@@ -76,6 +82,11 @@ def folded(text: str, indent: int = 0) -> list[str]:
 class Definitions:
     """Definitions of a file, each made when it is first asked for."""
 
+    head = HEAD
+    """What stands before all definitions."""
+    folds = False
+    """Whether calls of which all is known are made when they are translated."""
+
     def __init__(self) -> None:
         self._names: dict[str, object] = {}
         self._constants: dict[tuple[str, str], tuple[str, list[str], str]] = {}
@@ -84,7 +95,7 @@ class Definitions:
     def definitions(self, text: str) -> list[str]:
         """Helpers and constants that a text names."""
         words = set(re.findall(r"\w+", re.sub(r"(?s)/\*.*?\*/", "", text)))
-        out = ["", HEAD, "", *(HELPERS[name] for name in HELPERS if name in words)]
+        out = ["", self.head, "", *(HELPERS[name] for name in HELPERS if name in words)]
         said = ""
         for name, lines, doc in self._constants.values():
             if name in words:
@@ -103,13 +114,25 @@ class Definitions:
                 return c
         raise AssertionError(name)
 
+    def stands_for(self, source: Source, name: str) -> Any:
+        """The object that a name of a kernel's module stands for."""
+        return source.stands_for(name)
+
+    def definition(self, source: Source) -> Callable[..., Any]:
+        """A kernel as Python runs it."""
+        return source.function
+
+    def struct_of(self, t: Tuple, parts: list[str]) -> str:
+        """A struct for a tuple of numbers."""
+        return f"({self.struct(t)}){{{', '.join(parts)}}}"
+
     def constant(self, source: Source, name: str) -> str:
         """Name of a module's constant, defined when it is first used."""
-        home, doc = _home(source.module, name)
+        home, doc = home_of(source.module, name)
         key = home.__name__, name
         if key not in self._constants:
             c = self.unique(name.lstrip("_").upper(), home.__name__, key)
-            values = np.asarray(source.stands_for(name))
+            values = np.asarray(self.stands_for(source, name))
             kind = (ELEMENT if values.shape else NUMBER)[ELEMENTS[values.dtype.kind]]
             sizes = "".join(f"[{d}]" for d in values.shape)
             lines = folded(f"static const {kind} {c}{sizes} = {number(values)};")
@@ -146,11 +169,11 @@ _parsed = cache(ast.parse)
 
 
 @cache
-def _home(module: ModuleType, name: str) -> tuple[ModuleType, str]:
+def home_of(module: ModuleType, name: str) -> tuple[ModuleType, str]:
     """The module that defines a constant, and what it says of it there."""
     for s, after in pairwise([*_parsed(inspect.getsource(module)).body, ast.Pass()]):
         if isinstance(s, ast.ImportFrom) and any(a.name == name for a in s.names):
-            return _home(sys.modules[str(s.module)], name)
+            return home_of(sys.modules[str(s.module)], name)
         if isinstance(s, ast.Assign) and named(s, ast.Store)[name]:
             match after:
                 case ast.Expr(value=ast.Constant(value=str(doc))):

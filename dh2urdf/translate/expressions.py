@@ -4,9 +4,20 @@ import ast
 import math
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 from dh2urdf.translate.definitions import number
-from dh2urdf.translate.types import Array, Length, Record, Tuple, Type, told, type_of_value, wider
+from dh2urdf.translate.types import (
+    Array,
+    Fixed,
+    Length,
+    Record,
+    Tuple,
+    Type,
+    told,
+    type_of_value,
+    wider,
+)
 from dh2urdf.translate.values import SIGNS, Binds, Names, Value, known_of, sized
 
 
@@ -85,8 +96,7 @@ class Expressions(Names):
         """The text of a value that may be a tuple of numbers, written out."""
         if not isinstance(value.type, Tuple) or not value.parts:
             return value.text
-        parts = ", ".join(self.text(part) for part in value.parts)
-        return f"({self.file.struct(value.type)}){{{parts}}}"
+        return self.file.struct_of(value.type, [self.text(part) for part in value.parts])
 
     def helper(self, name: str, t: Type, *values: Value) -> Value:
         """A call of a small function of the file or of C."""
@@ -100,7 +110,9 @@ class Expressions(Names):
             self.refuse(n, "a whole number beyond 32 bits", "a float")
         if not isinstance(t, str):
             self.refuse(n, "a value that is no number", "numbers only")
-        text, known = number(value), value if isinstance(value, int) and t == "int" else None
+        whole = isinstance(value, int) and t == "int"
+        kept = whole or (self.file.folds and isinstance(value, float))
+        text, known = number(value), value if kept and isinstance(value, int | float) else None
         return Value(t, text, Binds.PREFIX if text[0] == "-" else Binds.ATOM, known=known)
 
     def _name(self, n: ast.Name) -> Value:
@@ -130,12 +142,16 @@ class Expressions(Names):
 
     def _unaryop(self, n: ast.UnaryOp) -> Value:
         if isinstance(n.op, ast.Not):
-            return Value("bool", f"!{self.test(n.operand).at(Binds.PREFIX)}", Binds.PREFIX)
+            test = self.test(n.operand)
+            no = None if test.known is None else not test.known
+            return Value("bool", f"!{test.at(Binds.PREFIX)}", Binds.PREFIX, known=no)
         value = self.number(n.operand)
         if value.type == "bool":
             self.refuse(n, "a sign before true or false", "not")
         text = SIGNS[type(n.op)][0] + value.at(Binds.POSTFIX)
         known = known_of(ast.Sub(), 0, value.known) if isinstance(n.op, ast.USub) else None
+        if isinstance(value.known, float) and isinstance(n.op, ast.USub):
+            known = -value.known  # of zero, too
         return Value(value.type, text, Binds.PREFIX, known=known)
 
     def _binop(self, n: ast.BinOp) -> Value:
@@ -157,12 +173,21 @@ class Expressions(Names):
             left, t = Value("float", f"(double){left.at(Binds.PREFIX)}", Binds.PREFIX), "float"
         text = f"{left.at(binds)} {sign} {right.at(binds + 1)}"
         known = known_of(op, left.known, right.known)
+        if self.file.folds and t == "int" and isinstance(known, int) and known >= 0:
+            return sized(known)
         return Value("float" if t == "float" else "int", text, binds, known=known)
 
     def _boolop(self, n: ast.BoolOp) -> Value:
         sign, binds = SIGNS[type(n.op)]
         first, *rest = n.values
         tests = [self.test(first), *(self.test(x, alone=True) for x in rest)]
+        ends = isinstance(n.op, ast.Or)  # what decides the whole if one test is so
+        if any(t.known is not None and bool(t.known) is ends for t in tests):
+            return Value("bool", str(ends).lower(), known=ends)
+        tests = [t for t in tests if t.known is None] or [Value("bool", str(not ends).lower())]
+        if len(tests) == 1:
+            known = None if tests[0].words() - {"true", "false"} else not ends
+            return replace(tests[0], type="bool", known=known)
         return Value("bool", f" {sign} ".join(t.at(Binds.OR + 2) for t in tests), binds)
 
     def _compare(self, n: ast.Compare) -> Value:
@@ -199,7 +224,7 @@ class Expressions(Names):
 
     def _subscript(self, n: ast.Subscript) -> Value:
         if isinstance(n.value, ast.Attribute) and n.value.attr == "shape":
-            return self.length(n.value.value, self.value(n.slice).known)
+            return self.length(n.value.value, self.value(n.slice).length)
         base = self.base(n.value)
         match base.type:
             case Tuple():
@@ -223,28 +248,33 @@ class Expressions(Names):
         if len(indices) > len(t.shape):
             self.refuse(n, f"too many indices into {told(t)}", "fewer")
         text, left = base.at(Binds.POSTFIX), t.at(len(indices))
+        values: Any = t.fixed.values if t.fixed else None
         for k, (index, length) in enumerate(zip(indices, t.shape, strict=False)):
             if isinstance(index, ast.Slice):
                 if k < len(indices) - 1:
                     self.refuse(n, "a slice before the last index", "a loop")
-                return self._view(n, text, replace(t, shape=t.shape[k:]), index)
+                return self._view(n, text, replace(t, shape=t.shape[k:], fixed=None), index)
             value = self.integer(index, "an index")
             known, end = value.known, length if isinstance(length, int) else math.inf
             if isinstance(known, int) and not 0 <= known < end:
                 self.refuse(n, "an index outside the array", "one from 0 to its length less 1")
+            values = values[known] if values is not None and isinstance(known, int) else None
             text = f"{text}[{value.text}]"
         if isinstance(left, Record):
             return Value(left, f"&{text}", Binds.PREFIX)
-        return Value(left, text, Binds.POSTFIX)
+        if values is not None and isinstance(left, Array):
+            left = replace(left, fixed=Fixed(text, values))
+        known = None if values is None or isinstance(left, Array) else values.item()
+        return Value(left, text, Binds.POSTFIX, known=known)
 
     def _view(self, n: ast.Subscript, text: str, t: Array, s: ast.Slice) -> Value:
         """A view from ``lower`` to ``upper``, which must not lie before it nor beyond the end."""
         if s.step is not None:
             self.refuse(n, "a slice with a step", "a loop")
         start = self.integer(s.lower, "a slice") if s.lower else sized(0)
-        low, high = start.known, t.shape[0]
+        low, high = start.length, t.shape[0]
         if s.upper:
-            high = self.integer(s.upper, "a slice").known
+            high = self.integer(s.upper, "a slice").length
         elif isinstance(n.value, ast.Name):
             self.asked.add(n.value.id)
         if any(isinstance(x, int) and x < 0 for x in (low, high)):
@@ -254,7 +284,7 @@ class Expressions(Names):
             length = high - low
         match s.upper:
             case ast.BinOp(op=ast.Add()) if s.lower and ast.dump(s.upper.left) == ast.dump(s.lower):
-                length = self.value(s.upper.right).known
+                length = self.value(s.upper.right).length
         if s.lower is None:
             return Value(t.first(length), text, Binds.POSTFIX)
         return Value(t.first(length), f"{text} + {start.at(Binds.SUM)}", Binds.SUM)

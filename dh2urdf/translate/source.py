@@ -26,6 +26,7 @@ class Source:
     """One kernel as it is written."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
+        self.function = function
         self.name, self.module = function.__name__, sys.modules[function.__module__]
         self.file = inspect.getsourcefile(function)
         lines, self.line = inspect.getsourcelines(function)

@@ -5,7 +5,8 @@ import ast
 from dh2urdf.translate.assignments import Assignments
 from dh2urdf.translate.definitions import folded
 from dh2urdf.translate.source import named
-from dh2urdf.translate.types import Array, Record, Tuple, Type, told
+from dh2urdf.translate.types import Array, Record, Tuple, Type, is_fixed, told
+from dh2urdf.translate.unused import without_unused
 from dh2urdf.translate.values import Binds, Value
 
 EMPTY = {"float": "0.0", "int": "0", "bool": "false"}
@@ -36,10 +37,14 @@ class Body(Assignments):
                 t = self.values[name].type
                 empty = "{0}" if isinstance(t, Tuple) else EMPTY.get(str(t), "NULL")
                 self.lines[k] = 1, f"{self.file.declaration(t, self.name(name))} = {empty};"
+        if self.file.folds:
+            self.lines = without_unused(self.lines)
         lines = (folded(text, 4 * depth) for depth, text in self.lines if text)
         self.body = "\n".join("\n".join(x) for x in lines)
         kinds = dict(zip(self.source.parameters, self.arguments, strict=True))
         for p, t in kinds.items():
+            if is_fixed(t):
+                continue
             if p not in self.asked and isinstance(t, Array) and isinstance(t.element, str):
                 kinds[p] = t.first()
         self.arguments = tuple(kinds.values())
@@ -50,6 +55,8 @@ class Body(Assignments):
         if not isinstance(t, Tuple) or t.is_struct:
             if isinstance(pattern, ast.Name) and pattern.id in self.source.once:
                 name = pattern.id
+            if isinstance(t, Array) and t.fixed:
+                return Value(t, t.fixed.text)
             self.parameters.append((self.name(name), t))
             return Value(t, self.name(name))
         inner = getattr(pattern, "elts", [])

@@ -34,22 +34,31 @@ class Record:
 
 
 @dataclass(frozen=True)
+class Fixed:
+    """An array whose values are known when kernels are translated: a name of the file has it."""
+
+    text: str
+    values: np.ndarray[Any, Any] = field(compare=False)
+
+
+@dataclass(frozen=True)
 class Array:
     """Numbers, or records, one after the other in memory."""
 
     element: str | Record
     shape: tuple[Length, ...]
     constant: bool = False
+    fixed: Fixed | None = None
 
     def at(self, indices: int) -> "Array | Record | str":
         """What some leading indices leave."""
         if indices == len(self.shape):
             return self.element
-        return replace(self, shape=self.shape[indices:])
+        return replace(self, shape=self.shape[indices:], fixed=None)
 
     def first(self, length: Length = None) -> "Array":
         """The same with another first length, or without it."""
-        return replace(self, shape=(length, *self.shape[1:]))
+        return replace(self, shape=(length, *self.shape[1:]), fixed=None)
 
 
 @dataclass(frozen=True)
@@ -75,6 +84,11 @@ class Tuple:
 
 
 Type: TypeAlias = str | Array | Record | Tuple
+
+
+def is_fixed(t: Type) -> bool:
+    """Whether a name of the file stands for it, which no kernel needs to be handed."""
+    return isinstance(t, Array) and t.fixed is not None
 
 
 def wider(a: Type, b: Type) -> Type | None:

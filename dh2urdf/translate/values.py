@@ -1,10 +1,11 @@
 """What an expression is in C, and the names and lengths that it rests on."""
 
 import ast
+import operator
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NoReturn, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 from dh2urdf.translate.definitions import RESERVED, Definitions
 from dh2urdf.translate.source import Source, named
@@ -57,6 +58,9 @@ ADVICE = {kind: advice for kinds, advice in _ADVICE.items() for kind in kinds.sp
 """What to write instead of syntax outside the subset."""
 
 
+Known: TypeAlias = Length | float
+
+
 @dataclass(frozen=True)
 class Value:
     """An expression in C."""
@@ -68,8 +72,8 @@ class Value:
     """Of a tuple that is written out."""
     maker: str = ""
     """What makes an array that has no name yet."""
-    known: Length = None
-    """Of a whole number that is known before the kernel runs, or in terms of its lengths."""
+    known: Known = None
+    """Of a number that is known before the kernel runs, or of a length in terms of lengths."""
 
     def at(self, level: int) -> str:
         """The text, in brackets where it binds less."""
@@ -94,6 +98,20 @@ class Value:
             return [leaf for part in self.parts for leaf in part.leaves()]
         return [self]
 
+    @property
+    def length(self) -> Length:
+        """What is known, if it can be a length."""
+        return None if isinstance(self.known, float) else self.known
+
+    def meant(self) -> Any:
+        """What Python has for a value that is known; None for another."""
+        if isinstance(self.type, Tuple):
+            items = tuple(part.meant() for part in self.parts)
+            return None if not items or any(item is None for item in items) else items
+        if isinstance(self.type, Array):
+            return self.type.fixed and self.type.fixed.values
+        return None if isinstance(self.known, str) else self.known
+
 
 def sized(length: Length) -> Value:
     """A length as a value."""
@@ -103,12 +121,27 @@ def sized(length: Length) -> Value:
     )
 
 
-def known_of(op: ast.AST, a: Length, b: Length) -> Length:
-    """What is known of two lengths with an operator between them."""
+def known_of(op: ast.AST, a: Known, b: Known) -> Known:
+    """What is known of two numbers, or lengths, with an operator between them."""
     sign, _ = SIGNS[type(op)]
-    if isinstance(a, int) and isinstance(b, int):
-        return {"+": a + b, "-": a - b, "*": a * b, "==": a == b}.get(sign)
-    return f"({a} {sign} {b})" if sign in "+-*" and a and b else None
+    if isinstance(a, int | float) and isinstance(b, int | float):
+        return _OPERATORS[sign](a, b) if sign in _OPERATORS and (sign != "/" or b) else None
+    both = isinstance(a, int | str) and isinstance(b, int | str)
+    return f"({a} {sign} {b})" if both and sign in "+-*" and a and b else None
+
+
+_OPERATORS: dict[str, Callable[[Any, Any], Known]] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
 
 
 Translate: TypeAlias = Callable[[Source, tuple[Type, ...]], "Names"]
@@ -184,7 +217,7 @@ class Names:
             return self.values[n.id]
         if n.id in self.source.stored:
             self.refuse(n, "a name before its value", "the assignment above it")
-        constant = self.source.stands_for(n.id)
+        constant = self.file.stands_for(self.source, n.id)
         t = type_of_value(constant)
         if t is None:
             self.refuse(n, "a name that stands for no number or array", "an argument")

@@ -29,6 +29,8 @@ ANSWERS = {
     "extract": ["extract", "arm.urdf", "--no-embedded", "--snap", "1e-3"],
     "extract to stdout": ["extract", "arm.urdf", "-o", "-"],
     "extract a format": ["extract", "arm.urdf", "--format", "csv"],
+    "export": ["export", "planar_rr", "-o", "rr.h"],
+    "export to stdout": ["export", "planar_rr", "-o", "-"],
     "check": ["check", "arm.urdf", "bad.urdf", "nowhere.urdf", "--no-run"],
     "check asked": ["check", "arm.urdf"],
     "check --fix": ["check", "bad.urdf", "--fix", "mended.urdf"],

@@ -1,32 +1,96 @@
 """``dh2urdf export``: the arm for other programs to build with."""
 
 from pathlib import Path
+from typing import Annotated, Literal
 
-from dh2urdf.cli.options import Json
-from dh2urdf.cli.output import emit, emit_json, read_any
+from cyclopts import Parameter
+
+from dh2urdf.cli.options import Json, Link
+from dh2urdf.cli.output import emit, emit_file, emit_json, read_any, robot_of
 from dh2urdf.cli.progress import note
 from dh2urdf.cli.reading import DEFAULT, Reading
+from dh2urdf.exceptions import ArgumentError
 
 
 def export_(
-    arm: str, /, *, ros2: Path, reading: Reading = DEFAULT, force: bool = False, json: Json = False
+    arm: str,
+    /,
+    *,
+    ros2: Path | None = None,
+    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    language: Literal["c", "c++", "rust"] | None = None,
+    prefix: str | None = None,
+    held: str | None = None,
+    base: Link = None,
+    tip: Link = None,
+    reading: Reading = DEFAULT,
+    force: bool = False,
+    json: Json = False,
 ) -> None:
-    """Write a ROS 2 description package of an arm.
+    """Write a ROS 2 description package of an arm, or its solver as source code.
 
-    The URDF is loaded back by Pinocchio and compared with the DH product; beside it are an SRDF
-    with the planning group and the pairs of links that need no collision check, MoveIt's
-    parameters, and a launch file for RViz.
+    Of the package, the URDF is loaded back by Pinocchio and compared with the DH product; beside it
+    are an SRDF with the planning group and the pairs of links that need no collision check,
+    MoveIt's parameters, and a launch file for RViz.
+
+    The source code is one file that needs nothing else: forward kinematics, Jacobian and all
+    solutions of the inverse kinematics, by the kernels of this package with the numbers of the arm
+    in them. Its head says what its functions do.
 
     Parameters
     ----------
     arm
-        A table file, the name of a table that ships, a robot description (URDF, xacro, MJCF) for
-        the table that `extract` finds, or - for stdin.
+        A table file, the name of a table that ships, a robot description (URDF, xacro, MJCF; for a
+        package the table that `extract` finds), or - for stdin.
     ros2
         Folder of the package, which is named after it.
+    output
+        The source file: .h for C, .hpp for C++; - for stdout. The C is C99 that C++ takes, too.
+    language
+        Of the source where the suffix does not tell.
+    prefix
+        With which all names of the source begin. Default: the name of the table, or the file's.
+    held
+        Name or number (0 is the first) of a joint whose value is given with every pose; an arm of
+        seven joints needs one.
     force
-        Write the package's files into a folder that holds something; what else is there stays.
+        Write the package's files into a folder that holds something, what else is there stays;
+        replace a source file that dh2urdf did not write.
     """
+    if ros2 is not None:
+        _package(arm, ros2, reading, force=force, json=json)
+        return
+    if output is None:
+        raise ArgumentError(
+            "export: -o FILE writes the solver's source code, --ros2 DIR a ROS 2 package"
+        )
+    from dh2urdf.export.source import export_solver, exported
+
+    robot = robot_of(arm, base, tip, reading)
+    joint: int | str | None = held
+    if held is not None and held not in robot.joint_names and held.isascii() and held.isdigit():
+        joint = int(held)
+    to_stdout = str(output) == "-"
+    if to_stdout:
+        made = exported(robot, language=language or "c", prefix=prefix, held=joint)
+    else:
+        made = export_solver(
+            robot, output, language=language, prefix=prefix, held=joint, force=force
+        )
+    if json:
+        keys = ("language", "prefix", "solver", "solutions", "stack")
+        told = {key: getattr(made, key) for key in keys}
+        text = {"text": made.text} if to_stdout else {}
+        emit_json("export", source=arm, path=output, **told, **text)
+    elif to_stdout:
+        emit_file(made.text)
+        note(str(made))
+    else:
+        emit(f"{output}: {made}")
+
+
+def _package(arm: str, ros2: Path, reading: Reading, *, force: bool, json: bool) -> None:
+    """Write a ROS 2 package."""
     from dh2urdf.export.ros2 import write_ros2_package
 
     read = read_any(arm, reading)

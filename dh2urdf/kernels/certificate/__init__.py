@@ -8,8 +8,10 @@ hardly moves the tool, in the singular vectors of `directions`.
 """
 
 from dh2urdf.kernels.certificate.arrange import (
+    arrange_near,
     arrange_plain,
     distance2,
+    keep_inside,
     measure_all,
     measure_and_sort,
     turn_one,

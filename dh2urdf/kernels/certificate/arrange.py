@@ -118,6 +118,54 @@ def _sort_in(chain, task, T, seed, found, distance, k, damped):
         k -= 1
 
 
+def keep_inside(joints: Joints, slack: float, outputs: Outputs):
+    """Of one pose, leave out the solutions with free joints that are outside the limits; how many.
+
+    Other members of their families may be inside.
+    """
+    q, residual, counts, branch, free = outputs
+    kept = 0
+    for k in range(counts[0]):
+        inside = True
+        for i in range(q.shape[2]):
+            value = q[0, k, i]
+            inside = inside and joints[i, 1] - slack <= value and value <= joints[i, 2] + slack
+        if inside or free[0, k] == 0:
+            q[0, kept] = q[0, k]
+            residual[0, kept], branch[0, kept] = residual[0, k], branch[0, k]
+            free[0, kept] = free[0, k]
+            kept += 1
+    dropped = counts[0] - kept
+    counts[0] = kept
+    return dropped
+
+
+def arrange_near(
+    chain: Chain,
+    slack: float,
+    task: int,
+    Ts: Poses,
+    seed: Configuration,
+    outputs: Outputs,
+    distance: Sizes,
+):
+    """Turn and sort the solutions of one pose, Ts (1, 4, 4), towards a seed (n,), in place.
+
+    Returns whether all have the residual of a solution. ``slack`` is that of :func:`turn_to`.
+    """
+    q, residual, counts, branch, free = outputs
+    damped = make_damped(len(seed))
+    well = True
+    for k in range(counts[0]):
+        turn_one(chain[1], slack, seed, q[0, k])
+        _sort_in(
+            chain, task, Ts[0], seed, (q[0], residual[0], branch[0], free[0]), distance, k, damped
+        )
+    for k in range(counts[0]):
+        well = well and residual[0, k] <= ACCEPT
+    return well
+
+
 @entry()
 def arrange_plain(
     chain: Chain,
@@ -134,19 +182,10 @@ def arrange_plain(
     Returns whether all is well: the seed is no larger than ``largest`` (n,), no solution has free
     joints, and all have the residual of a solution. ``slack`` is that of :func:`turn_to`.
     """
-    q, residual, counts, branch, free = outputs
+    _, _, counts, _, free = outputs
     for i in range(len(seed)):
         if not abs(seed[i]) <= largest[i]:
             return False
     if any_family(counts, free):
         return False
-    damped = make_damped(len(seed))
-    well = True
-    for k in range(counts[0]):
-        turn_one(chain[1], slack, seed, q[0, k])
-        _sort_in(
-            chain, task, Ts[0], seed, (q[0], residual[0], branch[0], free[0]), distance, k, damped
-        )
-    for k in range(counts[0]):
-        well = well and residual[0, k] <= ACCEPT
-    return well
+    return arrange_near(chain, slack, task, Ts, seed, outputs, distance)

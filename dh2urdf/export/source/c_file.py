@@ -1,0 +1,248 @@
+"""The arm's C file: its functions, which call the kernels, and its head."""
+
+from typing import Any
+
+import numpy as np
+
+from dh2urdf.export.source.c_kernels import ArmFile
+from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
+from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
+from dh2urdf.export.source.stack import stack_bytes
+from dh2urdf.ik.arm import LIMIT_SLACK
+from dh2urdf.kernels.certificate import DEEP, arrange_near, keep_inside
+from dh2urdf.kernels.chain import chain_fk, chain_jacobian
+from dh2urdf.kernels.newton import POSE
+from dh2urdf.kernels.numbers import is_pose
+from dh2urdf.robot import Robot
+from dh2urdf.translate.definitions import number
+from dh2urdf.translate.statements import Body
+from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
+
+ABOUT = """\
+{p}.h: the kinematics of one arm, with all of its inverse kinematics, in C99 that C++ takes, too.
+{provenance}
+
+Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by row, the last row
+0 0 0 1. A configuration q is {n} numbers:
+
+{joints}
+
+    {p}_fk(q, T)           the pose of a configuration
+    {p}_jacobian(q, J)     6 x {n} row by row: velocity of the tip, then angular velocity, in the
+                           axes of the base
+    {p}_ik(T, {held}within_limits, &found)
+                           all configurations that reach a pose; their number, or -1 if T is no
+                           pose (not finite, or no rotation within 1e-6)
+    {p}_ik_near(T, {held}seed, within_limits, &found)
+                           the same, in the full turns nearest to a seed, nearest first
+{held_line}{work_line}
+found holds count solutions in its first rows, each with its residual, the larger of its errors of
+position [m] and rotation [rad] on the exact chain; its branch{branch_line}; and
+free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
+singular. complete is false where there may be more solutions: the pose is next to one at which
+solutions meet, or a member of a singular family may be inside the limits where the one that was
+found is not; Robot.ik of dh2urdf searches there.
+
+No function allocates or keeps anything between calls, and each may run in many threads at once.
+{P}_STACK bytes of the stack are enough for any of them. With contraction off (gcc and clang:
+-ffp-contract=off) results are those of dh2urdf to the last bit."""
+
+SOLUTIONS = """\
+#define {P}_JOINTS {n}
+#define {P}_SOLUTIONS {kmax}
+#define {P}_STACK {stack}
+
+/* Limits of the joints [rad] or [m]. */
+static const double {P}_LOWER[{P}_JOINTS] = {lower};
+static const double {P}_UPPER[{P}_JOINTS] = {upper};
+
+typedef struct {{
+    int64_t count;
+    double q[{P}_SOLUTIONS][{P}_JOINTS];
+    double residual[{P}_SOLUTIONS];
+    int64_t branch[{P}_SOLUTIONS];
+    int64_t free_joints[{P}_SOLUTIONS];
+    bool complete;
+}} {p}_solutions;
+"""
+
+FUNCTIONS = """\
+/* The pose T_{base}_{tip}, 16 numbers row by row, of a configuration. */
+static inline void {p}_fk(const double q[{n}], double T[16])
+{{
+    {fk};
+}}
+
+/* The geometric Jacobian, 6 x {n} numbers row by row: linear velocity of the tip, then angular. */
+static inline void {p}_jacobian(const double q[{n}], double J[{n6}])
+{{
+    {jacobian};
+}}
+
+/* All configurations that reach a pose; their number, or -1 if T is no pose. */
+static inline int {p}_ik({parameters}, {p}_solutions *found)
+{{
+    double pose[1][4][4];
+{scratch}    memcpy(pose, T, sizeof pose);
+    found->count = 0;
+    found->complete = true;
+    if (!{is_pose}) {{
+        return -1;
+    }}
+{steps}
+    if (found->count < 0) {{
+        found->count = (-1 - found->count) % {deep};
+        found->complete = false;
+    }}
+    if (within_limits && {keep} > 0) {{
+        found->complete = false;
+    }}
+    return (int)found->count;
+}}
+
+/* The same, turned towards a seed of {n} numbers and sorted by distance from it. */
+static inline int {p}_ik_near({near}, {p}_solutions *found)
+{{
+    double pose[1][4][4], distance[{kmax}];
+    const int count = {p}_ik({given}, found);
+    if (count > 0) {{
+        memcpy(pose, T, sizeof pose);
+        {arrange};
+    }}
+    return count;
+}}
+"""
+
+CASTS = {"T": "(double (*)[4])T", "held": "&held", "work": "work"}
+CASTS |= {f"found->{x}": f"&found->{x}" for x in ("q", "residual", "count", "branch")}
+CASTS |= {"found->free_joints": "&found->free_joints"}
+"""How the functions of the file hand on what they have."""
+
+
+class CProgram:
+    """The C of a program under a prefix."""
+
+    def __init__(self, robot: Robot, program: Program, prefix: str) -> None:
+        self.robot, self.program, self.prefix = robot, program, prefix
+        self.file, self.n = ArmFile(prefix), program.chain.n
+
+    def text(self) -> str:
+        """The whole file."""
+        p, functions = self.prefix, self._functions()
+        kernels = self.file.text()
+        body = f"{kernels}\n\n{functions}"
+        self.stack = -(-stack_bytes(self._solutions(0) + body, f"{p}_ik_near") // 256) * 256
+        guard = f"{p.upper()}_H"
+        includes = [f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")]
+        parts = [_comment(self._about()), _comment(LICENCE), f"#ifndef {guard}\n#define {guard}\n"]
+        parts += ["\n".join([*includes, ""]), self._solutions(self.stack), body]
+        return "\n".join([*parts, f"#endif /* {guard} */\n"])
+
+    def _about(self) -> str:
+        """What the head says."""
+        p, program = self.prefix, self.program
+        bits = branches(program)
+        held = program.held
+        line = ""
+        if held:
+            name = one_line(self.robot.joint_names[held[0]])
+            line = f"\nheld is the value of {name}, q[{held[0]}], which is the caller's choice.\n"
+        return ABOUT.format(
+            p=p,
+            P=p.upper(),
+            n=self.n,
+            provenance="\n".join(provenance(self.robot, program)),
+            joints="\n".join(f"    {row}" for row in joints(self.robot)),
+            base=one_line(self.robot.base),
+            tip=one_line(self.robot.tip),
+            held="held, " if held else "",
+            held_line=line,
+            work_line="",
+            branch_line=f" ({'; '.join(bits)}), or -1" if bits else ", -1 as they have none",
+        )
+
+    def _solutions(self, stack: int) -> str:
+        """Sizes, limits and the struct of the solutions."""
+        return SOLUTIONS.format(
+            p=self.prefix,
+            P=self.prefix.upper(),
+            n=self.n,
+            kmax=self.program.solver.kmax,
+            stack=stack,
+            lower=number(self.robot.lower),
+            upper=number(self.robot.upper),
+        )
+
+    def _functions(self) -> str:
+        """The arm's functions, with the kernels that they call added to the file."""
+        program, p, n, out = self.program, self.prefix, self.n, self.program.out
+        tables = program.chain.tables
+        slides, q = tables[1][:, 0] != 0.0, Named("q", np.empty(n))
+        T, J = Named("T", np.empty((4, 4))), Named("J", np.empty((6, n)))
+        pose, seed = Named("pose", np.empty((1, 4, 4))), Named("seed", np.empty(n))
+        distance = Named("distance", np.empty(program.solver.kmax))
+        near = tables, LIMIT_SLACK, POSE, pose, seed, out, distance
+        parameters = ["const double T[16]", *["double held"] * len(program.held)]
+        given = ["T", *["held"] * len(program.held), "within_limits"]
+        limits = "bool within_limits"
+        return FUNCTIONS.format(
+            p=p,
+            n=n,
+            n6=6 * n,
+            kmax=program.solver.kmax,
+            base=one_line(self.robot.base),
+            tip=one_line(self.robot.tip),
+            deep=DEEP,
+            fk=self._call(Call(chain_fk, (tables[0], slides, q, T))),
+            jacobian=self._call(Call(chain_jacobian, (tables[0], slides, q, J))),
+            parameters=", ".join([*parameters, limits]),
+            near=", ".join([*parameters, f"const double seed[{n}]", limits]),
+            given=", ".join(given),
+            scratch="".join(f"    {self._declared(x)};\n" for x in program.scratch),
+            is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
+            steps="\n".join(f"    {self._call(call)};" for call in program.calls),
+            keep=self._call(Call(keep_inside, (tables[1], LIMIT_SLACK, out))),
+            arrange=self._call(Call(arrange_near, near)),
+        )
+
+    def _declared(self, array: Named) -> str:
+        """An array as a variable."""
+        return self.file.declaration(self._type(array.name, array), array.name, storage=True)
+
+    def _call(self, call: Call) -> str:
+        """A call of a kernel in C."""
+        kernel = definition(call.kernel)
+        names = names_of(kernel, call.arguments)
+        types = [self._type(name, a) for name, a in zip(names, call.arguments, strict=True)]
+        entry = self.file.add_entry(kernel, types)
+        return f"{entry.function}({', '.join(self._texts(entry, call.arguments))})"
+
+    def _texts(self, entry: Body, argument: Any) -> list[str]:
+        """What an argument is in a call: what is fixed is not handed on."""
+        if isinstance(argument, tuple):
+            return [text for a in argument for text in self._texts(entry, a)]
+        if isinstance(argument, np.ndarray):
+            return []
+        if isinstance(argument, Named):
+            casts = CASTS | {"J": f"(double (*)[{self.n}])J"}
+            return [casts.get(argument.name, argument.name)]
+        return [number(argument)]
+
+    def _type(self, name: Any, argument: Any) -> Type:
+        """The type of an argument as kernels have it."""
+        if isinstance(argument, tuple):
+            return Tuple(tuple(self._type(x, a) for x, a in zip(name, argument, strict=True)))
+        if isinstance(argument, np.ndarray):
+            return self.file.fixed(name, argument)
+        if isinstance(argument, Named) and isinstance(argument.like, np.ndarray):
+            dtype, shape = argument.like.dtype, argument.like.shape
+            if dtype.names:
+                return Array(Record("workspace", dtype), shape)
+            return Array(ELEMENTS[dtype.kind], shape, argument.name in ("q", "seed"))
+        return type(argument.like if isinstance(argument, Named) else argument).__name__
+
+
+def _comment(text: str) -> str:
+    """A text as a comment."""
+    first, *rest = text.strip().split("\n")
+    return "\n".join([f"/* {first}", *(f" * {line}".rstrip() for line in rest), " */", ""])

@@ -1,0 +1,209 @@
+"""A C file answers what the robot does, whatever compiles it."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from dh2urdf import Robot, export_solver
+from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
+from dh2urdf.export.source import exported
+from dh2urdf.export.source.head import LICENCE
+from dh2urdf.robots import list_tables
+from tests.export.source.compiled import COMPILERS, Arm, configurations
+
+FAMILIES = "puma560 ur5 planar_rr omron_cobra600 rpr_new_frame xarm5 stanford"
+"""An arm of each kind of kernels."""
+
+EVERY_DAY = 300
+
+SAME = ("-O2", "-ffp-contract=off")
+
+
+def assert_same(found, batch, limits):
+    """The solutions of a file are those of the robot, bit for bit, where it says they are all."""
+    for i, one in enumerate(found):
+        count, whole = int(one["count"]), batch.solutions(i)
+        singular = limits and one["free"][:count].any()
+        if one["complete"] and not singular:
+            assert count == len(whole), i
+            assert np.array_equal(one["q"][:count], whole.q), i
+            assert np.array_equal(one["residual"][:count], whole.residual), i
+            branch, free = whole.codes
+            assert np.array_equal(one["branch"][:count], branch), i
+            assert np.array_equal(one["free"][:count], free), i
+        assert (one["residual"][:count] <= 1e-9).all(), i
+
+
+def compare(arm, m, seed):
+    """Compare a compiled arm with its robot at configurations of a seed."""
+    robot = arm.robot
+    q = configurations(robot, np.random.default_rng(seed), m)
+    Ts, found = robot.fk(q), arm.run(q)
+    assert np.array_equal(found["T"][:50], [robot.fk(x) for x in q[:50]])
+    assert np.array_equal(found["J"][:50], [robot.jacobian(x) for x in q[:50]])
+    for limits in (True, False):
+        assert_same(
+            found["inside" if limits else "any"], robot.ik_batch(Ts, within_limits=limits), limits
+        )
+    return q, found
+
+
+@pytest.mark.parametrize("name", FAMILIES.split())
+def test_the_solutions_are_those_of_the_robot(name, tmp_path):
+    """Without contraction every number is that of ``Robot.ik``, edge poses included."""
+    arm = Arm(Robot.from_dh(name), tmp_path)
+    arm.compile(*SAME)
+    compare(arm, EVERY_DAY, 1)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", list_tables())
+def test_all_arms_that_ship_answer_as_the_robot_does(name, tmp_path):
+    """The same on 10,000 poses of every arm that ships."""
+    robot = Robot.from_dh(name)
+    if robot.solver.name.endswith("swept"):
+        pytest.skip("seven joints, of which one has to be held")
+    arm = Arm(robot, tmp_path)
+    arm.compile(*SAME)
+    compare(arm, 10_000, 2)
+
+
+@pytest.mark.parametrize("compiler", COMPILERS)
+@pytest.mark.parametrize("name", ["puma560", "rpr_new_frame"])
+def test_compilers_have_nothing_to_say(name, compiler, tmp_path):
+    """C99 and C++17 of gcc and clang find nothing with all warnings."""
+    if shutil.which(COMPILERS[compiler][0]) is None:
+        pytest.skip(f"no {compiler}; .ci/run installs it")
+    arm = Arm(Robot.from_dh(name), tmp_path)
+    arm.compile("-O2", compiler=compiler)
+
+
+def sanitize(name, folder, m):
+    """Run an arm at m configurations, watched by the sanitizers."""
+    arm = Arm(Robot.from_dh(name), folder)
+    arm.compile("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    arm.run(configurations(arm.robot, np.random.default_rng(3), m))
+
+
+def test_sanitizers_find_nothing(tmp_path):
+    """No address out of bounds and nothing undefined, at singular poses either."""
+    sanitize("puma560", tmp_path, EVERY_DAY)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", FAMILIES.split())
+def test_sanitizers_find_nothing_on_ten_thousand_poses(name, tmp_path):
+    """The same on 10,000 poses of an arm of each family."""
+    sanitize(name, tmp_path, 10_000)
+
+
+def test_contraction_changes_the_last_digits_only(tmp_path):
+    """Compiled for a processor that fuses products with sums, regular solutions move by 1e-12."""
+    robot = Robot.from_dh("puma560")
+    arm = Arm(robot, tmp_path)
+    arm.compile("-O3", "-march=native", "-ffp-contract=fast")
+    q = np.random.default_rng(4).uniform(-1.2, -0.2, (EVERY_DAY, 6))
+    found, batch = arm.run(q)["any"], robot.ik_batch(robot.fk(q), within_limits=False)
+    assert np.array_equal(found["count"], batch.count)
+    assert np.nanmax(np.abs(found["q"] - batch.q)[~np.isnan(batch.q)]) <= 1e-12
+
+
+def test_a_seed_sorts_and_turns_as_the_robot_does(tmp_path):
+    """``ik_near`` gives what a seed gives to ``Robot.ik``, the seed first."""
+    robot = Robot.from_dh("ur5")
+    arm = Arm(robot, tmp_path)
+    arm.compile(*SAME)
+    q = np.random.default_rng(5).uniform(-6.0, 6.0, (100, 6))
+    for one, x, T in zip(arm.run(q)["near"], q, robot.fk(q), strict=True):
+        whole = robot.ik(T, seed=x)
+        assert np.array_equal(one["q"][: one["count"]], whole.q)
+        assert np.array_equal(one["residual"][: one["count"]], whole.residual)
+
+
+def test_what_is_no_pose_has_no_solutions(tmp_path):
+    """NaN and a matrix that is no rotation are refused."""
+    arm = Arm(Robot.from_dh("puma560"), tmp_path)
+    arm.compile("-O1")
+    Ts = np.stack([np.full((4, 4), np.nan), 2.0 * np.eye(4)])
+    assert (arm.run(np.zeros((2, 6)), Ts)["any"]["count"] == 0).all()
+
+
+def test_the_stack_that_is_stated_suffices(tmp_path):
+    """The frames that gcc makes, not optimised, add up to no more."""
+    arm = Arm(Robot.from_dh("puma560"), tmp_path)
+    arm.compile("-O0", "-fstack-usage")
+    [listing] = tmp_path.glob("*.su")
+    lines = [re.split(r"[:\t]", line) for line in listing.read_text().splitlines()]
+    frames = {line[3]: int(line[4]) for line in lines}
+    bodies = dict(
+        re.findall(r"^static [^;{=]*?\b(\w+)\([^;{]*\)\n\{\n(.*?)^\}", arm.made.text, re.S | re.M)
+    )
+
+    def most(name):
+        inner = set(re.findall(r"\w+(?=\()", bodies[name])) & bodies.keys()
+        return frames[name] + 16 + max(map(most, inner), default=0)
+
+    assert most("arm_ik_near") <= arm.made.stack
+
+
+def test_names_begin_with_the_arms(tmp_path):
+    """Two arms stand beside one another in one program."""
+    for name in ("puma560", "ur5"):
+        export_solver(Robot.from_dh(name), tmp_path / f"{name}.h")
+    text = '#include "puma560.h"\n#include "ur5.h"\nint main(void) { return 0; }\n'
+    (tmp_path / "both.c").write_text(text)
+    command = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", "both.c"]
+    subprocess.run(command, cwd=tmp_path, check=True)
+
+
+def test_the_head_says_what_it_is():
+    """Units, joints, bits, table, version and hashes stand there, and the licence whole."""
+    text = exported(Robot.from_dh("ur5"), language="c").text
+    for word in ("metres", "elbow up", "shoulder_pan", "SHA-256", "DH table ur5", "UR5_STACK"):
+        assert word in text.partition("#include")[0], word
+    whole = Path(__file__).parents[3].joinpath("LICENSE").read_text()
+    assert LICENCE.split() == ["SPDX-License-Identifier:", "BSD-3-Clause", *whole.split()[3:]]
+
+
+REFUSED = {
+    "suffix": ({"path": "arm.txt"}, ArgumentError, "the suffix tells"),
+    "rust": ({"language": "rust"}, ArgumentError, "Rust is not written"),
+    "language": ({"language": "ada"}, ArgumentError, "expected 'c' or 'c\\+\\+'"),
+    "prefix": ({"prefix": "1x"}, ArgumentError, "a name of C"),
+    "joint": ({"held": "nothing"}, NameNotFoundError, "no joint named"),
+    "index": ({"held": 7}, ArgumentError, "from 0 to 5"),
+    "force": ({"force": 1}, ArgumentError, "True or False"),
+}
+
+
+@pytest.mark.parametrize("case", REFUSED)
+def test_what_makes_no_sense_is_refused(case, tmp_path):
+    """One message names what was found and what is allowed, and nothing is written."""
+    given, error, message = REFUSED[case]
+    options = {"path": "arm.h", **given}
+    target = tmp_path / options.pop("path")
+    with pytest.raises(error, match=message):
+        export_solver(Robot.from_dh("ur5"), target, **options)
+    assert not target.exists()
+
+
+def test_a_joint_to_spare_has_to_be_held():
+    """An arm of seven joints says which joint to hold."""
+    with pytest.raises(NoSolverError, match="hold one, such as"):
+        exported(Robot.from_dh("kuka_iiwa14"), language="c")
+
+
+def test_the_verb_writes_the_file(tmp_path):
+    """``dh2urdf export`` writes what ``export_solver`` does, and says how much stack it takes."""
+    command = [sys.executable, "-m", "dh2urdf", "export", "planar_rr", "-o", "rr.h", "--json"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    told = json.loads(done.stdout)
+    text = (tmp_path / "rr.h").read_text()
+    assert text == exported(Robot.from_dh("planar_rr"), language="c").text
+    assert f"#define PLANAR_RR_STACK {told['stack']}\n" in text
