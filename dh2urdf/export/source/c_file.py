@@ -14,7 +14,7 @@ from dh2urdf.kernels.chain import chain_fk, chain_jacobian
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.numbers import is_pose
 from dh2urdf.robot import Robot
-from dh2urdf.translate.definitions import number
+from dh2urdf.translate.definitions import ELEMENT, folded, number
 from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
 
@@ -30,10 +30,10 @@ Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by 
     {p}_fk(q, T)           the pose of a configuration
     {p}_jacobian(q, J)     6 x {n} row by row: velocity of the tip, then angular velocity, in the
                            axes of the base
-    {p}_ik(T, {held}within_limits, &found)
+    {p}_ik(T, {held}within_limits, {work}&found)
                            all configurations that reach a pose; their number, or -1 if T is no
                            pose (not finite, or no rotation within 1e-6)
-    {p}_ik_near(T, {held}seed, within_limits, &found)
+    {p}_ik_near(T, {held}seed, within_limits, {work}&found)
                            the same, in the full turns nearest to a seed, nearest first
 {held_line}{work_line}
 found holds count solutions in its first rows, each with its residual, the larger of its errors of
@@ -46,6 +46,11 @@ found is not; Robot.ik of dh2urdf searches there.
 No function allocates or keeps anything between calls, and each may run in many threads at once.
 {P}_STACK bytes of the stack are enough for any of them. With contraction off (gcc and clang:
 -ffp-contract=off) results are those of dh2urdf to the last bit."""
+
+WORK_LINE = """
+work is a {p}_workspace that {p}_prepare(&work) has filled once, what the solver knows of the arm
+and works in: one for each thread.
+"""
 
 SOLUTIONS = """\
 #define {P}_JOINTS {n}
@@ -157,7 +162,8 @@ class CProgram:
             tip=one_line(self.robot.tip),
             held="held, " if held else "",
             held_line=line,
-            work_line="",
+            work="&work, " if program.records else "",
+            work_line=WORK_LINE.format(p=p) if program.records else "",
             branch_line=f" ({'; '.join(bits)}), or -1" if bits else ", -1 as they have none",
         )
 
@@ -185,7 +191,10 @@ class CProgram:
         parameters = ["const double T[16]", *["double held"] * len(program.held)]
         given = ["T", *["held"] * len(program.held), "within_limits"]
         limits = "bool within_limits"
-        return FUNCTIONS.format(
+        if program.records:
+            limits += f", {p}_workspace *work"
+            given.append("work")
+        functions = FUNCTIONS.format(
             p=p,
             n=n,
             n6=6 * n,
@@ -201,9 +210,28 @@ class CProgram:
             scratch="".join(f"    {self._declared(x)};\n" for x in program.scratch),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
             steps="\n".join(f"    {self._call(call)};" for call in program.calls),
-            keep=self._call(Call(keep_inside, (tables[1], LIMIT_SLACK, out))),
+            keep=self._call(Call(keep_inside, (tables, LIMIT_SLACK, POSE, pose, out))),
             arrange=self._call(Call(arrange_near, near)),
         )
+        return "\n".join([*map(self._prepare, program.records), functions])
+
+    def _prepare(self, record: Named) -> str:
+        """The function that fills what the solver works in."""
+        p, consts, sets = self.prefix, list[str](), list[str]()
+        for field in record.like.dtype.names or ():
+            values = record.like[field][0]
+            if not np.any(values):
+                continue
+            if np.ndim(values):
+                sizes = "".join(f"[{d}]" for d in values.shape)
+                kind = ELEMENT[ELEMENTS[values.dtype.kind]]
+                consts += folded(f"static const {kind} {field}{sizes} = {number(values)};", 4)
+                sets.append(f"    memcpy(work->{field}, {field}, sizeof {field});")
+            else:
+                sets.append(f"    work->{field} = {number(values)};")
+        lines = [f"static inline void {p}_prepare({p}_workspace *work)", "{", *consts]
+        about = "/* Fill what the solver knows and works in, once before all poses. */"
+        return "\n".join([about, *lines, "    memset(work, 0, sizeof *work);", *sets, "}", ""])
 
     def _declared(self, array: Named) -> str:
         """An array as a variable."""

@@ -1,8 +1,11 @@
 """The kernels of one arm as C that C++ and any compiler take too, its constants in their places."""
 
+import ast
+import inspect
 import re
 from collections.abc import Callable
-from types import FunctionType
+from functools import cache
+from types import FunctionType, ModuleType
 from typing import Any
 
 import numpy as np
@@ -13,7 +16,7 @@ from dh2urdf.translate.definitions import ELEMENT, HELPERS, folded, home_of, num
 from dh2urdf.translate.source import Source
 from dh2urdf.translate.types import ELEMENTS, Array, Fixed, Tuple
 
-ONE_POSE = {"POSES": 1, "LANES": 1, "BLOCK": blocks.ARMS, "TURN": blocks.ARMS * 24}
+ONE_POSE = {"POSES": 1, "LANES": 1, "BLOCK": blocks.ARMS}
 """The sizes of a block that has one pose, so that it needs a few kilobytes of stack."""
 
 HEAD = """/* A loop whose turns do not depend on one another. */
@@ -23,9 +26,26 @@ HEAD = """/* A loop whose turns do not depend on one another. */
 #define SIDE_BY_SIDE
 #endif"""
 
-OVERRIDES: dict[tuple[str, str], int] = {(blocks.__name__, k): v for k, v in ONE_POSE.items()}
 
-assert blocks.TURN == 24 * blocks.BLOCK
+@cache
+def _changed(home: ModuleType, name: str) -> int | None:
+    """A constant of a module that follows from the size of a block, where that has one pose."""
+    if home is blocks and name in ONE_POSE:
+        return ONE_POSE[name]
+    found = None
+    for s in ast.parse(inspect.getsource(home)).body:
+        match s:
+            case ast.Assign(targets=[ast.Name(id=target)], value=value) if target == name:
+                found = value
+    plain = ast.BinOp | ast.operator | ast.Name | ast.expr_context | ast.Constant
+    if found is None or not all(isinstance(n, plain) for n in ast.walk(found)):
+        return None
+    names = [n.id for n in ast.walk(found) if isinstance(n, ast.Name)]
+    given = {n: _changed(home_of(home, n)[0], n) for n in names}
+    if all(value is None for value in given.values()):
+        return None
+    known = {n: value for n, value in given.items() if value is not None}
+    return int(eval(ast.unparse(found), {**vars(home), **known}))
 
 
 TAKEN = "fk jacobian ik ik_near solutions prepare H JOINTS SOLUTIONS STACK LOWER UPPER"
@@ -53,7 +73,8 @@ class ArmFile(CFile):
     def stands_for(self, source: Source, name: str) -> Any:
         """The object that a name of a kernel's module stands for; blocks are of one pose."""
         home, _ = home_of(source.module, name)
-        return OVERRIDES.get((home.__name__, name), super().stands_for(source, name))
+        changed = _changed(home, name)
+        return super().stands_for(source, name) if changed is None else changed
 
     def definition(self, source: Source) -> Callable[..., Any]:
         """A kernel as Python runs it, and those that it calls, with blocks of one pose."""
@@ -62,7 +83,7 @@ class ArmFile(CFile):
             inner = source.kernel(name)
             if inner is not None:
                 changed[name] = self.definition(inner)
-            elif name in ONE_POSE:
+            elif name.isupper():
                 changed[name] = self.stands_for(source, name)
         return FunctionType(function.__code__, {**function.__globals__, **changed})
 

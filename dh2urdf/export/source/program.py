@@ -54,7 +54,8 @@ class Program:
     scratch: tuple[Named, ...]
     """Arrays that one kernel leaves for another."""
     records: tuple[Named, ...]
-    """Structured arrays in which kernels keep what they know and what they work with."""
+    """Structured arrays in which kernels keep what they know and what they work with, at most one
+    of them, as it is before the first pose."""
 
     @classmethod
     def of(cls, chain: SerialChain, solver: Solver | HeldSolver) -> "Program":
@@ -84,13 +85,15 @@ class Program:
             "found->branch": room.out.branch,
             "found->free_joints": room.out.free,
         }
+        records = [a for a in _arrays(steps) if a.dtype.names]
+        blank = tuple(Named("work", a.copy()) for a in records)
         changing = _changing(chain, steps, list(named.values()), room, held, joints)
         scratch = [Named(f"between_{k + 1}", a) for k, a in enumerate(changing)]
-        records = [Named("work", a) for a in _arrays(steps) if a.dtype.names]
-        known = [*(Named(name, a) for name, a in named.items()), *scratch, *records]
+        work = [Named("work", a) for a in records]
+        known = [*(Named(name, a) for name, a in named.items()), *scratch, *work]
         calls = tuple(Call(k, _told(args, limits, known)) for k, args, _ in steps)
         out = Outputs._make(_told(tuple(room.out), limits, known))
-        return cls(chain, solver, joints, out, calls, tuple(scratch), tuple(records))
+        return cls(chain, solver, joints, out, calls, tuple(scratch), blank)
 
 
 def definition(kernel: Callable[..., Any]) -> Callable[..., Any]:

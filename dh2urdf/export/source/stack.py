@@ -4,7 +4,7 @@ import re
 
 _FUNCTION = re.compile(r"^static [^;{=]*?\b(\w+)\([^;{]*\)\n\{\n(.*?)^\}", re.DOTALL | re.MULTILINE)
 
-_LOCAL = re.compile(r"^\s*(?:const )?(\w+) \(?\*?\w+\)?((?:\[\d+\])*)(?: =|;)", re.MULTILINE)
+_LOCAL = re.compile(r"^\s*(?:const )?(\w+) (\(?\*)?\w+\)?((?:\[\d+\])*)(?: =|;)", re.MULTILINE)
 
 _STRUCT = re.compile(r"^typedef struct \{\n(.*?)^\} (\w+);", re.DOTALL | re.MULTILINE)
 
@@ -36,7 +36,10 @@ def stack_bytes(text: str, function: str) -> int:
 def _local(body: str, sizes: dict[str, int]) -> int:
     """Bytes of what is declared in a body."""
     total = 0
-    for kind, lengths in _LOCAL.findall(body):
+    for kind, pointer, lengths in _LOCAL.findall(body):
+        if pointer:
+            total += 8
+            continue
         size = sizes.get(kind, 0)
         for length in re.findall(r"\d+", lengths):
             size *= int(length)

@@ -17,6 +17,7 @@ int main(int argc, char **argv)
     FILE *in = fopen(argv[1], "rb"), *out = fopen(argv[2], "wb");
     double line[16 + 1 + {n}], T[16], J[6 * {n}];
     arm_solutions found;
+    {prepare}
     if (argc != 3 || !in || !out) {{
         return 1;
     }}
@@ -27,11 +28,11 @@ int main(int argc, char **argv)
         arm_jacobian(q, J);
         fwrite(T, sizeof T, 1, out);
         fwrite(J, sizeof J, 1, out);
-        arm_ik(line, {held}true, &found);
+        arm_ik(line, {held}true, {work}&found);
         fwrite(&found, sizeof found, 1, out);
-        arm_ik(line, {held}false, &found);
+        arm_ik(line, {held}false, {work}&found);
         fwrite(&found, sizeof found, 1, out);
-        arm_ik_near(line, {held}q, true, &found);
+        arm_ik_near(line, {held}q, true, {work}&found);
         fwrite(&found, sizeof found, 1, out);
     }}
     return fclose(in) || fclose(out);
@@ -56,7 +57,10 @@ class Arm:
         self.made = exported(robot, language="c", prefix="arm", held=held)
         Path(folder, "arm.h").write_text(self.made.text)
         given = "line[16], " if held is not None else ""
-        main = MAIN.format(name="arm.h", n=robot.n, held=given)
+        needs = "arm_prepare(" in self.made.text
+        prepare = "static arm_workspace work;\n    arm_prepare(&work);" if needs else ""
+        work = "&work, " if needs else ""
+        main = MAIN.format(name="arm.h", n=robot.n, held=given, prepare=prepare, work=work)
         Path(folder, "main.c").write_text(main)
         k, n = self.made.solutions, robot.n
         fields = [("count", "i8"), ("q", "f8", (k, n)), ("residual", "f8", k), ("branch", "i8", k)]
