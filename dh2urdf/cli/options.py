@@ -41,6 +41,10 @@ Force = Annotated[bool, Parameter(help="Replace a file that dh2urdf did not writ
 PicturePath = Annotated[
     Path, Parameter(name=["--output", "-o"], help="The picture to write: .png, .svg or .pdf.")
 ]
+OptionalPicture = Annotated[
+    Path | None,
+    Parameter(name=["--output", "-o"], help="The picture to write: .png, .svg or .pdf."),
+]
 PagePath = Annotated[
     Path | None,
     Parameter(
@@ -162,7 +166,10 @@ ALONE: dict[str, dict[str, str]] = {
         "task=position task=position+axis turns=all within_limits=False",
     },
     "figure": {"output=.svg": "dpi", "output=.pdf": "dpi"},
-    "workspace": {"envelope": "plane at rpy points orientations"},
+    "workspace": {
+        "envelope": "plane at rpy points orientations",
+        "exact": "envelope plane at rpy points orientations",
+    },
     "place": {"output=.svg": "dpi", "output=.pdf": "dpi"},
     "check": {"fix": "run", "json": "format=sarif format=junit format=html"},
     "view": {"output": "host port open"},

@@ -10,11 +10,13 @@ from dh2urdf.figures.joint_path import path_figure
 from dh2urdf.figures.save import save_picture
 from dh2urdf.figures.style import picture_bytes
 from dh2urdf.figures.workspaces.base_picture import placement_figure
+from dh2urdf.figures.workspaces.exact_section import exact_section_figure
 from dh2urdf.figures.workspaces.workspace import workspace_figure
 
 __all__ = [
     "branch_ghosts",
     "curve_figure",
+    "exact_section_figure",
     "figure",
     "path_figure",
     "picture_bytes",

@@ -53,6 +53,8 @@ ANSWERS = {
     "place two": ["place", "ur5", "poses.csv", "--yaw=0", "--against", "ur3", "-o", "map.svg"],
     "figure": ["figure", "planar_rr", "-o", "rr.svg", "--branches", "--q=1,1"],
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
+    "workspace exact": ["workspace", "denso_vs6556", "--exact", "-o", "exact.svg"],
+    "workspace exact of 7": ["workspace", "franka_fer", "--exact", "--no-limits"],
     "export a ROS 2 package": ["export", "ur5", "--ros2", "ur5_description"],
     "view -o": ["view", "planar_rr", "-o", "rr.html"],
 }

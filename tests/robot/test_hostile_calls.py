@@ -126,6 +126,10 @@ KINDS = {
     "reach_ball": takes(workspace.reach_ball, robot=ARM),
     "task_of": takes(workspace.task_of, robot=ARM),
     "common_axis": takes(workspace.common_axis, robot=ARM),
+    "exact_section_figure": takes(
+        figures.exact_section_figure, robot=ARM, section=None, reach=None, volume=None
+    ),
+    "placement_figure": takes(figures.placement_figure, Ts=[T], placed=[]),
     "figure": takes(figures.figure, robot=PLANAR, q=[0.1, 0.2], **LOOK, ghosts=(), ghost_names=()),
     "workspace_figure": takes(figures.workspace_figure, robot=PLANAR, **SECTION, points=5),
     "Robot.figure": takes(PLANAR.figure, q=None, style="schematic", view=None),

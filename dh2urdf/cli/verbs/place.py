@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
 from dh2urdf.bounds import LENGTH
-from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, Values, read_numbers
+from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, OptionalPicture, Values, read_numbers
 from dh2urdf.cli.output import emit, emit_json, parse_angles, robot_of
 from dh2urdf.cli.progress import bar, note
 from dh2urdf.cli.reading import DEFAULT, Reading
@@ -35,7 +34,7 @@ def place_(
     poses: str,
     /,
     *,
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
+    output: OptionalPicture = None,
     against: str | None = None,
     region: Values = None,
     height: Values = None,
@@ -63,8 +62,6 @@ def place_(
     ----------
     poses
         A CSV file (- for stdin) as of `dh2urdf ik --csv`, in the world.
-    output
-        A picture of the map of bases: .png, .svg or .pdf.
     against
         A second robot, whose best base is told beside the first one's.
     region

@@ -5,18 +5,19 @@ from typing import Annotated, Literal
 from cyclopts import Parameter
 
 from dh2urdf.bounds import LENGTH, ORIENTATIONS, POINTS
-from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, PicturePath, Values, real, whole
+from dh2urdf.cli.options import Arm, Dpi, Force, Json, Link, OptionalPicture, Values, real, whole
 from dh2urdf.cli.output import emit, emit_json, parse_angles, robot_of
 from dh2urdf.cli.progress import bar
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io import Kind
+from dh2urdf.exceptions import ArgumentError
 
 
 def workspace_(
     robot: Arm,
     /,
     *,
-    output: PicturePath,
+    output: OptionalPicture = None,
     plane: Literal["xz", "yz", "xy"] | None = None,
     at: Annotated[float | None, real(-LENGTH, LENGTH, Kind.LENGTH)] = None,
     rpy: Values = None,
@@ -25,6 +26,7 @@ def workspace_(
     orientations: Annotated[int | None, whole(1, ORIENTATIONS)] = None,
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
     envelope: bool = False,
+    exact: bool = False,
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
@@ -56,12 +58,25 @@ def workspace_(
         Keep the joint limits.
     envelope
         Draw the boundary of all that is reached, in the round, a quarter of it cut out.
+    exact
+        Not by a grid: how far and near the tip and the wrist reach, to 1e-9; the section of the
+        wrist's reach, with voids, from where the arm is singular and its limits; its volume. No
+        picture is needed then.
     """
-    from dh2urdf.figures import save_picture, workspace_figure
-    from dh2urdf.figures.save import check_target
+    if output is None and not exact:
+        raise ArgumentError("--output is needed: the picture to write, .png, .svg or .pdf")
+    if output is not None:
+        from dh2urdf.figures.save import check_target
 
-    check_target(output, force=force)
+        check_target(output, force=force)
     arm = robot_of(robot, base, tip, reading)
+    if exact:
+        from dh2urdf.cli.verbs.exact_reach import tell_exact_reach
+
+        return tell_exact_reach(arm, output, limits=limits, dpi=dpi, force=force, json=json)
+    assert output is not None
+    from dh2urdf.figures import save_picture, workspace_figure
+
     with bar("mapping", 1) as report:
         picture = workspace_figure(
             arm,

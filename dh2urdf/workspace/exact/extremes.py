@@ -48,6 +48,8 @@ class ExtremeReach:
     q : dict of str to array, shape (2, n)
         Configurations [rad] or [m] in which ``distance``, ``radius`` and ``height`` are so; of the
         wrist point n is 3.
+    places : dict of str to array, shape (2, 3)
+        Where the point is then, in base [m].
     """
 
     point: str
@@ -56,6 +58,7 @@ class ExtremeReach:
     radius: tuple[float, float]
     height: tuple[float, float]
     q: dict[str, Array]
+    places: dict[str, Array]
 
 
 def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = True) -> ExtremeReach:
@@ -95,7 +98,9 @@ def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = Tru
         found = [_extreme(carried, weights, sign, low, high) for sign in (1.0, -1.0)]
         ends[name] = (found[0][0], found[1][0])
         q[name] = np.stack([configuration for _, configuration in found])
-    return ExtremeReach(carried.name, carried.T_base_axis[:3, 3].copy(), **ends, q=q)
+    T = carried.T_base_axis
+    places = {name: carried.places(each) @ T[:3, :3].T + T[:3, 3] for name, each in q.items()}
+    return ExtremeReach(carried.name, T[:3, 3].copy(), **ends, q=q, places=places)
 
 
 def bounds_of(carried: CarriedPoint, within_limits: bool) -> tuple[Array, Array]:
