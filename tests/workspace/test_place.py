@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+import pinocchio as pin
 import pytest
 
 from dh2urdf import DHRow, DHTable, Robot
@@ -10,6 +11,7 @@ from dh2urdf.exceptions import ArgumentError, NoSolverError, PoseError
 from dh2urdf.figures import picture_bytes, placement_figure
 from dh2urdf.transforms import pose, rot_z, trans
 from dh2urdf.workspace import base_map, place
+from dh2urdf.workspace.placing import Job
 
 UR5E = Robot.from_dh("ur5e")
 DOWN = np.diag([1.0, -1.0, -1.0])
@@ -23,6 +25,14 @@ def gantry():
         DHRow(joint_type="prismatic", lower=0.0, upper=2.0),
     )
     return Robot.from_dh(DHTable(rows, "standard", "gantry"))
+
+
+def pinocchio_jacobian(robot, q):
+    """At the tip, in axes of the base."""
+    data = robot.model.createData()
+    frame = robot.model.getFrameId(robot.tip)
+    way = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
+    return pin.computeFrameJacobian(robot.model, data, q, frame, way)
 
 
 def points(*places):
@@ -104,6 +114,22 @@ def test_mounting_region_and_yaw_are_kept():
     assert (-0.5 <= found.x <= 0.0, 0.1 <= found.y <= 0.6, 0.0 <= found.yaw <= 0.5) == (True,) * 3
     np.testing.assert_allclose(found.T_world_base[:3, 2], [0, 0, -1], atol=1e-12)
     np.testing.assert_allclose(found.T_world_base @ UR5E.fk(found.q), job, atol=1e-8)
+
+
+def test_the_margin_is_what_it_is_said_to_be():
+    """By NumPy's singular values of Pinocchio's Jacobian, and the joints' distance from limits."""
+    for name in ("puma560", "stanford", "ur5e"):
+        robot = Robot.from_dh(name)
+        job = Job(robot, points((0, 0, 0)), np.eye(4), "pose", True)
+        rng = np.random.default_rng(1)
+        low, high = robot.lower, robot.upper
+        q = low + rng.random((500, robot.n)) * (high - low)
+        J = np.stack([pinocchio_jacobian(robot, each) for each in q])
+        J[:, :3] /= robot.chain.size
+        J[:, :, robot.slides] *= robot.chain.size
+        least = np.linalg.svd(J, compute_uv=False)[:, -1] / job.best_singular
+        room = (2 * np.minimum(q - low, high - q) / (high - low)).min(axis=1)
+        np.testing.assert_allclose(job.margin_of(q), np.minimum(least.clip(0, 1), room), atol=1e-9)
 
 
 def test_two_searches_give_the_same_bits():

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.doors import finite_array, instance
+from dh2urdf.doors import finite_array, instance, items
 from dh2urdf.drawing.arm import arm_points
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.figures.style import INK, MUTED, RC, Picture, mpl, plain
@@ -47,8 +47,11 @@ def placement_figure(Ts: ArrayLike, placed: Sequence[tuple[Robot, Placement]]) -
         What :func:`dh2urdf.workspace.place` found for each.
     """
     T = finite_array(Ts, "Ts", "poses of shape (m, 4, 4)")
+    pairs = [items(pair, "placed") for pair in items(placed, "placed")]
+    if any(len(pair) != 2 for pair in pairs):
+        raise ArgumentError("placed: expected pairs of a Robot and its Placement")
     arms = [Placed(instance(r, "placed", Robot), instance(p, "placed", Placement))
-            for r, p in placed]  # fmt: skip
+            for r, p in pairs]  # fmt: skip
     if T.ndim != 3 or T.shape[1:] != (4, 4) or not 1 <= len(arms) <= MOST:
         raise ArgumentError(f"expected poses of shape (m, 4, 4) and 1 to {MOST} placements")
     top = max(0.01, *(float(arm.placement.map.margin.max()) for arm in arms))
