@@ -11,6 +11,7 @@ from dh2urdf.figures.save import save_picture
 from dh2urdf.figures.style import picture_bytes
 from dh2urdf.figures.workspaces.base_picture import placement_figure
 from dh2urdf.figures.workspaces.exact_section import exact_section_figure
+from dh2urdf.figures.workspaces.map_picture import map_figure
 from dh2urdf.figures.workspaces.workspace import workspace_figure
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "curve_figure",
     "exact_section_figure",
     "figure",
+    "map_figure",
     "path_figure",
     "picture_bytes",
     "placement_figure",

@@ -21,6 +21,7 @@ from dh2urdf.workspace.planar import PlanarArm, planar_arm
 from dh2urdf.workspace.reach import cone, reach_map
 from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
+from dh2urdf.workspace.stored_map import map_surface, open_map
 from dh2urdf.workspace.task import (
     Task,
     common_axis,

@@ -7,7 +7,7 @@ import pytest
 
 from dh2urdf import DHConvention, DHRow, DHTable, Robot, list_tables
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.workspace import counts_at, extreme_reach, reach_section, reach_volume
+from dh2urdf.workspace import counts_at, extreme_reach, reach_map, reach_section, reach_volume
 
 PUMA = Robot.from_dh("puma560")
 A2, D3, FOREARM = 0.4318, 0.15005, math.hypot(0.0203, 0.4318)
@@ -181,6 +181,21 @@ def test_the_section_agrees_with_the_solver_of_six_joints():
     reached = counts_at(PUMA, points, np.diag([1.0, -1.0, -1.0]), False) > 0
     edge = np.linalg.norm(found.rings[0].points[::4, None] - spots, axis=-1).min(axis=0) < 0.01
     np.testing.assert_array_equal(found.holds(spots)[~edge], reached[~edge])
+
+
+def test_the_section_agrees_with_the_map_within_a_voxel():
+    """Of the Puma, whose tip is its wrist point: voxels are reached just where the section is."""
+    found, step = reach_section(PUMA), 0.05
+    region = [[-0.95, 0.95], [0.0, step], [-0.3, 1.6]]
+    share = reach_map(PUMA, step=step, orientations=120, region=region).share.isel(y=0)
+    x, z = (a.ravel() for a in np.meshgrid(share.x, share.z, indexing="ij"))
+    r = np.hypot(x, float(share.y))
+    spots = np.c_[r, z - found.T_base_axis[2, 3]]
+    corners = np.concatenate([ring.through for ring in found.rings])
+    edge = np.linalg.norm(corners[::4, None] - spots, axis=-1).min(axis=0) < step
+    reached = share.values.ravel() > 0.0
+    np.testing.assert_array_equal(reached[~edge], found.holds(spots)[~edge])
+    assert 0.1 < reached.mean() < 0.9
 
 
 def test_arms_without_a_section_say_why():

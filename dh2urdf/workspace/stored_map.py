@@ -1,0 +1,156 @@
+"""Maps of reach as pictures need them: opened, cut by a plane, as a surface of a level."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.bounds import LENGTH
+from dh2urdf.doors import choice, number
+from dh2urdf.exceptions import ArgumentError, MissingExtraError, UnreachedError
+from dh2urdf.transforms import Array
+from dh2urdf.workspace.section import PLANES, Section
+
+if TYPE_CHECKING:
+    import xarray
+
+VARIABLES = (
+    "share",
+    "solutions_mean",
+    "solutions_max",
+    "manipulability",
+    "singular_value",
+    "limit_margin",
+)
+"""Those of a map over x, y, z."""
+
+
+class MapCut(NamedTuple):
+    """Values of a map on its layer nearest to a plane, (rows, columns), NaN where nothing is."""
+
+    grid: Section
+    values: Array
+
+
+def open_map(source: Any) -> xarray.Dataset:
+    """A map as of :func:`reach_map`: the dataset itself, or the path of its Zarr group.
+
+    Raises
+    ------
+    ArgumentError
+        There is no such group, or it is no map.
+    MissingExtraError
+    """
+    try:
+        import xarray as xr
+    except ImportError:
+        raise MissingExtraError("scale", "a map of the reach") from None
+    found = source
+    if isinstance(source, str | os.PathLike):
+        if not Path(source).is_dir():
+            raise ArgumentError(f"{source}: no such map; `dh2urdf map` writes one")
+        try:
+            found = xr.open_zarr(source, consolidated=False)
+        except Exception as fault:  # of zarr, numcodecs, xarray: what is there is no group
+            raise ArgumentError(f"{source}: no map that can be read: {fault}") from None
+    if not isinstance(found, xr.Dataset) or "share" not in found or found.share.ndim != 3:
+        raise ArgumentError(f"{source if found is not source else 'map'}: holds no map of a reach")
+    return found
+
+
+def map_cut(found: xarray.Dataset, variable: str, plane: str, at: float | None) -> MapCut:
+    """The layer of voxels whose centres are nearest to a plane.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+    variable : str
+        One of ``VARIABLES``.
+    plane : {"xz", "yz", "xy"}
+    at : float, optional
+        Height of the plane along its normal [m]; the middle of the map.
+    """
+    choice(variable, "variable", VARIABLES)
+    chosen = PLANES[choice(plane, "plane", PLANES)]
+    axes = [np.asarray(found[axis].values, float) for axis in "xyz"]
+    across = axes[chosen.normal]
+    height = float(across.mean()) if at is None else number(at, "at", -LENGTH, LENGTH)
+    step = float(np.ptp(across)) / max(len(across) - 1, 1) or 1e-9
+    k = int(np.abs(across - height).argmin())
+    if abs(float(across[k]) - height) > step:
+        raise UnreachedError(f"the map ends before the plane {'xyz'[chosen.normal]} = {height:g} m")
+    layer = found[variable].isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen))
+    values = np.asarray(layer.values, float)
+    share = found.share.isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen)).values
+    values = np.where(share > 0.0, values, np.nan)
+    return MapCut(Section(chosen, float(across[k]), axes[chosen.u], axes[chosen.v]), values)
+
+
+def _names(plane: Any) -> tuple[str, str]:
+    """Names of rows and columns."""
+    return "xyz"[plane.v], "xyz"[plane.u]
+
+
+def same_grid(first: xarray.Dataset, second: xarray.Dataset) -> None:
+    """Refuse two maps on different grids."""
+    for axis in "xyz":
+        a, b = (np.asarray(found[axis].values, float) for found in (first, second))
+        if a.shape != b.shape or not np.allclose(a, b, rtol=0.0, atol=1e-9):
+            raise ArgumentError(
+                f"the maps are on different grids along {axis}: make both with one region and step"
+            )
+
+
+def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.int64]]:
+    """Where a map's share of orientations crosses a level: corners (v, 3) [m], triangles (f, 3).
+
+    Surface nets: a corner a cell, the mean of where its edges cross (Gibson, "Constrained elastic
+    surface nets", 1998).
+
+    Raises
+    ------
+    ArgumentError
+    UnreachedError
+        The share is nowhere above the level.
+    """
+    level = number(level, "level", 0.0, 1.0)
+    share = np.asarray(found.share.transpose("x", "y", "z").values, float)
+    lines = [np.asarray(found[axis].values, float) for axis in "xyz"]
+    if not (share > level).any():
+        raise UnreachedError(f"the share of orientations is nowhere above {level:g}")
+    field = np.pad(np.nan_to_num(share), 1) - level
+    nodes = [_beyond(line) for line in lines]
+    inside, cells = field > 0.0, np.array(field.shape) - 1
+    total, count = np.zeros((int(cells.prod()), 3)), np.zeros(int(cells.prod()))
+    quads = []
+    for axis in range(3):
+        ends = [np.take(inside, np.arange(cells[axis]) + k, axis) for k in (0, 1)]
+        index = np.argwhere(ends[0] != ends[1])
+        after = index + (np.arange(3) == axis)
+        low, high = (np.stack([nodes[k][i[:, k]] for k in range(3)], axis=1)
+                     for i in (index, after))  # fmt: skip
+        a, b = field[tuple(index.T)], field[tuple(after.T)]
+        spots = low + (a / (a - b))[:, None] * (high - low)
+        ring = []
+        for back in ((0, 0), (1, 0), (1, 1), (0, 1)):
+            cell = index.copy()
+            cell[:, [(axis + 1) % 3, (axis + 2) % 3]] -= back
+            ring.append(np.ravel_multi_index(tuple(cell.T), tuple(cells)))
+            np.add.at(total, ring[-1], spots)
+            np.add.at(count, ring[-1], 1.0)
+        quad = np.stack(ring, axis=1)
+        inwards = ends[0][tuple(index.T)]
+        quads.append(np.where(inwards[:, None], quad, quad[:, ::-1]))
+    used, renamed = np.unique(np.concatenate(quads), return_inverse=True)
+    quad = renamed.reshape(-1, 4)
+    return total[used] / count[used, None], np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
+
+
+def _beyond(line: Array) -> Array:
+    """Centres of voxels, and one more at each end."""
+    step = float(line[1] - line[0]) if len(line) > 1 else 1e-3
+    return np.concatenate([[line[0] - step], line, [line[-1] + step]])

@@ -1,0 +1,79 @@
+"""Pictures of maps of reach: a cut, the difference of two, a surface of a level."""
+
+import numpy as np
+import pytest
+
+from dh2urdf import DHRow, DHTable, Robot
+from dh2urdf.exceptions import ArgumentError, UnreachedError
+from dh2urdf.figures import map_figure, picture_bytes
+from dh2urdf.workspace import map_surface, open_map, reach_map
+
+pytest.importorskip("xarray")
+
+REGION = [[-1.1, 1.1], [-1.1, 1.1], [-0.8, 1.2]]
+
+
+@pytest.fixture(scope="module")
+def maps():
+    """Of two arms, on one grid."""
+    return [reach_map(Robot.from_dh(name), step=0.1, orientations=30, region=REGION)
+            for name in ("ur5e", "denso_vs6556")]  # fmt: skip
+
+
+def test_a_cut_and_a_difference_are_the_same_each_time(maps):
+    """Both arms and what one reaches more than the other, byte for byte twice."""
+    one, two = (picture_bytes(map_figure(*some), "svg") for some in (maps[:1], maps))
+    assert picture_bytes(map_figure(*maps), "svg") == two
+    assert b"share of orientations" in one
+    assert b"ur5e less denso_vs6556" in two
+    assert b"denso_vs6556 alone" in two
+    each = picture_bytes(map_figure(*maps, variable="limit_margin", plane="xy", at=0.3), "svg")
+    assert b"difference of margin to limits" in each
+
+
+def test_maps_on_different_grids_are_not_compared(maps):
+    """Another step, something that is no map, a plane outside: each is refused by name."""
+    other = maps[0].isel(x=slice(0, 5))
+    with pytest.raises(ArgumentError, match="different grids along x"):
+        map_figure(maps[0], other)
+    with pytest.raises(ArgumentError, match="holds no map"):
+        map_figure(maps[0].drop_vars("share"))
+    with pytest.raises(ArgumentError, match="no such map"):
+        map_figure("nowhere.zarr")
+    with pytest.raises(ArgumentError, match="variable"):
+        map_figure(maps[0], variable="colour")
+    with pytest.raises(UnreachedError, match="ends before"):
+        map_figure(maps[0], at=5.0)
+
+
+def test_a_stored_map_is_drawn_as_it_was(maps, tmp_path):
+    """By the path of its Zarr group; a folder that holds none is refused."""
+    maps[0].to_zarr(tmp_path / "arm.zarr", consolidated=False)
+    np.testing.assert_array_equal(open_map(tmp_path / "arm.zarr").share, maps[0].share)
+    drawn = [picture_bytes(map_figure(m), "svg") for m in (maps[0], tmp_path / "arm.zarr")]
+    assert drawn[0] == drawn[1]
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(ArgumentError, match="no map that can be read"):
+        open_map(tmp_path / "empty")
+
+
+def test_the_surface_of_a_level_is_closed_and_holds_its_volume(maps):
+    """Each edge is met once each way, outwards; the volume is that of the voxels within a shell."""
+    share = maps[0].share.values
+    corners, triangles = map_surface(maps[0], 0.5)
+    edges = np.concatenate([triangles[:, [i, (i + 1) % 3]] for i in range(3)])
+    there, back = (np.sort(e[:, 0] * len(corners) + e[:, 1]) for e in (edges, edges[:, ::-1]))
+    np.testing.assert_array_equal(there, back)
+    a, b, c = corners[triangles].transpose(1, 0, 2)
+    volume = np.einsum("ki,ki->k", a, np.cross(b, c)).sum() / 6
+    assert volume == pytest.approx((share > 0.5).sum() * 0.1**3, rel=0.1)
+    with pytest.raises(UnreachedError, match="nowhere above"):
+        map_surface(maps[0], 1.0)
+
+
+def test_the_map_of_a_planar_arm_is_drawn_in_its_plane():
+    """One layer of voxels has a cut, too."""
+    robot = Robot.from_dh(DHTable(tuple(DHRow(a=a) for a in (0.5, 0.4, 0.1)), "standard", "rrr"))
+    region = [[-1.1, 1.1], [-1.1, 1.1], [-0.05, 0.05]]
+    found = reach_map(robot, step=0.1, orientations=12, region=region, within_limits=False)
+    assert b"rrr reaches" in picture_bytes(map_figure(found, plane="xy"), "svg")
