@@ -20,7 +20,7 @@ POSITION, POSITION_AXIS = 1, 2
 """Numbers of tasks other than the pose, as of `newton.damped`."""
 
 TINY = 1e-300
-"""Keeps the reflection of a vector of zeros from 0 / 0."""
+"""Keeps the reflection of a vector of zeros from 0 / 0, and a step from a place beyond the root."""
 
 FLOOR = 1e-60
 """Least pivot of ``B^T B`` [m^2]: that of a singular value of 1e-30."""
@@ -190,11 +190,12 @@ def _smallest_eigenvalue(m, n, M, W):
             W[BLOCK * PIVOT + i], W[BLOCK * FIRST + i] = -W[BLOCK * X + i], -1.0
             W[BLOCK * SECOND + i], W[BLOCK * SUM + i], W[BLOCK * SQUARES + i] = 0.0, 0.0, 0.0
         for k in range(m):
-            d, e = BLOCK * (m * k + k), BLOCK * (m * k + k + 1)
+            d, e = BLOCK * (m * k + k), BLOCK * (m * k + min(k + 1, m - 1))
             for i in side_by_side(n):
                 s, ds, dds = W[BLOCK * PIVOT + i], W[BLOCK * FIRST + i], W[BLOCK * SECOND + i]
                 square, beside = M[d + i] * M[d + i], M[e + i] * M[e + i]
-                r = 1.0 / (s + square + FLOOR)
+                pivot = s + square
+                r = 1.0 / (pivot if abs(pivot) > FLOOR else FLOOR)
                 u = ds * r
                 W[BLOCK * SUM + i] -= u
                 W[BLOCK * SQUARES + i] += u * u - dds * r
@@ -205,8 +206,8 @@ def _smallest_eigenvalue(m, n, M, W):
         for i in side_by_side(n):
             total, x = W[BLOCK * SUM + i], W[BLOCK * X + i]
             spread = (m - 1.0) * (m * W[BLOCK * SQUARES + i] - total * total)
-            step = m / (total + math.sqrt(max(spread, 0.0)))
-            below = total > 0.0 and step > 0.0 and W[BLOCK * GOING + i] > 0.0
+            step = m / (max(total, TINY) + math.sqrt(max(spread, 0.0)))
+            below = total > 0.0 and W[BLOCK * GOING + i] > 0.0
             ahead = step if below else 0.0
             W[BLOCK * X + i] = x + ahead
             W[BLOCK * GOING + i] = 1.0 if ahead > SETTLED * x else 0.0
