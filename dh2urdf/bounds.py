@@ -95,6 +95,9 @@ ORIENTATIONS = 10_000
 POINTS = (2, 1_000)
 """Points along a side of a workspace map: a million poses."""
 
+HALVINGS = 6
+"""How often a voxel of a map may be halved: a quarter of a million for one."""
+
 VOXELS = 1_000_000_000
 """Voxels of a map of the reach: a metre and a half in steps of 1.5 mm."""
 

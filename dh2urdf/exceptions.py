@@ -19,6 +19,7 @@ and its text says what was wrong, where, and what is allowed::
     ├── OutputError (OSError)            a file that cannot be written
     │   └── OutputExistsError            a file of somebody else's in the way
     ├── ServerError (OSError)            the browser view cannot listen there
+    ├── SchedulerError (OSError)         the scheduler of a cluster is out of reach
     └── MissingExtraError (ImportError)  an optional dependency is not installed
 """
 
@@ -95,6 +96,10 @@ class OutputExistsError(OutputError):
 
 class ServerError(Dh2UrdfError, OSError):
     """A host or port on which the browser view cannot listen."""
+
+
+class SchedulerError(Dh2UrdfError, OSError):
+    """The scheduler of a Dask cluster is out of reach, or was lost on the way."""
 
 
 class MissingExtraError(Dh2UrdfError, ImportError):

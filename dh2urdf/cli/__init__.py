@@ -31,6 +31,7 @@ VERBS = {
     "path": "Find one joint motion through a file of poses.",
     "figure": "Draw an arm with its DH frames.",
     "workspace": "Draw what an arm can reach.",
+    "map": "Map what an arm reaches, on one machine or many, to a Zarr store.",
     "place": "Find where a robot should stand for a file of poses.",
     "export": "Take the arm along: its solver as source code, or a ROS 2 package.",
     "view": "Look at an arm in the browser.",

@@ -197,6 +197,7 @@ NEEDED: dict[str, dict[str, str]] = {
     },
     "figure": {"deg": "q", "task": "branches"},
     "workspace": {"deg": "rpy"},
+    "map": {"within": "towards", "spins": "towards"},
     "place": {"force": "output", "dpi": "output"},
     "path": {"force": "output figure", "dpi": "figure"},
     "view": {"base": "robot", "tip": "robot", "deg": "q", "output": "robot", "force": "output"},

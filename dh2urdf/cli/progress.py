@@ -38,13 +38,16 @@ def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
     """A function to call with the number done and the total; on a terminal it draws a bar."""
     start = time.monotonic()
     if not sys.stderr.isatty():
-        due = start + QUIET
+        due, before = start + QUIET, -1
 
         def tell(done: int, total: int) -> None:
-            nonlocal due
-            if done < total and time.monotonic() >= due:
-                due = time.monotonic() + EVERY
-                note(f"{what}: {done} of {total}")
+            nonlocal due, before
+            now = time.monotonic()
+            before = min(done - 1, before) if before >= 0 else done - 1
+            if done < total and now >= due:
+                due = now + EVERY
+                left = (total - done) * (now - start) / (done - before)
+                note(f"{what}: {done} of {total}, {left:.0f} s left")
 
         yield tell
         return

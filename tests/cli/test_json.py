@@ -55,6 +55,7 @@ ANSWERS = {
     "workspace": ["workspace", "planar_rr", "-o", "rr.svg", "--points", "5"],
     "workspace exact": ["workspace", "denso_vs6556", "--exact", "-o", "exact.svg"],
     "workspace exact of 7": ["workspace", "franka_fer", "--exact", "--no-limits"],
+    "map": ["map", "planar_rr", "-o", "rr.zarr", "--step", "0.5"],
     "export a ROS 2 package": ["export", "ur5", "--ros2", "ur5_description"],
     "view -o": ["view", "planar_rr", "-o", "rr.html"],
 }

@@ -23,7 +23,20 @@ def test_a_log_gets_a_line_every_five_seconds_of_long_work(seconds, told, monkey
             report(done, seconds)
     out, err = capsys.readouterr()
     assert out == ""
-    assert err == "".join(f"mapping: {second} of {seconds}\n" for second in told)
+    assert err == "".join(
+        f"mapping: {second} of {seconds}, {seconds - second} s left\n" for second in told
+    )
+
+
+def test_work_that_goes_on_foretells_by_what_it_did_itself(monkeypatch, capsys):
+    """Six of ten were done before: two more in four seconds leave two for the next four."""
+    now = 100.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    with progress.bar("mapping", 1) as report:
+        for done in (7, 8):
+            now += 2.0
+            report(done, 10)
+    assert capsys.readouterr().err == "mapping: 7 of 10, 6 s left\n"
 
 
 def test_a_map_tells_how_far_it_is(run, monkeypatch):
@@ -34,7 +47,7 @@ def test_a_map_tells_how_far_it_is(run, monkeypatch):
     argv = ["-o", "reach.svg", "--points", "21", "--orientations", "3"]
     status, out, err = run("workspace", "puma560", *argv)
     assert (status, out) == (0, "reach.svg\n")
-    done = [int(d) for d in re.findall(r"^mapping: (\d+) of 1000$", err, re.MULTILINE)]
+    done = [int(d) for d in re.findall(r"^mapping: (\d+) of 1000, \d+ s left$", err, re.MULTILINE)]
     falls = [k for k in range(1, len(done)) if done[k] <= done[k - 1]]
     assert len(falls) == 1
     assert falls[0] >= 2

@@ -22,6 +22,7 @@ VERBS = {
     "convert": ["convert", "-", "-o", "arm.yaml"],
     "figure": ["figure", "-", "-o", "arm.svg"],
     "workspace": ["workspace", "-", "-o", "arm.svg", "--points=3", "--orientations=1"],
+    "map": ["map", "-", "-o", "arm.zarr", "--step=2", "--orientations=1"],
 }
 
 

@@ -19,14 +19,6 @@ pytestmark = pytest.mark.install
 ROOT = Path(__file__).parents[2]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
 
-MAP = """
-import dh2urdf
-from dh2urdf.workspace import reach_map
-try:
-    reach_map(dh2urdf.Robot.from_dh("planar_rr"), step=0.5)
-except ImportError as error:
-    raise SystemExit(f"{error}") from None
-"""
 VIEW = """
 import urllib.request, dh2urdf
 from dh2urdf.viewer import view
@@ -42,7 +34,7 @@ USES = {
     "viewer": ["python", "-c", VIEW],
     "xacro": ["dh2urdf", "fk", "arm.xacro", "0"],
     "mjcf": ["dh2urdf", "convert", "planar_rr", "-o", "rr.xml", "--force"],
-    "scale": ["python", "-c", MAP],
+    "scale": ["dh2urdf", "map", "planar_rr", "-o", "rr.zarr", "--step", "0.5"],
     "symbolic": ["dh2urdf", "show", "planar_rr", "--symbolic"],
 }
 """What each extra of the users is for, as a command."""
@@ -167,7 +159,7 @@ def test_every_extra_is_tried_here():
 def test_an_extra_is_enough_for_its_purpose(bare, built, tmp_path, extra):
     """With the extra alone its purpose is served; without it, the message names it."""
     refused = bare.run(USES[extra])
-    assert refused.returncode == (1 if extra in ("viewer", "scale") else 2), refused
+    assert refused.returncode == (1 if extra == "viewer" else 2), refused
     assert f"pip install 'dh2urdf[{extra}]'" in refused.stderr
     done = Environment(tmp_path, f"{built[1]}[{extra}]").run(USES[extra])
     assert done.returncode == 0, done.stderr

@@ -31,7 +31,12 @@ def block_values(robot: Robot, settings: MapSettings, block: Block) -> Values:
     """The variables of a map in one block, each (x, y, z), those of each orientation one more."""
     part = settings.part(block)
     shape = tuple(p.stop - p.start for p in part)
-    points = settings.grid.points(part)
+    flat = values_at(robot, settings, settings.grid.points(part))
+    return {name: v.reshape(*shape, *v.shape[1:]) for name, v in flat.items()}
+
+
+def values_at(robot: Robot, settings: MapSettings, points: Array) -> Values:
+    """The variables of a map at points (m, 3), each (m,), those of each orientation (m, k)."""
     ways, best = _best_spins(_solved(robot, settings, points), settings)
     values: Values = {
         "share": (ways > 0).mean(axis=1, dtype=np.float64),
@@ -42,7 +47,7 @@ def block_values(robot: Robot, settings: MapSettings, block: Block) -> Values:
     if settings.each:
         values["solutions_each"] = ways
         values |= {f"{name}_each": each for name, each in zip(MEASURES, best, strict=True)}
-    return {name: _kept(v).reshape(*shape, *v.shape[1:]) for name, v in values.items()}
+    return {name: _kept(v) for name, v in values.items()}
 
 
 def _best_spins(found: _Found, settings: MapSettings) -> _Found:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from dh2urdf.workspace.reach.settings import MapSettings
 if TYPE_CHECKING:
     import xarray
 
+KEY = "dh2urdf_map"
+"""Attribute with the settings: a group with it is a map."""
+
 PURPOSE = "a map of the reach"
 
 WORDS = {
@@ -23,6 +26,7 @@ WORDS = {
     "manipulability": ("largest manipulability sqrt(det(J J^T)), lengths in m", "1"),
     "singular_value": ("largest of the solutions' smallest singular values of J", "1"),
     "limit_margin": ("largest of the solutions' distances from a joint limit", "rad or m"),
+    "level": ("how often the voxel of these values was halved", "1"),
 }
 """For each variable what it says and its unit."""
 
@@ -30,7 +34,7 @@ WORDS = {
 def variables(settings: MapSettings) -> dict[str, tuple[str, ...]]:
     """Names of a map's variables, and their axes."""
     voxels: tuple[str, ...] = "x", "y", "z"
-    names = dict.fromkeys(WORDS, voxels)
+    names = dict.fromkeys((name for name in WORDS if name != "level" or settings.level), voxels)
     if settings.each:
         each = "solutions_each", *(f"{name}_each" for name in MEASURES)
         names |= dict.fromkeys(each, (*voxels, "orientation"))
@@ -66,16 +70,59 @@ def to_dataset(settings: MapSettings, values: Values, attrs: dict[str, Any]) -> 
     return dataset
 
 
+def kind_of(name: str) -> np.dtype[np.generic]:
+    """Numbers by which a variable is kept."""
+    kinds = {"level": np.uint8, "solutions_max": np.uint16, "solutions_each": np.uint16}
+    return np.dtype(kinds.get(name, np.float32))
+
+
 def empty_values(settings: MapSettings) -> Values:
     """Room for all variables."""
     k = len(settings.turns)
     return {
-        name: np.empty(
-            (*settings.grid.shape, *[k] * (len(axes) - 3)),
-            np.uint16 if name in ("solutions_max", "solutions_each") else np.float32,
-        )
+        name: np.empty((*settings.grid.shape, *[k] * (len(axes) - 3)), kind_of(name))
         for name, axes in variables(settings).items()
     }
+
+
+class MapSummary(NamedTuple):
+    """A map in a few numbers.
+
+    Attributes
+    ----------
+    shape : tuple of int
+        Voxels along x, y, z.
+    step : float
+        Side of one [m].
+    orientations, poses : int
+        Orientations a voxel, and that times the voxels (as if all were of this size).
+    volume : float
+        Of the voxels that are reached in an orientation [m^3].
+    largest_share : float
+        Of the orientations, in a voxel.
+    """
+
+    shape: tuple[int, int, int]
+    step: float
+    orientations: int
+    poses: int
+    volume: float
+    largest_share: float
+
+
+def map_summary(found: xarray.Dataset) -> MapSummary:
+    """A map in a few numbers, read from its store a layer of blocks at a time."""
+    settings = found.attrs[KEY]
+    share, layer = found["share"], settings["block"]
+    nx, ny, nz = share.shape
+    step = settings["step"] / 2 ** settings["refine"]
+    parts = (share[k : k + layer].values for k in range(0, nx, layer))
+    seen = [(int((part > 0.0).sum()), float(part.max())) for part in parts]
+    k, spins = settings["orientations"]
+    volume = sum(count for count, _ in seen) * step**3
+    return MapSummary(
+        (nx, ny, nz), step, k, nx * ny * nz * k * spins, volume, max(most for _, most in seen)
+    )
 
 
 def load_xarray() -> Any:

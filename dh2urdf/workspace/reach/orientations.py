@@ -51,9 +51,13 @@ def _uniform(robot: Robot, task: Task, count: int) -> Array:
 
 
 def cone(
-    count: int, *, axis: ArrayLike = (0.0, 0.0, -1.0), within: float = math.pi / 6, spins: int = 8
+    count: int,
+    *,
+    towards: ArrayLike = (0.0, 0.0, -1.0),
+    within: float = math.pi / 6,
+    spins: int = 8,
 ) -> Array:
-    """Rotations whose z stands within an angle of an axis, each in so many turns about that z.
+    """Rotations whose z stands within an angle of a direction, each in so many turns about that z.
 
     Directions along a Fibonacci spiral, evenly spread over the cap; as ``orientations`` of
     :func:`reach_map`, a direction counts as reached when it is in one of its turns.
@@ -62,10 +66,10 @@ def cone(
     ----------
     count : int
         Directions of the tip's z.
-    axis : array_like, shape (3,)
+    towards : array_like, shape (3,)
         Middle of the cone in base.
     within : float
-        Largest angle between z and the axis [rad].
+        Largest angle between z and it [rad].
     spins : int
         Turns about z, evenly spread over one; 1 for the one in which the tip's x is as near as
         can be to that of the first.
@@ -83,10 +87,10 @@ def cone(
     """
     n = integer(count, "count", 1, ORIENTATIONS)
     m = integer(spins, "spins", 1, ORIENTATIONS)
-    middle = finite_array(axis, "axis", "three numbers", shape=(3,))
+    middle = finite_array(towards, "towards", "three numbers", shape=(3,))
     size = float(np.linalg.norm(middle))
     if not size > 0.0:
-        raise ArgumentError("axis: expected a direction, got zeros")
+        raise ArgumentError("towards: expected a direction, got zeros")
     top = 1.0 - math.cos(number(within, "within", 0.0, math.pi, unit="rad"))
     k = np.arange(n) + 0.5
     z, turn = 1.0 - top * k / n, k * math.pi * (3.0 - math.sqrt(5.0))

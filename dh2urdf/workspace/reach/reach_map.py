@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
+from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
@@ -9,9 +12,14 @@ from numpy.typing import ArrayLike
 from dh2urdf.doors import instance
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
-from dh2urdf.workspace.reach.block import block_values
+from dh2urdf.workspace.reach import store as stored
+from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.dataset import empty_values, load_xarray, to_dataset
-from dh2urdf.workspace.reach.settings import settings_of
+from dh2urdf.workspace.reach.job import Job
+from dh2urdf.workspace.reach.provenance import provenance
+from dh2urdf.workspace.reach.refined import around
+from dh2urdf.workspace.reach.run import connected, on_cluster, on_threads
+from dh2urdf.workspace.reach.settings import Block, settings_of
 from dh2urdf.workspace.refine import Progress
 
 if TYPE_CHECKING:
@@ -26,8 +34,9 @@ def reach_map(
     region: ArrayLike | None = None,
     within_limits: bool = True,
     each: bool = False,
+    refine: int = 0,
     client: Any = None,
-    store: Any = None,
+    store: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> xarray.Dataset:
     """Where the tip can be, in how many ways and how well: all solutions on a grid of poses.
@@ -48,6 +57,16 @@ def reach_map(
         Leave out solutions outside the joint limits.
     each : bool
         Keep the values of each orientation, too: variables that end in ``_each``.
+    refine : int
+        How often a voxel is halved along each axis where its share differs from a neighbour's by
+        more than 0.1. The grid is then that of the smallest voxels; the halves of voxels that
+        were not halved have the values of the whole, which ``level`` tells.
+    client : dask.distributed.Client or str, optional
+        A Dask cluster whose workers do the work, or its scheduler's address; without it the
+        threads of this process do.
+    store : path or URL, optional
+        Where the map is kept as a Zarr group while it grows. One that is there with the same
+        settings is gone on with; workers write to it themselves, so all have to see it.
     progress : callable, optional
         Called with the number of blocks done and their total.
 
@@ -56,11 +75,15 @@ def reach_map(
     xarray.Dataset
         Over ``x``, ``y``, ``z`` [m]: ``share`` of orientations reached, ``solutions_mean`` and
         ``solutions_max`` of an orientation, the best ``manipulability`` and ``singular_value``
-        (the smallest one) and ``limit_margin`` of all solutions, NaN where there are none.
+        (the smallest one) and ``limit_margin`` of all solutions, NaN where there are none. Read
+        from the store as it is needed, where there is one.
 
     Raises
     ------
     ArgumentError, PoseError, NoSolverError, MissingExtraError
+        Also an ``ArgumentError`` for a store of other settings.
+    OutputError, SchedulerError
+        A store that cannot be written, a scheduler that does not answer; what is done is kept.
 
     Examples
     --------
@@ -70,15 +93,82 @@ def reach_map(
     >>> found.share.sizes["x"], float(found.share.max()) > 0.9
     (6, True)
     """
-    load_xarray()
+    xr = load_xarray()
     arm: Robot = instance(robot, "robot", Robot)
-    if client is not None or store is not None:
-        raise ArgumentError("client and store are not there yet")
-    settings = settings_of(arm, step, orientations, region, within_limits, each)
-    blocks, values = settings.blocks(), empty_values(settings)
-    for done, block in enumerate(blocks, 1):
-        for name, part in block_values(arm, settings, block).items():
-            values[name][settings.part(block)] = part
-        if progress is not None:
-            progress(done, len(blocks))
-    return to_dataset(settings, values, {"robot": arm.model.name})
+    if progress is not None:
+        instance(progress, "progress", Callable)
+    path = None if store is None else _place(store)
+    settings = settings_of(arm, step, orientations, region, within_limits, each, refine)
+    levels = [settings]
+    for _ in range(settings.refine):
+        levels.append(levels[-1].halved())
+    said = provenance(arm, settings)
+    paths = [_path_of_level(path, level, settings.refine) for level in range(len(levels))]
+    values: Values | None = None
+    with ExitStack() as stack:
+        found = None if client is None else stack.enter_context(connected(client))
+        for level, place in zip(levels[::-1], paths[::-1], strict=True):
+            if place is not None:  # the map itself first, which the others are parts of
+                stored.prepare(place, level, said)
+        told = _Told(progress, sum(len(level.blocks()) for level in levels))
+        for k, level in enumerate(levels):
+            job = Job.of(arm, level, paths[k], paths[k - 1] if k else None)
+            values = _level(job, values, found, told)
+    if path is not None:
+        whole: xarray.Dataset = xr.open_zarr(path, chunks=None)
+        return whole
+    assert values is not None
+    return to_dataset(levels[-1], values, said)
+
+
+class _Told:
+    """How many blocks are done."""
+
+    def __init__(self, progress: Progress | None, total: int) -> None:
+        self.progress, self.done, self.total = progress, 0, total
+
+    def __call__(self) -> None:
+        self.done += 1
+        if self.progress is not None:
+            self.progress(self.done, self.total)
+
+
+def _level(job: Job, coarse: Values | None, client: Any, told: _Told) -> Values | None:
+    """Work on what is not done of a level; its values over the whole grid, without a store."""
+    settings, blocks, values = job.settings, job.settings.blocks(), None
+    if job.path is None:
+        values = empty_values(settings)
+    else:
+        marks = stored.done(job.path)
+        blocks = [block for block in blocks if not marks[block]]
+        told.done += int(marks.sum())
+
+    def beside(block: Block) -> Values | None:
+        part = around(settings, block)
+        return {name: v[part] for name, v in coarse.items()} if coarse else None
+
+    if client is None:
+        answers = on_threads(job, blocks, beside)
+    else:
+        answers = on_cluster(client, job, blocks, beside)
+    with closing(answers):
+        for block, found in answers:
+            for name, part in (found or {}).items():
+                assert values is not None
+                values[name][settings.part(block)] = part
+            told()
+    return values
+
+
+def _path_of_level(path: str | None, level: int, finest: int) -> str | None:
+    """Where a level is kept: the finest is the map itself, the others are groups in it."""
+    return path if path is None or level == finest else f"{path}/level_{level}"
+
+
+def _place(store: str | os.PathLike[str]) -> str:
+    """A path that means the same to every process, or a URL as it is."""
+    try:
+        text = os.fspath(store)
+    except TypeError:
+        raise ArgumentError(f"store: expected a path or a URL, got {store!r:.60}") from None
+    return str(text) if "://" in str(text) else os.path.abspath(text)

@@ -1,15 +1,15 @@
 """What a map is of: its grid, its orientations, what is asked at each pose."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.bounds import LENGTH, VOXELS
-from dh2urdf.doors import finite_array, flag, number
+from dh2urdf.bounds import HALVINGS, LENGTH, VOXELS
+from dh2urdf.doors import finite_array, flag, integer, number
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
@@ -63,6 +63,8 @@ class MapSettings:
         Whether values are kept of each orientation, too.
     side : int
         Voxels along the side of a block.
+    refine, level : int
+        How often voxels may be halved, and how often those of this grid are.
     """
 
     grid: Grid
@@ -71,10 +73,24 @@ class MapSettings:
     within_limits: bool
     each: bool
     side: int
+    refine: int = 0
+    level: int = 0
+
+    @property
+    def counts(self) -> tuple[int, int, int]:
+        """Blocks along x, y, z."""
+        nx, ny, nz = (-(-n // self.side) for n in self.grid.shape)
+        return nx, ny, nz
+
+    def halved(self) -> "MapSettings":
+        """Those of the next level: each voxel of the grid is two along each axis."""
+        low, step, (nx, ny, nz) = self.grid
+        grid = Grid(low, step / 2, (2 * nx, 2 * ny, 2 * nz))
+        return replace(self, grid=grid, level=self.level + 1)
 
     def blocks(self) -> list[Block]:
         """Indices of all blocks."""
-        nx, ny, nz = (range(-(-n // self.side)) for n in self.grid.shape)
+        nx, ny, nz = map(range, self.counts)
         return list(product(nx, ny, nz))
 
     def part(self, block: Block) -> tuple[slice, ...]:
@@ -92,6 +108,7 @@ def settings_of(
     region: ArrayLike | None,
     within_limits: bool,
     each: bool,
+    refine: int,
 ) -> MapSettings:
     """Settings of arguments that are checked here."""
     task, turns = tried(robot, orientations)
@@ -99,7 +116,10 @@ def settings_of(
     even = (BLOCK_POSES / (turns.shape[0] * turns.shape[1])) ** (1 / 3)
     side = min(SIDES, key=lambda s: abs(math.log(s / even)))
     inside, kept = flag(within_limits, "within_limits"), flag(each, "each")
-    return MapSettings(grid, turns, task.name, inside, kept, side)
+    levels = integer(refine, "refine", 0, HALVINGS)
+    if levels and kept:
+        raise ArgumentError("each: values of each orientation are kept of voxels of one size only")
+    return MapSettings(grid, turns, task.name, inside, kept, side, levels)
 
 
 def _grid(robot: Robot, step: float, region: ArrayLike | None) -> Grid:

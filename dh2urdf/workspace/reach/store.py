@@ -1,0 +1,190 @@
+"""A map in a Zarr group: variables in blocks, what has been done, where it came from.
+
+Blocks are written by whoever works them out, first their variables, then a mark in
+``progress/done``; one without a mark is worked out again.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.exceptions import ArgumentError, MissingExtraError, OutputError, OutputExistsError
+from dh2urdf.workspace.reach.block import Values
+from dh2urdf.workspace.reach.dataset import (
+    KEY,
+    PURPOSE,
+    attributes,
+    coordinates,
+    kind_of,
+    variables,
+)
+from dh2urdf.workspace.reach.settings import Block, MapSettings
+
+DONE = "progress/done"
+
+CF = {"coordinates": "rotation"}
+"""What tells readers that this variable is a coordinate."""
+
+
+def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
+    """Make the arrays of a map, or check that those that are there belong to the same one.
+
+    Raises
+    ------
+    ArgumentError
+        The map that is there has other settings.
+    OutputExistsError
+        Something else is there.
+    OutputError
+        It cannot be written.
+    """
+    zarr = load_zarr()
+    with writing(path):
+        group = _opened(zarr, path)
+        if group is None:
+            group = zarr.open_group(path, mode="w-", zarr_format=3, attributes={**said, **CF})
+        elif KEY not in group.attrs:
+            raise _other(path)
+        _refuse_others(path, dict(group.attrs[KEY]), said[KEY])
+        if DONE not in group:
+            _make(zarr, group, settings)
+
+
+def _opened(zarr: Any, path: str) -> Any:
+    """The group at a path, or None where there is nothing."""
+    try:
+        return zarr.open_group(path, mode="r+", use_consolidated=False)
+    except FileNotFoundError:
+        place = Path(path)
+        if "://" not in path and (place.is_file() or (place.is_dir() and any(place.iterdir()))):
+            raise _other(path) from None
+        return None
+    except (FileExistsError, NotADirectoryError, ValueError, TypeError):  # a file, or an array
+        raise _other(path) from None
+
+
+def _other(path: str) -> OutputExistsError:
+    return OutputExistsError(f"{path}: is there and no map of the reach; give another path")
+
+
+def _refuse_others(path: str, here: dict[str, Any], asked: dict[str, Any]) -> None:
+    """Refuse to go on with a map of other settings, naming the first."""
+    for key, value in asked.items():
+        if here.get(key) != value:
+            was, now = (str(v) if len(str(v)) <= 60 else "another" for v in (here.get(key), value))
+            raise ArgumentError(
+                f"{path}: is a map with {key} {was}, asked is {now}; maps are not mixed: give "
+                "another path, or the settings it was begun with"
+            )
+
+
+def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
+    """All arrays, nothing in them but coordinates."""
+    for name, (axes, values, attrs) in coordinates(settings).items():
+        array = group.create_array(
+            name,
+            shape=values.shape,
+            dtype=values.dtype,
+            dimension_names=axes,
+            attributes=attrs,
+            overwrite=True,
+        )
+        array[...] = values
+    side, k = settings.side, len(settings.turns)
+    for name, axes in variables(settings).items():
+        each = [k] * (len(axes) - 3)
+        kind = kind_of(name)
+        group.create_array(
+            name,
+            shape=(*settings.grid.shape, *each),
+            chunks=(side, side, side, *each),
+            dtype=kind,
+            fill_value=kind.type(np.nan if _may_be_nan(name) else 0),
+            dimension_names=axes,
+            attributes=attributes(name),
+            overwrite=True,
+        )
+    group.create_array(
+        DONE,
+        shape=settings.counts,
+        chunks=(1, 1, 1),
+        dtype="bool",
+        fill_value=False,
+        overwrite=True,
+        dimension_names=("block_x", "block_y", "block_z"),
+        attributes={"long_name": "whether a block is worked out"},
+    )
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Consolidated metadata")
+        zarr.consolidate_metadata(group.store, path=group.path)
+
+
+def _may_be_nan(name: str) -> bool:
+    return not name.startswith(("share", "solutions", "level"))
+
+
+def done(path: str) -> NDArray[np.bool_]:
+    """Which blocks are done, one entry a block."""
+    with writing(path):
+        marks: NDArray[np.bool_] = _group(path)[DONE][...]
+        return marks
+
+
+def is_done(path: str, block: Block) -> bool:
+    """Whether one block is."""
+    return bool(_group(path)[DONE][block])
+
+
+def write(path: str, settings: MapSettings, block: Block, values: Values) -> None:
+    """Put a block's variables into the map, then its mark.
+
+    Raises
+    ------
+    OutputError
+    """
+    with writing(path):
+        group, part = _group(path), settings.part(block)
+        for name, value in values.items():
+            group[name][part] = value
+        group[DONE][block] = True
+
+
+def read(path: str, part: tuple[slice, ...]) -> Values:
+    """The variables of a part of a map, without those of each orientation."""
+    group = _group(path)
+    names = [name for name, array in group.arrays() if array.ndim == 3]
+    return {name: group[name][part] for name in names}
+
+
+def _group(path: str) -> Any:
+    return load_zarr().open_group(path, mode="r+", use_consolidated=False)
+
+
+@contextmanager
+def writing(path: str) -> Iterator[None]:
+    """Say of a full disk, or of one that takes nothing, where it was, and that work is kept."""
+    try:
+        yield
+    except (OutputError, ArgumentError):
+        raise
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise OutputError(
+            f"{path}: {reason}; blocks that are done are kept, the same call goes on with the rest"
+        ) from None
+
+
+def load_zarr() -> Any:
+    """Zarr, or the error that names the extra."""
+    try:
+        import zarr
+    except ImportError:
+        raise MissingExtraError("scale", PURPOSE) from None
+    return zarr

@@ -1,0 +1,200 @@
+"""Maps that are stored: read without the package, gone on with after a kill, not mixed."""
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray
+
+import dh2urdf
+from dh2urdf import Robot
+from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
+from dh2urdf.workspace import reach_map
+from dh2urdf.workspace.reach import job, store
+
+GIVEN = {"step": 0.1, "orientations": 2800, "region": ((0.0, 0.8), (-0.4, 0.4), (0.0, 0.8))}
+"""Eight blocks of 4 x 4 x 4 voxels."""
+
+
+@pytest.fixture(scope="module")
+def ur5e():
+    return Robot.from_dh("ur5e")
+
+
+@pytest.fixture(scope="module")
+def whole(ur5e):
+    """The map in memory."""
+    return reach_map(ur5e, **GIVEN)
+
+
+def files(folder):
+    """All files of a folder and their bytes."""
+    return {p.relative_to(folder): p.read_bytes() for p in Path(folder).rglob("*") if p.is_file()}
+
+
+def test_a_store_is_read_by_xarray_alone(ur5e, whole, tmp_path):
+    """A process without the package finds values, units, coordinates, and where they came from."""
+    reach_map(ur5e, **GIVEN, store=tmp_path / "arm.zarr")
+    read = (
+        "import sys, xarray, json\n"
+        "found = xarray.open_zarr('arm.zarr')\n"
+        "assert 'dh2urdf' not in sys.modules\n"
+        "print(json.dumps([float(found.share.sum()), found.x.units, found.share.long_name,"
+        " found.attrs['table'], found.attrs['dh2urdf_map']['version']]))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-I", "-c", read], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    total, unit, words, table, version = json.loads(done.stdout)
+    assert np.isclose(total, float(whole.share.sum()), rtol=1e-6)
+    assert (unit, words) == ("m", "share of orientations reached")
+    assert version == dh2urdf.__version__
+    (tmp_path / "again.yaml").write_text(table)
+    assert dh2urdf.load_table(tmp_path / "again.yaml") == ur5e.table
+
+
+def test_stored_and_in_memory_are_the_same_bits(ur5e, whole, tmp_path):
+    """Every variable, coordinate and attribute; and two stores of one call are the same files."""
+    for name in ("a.zarr", "b.zarr"):
+        kept = reach_map(ur5e, **GIVEN, store=tmp_path / name)
+        xarray.testing.assert_identical(kept.load(), whole)
+    assert files(tmp_path / "a.zarr") == files(tmp_path / "b.zarr")
+
+
+def test_a_run_that_was_killed_goes_on_and_ends_in_the_same_bits(ur5e, tmp_path, monkeypatch):
+    """Killed after some blocks, only the others are worked out, and the files are the same."""
+    reach_map(ur5e, **GIVEN, store=tmp_path / "whole.zarr")
+    script = (
+        "import sys, dh2urdf\nfrom dh2urdf.workspace import reach_map\n"
+        f"reach_map(dh2urdf.Robot.from_dh('ur5e'), **{GIVEN!r}, store='arm.zarr', progress="
+        "lambda done, total: print(done, flush=True))\n"
+    )
+    run = subprocess.Popen(
+        [sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": str(Path(dh2urdf.__file__).parents[1])},
+    )  # fmt: skip
+    with run:
+        while int(run.stdout.readline()) < 2:
+            pass
+        os.kill(run.pid, signal.SIGKILL)
+    before = store.done(str(tmp_path / "arm.zarr"))
+    assert 2 <= before.sum() < before.size
+    worked, once = [], job.block_values
+    monkeypatch.setattr(job, "block_values", lambda *a: worked.append(a[2]) or once(*a))
+    reach_map(ur5e, **GIVEN, store=tmp_path / "arm.zarr")
+    assert len(worked) == len(set(worked)) == before.size - before.sum()
+    assert files(tmp_path / "arm.zarr") == files(tmp_path / "whole.zarr")
+
+
+@pytest.mark.parametrize(("change", "key"), [
+    ({"step": 0.2}, "step 0.1, asked is 0.2"),
+    ({"orientations": 200}, "orientations .*2800, 1.*asked is .*200, 1"),
+    ({"within_limits": False}, "within_limits True, asked is False"),
+    ({"region": ((-0.8, 0.8), (-0.8, 0.8), (0.1, 0.9))}, "low"),
+    ({"refine": 1}, "refine 0, asked is 1"),
+])  # fmt: skip
+def test_maps_of_other_settings_are_not_mixed(ur5e, tmp_path, change, key):
+    """One message names the store, the first setting that differs, and both values."""
+    small = GIVEN | {"region": ((0.0, 0.2), (0.0, 0.2), (0.0, 0.2))}
+    reach_map(ur5e, **small, store=tmp_path / "arm.zarr")
+    before = files(tmp_path)
+    with pytest.raises(ArgumentError, match=rf"arm.zarr: is a map with .*{key}"):
+        reach_map(ur5e, **(small | change), store=tmp_path / "arm.zarr")
+    with pytest.raises(ArgumentError, match=r"is a map with robot ur5e, asked is ur3e"):
+        reach_map(Robot.from_dh("ur3e"), **small, store=tmp_path / "arm.zarr")
+    assert files(tmp_path) == before
+
+
+def test_a_store_of_another_version_is_refused(ur5e, tmp_path, monkeypatch):
+    """Values of two versions of the package do not stand in one map."""
+    small = GIVEN | {"region": ((0.0, 0.2), (0.0, 0.2), (0.0, 0.2))}
+    reach_map(ur5e, **small, store=tmp_path / "arm.zarr")
+    monkeypatch.setattr(dh2urdf, "__version__", "99.0")
+    with pytest.raises(ArgumentError, match=r"arm.zarr: is a map with version .*, asked is 99.0"):
+        reach_map(ur5e, **small, store=tmp_path / "arm.zarr")
+
+
+@pytest.mark.parametrize("kind", ["file", "folder", "group", "array"])
+def test_what_is_no_map_stays_untouched(ur5e, tmp_path, kind):
+    """A file, a folder with something in it, and other people's Zarr are refused as they are."""
+    import zarr
+
+    path = tmp_path / "arm.zarr"
+    if kind == "file":
+        path.write_text("mine")
+    elif kind == "folder":
+        path.mkdir()
+        (path / "mine").write_text("mine")
+    else:
+        make = zarr.create_group if kind == "group" else zarr.create_array
+        make(str(path), **({} if kind == "group" else {"shape": (2,), "dtype": "f8"}))
+    before = files(tmp_path)
+    with pytest.raises(OutputExistsError, match=r"arm\.zarr"):
+        reach_map(ur5e, **GIVEN, store=path)
+    assert files(tmp_path) == before
+
+
+def test_a_disk_that_is_full_is_one_error_and_the_map_goes_on(ur5e, whole, tmp_path, monkeypatch):
+    """Blocks before it are kept; once there is room the same call ends in the same bits."""
+    path, written, once = tmp_path / "arm.zarr", [], store.write
+
+    def full(*given):
+        with store.writing(given[0]):
+            if len(written) == 4:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        written.append(given)
+        once(*given)
+
+    monkeypatch.setattr(store, "write", full)
+    with pytest.raises(OutputError, match=r"arm.zarr: No space left on device; blocks .* kept"):
+        reach_map(ur5e, **GIVEN, store=path)
+    monkeypatch.undo()
+    assert 4 <= store.done(str(path)).sum() <= 5
+    xarray.testing.assert_identical(reach_map(ur5e, **GIVEN, store=path).load(), whole)
+
+
+def test_files_that_may_not_grow_are_one_error(ur5e, tmp_path):
+    """A limit of the system on file sizes, met within Zarr, is told by path and reason."""
+    code = (
+        "import resource, signal, dh2urdf\nfrom dh2urdf.workspace import reach_map\n"
+        "robot = dh2urdf.Robot.from_dh('ur5e')\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))\n"
+        f"try:\n    reach_map(robot, **{GIVEN!r}, store='arm.zarr')\n"
+        "except dh2urdf.exceptions.OutputError as error:\n    print(error)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONPATH": str(Path(dh2urdf.__file__).parents[1])},
+    )  # fmt: skip
+    assert "arm.zarr: File too large; blocks that are done are kept" in done.stdout
+
+
+def test_voxels_are_halved_where_shares_change(ur5e, tmp_path):
+    """Halves hold what the finer grid's voxels hold, wholes their own value in all eight parts."""
+    given = {"step": 0.2, "orientations": 30, "region": ((-1.6, 1.6), (0.0, 1.2), (0.0, 1.2))}
+    coarse, fine = reach_map(ur5e, **given), reach_map(ur5e, **given | {"step": 0.1})
+    mixed = reach_map(ur5e, **given, refine=1)
+    halved = mixed.level.values == 1
+    assert 0.1 < halved.mean() < 0.9
+    spread = coarse.share.values.repeat(2, 0).repeat(2, 1).repeat(2, 2)
+    np.testing.assert_array_equal(mixed.x, fine.x)
+    for name in ("share", "solutions_max", "limit_margin"):
+        finer, wholes = fine[name].values, coarse[name].values.repeat(2, 0).repeat(2, 1)
+        expected = np.where(halved, finer, wholes.repeat(2, 2))
+        np.testing.assert_array_equal(mixed[name].values, expected)
+    wide = np.pad(coarse.share.values, 1, mode="edge")
+    far = np.max([abs(np.roll(wide, s, axis=a) - wide) for a in range(3) for s in (1, -1)], axis=0)
+    assert halved[(far[1:-1, 1:-1, 1:-1] > 0.1).repeat(2, 0).repeat(2, 1).repeat(2, 2)].all()
+    assert spread.shape == halved.shape
+    kept = reach_map(ur5e, **given, refine=1, store=tmp_path / "arm.zarr")
+    xarray.testing.assert_identical(kept.load(), mixed)
+    twice = reach_map(ur5e, **given, refine=2)
+    assert set(np.unique(twice.level)) == {0, 1, 2}
+    assert twice.share.shape == (64, 24, 24)
