@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.robot.configurations import RobotConfigurations
+from dh2urdf.robot.lazily import is_lazy, lazy_ik
 from dh2urdf.transforms import Array
 
 if TYPE_CHECKING:
@@ -119,7 +120,8 @@ class RobotIK(RobotConfigurations):
         Parameters
         ----------
         Ts : array_like, shape (m, 4, 4) or (..., 4, 4)
-            ``T_base_tip``, lengths in [m]; one pose is a row of one.
+            ``T_base_tip``, lengths in [m]; one pose is a row of one. For an array of Dask the
+            arrays of the answer are Dask's, too, in its chunks; ``dask.compute`` works them out.
         within_limits, locked, task, samples, nearest
             As for :meth:`ik`; a joint may be held at a value for each pose, shape (m,).
         threads : int, optional
@@ -151,6 +153,17 @@ class RobotIK(RobotConfigurations):
         >>> batch.count
         array([1, 1, 1])
         """
+        if type(Ts) is not np.ndarray and is_lazy(Ts):
+            options = {
+                "within_limits": within_limits,
+                "locked": locked,
+                "task": task,
+                "samples": samples,
+                "nearest": nearest,
+                "on_bad": on_bad,
+            }
+            whole = {"out": out, "progress": progress}
+            return lazy_ik(self, Ts, {**options, "threads": threads}, whole)
         asked = task, locked, within_limits, samples, nearest
         return self._ik.solve_batch(Ts, asked, threads, progress, on_bad, out)
 

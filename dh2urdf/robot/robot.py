@@ -5,6 +5,7 @@ import threading
 from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pinocchio as pin
@@ -36,6 +37,7 @@ from dh2urdf.kernels.chain import (
 )
 from dh2urdf.robot.explained import RobotExplained
 from dh2urdf.robot.formulas import RobotFormulas
+from dh2urdf.robot.lazily import is_lazy, lazy_fk
 from dh2urdf.robot.pictures import RobotPictures
 from dh2urdf.transforms import Array
 
@@ -194,7 +196,7 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         Parameters
         ----------
         q : array_like, shape (n,) or (..., n)
-            Configuration [rad] or [m].
+            Configuration [rad] or [m]; an array of Dask gives one of Dask.
 
         Returns
         -------
@@ -212,6 +214,8 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         array([[1.7, 0. ],
                [1. , 0.7]])
         """
+        if type(q) is not np.ndarray and is_lazy(q):
+            return cast("Array", lazy_fk(self, q))
         config = real_array(q, "q", "finite numbers", ConfigurationError)
         if config.shape == self._plain and config.flags.c_contiguous:
             T = np.empty((4, 4))

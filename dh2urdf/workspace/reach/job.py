@@ -1,6 +1,7 @@
 """One block as a task: what a worker needs for it, be it a thread or another machine's process."""
 
 from dataclasses import dataclass
+from importlib.metadata import version
 
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot, packed, unpacked
@@ -34,9 +35,7 @@ class Job:
     @classmethod
     def of(cls, robot: Robot, settings: MapSettings, path: str | None, before: str | None) -> "Job":
         """The job of one level."""
-        from dh2urdf import __version__
-
-        return cls(packed(robot), settings, __version__, path, before)
+        return cls(packed(robot), settings, version("dh2urdf"), path, before)
 
 
 def run_block(job: Job, block: Block, coarse: Values | None = None) -> Values | None:
@@ -50,12 +49,10 @@ def run_block(job: Job, block: Block, coarse: Values | None = None) -> Values | 
         This process has another version of the package.
     OutputError
     """
-    from dh2urdf import __version__
-
-    if job.version != __version__:
+    if job.version != version("dh2urdf"):
         raise Dh2UrdfError(
-            f"a worker has dh2urdf {__version__}, the call was made by {job.version}; both have "
-            "to be the same"
+            f"a worker has dh2urdf {version('dh2urdf')}, the call was made by {job.version}; "
+            "both have to be the same"
         )
     settings = job.settings
     if job.path is not None and store.is_done(job.path, block):

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
@@ -18,8 +19,6 @@ LAYOUT = 1
 
 def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
     """Attributes of a map: the arm's table and chain, the package's version, all settings."""
-    from dh2urdf import __version__
-
     chain = robot.chain
     arm = {
         "links": chain.links.tolist(),
@@ -30,13 +29,13 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
     }
     return {
         "title": f"Reach of {robot.model.name}, {robot.tip} in {robot.base}",
-        "source": f"dh2urdf {__version__}, dh2urdf.workspace.reach_map",
+        "source": f"dh2urdf {version('dh2urdf')}, dh2urdf.workspace.reach_map",
         "robot": robot.model.name,
         "table": table_to_text(robot.table, "yaml") if robot.table else "",
         "chain": json.dumps(arm),
         KEY: {
             "layout": LAYOUT,
-            "version": __version__,
+            "version": version("dh2urdf"),
             "robot": robot.model.name,
             "chain": _digest(json.dumps(arm).encode()),
             "step": settings.grid.step,
