@@ -174,7 +174,7 @@ ALONE: dict[str, dict[str, str]] = {
     "check": {"fix": "run", "json": "format=sarif format=junit format=html"},
     "view": {"output": "host port open"},
     "extract": {**_FORMS, "output=-": "force"},
-    "export": {"ros2": "output language prefix held base tip", "output=-": "force"},
+    "export": {"ros2": "output language prefix held base tip tests", "output=-": "force tests"},
     "convert": {"output": "out_dir", "output=-": "force", **_TABLES},
 }
 """For each verb, options, and those that say nothing beside them.
@@ -203,6 +203,7 @@ NEEDED: dict[str, dict[str, str]] = {
     "view": {"base": "robot", "tip": "robot", "deg": "q", "output": "robot", "force": "output"},
     "check": {"base": "fix", "tip": "fix", "force": "fix"},
     "extract": {"force": "output"},
+    "export": {"plugin": "ros2", "tests": "output"},
 }
 """For each verb, options, and those without one of which they say nothing."""
 

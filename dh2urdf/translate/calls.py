@@ -116,7 +116,8 @@ class Calls(Expressions):
             return value
         zeros, fixed = value.maker == "np.zeros", all(isinstance(d, int) for d in t.shape)
         declared = self.file.declaration(t, name, storage=True)
-        self.out(f"{declared}{' = {0}' if zeros and fixed else ''};")
+        none = "{" * len(t.shape) + "0" + "}" * len(t.shape)
+        self.out(f"{declared}{f' = {none}' if zeros and fixed else ''};")
         if zeros and not fixed:
             self.out(f"memset({name}, 0, sizeof {name});")
         return Value(t, name)

@@ -2,6 +2,7 @@
 
 import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -97,3 +98,20 @@ def test_notebooks_use_what_is_public(path):
             if line.startswith(("import dh2urdf", "from dh2urdf")):
                 assert line.split()[1] in rooms, line
             assert "._" not in line, line
+
+
+@pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake: apt-get install cmake")
+def test_the_cmake_project_builds_and_its_tests_pass(tmp_path):
+    """The header is written by the build, the test that comes with it passes, and solve solves."""
+    command = tmp_path / "dh2urdf"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m dh2urdf "$@"\n')
+    command.chmod(0o755)
+    build = tmp_path / "build"
+    words = ["-S", FOLDER / "cmake_solver", "-B", build, f"-DDH2URDF={command}", "-DARM=puma560"]
+    for line in (["cmake", *words], ["cmake", "--build", build], ["ctest", "--test-dir", build]):
+        done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert "100% tests passed, 0 tests failed out of 2" in done.stdout
+    solved = subprocess.run([build / "solve"], capture_output=True, text=True, check=True)
+    assert solved.stdout.count("residual") == 8
+    assert solved.stdout.split()[:6] == [f"{0.2 + 0.1 * i:.5f}" for i in range(6)]

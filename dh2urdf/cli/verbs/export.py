@@ -17,10 +17,12 @@ def export_(
     /,
     *,
     ros2: Path | None = None,
+    plugin: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
     language: Literal["c", "c++", "rust"] | None = None,
     prefix: str | None = None,
     held: str | None = None,
+    tests: Path | None = None,
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
@@ -44,6 +46,8 @@ def export_(
         package the table that `extract` finds), or - for stdin.
     ros2
         Folder of the package, which is named after it.
+    plugin
+        With the arm's own solver as MoveIt's kinematics plugin.
     output
         The source file: .h for C, .hpp for C++; - for stdout. The C is C99 that C++ takes, too.
     language
@@ -53,12 +57,15 @@ def export_(
     held
         Name or number (0 is the first) of a joint whose value is given with every pose; an arm of
         seven joints needs one.
+    tests
+        A C program to write, too, which checks the source where it is compiled: poses, their
+        solutions and residuals.
     force
         Write the package's files into a folder that holds something, what else is there stays;
         replace a source file that dh2urdf did not write.
     """
     if ros2 is not None:
-        _package(arm, ros2, reading, force=force, json=json)
+        _package(arm, ros2, reading, plugin=plugin, force=force, json=json)
         return
     if output is None:
         raise ArgumentError(
@@ -77,9 +84,14 @@ def export_(
         made = export_solver(
             robot, output, language=language, prefix=prefix, held=joint, force=force
         )
+    if tests is not None:
+        from dh2urdf.export.self_test import write_self_test
+
+        write_self_test(robot, made, output, tests, held=joint, force=force)
     if json:
         keys = ("language", "prefix", "solver", "solutions", "stack")
         told = {key: getattr(made, key) for key in keys}
+        told |= {} if tests is None else {"tests": tests}
         text = {"text": made.text} if to_stdout else {}
         emit_json("export", source=arm, path=output, **told, **text)
     elif to_stdout:
@@ -87,14 +99,18 @@ def export_(
         note(str(made))
     else:
         emit(f"{output}: {made}")
+        if tests is not None:
+            emit(f"{tests}: checks it where it is compiled")
 
 
-def _package(arm: str, ros2: Path, reading: Reading, *, force: bool, json: bool) -> None:
+def _package(
+    arm: str, ros2: Path, reading: Reading, *, plugin: bool, force: bool, json: bool
+) -> None:
     """Write a ROS 2 package."""
     from dh2urdf.export.ros2 import write_ros2_package
 
     read = read_any(arm, reading)
-    package = write_ros2_package(read.table, ros2, force=force)
+    package = write_ros2_package(read.table, ros2, plugin=plugin, force=force)
     warnings = [*read.warnings, *package.warnings]
     if json:
         emit_json(

@@ -7,9 +7,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.resources import files
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -17,16 +15,21 @@ from dh2urdf.conversions.write import UrdfOptions, default_limits, verified_urdf
 from dh2urdf.dh import DHTable
 from dh2urdf.dh_io import TableLike, as_table, atomic_write
 from dh2urdf.dh_io.files import path_of, shown
+from dh2urdf.doors import flag
 from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
-from dh2urdf.export.ros2.parameters import joint_limits_yaml, kinematics_yaml
+from dh2urdf.export.blanks import filled
+from dh2urdf.export.ros2.parameters import KDL, PLAIN_NAME, joint_limits_yaml, kinematics_yaml
 from dh2urdf.export.ros2.self_collisions import Disabled, disabled_collisions
 from dh2urdf.export.ros2.semantics import srdf_text
 
+SAME = (
+    *("CMakeLists.txt", "README.md", "package.xml"),
+    *("launch/display.launch.py", "rviz/display.rviz"),
+)
+"""Files that are the same for every arm but for a few names."""
+
 PACKAGE_NAME = re.compile(r"[a-z](?:_?[a-z0-9]+)*")
 """Names that ROS gives packages: https://ros.org/reps/rep-0144.html, of two signs at least."""
-
-PLAIN_NAME = re.compile(r"[A-Za-z0-9_-]+")
-"""Names that may be a joint's in ROS parameters, where a dot parts levels."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +56,7 @@ class Ros2Package:
     warnings: tuple[str, ...]
 
 
-def ros2_package(table: TableLike, name: str) -> Ros2Package:
+def ros2_package(table: TableLike, name: str, *, plugin: bool = False) -> Ros2Package:
     """Description package of an arm for ROS 2 and MoveIt 2.
 
     Parameters
@@ -61,6 +64,8 @@ def ros2_package(table: TableLike, name: str) -> Ros2Package:
     table : DHTable, path or name of a table that ships
     name : str
         Name of the package: lower-case letters, digits and single underscores.
+    plugin : bool
+        With the arm's own solver as MoveIt's kinematics plugin.
 
     Raises
     ------
@@ -68,6 +73,8 @@ def ros2_package(table: TableLike, name: str) -> Ros2Package:
         ROS could have no package of that name.
     VerificationError
         The URDF would be another arm.
+    NoSolverError
+        There is no plugin for the arm.
     """
     table = as_table(table)
     _check_name(name)
@@ -75,24 +82,19 @@ def ros2_package(table: TableLike, name: str) -> Ros2Package:
     urdf, max_error, warnings = verified_urdf(table, UrdfOptions(collision=True))
     home = home_of(table)
     disabled = disabled_collisions(urdf, np.array(list(home.values())))
-    filled = {
-        "PACKAGE": name,
-        "ARM": arm,
-        "COUNT": str(table.n),
-        "VERSION": _version(),
-        "DESCRIPTION": f"Description of an arm of {table.n} joints for ROS 2 and MoveIt 2",
-        "DISABLED": _counts(disabled),
-    }
+    blanks, solver, own = _blanks(table, name, arm, disabled), KDL, dict[str, str]()
+    if flag(plugin, "plugin"):
+        from dh2urdf.export.ros2.plugin import plugin_blanks, plugin_files
+
+        solver, own = f"{name}/KinematicsPlugin", plugin_files(table, blanks)
+        blanks |= plugin_blanks(name)
     texts = {
-        "CMakeLists.txt": _template("CMakeLists.txt", filled),
-        "README.md": _template("README.md", filled),
+        **{place: filled(__package__, Path(place).name, blanks) for place in SAME},
         "config/joint_limits.yaml": joint_limits_yaml(table),
-        "config/kinematics.yaml": kinematics_yaml(table),
-        "launch/display.launch.py": _template("display.launch.py", filled),
-        "package.xml": _template("package.xml", filled),
-        "rviz/display.rviz": _template("display.rviz", filled),
+        "config/kinematics.yaml": kinematics_yaml(table, solver),
         f"srdf/{arm}.srdf": srdf_text(table.name, f"link_{table.n}", home, disabled),
         f"urdf/{arm}.urdf": urdf,
+        **own,
     }
     odd = [joint for joint in table.joint_names if not PLAIN_NAME.fullmatch(joint)]
     if odd:
@@ -100,13 +102,29 @@ def ros2_package(table: TableLike, name: str) -> Ros2Package:
     return Ros2Package(name, texts, max_error, tuple(disabled), warnings)
 
 
+def _blanks(table: DHTable, name: str, arm: str, disabled: Sequence[Disabled]) -> dict[str, str]:
+    """What fills the files that are the same for every arm."""
+    from dh2urdf import __version__
+
+    return {
+        "PACKAGE": name,
+        "ARM": arm,
+        "COUNT": str(table.n),
+        "VERSION": __version__,
+        "DESCRIPTION": f"Description of an arm of {table.n} joints for ROS 2 and MoveIt 2",
+        "DISABLED": _counts(disabled),
+        **dict.fromkeys(("PLUGIN_CMAKE", "PLUGIN_DEPENDS", "PLUGIN_ABOUT"), ""),
+    }
+
+
 def write_ros2_package(
-    table: TableLike, folder: str | os.PathLike[str], *, force: bool = False
+    table: TableLike, folder: str | os.PathLike[str], *, plugin: bool = False, force: bool = False
 ) -> Ros2Package:
     """Write a description package into a folder of its name.
 
-    A new folder appears whole or not at all. ``force`` writes the package's files into a folder
-    that is there, each whole, and leaves what else it holds.
+    ``plugin`` as in :func:`ros2_package`. A new folder appears whole or not at all. ``force``
+    writes the package's files into a folder that is there, each whole, and leaves what else it
+    holds.
 
     Raises
     ------
@@ -123,7 +141,7 @@ def write_ros2_package(
         )
     if not target.parent.is_dir():
         raise OutputError(f"{shown(target)}: cannot write: there is no such folder")
-    package = ros2_package(table, target.name)
+    package = ros2_package(table, target.name, plugin=plugin)
     if held:
         _write_over(package, target)
     else:
@@ -148,24 +166,10 @@ def _check_name(name: str) -> None:
         )
 
 
-def _version() -> str:
-    from dh2urdf import __version__
-
-    return __version__
-
-
 def _counts(disabled: Sequence[Disabled]) -> str:
     """How many pairs there are of each reason."""
     found = Counter(str(pair.reason) for pair in disabled)
     return ", ".join(f"{count} `{reason}`" for reason, count in found.items()) or "none"
-
-
-def _template(name: str, filled: dict[str, str]) -> str:
-    """A file of ``templates/`` with its blanks filled."""
-    text = (files(__package__) / "templates" / f"{name}.in").read_text(encoding="utf-8")
-    for key, value in filled.items():
-        text = text.replace(f"@{key}@", escape(value) if name.endswith(".xml") else value)
-    return text
 
 
 def _appear(package: Ros2Package, target: Path) -> None:

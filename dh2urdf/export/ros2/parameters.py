@@ -1,14 +1,21 @@
 """MoveIt's parameters as YAML: how inverse kinematics is solved, how fast joints move."""
 
 import json
+import re
 
 from dh2urdf.conversions.write import DEFAULT_VELOCITY
 from dh2urdf.dh import DHTable
 from dh2urdf.export.ros2.semantics import GROUP
 
+PLAIN_NAME = re.compile(r"[A-Za-z0-9_-]+")
+"""Names that may be a joint's in ROS parameters, where a dot parts levels."""
+
+KDL = "kdl_kinematics_plugin/KDLKinematicsPlugin"
+"""The solver that every MoveIt has."""
+
 _KINEMATICS = """\
 {group}:
-  kinematics_solver: kdl_kinematics_plugin/KDLKinematicsPlugin
+  kinematics_solver: {solver}
   kinematics_solver_search_resolution: 0.005
   kinematics_solver_timeout: 0.005
 """
@@ -31,9 +38,10 @@ _LIMIT = """\
 """
 
 
-def kinematics_yaml(table: DHTable) -> str:
-    """Solver of the group, KDL's, which every MoveIt has."""
-    return _KINEMATICS.format(group=GROUP) + (_POSITION_ONLY if table.n < 6 else "")
+def kinematics_yaml(table: DHTable, solver: str = KDL) -> str:
+    """Solver of the group; KDL's reaches positions alone with fewer than six joints."""
+    alone = table.n < 6 and solver == KDL
+    return _KINEMATICS.format(group=GROUP, solver=solver) + (_POSITION_ONLY if alone else "")
 
 
 def joint_limits_yaml(table: DHTable) -> str:

@@ -1,0 +1,81 @@
+"""``export --ros2 DIR --plugin``: MoveIt's plugin, compiled against its base class and used."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+import dh2urdf
+from dh2urdf import DHRow, DHTable
+from dh2urdf.exceptions import ArgumentError, NoSolverError
+from dh2urdf.export.ros2 import ros2_package, write_ros2_package
+
+HERE = Path(__file__).parent / "moveit"
+
+STRICT = ["-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Woverloaded-virtual"]
+
+ARMS = {"ur5e": "0.1, -1.2, 0.9, 0.4, 0.5, 0.6", "puma560": "0.1, 0.4, -0.9, 0.4, 0.5, 0.6"}
+"""Arms of six joints, one of which needs memory to work in, and a configuration of each."""
+
+
+@pytest.mark.parametrize("compiler", ["g++", "clang++"])
+@pytest.mark.parametrize("arm", ARMS)
+def test_plugin_compiles_and_solves_as_moveit_asks(tmp_path, arm, compiler):
+    """C++17 without a warning; seeds, callbacks, limits of consistency and errors as MoveIt's."""
+    if not shutil.which(compiler):
+        pytest.skip(f"not installed: {compiler}")
+    if compiler == "clang++" and arm != "ur5e":
+        pytest.skip("one arm is enough for the second compiler")
+    folder = tmp_path / "arm_description"
+    write_ros2_package(arm, folder, plugin=True)
+    sources = [folder / "src/kinematics_plugin.cpp", HERE / "use_plugin.cpp"]
+    words = [compiler, *STRICT, f"-DQS={ARMS[arm]}", f"-I{HERE}", f"-I{folder / 'include'}"]
+    made = subprocess.run(
+        [*words, *sources, "-o", "use"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert made.returncode == 0, made.stderr[:4000]
+    used = subprocess.run(["./use"], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert (used.returncode, used.stdout.count("not so")) == (0, 0), used.stdout
+    robot = dh2urdf.Robot.from_dh(arm)
+    q = [float(v) for v in ARMS[arm].split(",")]
+    assert used.stdout == f"{len(robot.ik(robot.fk(q)))} solutions\n"
+
+
+def test_package_names_its_plugin_everywhere_alike():
+    """The class of the source is the one of the description and of kinematics.yaml."""
+    package = ros2_package("ur5e", "arm_description", plugin=True)
+    plain = ros2_package("ur5e", "arm_description")
+    more = {"include/arm_description/ur5e.h", "kinematics_plugin.xml", "src/kinematics_plugin.cpp"}
+    assert package.files.keys() - plain.files.keys() == more
+    described = etree.fromstring(package.files["kinematics_plugin.xml"].encode())
+    (one,) = described.iter("class")
+    assert f"kinematics_solver: {one.get('name')}\n" in package.files["config/kinematics.yaml"]
+    source = package.files["src/kinematics_plugin.cpp"]
+    exported = re.search(r"PLUGINLIB_EXPORT_CLASS\(([\w:]+), ([\w:]+)\)", source).groups()
+    assert exported == (one.get("type"), one.get("base_class_type"))
+    cmake = package.files["CMakeLists.txt"]
+    assert f"add_library({described.get('path')} SHARED src/kinematics_plugin.cpp)" in cmake
+    found = set(re.findall(r"find_package\((\w+)", cmake)) - {"ament_cmake"}
+    depends = etree.fromstring(package.files["package.xml"].encode()).iter("depend")
+    assert found == {depend.text for depend in depends}
+    for place, text in package.files.items():
+        assert not re.search(r"@[A-Z]+@", text), place
+    assert "moveit_core" not in "".join(plain.files.values())
+
+
+def test_arms_without_a_plugin_are_refused_with_the_reason(refused, tmp_path):
+    """A joint to spare, and a name that C++ could not quote; nothing is written."""
+    with pytest.raises(NoSolverError, match="joint to spare"):
+        ros2_package("kuka_iiwa14", "arm_description", plugin=True)
+    rows = tuple(DHRow(a=0.3, name=name) for name in ('a"b', "c", "d"))
+    table = DHTable(rows, "standard", name="arm")
+    with pytest.raises(ArgumentError, match="letters, digits"):
+        ros2_package(table, "arm_description", plugin=True)
+    assert "joint to spare" in refused("export", "kuka_iiwa14", "--ros2", "iiwa", "--plugin")
+    assert "--plugin does nothing without --ros2" in refused(
+        "export", "ur5", "--plugin", "-o", "a.h"
+    )
+    assert list(tmp_path.iterdir()) == []
