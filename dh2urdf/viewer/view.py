@@ -17,6 +17,7 @@ from dh2urdf.viewer.arm_scene import ArmScene
 from dh2urdf.viewer.door import LOOPBACK, later, quietly, start_server
 from dh2urdf.viewer.frames_scene import FramesScene, RowScene
 from dh2urdf.viewer.options import Options
+from dh2urdf.viewer.reach_scene import ReachScene
 from dh2urdf.viewer.stage import cast_shadows, light, look_at, set_stage
 from dh2urdf.viewer.step_scene import StepScene
 from dh2urdf.viewer.tabs.editor import page_title
@@ -92,6 +93,7 @@ class ArmView:
         self._row = 0
         self._scenes: list[Any] = []
         self._row_scene: RowScene | None = None
+        self._reach: ReachScene | None = None
         self._server.gui.main_panel.dock_right()
         self._server.gui.main_panel.set_width(PANEL)
         tabs = self._server.gui.add_tab_group()
@@ -123,6 +125,25 @@ class ArmView:
     @q.setter
     def q(self, value: ArrayLike) -> None:
         self._moved(zero_configuration(self.robot, value))
+
+    def show_reach(self, found: Any) -> None:
+        """Show where a share of the orientations is reached, which is chosen in the panel.
+
+        ``found`` is a map of :func:`dh2urdf.workspace.reach_map`, or the path of its Zarr group.
+
+        Raises
+        ------
+        ArgumentError, UnreachedError, MissingExtraError
+        """
+        with self._lock:
+            fresh = ReachScene(self._server, found)
+            self._hide_reach()
+            self._reach = fresh
+
+    def _hide_reach(self) -> None:
+        if self._reach is not None:
+            self._reach.remove()
+            self._reach = None
 
     def wait(self) -> None:
         """Wait until :meth:`stop` is called or the program is interrupted."""
@@ -267,6 +288,7 @@ class ArmView:
         """Rebuild the arm from an edited table; joints that it kept stay where they are."""
         robot = Robot.from_dh(table)
         with self._lock:
+            self._hide_reach()
             old = dict(zip(self.robot.joint_names, self._q.tolist(), strict=True))
             q = np.array([old.get(name, 0.0) for name in robot.joint_names])
             self._build(robot, np.clip(q, robot.lower, robot.upper))

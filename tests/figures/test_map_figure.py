@@ -57,6 +57,17 @@ def test_a_stored_map_is_drawn_as_it_was(maps, tmp_path):
         open_map(tmp_path / "empty")
 
 
+def test_workspace_draws_stored_maps(maps, run, tmp_path):
+    """A map in the place of a robot, and the difference of two."""
+    for found, name in zip(maps, ("a.zarr", "b.zarr"), strict=True):
+        found.to_zarr(tmp_path / name, consolidated=False)
+    argv = ["workspace", "a.zarr", "-o", "cut.svg", "--plane", "xy", "--at", "0.3"]
+    assert run(*argv, "--variable", "limit_margin") == (0, "cut.svg\n", "")
+    assert b"margin to limits" in (tmp_path / "cut.svg").read_bytes()
+    assert run(*argv, "--against", "b.zarr") == (0, "cut.svg\n", "")
+    assert b"ur5e less denso_vs6556" in (tmp_path / "cut.svg").read_bytes()
+
+
 def test_the_surface_of_a_level_is_closed_and_holds_its_volume(maps):
     """Each edge is met once each way, outwards; the volume is that of the voxels within a shell."""
     share = maps[0].share.values

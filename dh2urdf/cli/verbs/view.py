@@ -23,6 +23,7 @@ def view_(
     force: Force = False,
     host: str = "127.0.0.1",
     port: Annotated[int | None, whole(0, 65_535)] = None,
+    map: str | None = None,
     open: Annotated[bool, Parameter(negative="--no-open")] = True,
     json: bool = False,
 ) -> None:
@@ -41,6 +42,8 @@ def view_(
         Address to listen on; the default is reached from this machine only.
     port
         That port and no other, 0 for any; default: the next free one from 8080.
+    map
+        A map of `dh2urdf map`, whose surface is shown around the arm.
     open
         Open the page in the browser.
     json
@@ -61,6 +64,8 @@ def view_(
     arm = robot_of(robot, base, tip, reading) if robot else Robot.from_dh(new_table())
     shown = view(arm, parse_configuration(q, arm, deg=deg) if q else None, host=host, port=port)
     with shown:
+        if map is not None:
+            shown.show_reach(map)
         if json:
             emit_json("view", url=shown.url, host=host)
         else:

@@ -1,6 +1,7 @@
 """``dh2urdf workspace``: what an arm reaches, as a picture."""
 
-from typing import Annotated, Literal
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter
 
@@ -11,6 +12,11 @@ from dh2urdf.cli.progress import bar
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io import Kind
 from dh2urdf.exceptions import ArgumentError
+
+Variable = Literal[
+    "share", "solutions_mean", "solutions_max", "manipulability", "singular_value", "limit_margin"
+]
+"""What a map says of each voxel."""
 
 
 def workspace_(
@@ -27,6 +33,8 @@ def workspace_(
     limits: Annotated[bool, Parameter(negative="--no-limits")] = True,
     envelope: bool = False,
     exact: bool = False,
+    against: str | None = None,
+    variable: Variable | None = None,
     base: Link = None,
     tip: Link = None,
     reading: Reading = DEFAULT,
@@ -37,7 +45,8 @@ def workspace_(
     """Draw what an arm can reach.
 
     A planar arm of two joints: the surface of its poses (x, y, phi) and its annulus. Any other:
-    a section with the number of branches and the share of orientations reached.
+    a section with the number of branches and the share of orientations reached. A map of
+    `dh2urdf map`, arm.zarr, may stand for the robot: then a layer of it is drawn.
 
     Parameters
     ----------
@@ -62,13 +71,29 @@ def workspace_(
         Not by a grid: how far and near the tip and the wrist reach, to 1e-9; the section of the
         wrist's reach, with voids, from where the arm is singular and its limits; its volume. No
         picture is needed then.
+    against
+        A second map: the first one, this, and their difference are drawn.
+    variable
+        What of a map is drawn; default: the share of orientations reached.
     """
-    if output is None and not exact:
+    is_map = Path(robot).suffix == ".zarr"
+    if output is None and (is_map or not exact):
         raise ArgumentError("--output is needed: the picture to write, .png, .svg or .pdf")
     if output is not None:
         from dh2urdf.figures.save import check_target
 
         check_target(output, force=force)
+    if is_map:
+        asked: dict[str, Any] = {"--rpy": rpy, "--points": points, "--orientations": orientations}
+        asked |= {"--base": base, "--tip": tip, "--envelope": envelope, "--exact": exact}
+        _refuse("a map", {**asked, "--no-limits": not limits})
+        assert output is not None
+        from dh2urdf.figures import map_figure, save_picture
+
+        cut = map_figure(robot, against, variable=variable or "share", plane=plane or "xz", at=at)
+        path = save_picture(cut, output, dpi=dpi, force=force)
+        return emit_json("workspace", path=path) if json else emit(str(path))
+    _refuse("a robot that is no map", {"--against": against, "--variable": variable})
     arm = robot_of(robot, base, tip, reading)
     if exact:
         from dh2urdf.cli.verbs.exact_reach import tell_exact_reach
@@ -94,3 +119,10 @@ def workspace_(
         emit_json("workspace", path=path, within_limits=limits)
     else:
         emit(str(path))
+
+
+def _refuse(what: str, asked: dict[str, Any]) -> None:
+    """Refuse options that say nothing of it."""
+    for option, value in asked.items():
+        if value not in (None, False):
+            raise ArgumentError(f"{option} does nothing for {what}")
