@@ -31,6 +31,7 @@ ANSWERS = {
     "extract a format": ["extract", "arm.urdf", "--format", "csv"],
     "export": ["export", "planar_rr", "-o", "rr.h"],
     "export with tests": ["export", "planar_rr", "-o", "rr.h", "--tests", "rr_test.c"],
+    "export Python": ["export", "planar_rr", "-o", "rr.py"],
     "export to stdout": ["export", "planar_rr", "-o", "-"],
     "check": ["check", "arm.urdf", "bad.urdf", "nowhere.urdf", "--no-run"],
     "check asked": ["check", "arm.urdf"],

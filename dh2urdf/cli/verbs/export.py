@@ -19,7 +19,7 @@ def export_(
     ros2: Path | None = None,
     plugin: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    language: Literal["c", "c++", "rust"] | None = None,
+    language: Literal["c", "c++", "python", "rust"] | None = None,
     prefix: str | None = None,
     held: str | None = None,
     tests: Path | None = None,
@@ -49,11 +49,12 @@ def export_(
     plugin
         With the arm's own solver as MoveIt's kinematics plugin.
     output
-        The source file: .h for C, .hpp for C++; - for stdout. The C is C99 that C++ takes, too.
+        The source file: .h for C, .hpp for C++, .py for Python; - for stdout. The C is C99 that C++
+        takes, too; the Python needs nothing but math.
     language
         Of the source where the suffix does not tell.
     prefix
-        With which all names of the source begin. Default: the name of the table, or the file's.
+        With which all names of C begin. Default: the name of the table, or the file's.
     held
         Name or number (0 is the first) of a joint whose value is given with every pose; an arm of
         seven joints needs one.

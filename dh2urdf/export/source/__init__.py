@@ -2,7 +2,8 @@
 
 `program` is what has to be done for a pose, taken from the solver's own steps; `c_kernels` writes
 the kernels for one arm, by the translator that builds the package; `c_file` the functions around
-them and `head` what stands above; `stack` counts what they need of it.
+them and `head` what stands above; `stack` counts what they need of it. `python_file` takes the
+kernels as they are written, with `arrays.py.in` for what of NumPy they use.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ if TYPE_CHECKING:
     from dh2urdf.ik.arm import HeldSolver, Solver
     from dh2urdf.robot import Robot
 
-LANGUAGES = ("c", "c++")
+LANGUAGES = ("c", "c++", "python")
 
-SUFFIXES = {".h": "c", ".c": "c", ".hpp": "c++", ".hh": "c++", ".hxx": "c++"}
+SUFFIXES = {".h": "c", ".c": "c", ".hpp": "c++", ".hh": "c++", ".hxx": "c++", ".py": "python"}
 """Languages by the suffixes of their files."""
 
 MARK = "Written by dh2urdf"
@@ -49,7 +50,7 @@ class Exported:
     solutions : int
         Most solutions that a pose can have.
     stack : int
-        Bytes of the stack that are enough for any function of the file.
+        Bytes of the stack that are enough for any function of a C file; 0 for Python.
     """
 
     text: str
@@ -60,10 +61,9 @@ class Exported:
     stack: int
 
     def __str__(self) -> str:
-        return (
-            f"{self.solver}, up to {self.solutions} solutions, {len(self.text.splitlines())} lines "
-            f"of {self.language}, {self.stack} bytes of stack; {self.prefix}_ik and others"
-        )
+        length = f"{len(self.text.splitlines())} lines of {self.language.capitalize()}"
+        stack = f", {self.stack} bytes of stack" if self.stack else ""
+        return f"{self.solver}, up to {self.solutions} solutions, {length}{stack}"
 
 
 def export_solver(
@@ -81,11 +81,12 @@ def export_solver(
     ----------
     robot : Robot
     path : path
-        The file; ``.h`` is C, ``.hpp`` C++. The C is C99 that is valid C++, too.
-    language : {"c", "c++"}, optional
+        The file; ``.h`` is C, ``.hpp`` C++, ``.py`` Python. The C is C99 that is valid C++, too;
+        the Python needs nothing but ``math``.
+    language : {"c", "c++", "python"}, optional
         Where the suffix does not tell.
     prefix : str, optional
-        With which all names begin; the name of the table, or the file's, without it.
+        With which all names of C begin; the name of the table, or the file's, without it.
     held : int or str, optional
         Index or name of a joint of which the caller gives the value with every pose; an arm of
         seven joints needs one.
@@ -123,6 +124,7 @@ def exported(
     """The same as a text; ``path`` tells the language and the prefix where nothing else does."""
     from dh2urdf.export.source.c_file import CProgram
     from dh2urdf.export.source.program import Program
+    from dh2urdf.export.source.python_file import PythonProgram
     from dh2urdf.ik.redundant import SweptJoint
     from dh2urdf.robot import Robot
 
@@ -140,7 +142,8 @@ def exported(
             f"{robot.joint_names[solver.joint]} (held=..., --held on the command line)"
         )
     program = Program.of(robot.chain, solver)
-    written = CProgram(robot, program, name)
+    python = spoken == "python"
+    written = PythonProgram(robot, program) if python else CProgram(robot, program, name)
     text = written.text()
     return Exported(text, spoken, name, solver.name, solver.kmax, written.stack)
 

@@ -176,7 +176,7 @@ def test_the_head_says_what_it_is():
 REFUSED = {
     "suffix": ({"path": "arm.txt"}, ArgumentError, "the suffix tells"),
     "rust": ({"language": "rust"}, ArgumentError, "Rust is not written"),
-    "language": ({"language": "ada"}, ArgumentError, "expected 'c' or 'c\\+\\+'"),
+    "language": ({"language": "ada"}, ArgumentError, "expected 'c' or 'c\\+\\+' or 'python'"),
     "prefix": ({"prefix": "1x"}, ArgumentError, "a name of C"),
     "joint": ({"held": "nothing"}, NameNotFoundError, "no joint named"),
     "index": ({"held": 7}, ArgumentError, "from 0 to 5"),
