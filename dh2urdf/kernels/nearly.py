@@ -135,6 +135,24 @@ def parallel_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
             q[i, k] = rows[0][k]
 
 
+def settle_counts(count: Counts):
+    """Make counts of candidates of those of poses in doubt; whether there is one."""
+    doubt = False
+    for i in range(count.shape[0]):
+        doubt = doubt or count[i] < 0
+        count[i] = max(count[i], -1 - count[i])
+    return doubt
+
+
+def reverse_all(q: Solutions):
+    """Reverse the joints of configurations q (m, k, n), in place."""
+    n = q.shape[2]
+    for i in range(q.shape[0]):
+        for k in range(q.shape[1]):
+            for j in range(n // 2):
+                q[i, k, j], q[i, k, n - 1 - j] = q[i, k, n - 1 - j], q[i, k, j]
+
+
 @entry()
 def add_candidates(
     rows: Annotated[Integers, "rows"],

@@ -209,7 +209,7 @@ class CProgram:
             given=", ".join(given),
             scratch="".join(f"    {self._declared(x)};\n" for x in program.scratch),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
-            steps="\n".join(f"    {self._call(call)};" for call in program.calls),
+            steps="\n".join(map(self._step, program.calls)),
             keep=self._call(Call(keep_inside, (tables, LIMIT_SLACK, POSE, pose, out))),
             arrange=self._call(Call(arrange_near, near)),
         )
@@ -232,6 +232,13 @@ class CProgram:
         lines = [f"static inline void {p}_prepare({p}_workspace *work)", "{", *consts]
         about = "/* Fill what the solver knows and works in, once before all poses. */"
         return "\n".join([about, *lines, "    memset(work, 0, sizeof *work);", *sets, "}", ""])
+
+    def _step(self, call: Call) -> str:
+        """A call that says whether the pose is in doubt, if it says anything."""
+        text = self._call(call)
+        if self.file.entries[-1].returned is None:
+            return f"    {text};"
+        return f"    if ({text}) {{\n        found->complete = false;\n    }}"
 
     def _declared(self, array: Named) -> str:
         """An array as a variable."""

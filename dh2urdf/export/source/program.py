@@ -6,6 +6,7 @@ same for all poses, those that the caller has, and those that one kernel leaves 
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, get_type_hints
 
 import numpy as np
@@ -68,12 +69,13 @@ class Program:
         """
         room, held, limits = Room(solver.kmax, chain.n), np.empty(1), Switch(1)
         inside: Any = limits
-        steps: tuple[Step, ...] = ()
         joints: tuple[int, ...] = ()
+        take: Callable[[], tuple[Step, ...]] = tuple
         if isinstance(solver, HeldSolver):
-            joints, steps = solver.held, solver.steps(room.Ts, held, inside, room.out)
+            joints, take = solver.held, partial(solver.steps, room.Ts, held, inside, room.out)
         elif isinstance(solver, SolverBase):
-            steps = solver.steps(room.Ts, inside, room.out)
+            take = partial(solver.steps, room.Ts, inside, room.out)
+        steps = take()
         if not steps:
             raise NoSolverError(f"{solver}: its solutions need more than kernels; not exported")
         named: dict[str, Any] = {
@@ -87,8 +89,8 @@ class Program:
         }
         records = [a for a in _arrays(steps) if a.dtype.names]
         blank = tuple(Named("work", a.copy()) for a in records)
-        changing = _changing(chain, steps, list(named.values()), room, held, joints)
-        scratch = [Named(f"between_{k + 1}", a) for k, a in enumerate(changing)]
+        made = [a for a in _made(steps, take()) if not a.dtype.names]
+        scratch = [Named(f"between_{k + 1}", a) for k, a in enumerate(made)]
         work = [Named("work", a) for a in records]
         known = [*(Named(name, a) for name, a in named.items()), *scratch, *work]
         calls = tuple(Call(k, _told(args, limits, known)) for k, args, _ in steps)
@@ -127,25 +129,10 @@ def _arrays(argument: Any) -> Iterator[Array]:
     yield from found
 
 
-def _changing(
-    chain: SerialChain,
-    steps: tuple[Step, ...],
-    named: list[Array],
-    room: Room,
-    held: Array,
-    joints: tuple[int, ...],
-) -> list[Array]:
-    """Arrays that are other ones after other poses, those that have names apart."""
-    rng, seen = np.random.default_rng(0), list[list[bytes]]()
-    arrays = [a for a in _arrays(steps) if not any(_is(a, b) for b in named) and not a.dtype.names]
-    for _ in range(2):
-        q = rng.uniform(-1.0, 1.0, chain.n)
-        room.Ts[0] = chain.fk(q)
-        held[0] = q[joints[0]] if joints else 0.0
-        for kernel, args, _ in steps:
-            kernel(*args)
-        seen.append([a.tobytes() for a in arrays])
-    return [a for a, x, y in zip(arrays, *seen, strict=True) if x != y]
+def _made(steps: tuple[Step, ...], again: tuple[Step, ...]) -> list[Array]:
+    """Arrays that a solver makes for each of its programs: those of another are elsewhere."""
+    others = list(_arrays(again))
+    return [a for a in _arrays(steps) if not any(_is(a, b) for b in others)]
 
 
 def names_of(kernel: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:

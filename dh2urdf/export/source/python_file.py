@@ -174,10 +174,14 @@ class PythonProgram:
             jacobian=self._call(Call(chain_jacobian, (links, slides, q, Named("J", None)))),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", None),))),
             scratch=textwrap.indent("\n".join(scratch), "    "),
-            steps="\n".join(f"    {self._call(call)}" for call in program.calls),
+            steps="\n".join(map(self._step, program.calls)),
             keep=self._call(Call(keep_inside, keep)),
             arrange=self._call(Call(arrange_near, near)),
         )
+
+    def _step(self, call: Call) -> str:
+        """A call that may say that the pose is in doubt."""
+        return f"    if {self._call(call)}:\n        complete = False"
 
     def _call(self, call: Call) -> str:
         """A call of a kernel."""

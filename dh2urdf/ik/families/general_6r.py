@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, solve_general_6r
-from dh2urdf.kernels.numbers import sincos
+from dh2urdf.kernels.numbers import any_set, sincos
 from dh2urdf.transforms import Array, inverse, product
 
 Arm: TypeAlias = NDArray[np.void]
@@ -112,6 +113,13 @@ class General6R(SolverBase):
         searched = search_in_doubt(self.chain, Ts[doubt], out.rows(doubt), rows, within_limits)
         self._finish(self.chain.tables, Ts, within_limits, out)
         out.put(doubt, searched)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernels alone, of a pose that is not in doubt."""
+        doubt, arm = np.zeros(len(Ts), np.int64), self.plan.copy()
+        solve: Step = solve_general_6r, (arm, Ts, out.q, out.residual, out.counts, doubt), False
+        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
+        return solve, (any_set, (doubt,), False), finish
 
 
 def _z(angle: float, offset: float) -> Array:

@@ -6,6 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     NEAR,
     NEARLY_SINGULAR,
@@ -26,7 +27,13 @@ from dh2urdf.ik.families.closed_form import STUCK, ThreeParallel, not_six_revolu
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.kernels.certificate import finish_batch
-from dh2urdf.kernels.nearly import add_candidates, solve_near_parallel, solve_near_wrist
+from dh2urdf.kernels.nearly import (
+    add_candidates,
+    reverse_all,
+    settle_counts,
+    solve_near_parallel,
+    solve_near_wrist,
+)
 from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array
 
@@ -110,6 +117,21 @@ class NearFamily(Refereed):
         rows, wide = self.in_doubt(Ts, within_limits, out)
         finish_batch(self.chain.tables, Ts, within_limits, out)
         out.put(rows, wide)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The nominal arm's solutions as seeds, of a pose that is not in doubt."""
+        form, poses = self.nominal.form, np.empty_like(Ts)
+        wrist = isinstance(self.nominal, SphericalWrist)
+        solve = solve_near_wrist if wrist else solve_near_parallel
+        arm = self.nominal.chain.tables, form.rows, form.ends, self.slack
+        seen = poses if self.reversed else Ts
+        first: Step = solve, (arm, self.trust, seen, out), False
+        settle: Step = settle_counts, (out.counts,), False
+        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
+        if not self.reversed:
+            return first, settle, finish
+        turned: Step = reverse_all, (out.q,), False
+        return (invert_poses, (Ts, poses), False), first, turned, settle, finish
 
 
 @lru_cache(maxsize=4)

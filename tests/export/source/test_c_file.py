@@ -5,12 +5,13 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from dh2urdf import Robot, export_solver
+from dh2urdf import DHTable, Robot, export_solver
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
 from dh2urdf.export.source import exported
 from dh2urdf.export.source.head import LICENCE
@@ -64,6 +65,36 @@ def test_the_solutions_are_those_of_the_robot(name, tmp_path):
     arm = Arm(Robot.from_dh(name), tmp_path, HELD.get(name))
     arm.compile(*SAME)
     compare(arm, EVERY_DAY, 1)
+
+
+def other_arms():
+    """Arms that are nearly of a family, of none, and of one seen from the tool."""
+    rng = np.random.default_rng(0)
+    rows = Robot.from_dh("ur10e").table.rows
+    noise = 2e-4 * rng.standard_normal((6, 3))
+    off = [
+        replace(r, a=r.a + x, d=r.d + y, alpha=r.alpha + z)
+        for r, (x, y, z) in zip(rows, noise, strict=True)
+    ]
+    none = rng.uniform((-1, 0.1, -0.4, -1.4), (1, 0.4, 0.4, 1.4), (6, 4))
+    turned = [(0.0, r.d, r.a, r.alpha) for r in Robot.from_dh("puma560").table.rows[::-1]]
+    return {
+        "nearly three parallel axes": DHTable(tuple(off), "standard"),
+        "general 6R": DHTable.from_array(none, convention="standard"),
+        "spherical shoulder": DHTable.from_array(turned, convention="modified"),
+    }
+
+
+@pytest.mark.parametrize(("solver", "table"), other_arms().items())
+def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path):
+    """Calibrated, general and mirrored arms: the same bits at regular poses, no fewer elsewhere."""
+    arm = Arm(Robot.from_dh(table), tmp_path)
+    assert arm.made.solver == solver
+    arm.compile(*SAME)
+    q = np.random.default_rng(6).uniform(-3.0, 3.0, (80, 6))
+    found = arm.run(q)["any"]
+    assert_same(found, arm.robot.ik_batch(arm.robot.fk(q), within_limits=False))
+    assert found["complete"].mean() > MOSTLY
 
 
 @pytest.mark.exhaustive
