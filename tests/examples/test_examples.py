@@ -108,6 +108,7 @@ def test_the_cmake_project_builds_and_its_tests_pass(tmp_path):
     command.chmod(0o755)
     build = tmp_path / "build"
     words = ["-S", FOLDER / "cmake_solver", "-B", build, f"-DDH2URDF={command}", "-DARM=puma560"]
+    words.append("-DCMAKE_BUILD_TYPE=Debug")
     for line in (["cmake", *words], ["cmake", "--build", build], ["ctest", "--test-dir", build]):
         done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
         assert done.returncode == 0, done.stdout + done.stderr
