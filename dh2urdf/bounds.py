@@ -92,6 +92,9 @@ THREADS = 1_024
 ORIENTATIONS = 10_000
 """Orientations of a workspace map: 5 degrees apart."""
 
+JOB_POSES = 100_000
+"""Poses of a job for which a base is sought: some 15,000 bases are asked for each."""
+
 POINTS = (2, 1_000)
 """Points along a side of a workspace map: a million poses."""
 

@@ -186,22 +186,23 @@ def _text(arm: Robot, placement: Placement, read: Poses, *, deg: bool) -> str:
 
 
 def _map_lines(placement: Placement) -> list[str]:
-    """The map in letters: tenths of the margin, a dot where half of the poses are reached."""
+    """The map in letters: tenths of the margin, or of the poses where no base reaches all."""
     area = placement.map
-    if min(area.margin.shape) < 2 or area.margin.shape[1] > COLUMNS:
-        return []
     rows, columns = np.nonzero(area.reached > 0.0)
     if not len(rows):
         return []
     part = slice(rows.min(), rows.max() + 1), slice(columns.min(), columns.max() + 1)
-    if part[0].stop - part[0].start > ROWS:
-        return []
     x, y = area.x[part[1]], area.y[part[0]]
-    lines = [f"tenths of the margin for bases at x {x[0]:.2f} to {x[-1]:.2f} m, "
-             "y as written; . some poses, blank none"]  # fmt: skip
+    if min(len(x), len(y)) < 2 or len(y) > ROWS or len(x) > COLUMNS:
+        return []
+    margin, reached = area.margin[part], area.reached[part]
+    whole = bool((area.margin > 0.0).any())
+    what = "margin, . where poses are left out" if whole else "poses that are reached"
+    lines = [f"tenths of the {what}; bases at x {x[0]:.2f} to {x[-1]:.2f} m, y as written"]
+    tenths = np.minimum((10.0 * (margin if whole else reached) + 1e-9).astype(int), 9)
     for k in range(len(y) - 1, -1, -1):
-        cells = zip(area.margin[part][k], area.reached[part][k], strict=True)
-        signs = [str(min(int(10 * m), 9)) if m > 0.0 else "." if s > 0.0 else " " for m, s in cells]
+        signs = [" " if reached[k, i] == 0.0 else "." if whole and margin[k, i] == 0.0
+                 else str(tenths[k, i]) for i in range(len(x))]  # fmt: skip
         lines.append(f"{y[k]:8.2f}  {' '.join(signs)}".rstrip())
     return lines
 
@@ -221,7 +222,7 @@ def _better(arms: list[Robot], found: list[Placement]) -> str:
 
 def _tell_missed(arm: Robot, placement: Placement, read: Poses) -> None:
     """The poses that stand in the way, and why."""
-    for i, reason in list(zip(placement.missed, placement.reasons, strict=True))[:SHOWN]:
+    for i, reason in list(zip(placement.missed, placement.reasons, strict=False))[:SHOWN]:
         where = "from any base that was tried" if i in placement.never else "from that base"
         why = f": {reason}" if reason else ""
         note(f"{read.name(i)}: {arm.model.name}: out of reach {where}{why}")

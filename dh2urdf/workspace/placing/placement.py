@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.bounds import LENGTH
+from dh2urdf.bounds import JOB_POSES, LENGTH
 from dh2urdf.doors import choice, finite_array, flag, instance, number
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.poses import check_pose
@@ -19,8 +19,8 @@ from dh2urdf.workspace.section import reach_ball
 
 TASKS = ("pose", "position", "position+axis")
 
-MOST = 100_000
-"""Poses of a job."""
+LOOKED_AT = 100
+"""Poses out of reach of which more is said: the first."""
 
 Told = Callable[[str, int, int], None]
 """Called with what is done, how much of it, and the total."""
@@ -45,9 +45,9 @@ class Placement:
     missed : tuple of int
         Poses out of reach from this base, which reaches the most of all bases tried.
     never : tuple of int
-        Those of them that no base reaches, on a lattice about each.
+        Those of the first hundred of them that no base reaches, on a lattice about each.
     reasons : tuple of str
-        Why each of ``missed`` is out of reach from this base.
+        Why each of the first hundred of ``missed`` is out of reach from this base.
     map : BaseMap
     tried : int
         Bases tried.
@@ -146,7 +146,8 @@ def place(
     which = np.arange(len(job))
     margins, q = job.margins(np.tile(best, (len(job), 1)), which, lambda *_: None)
     missed = np.flatnonzero(np.isnan(q[:, 0]))
-    T = job.poses(np.tile(best, (len(missed), 1)), missed)
+    first = missed[:LOOKED_AT]
+    T = job.poses(np.tile(best, (len(first), 1)), first)
     reasons = [robot.why_unreachable(each, within_limits=within_limits, task=task) for each in T]
     x, y, z, turn = best.tolist()
     return Placement(
@@ -159,7 +160,7 @@ def place(
         margins=margins,
         q=q,
         missed=tuple(missed.tolist()),
-        never=tuple(i for i in missed.tolist() if not _anywhere(job, i, region, box)),
+        never=tuple(i for i in first.tolist() if not _anywhere(job, i, region, box)),
         reasons=tuple(reasons),
         map=map_of(lattice, bases, count, margin, len(job)),
         tried=tried,
@@ -208,8 +209,10 @@ def _job(
     arm: Robot = instance(robot, "robot", Robot)
     choice(task, "task", TASKS)
     T = finite_array(Ts, "Ts", "poses of shape (m, 4, 4)")
-    if T.ndim != 3 or T.shape[1:] != (4, 4) or not 1 <= len(T) <= MOST:
-        raise ArgumentError(f"Ts: expected 1 to {MOST} poses of shape (m, 4, 4), got {T.shape}")
+    if T.ndim != 3 or T.shape[1:] != (4, 4) or not 1 <= len(T) <= JOB_POSES:
+        raise ArgumentError(
+            f"Ts: expected 1 to {JOB_POSES} poses of shape (m, 4, 4), got {T.shape}"
+        )
     check_pose(T, what="Ts")
     T_foot_base = np.eye(4)
     if mount is not None:
