@@ -16,9 +16,40 @@ const CLOSED = [
   [isParallel, "solve_three_parallel", "three parallel axes", "three parallel axes, from the tool"],
 ];
 
-// What solves poses of a table: {name, n, solve(T, withinLimits)}, or {refused}.
+// What solves poses of a table: {name, n, size, solve(T, withinLimits)}, or {refused}. Thresholds are
+// meant for arms of about a metre: others are solved in a unit of their own, a power of two.
 function solverOf(table) {
   top_ = bottom;
+  const size = sizeOf(standardRows(table)), unit = size < 1 / 16 || size > 16 ? 2 ** Math.floor(Math.log2(size)) : 1;
+  const inner = metreSolverOf(inUnit(table, unit));
+  if (unit === 1 || inner.refused) return {...inner, size};
+  const {rows} = table, links = linksOf(standardRows(table));
+  return {...inner, size, solve(T, within) {
+    const answer = inner.solve(shrunk(T, unit), within);
+    answer.found.forEach(s => {
+      s.q = s.q.map((v, i) => rows[i].slides ? v * unit : v);
+      s.residual = poseError(forward(links, rows, s.q), T, inner.pointOnly);
+    });
+    return answer;
+  }};
+}
+
+const shrunk = (T, unit) => T.map((v, k) => k % 4 === 3 && k < 12 ? v / unit : v);
+
+function inUnit(table, unit) {
+  const bound = (v, i) => table.rows[i].slides ? v / unit : v;
+  return {...table, base: shrunk(table.base, unit), tool: shrunk(table.tool, unit), lower: table.lower.map(bound), upper: table.upper.map(bound),
+    rows: table.rows.map(row => ({...row, a: row.a / unit, d: row.d / unit}))};
+}
+
+// The larger of the distance [m] and the sine of the angle between two poses.
+function poseError(found, T, pointOnly) {
+  const row = (M, i) => M.slice(4 * i, 4 * i + 3);  // of M Rot^T, which is symmetric where both are one
+  const turn = [[1, 2], [2, 0], [0, 1]].map(([i, j]) => 0.5 * (dot(row(found, i), row(T, j)) - dot(row(found, j), row(T, i))));
+  return Math.max(distance(origin(found), origin(T)), pointOnly ? 0 : Math.hypot(...turn));
+}
+
+function metreSolverOf(table) {
   const chain = standardRows(table), {rows} = chain, n = rows.length, links = linksOf(chain), size = sizeOf(chain);
   const joints = rows.map((row, i) => [row.slides ? 1 : 0, chain.lower[i], chain.upper[i]]);
   const tables = [floats(16 * (n + 1), links), floats(3 * n, joints)];
