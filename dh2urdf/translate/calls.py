@@ -37,6 +37,7 @@ def evaluated(found: object) -> Value:
     if isinstance(found, tuple):
         parts = tuple(map(evaluated, found))
         return Value(Tuple(tuple(part.type for part in parts)), parts=parts)
+    found = getattr(found, "item", lambda: found)()
     t, text = type_of_value(found), number(found)
     assert isinstance(t, str)
     known = found if isinstance(found, bool | int | float) else None

@@ -79,6 +79,8 @@ def export_(
     if held is not None and held not in robot.joint_names and held.isascii() and held.isdigit():
         joint = int(held)
     to_stdout = str(output) == "-"
+    if tests is not None and (language == "python" or output.suffix.lower() == ".py"):
+        raise ArgumentError("--tests writes a C program: it does nothing for Python")
     if to_stdout:
         made = exported(robot, language=language or "c", prefix=prefix, held=joint)
     else:

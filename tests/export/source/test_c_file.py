@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -183,6 +184,15 @@ def test_the_stack_that_is_stated_suffices(tmp_path):
         return frames[name] + 16 + max(map(most, inner), default=0)
 
     assert most("arm_ik_near") <= arm.made.stack
+
+
+def test_writing_takes_less_than_two_seconds():
+    """Of the processor's time, for an arm of each kind."""
+    for name in ("puma560", "ur5", "rpr_new_frame", "xarm6"):
+        robot = Robot.from_dh(name)
+        start = time.process_time()
+        exported(robot, language="c")
+        assert time.process_time() - start < 2.0, name
 
 
 def test_names_begin_with_the_arms(tmp_path):

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from dh2urdf import Robot, export_solver
+from dh2urdf.cli import main
 from tests.export.source.compiled import configurations
 
 MAIN = """
@@ -81,3 +82,12 @@ def test_it_compiles_as_any_python(tmp_path):
         assert made.language == "python"
         assert "import math\n" in made.text
         assert "numpy" not in made.text.lower().partition('"""\n')[2]
+
+
+def test_a_c_program_does_not_test_a_python_file(tmp_path, capsys):
+    """``--tests`` is refused beside Python, with one message."""
+    with pytest.raises(SystemExit) as ended:
+        main(["export", "planar_rr", "-o", str(tmp_path / "rr.py"), "--tests", "rr_test.c"])
+    assert ended.value.code == 2
+    assert "does nothing for Python" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
