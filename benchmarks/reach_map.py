@@ -3,9 +3,8 @@
 ``python -m benchmarks.reach_map`` prints all; ``python -m benchmarks.reach_map ur5e denso`` some.
 
 - ``ur5e``: voxels of 2.5 cm from -0.95 to 0.95 m, 200 orientations, 88 million poses; twice.
-- ``denso``: 10 million poses of the Denso, and the rate of `ik_batch` alone on the same poses.
-- ``workers``: one worker process of Dask, then two, and the bits of both.
-- ``local``: threads or two processes of Dask.
+- ``denso``: 10 million poses of the Denso, and `ik_batch` alone on the same poses (``bare``).
+- ``workers``: one worker process of Dask, then two, threads of this process; the bits of all.
 """
 
 from __future__ import annotations
@@ -19,8 +18,6 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import numpy as np
-
 from benchmarks.apart import ROOT
 
 UR5E = ["ur5e", "--step", "0.025", "--region=-.95,.95,-.95,.95,-.95,.95", "--orientations", "200"]
@@ -32,8 +29,12 @@ CALL = {"step": 0.03, "orientations": 64}
 
 def command(arguments: list[str], folder: Path, name: str) -> tuple[float, float, float]:
     """Seconds, processor seconds and peak memory [MB] of ``dh2urdf map``."""
+    return timed([sys.executable, "-m", "dh2urdf", "map", *arguments, "-o", str(folder / name)])
+
+
+def timed(argv: list[str]) -> tuple[float, float, float]:
+    """Seconds, processor seconds and peak memory [MB] of a process."""
     begin = time.perf_counter()
-    argv = [sys.executable, "-m", "dh2urdf", "map", *arguments, "-o", str(folder / name)]
     process = subprocess.Popen(argv, cwd=ROOT)
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - begin
@@ -63,27 +64,49 @@ def ur5e(folder: Path) -> None:
 
 
 def denso(folder: Path) -> None:
-    """One command, beside `ik_batch` alone on the same poses."""
+    """The map and `ik_batch` alone on the same poses, as commands and within them."""
+    seconds, work, memory = command(DENSO, folder, "denso.zarr")
+    whole, bare_work, bare_memory = timed([sys.executable, "-m", "benchmarks.reach_map", "bare"])
+    print(
+        f"denso, 10.08 million poses: {seconds:.2f} s ({work:.2f} s of processors), peak "
+        f"{memory:.0f} MB; a process with ik_batch alone {whole:.2f} s ({bare_work:.2f} s), "
+        f"{bare_memory:.0f} MB: {100 * whole / seconds:.0f} % of its rate"
+    )
+    from dh2urdf import Robot
+    from dh2urdf.workspace import reach_map
+
+    robot = Robot.from_dh("denso_vs6556")
+    reach_map(robot, step=0.3, orientations=64)
+    begin = time.perf_counter()
+    reach_map(robot, **CALL)
+    inside, alone = time.perf_counter() - begin, bare_seconds()
+    print(
+        f"without start and store: {inside:.2f} s, ik_batch {alone:.2f} s: "
+        f"{100 * alone / inside:.0f} % of its rate"
+    )
+
+
+def bare(_: Path) -> None:
+    """`ik_batch` alone on the Denso's poses."""
+    print(f"ik_batch alone: {bare_seconds():.2f} s")
+
+
+def bare_seconds() -> float:
+    """Seconds in `ik_batch` on the poses of the Denso's map, in pieces into the same arrays."""
     from dh2urdf import Robot
     from dh2urdf.transforms import pose
     from dh2urdf.workspace.reach.settings import settings_of
 
-    seconds, work, memory = command(DENSO, folder, "denso.zarr")
     robot = Robot.from_dh("denso_vs6556")
     settings = settings_of(robot, **CALL, region=None, within_limits=True, each=False, refine=0)
     points = settings.grid.points((slice(None),) * 3)
-    turns, piece, bare = settings.turns[:, 0], None, 0.0
-    total, chunk = len(points) * len(turns), 1000
+    turns, piece, seconds, chunk = settings.turns[:, 0], None, 0.0, 1000
     for start in range(0, len(points), chunk):
         Ts = pose(turns, points[start : start + chunk, None]).reshape(-1, 4, 4)
         begin = time.perf_counter()
         piece = robot.ik_batch(Ts, out=piece if len(Ts) == chunk * len(turns) else None)
-        bare += time.perf_counter() - begin
-    print(
-        f"denso, {total / 1e6:.2f} million poses: {seconds:.2f} s ({work:.1f} s of processors), "
-        f"peak {memory:.0f} MB; ik_batch alone {bare:.2f} s: "
-        f"{100 * bare / seconds:.0f} % of its rate"
-    )
+        seconds += time.perf_counter() - begin
+    return seconds
 
 
 def workers(folder: Path) -> None:
@@ -97,7 +120,7 @@ def workers(folder: Path) -> None:
     given = {"step": 0.04, "orientations": 200, "region": [[-0.96, 0.96]] * 3}
     for count in (1, 2):
         with (
-            LocalCluster(count, threads_per_worker=1, dashboard_address=None) as cluster,
+            LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster,
             Client(cluster) as client,
         ):
             client.wait_for_workers(count)
@@ -118,6 +141,7 @@ def workers(folder: Path) -> None:
 
 
 CASES = {"ur5e": ur5e, "denso": denso, "workers": workers}
+ALL = {**CASES, "bare": bare}
 
 
 def main() -> None:
@@ -126,9 +150,8 @@ def main() -> None:
     parser.add_argument("cases", nargs="*", help=f"of {', '.join(CASES)}; default: all")
     for name in parser.parse_args().cases or CASES:
         with TemporaryDirectory() as folder:
-            CASES[name](Path(folder))
+            ALL[name](Path(folder))
 
 
 if __name__ == "__main__":
-    np.seterr(all="raise")
     main()

@@ -1,7 +1,9 @@
 """One block as a task: what a worker needs for it, be it a thread or another machine's process."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from importlib.metadata import version
+from typing import Any
 
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot, packed, unpacked
@@ -32,6 +34,12 @@ class Job:
     path: str | None
     before: str | None
 
+    @cached_property
+    def arrays(self) -> dict[str, Any]:
+        """Those of the store, opened once by each process."""
+        assert self.path is not None
+        return store.arrays(self.path)
+
     @classmethod
     def of(cls, robot: Robot, settings: MapSettings, path: str | None, before: str | None) -> "Job":
         """The job of one level."""
@@ -55,7 +63,7 @@ def run_block(job: Job, block: Block, coarse: Values | None = None) -> Values | 
             "both have to be the same"
         )
     settings = job.settings
-    if job.path is not None and store.is_done(job.path, block):
+    if job.path is not None and bool(job.arrays[store.DONE][block]):
         return None
     if job.before is not None:
         coarse = store.read(job.before, around(settings, block))
@@ -66,5 +74,5 @@ def run_block(job: Job, block: Block, coarse: Values | None = None) -> Values | 
         values = refined_block(robot, settings, block, coarse)
     if job.path is None:
         return values
-    store.write(job.path, settings, block, values)
+    store.write(job.path, settings, block, values, job.arrays)
     return None

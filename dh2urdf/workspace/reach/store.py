@@ -137,23 +137,27 @@ def done(path: str) -> NDArray[np.bool_]:
         return marks
 
 
-def is_done(path: str, block: Block) -> bool:
-    """Whether one block is."""
-    return bool(_group(path)[DONE][block])
+def arrays(path: str) -> dict[str, Any]:
+    """The arrays of a map that is there, by name; opening them takes longer than a block."""
+    with writing(path):
+        group = _group(path)
+        return {DONE: group[DONE], **dict(group.arrays())}
 
 
-def write(path: str, settings: MapSettings, block: Block, values: Values) -> None:
-    """Put a block's variables into the map, then its mark.
+def write(
+    path: str, settings: MapSettings, block: Block, values: Values, to: dict[str, Any]
+) -> None:
+    """Put a block's variables into the map's arrays ``to``, then its mark.
 
     Raises
     ------
     OutputError
     """
     with writing(path):
-        group, part = _group(path), settings.part(block)
+        part = settings.part(block)
         for name, value in values.items():
-            group[name][part] = value
-        group[DONE][block] = True
+            to[name][part] = value
+        to[DONE][block] = True
 
 
 def read(path: str, part: tuple[slice, ...]) -> Values:
