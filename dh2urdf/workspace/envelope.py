@@ -1,8 +1,7 @@
 """The boundary of all that an arm reaches, as a surface that is open in a quarter.
 
 Reach is decided on a grid by inverse kinematics, the surface lies between points of which one is
-reached and one is not (surface nets: a corner a cell, the mean of where its edges cross; Gibson,
-"Constrained elastic surface nets", 1998).
+reached and one is not.
 """
 
 import math
@@ -18,9 +17,8 @@ from dh2urdf.transforms import Array
 from dh2urdf.workspace.maps import Held, shares_at
 from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import PLANES, Section, reach_ball, turns_in_plane
+from dh2urdf.workspace.surface_nets import Flags, Index, edge_ends, surface_net
 from dh2urdf.workspace.task import common_axis, orientations, solved, task_of
-
-Flags = NDArray[np.bool_]
 
 AROUND = 55
 """Half planes from one side of the open quarter to the other."""
@@ -135,33 +133,18 @@ def _net(
 
     ``halved`` finds where the edge is between two points.
     """
-    cells = np.array(inside.shape) - 1
-    total, count = np.zeros((int(cells.prod()), 3)), np.zeros(int(cells.prod()))
-    quads, cuts = [], []
-    for axis in range(3):
-        ends = [np.take(inside, np.arange(cells[axis]) + k, axis) for k in (0, 1)]
-        index = np.argwhere(ends[0] != ends[1])
-        low, high = (
-            np.stack([nodes[k][index[:, k] + (step and k == axis)] for k in range(3)], axis=1)
-            for step in (False, True)
-        )
-        cuts.append((axis == 0) & np.isin(index[:, 0], (0, cells[0] - 1)))
-        weight = np.where(cuts[-1], 1e-6, 1.0)  # the rim of the cut stays on the boundary
-        spots = (low + high) / 2
-        inner = ~cuts[-1]
-        at = (low[inner], high[inner], ends[0][tuple(index[inner].T)])
-        spots[inner] = halved(*at)
-        ring = []
-        for back in ((0, 0), (1, 0), (1, 1), (0, 1)):
-            cell = index.copy()
-            cell[:, [(axis + 1) % 3, (axis + 2) % 3]] -= back
-            ring.append(np.ravel_multi_index(tuple(cell.T), tuple(cells)))
-            np.add.at(total, ring[-1], weight[:, None] * spots)
-            np.add.at(count, ring[-1], weight)
-        quads.append(np.stack(ring, axis=1))
-    used, renamed = np.unique(np.concatenate(quads), return_inverse=True)
-    corners = total[used] / count[used, None]
-    return corners, renamed.reshape(-1, 4), np.concatenate(cuts)
+    last, cuts = inside.shape[0] - 2, list[Flags]()
+
+    def crossing(axis: int, index: Index, from_inside: Flags) -> tuple[Array, Array]:
+        low, high = edge_ends(nodes, axis, index)
+        cut = (axis == 0) & np.isin(index[:, 0], (0, last))
+        cuts.append(cut)
+        spots, inner = (low + high) / 2, ~cut
+        spots[inner] = halved(low[inner], high[inner], from_inside[inner])
+        return spots, np.where(cut, 1e-6, 1.0)  # the rim of the cut stays on the boundary
+
+    corners, quads = surface_net(inside, crossing)
+    return corners, quads, np.concatenate(cuts)
 
 
 def _halved(low: Array, high: Array, low_inside: Flags, reached: Callable[[Array], Flags]) -> Array:

@@ -14,6 +14,7 @@ from dh2urdf.doors import choice, number
 from dh2urdf.exceptions import ArgumentError, MissingExtraError, UnreachedError
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.section import PLANES, Section
+from dh2urdf.workspace.surface_nets import Flags, Index, edge_ends, surface_net
 
 if TYPE_CHECKING:
     import xarray
@@ -108,9 +109,6 @@ def same_grid(first: xarray.Dataset, second: xarray.Dataset) -> None:
 def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.int64]]:
     """Where a map's share of orientations crosses a level: corners (v, 3) [m], triangles (f, 3).
 
-    Surface nets: a corner a cell, the mean of where its edges cross (Gibson, "Constrained elastic
-    surface nets", 1998).
-
     Raises
     ------
     ArgumentError
@@ -124,30 +122,15 @@ def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.
         raise UnreachedError(f"the share of orientations is nowhere above {level:g}")
     field = np.pad(np.nan_to_num(share), 1) - level
     nodes = [_beyond(line) for line in lines]
-    inside, cells = field > 0.0, np.array(field.shape) - 1
-    total, count = np.zeros((int(cells.prod()), 3)), np.zeros(int(cells.prod()))
-    quads = []
-    for axis in range(3):
-        ends = [np.take(inside, np.arange(cells[axis]) + k, axis) for k in (0, 1)]
-        index = np.argwhere(ends[0] != ends[1])
-        after = index + (np.arange(3) == axis)
-        low, high = (np.stack([nodes[k][i[:, k]] for k in range(3)], axis=1)
-                     for i in (index, after))  # fmt: skip
-        a, b = field[tuple(index.T)], field[tuple(after.T)]
-        spots = low + (a / (a - b))[:, None] * (high - low)
-        ring = []
-        for back in ((0, 0), (1, 0), (1, 1), (0, 1)):
-            cell = index.copy()
-            cell[:, [(axis + 1) % 3, (axis + 2) % 3]] -= back
-            ring.append(np.ravel_multi_index(tuple(cell.T), tuple(cells)))
-            np.add.at(total, ring[-1], spots)
-            np.add.at(count, ring[-1], 1.0)
-        quad = np.stack(ring, axis=1)
-        inwards = ends[0][tuple(index.T)]
-        quads.append(np.where(inwards[:, None], quad, quad[:, ::-1]))
-    used, renamed = np.unique(np.concatenate(quads), return_inverse=True)
-    quad = renamed.reshape(-1, 4)
-    return total[used] / count[used, None], np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
+
+    def crossing(axis: int, index: Index, _: Flags) -> tuple[Array, Array]:
+        low, high = edge_ends(nodes, axis, index)
+        a = field[tuple(index.T)]
+        b = field[tuple((index + (np.arange(3) == axis)).T)]
+        return low + (a / (a - b))[:, None] * (high - low), np.ones(len(index))
+
+    corners, quad = surface_net(field > 0.0, crossing)
+    return corners, np.concatenate([quad[:, [0, 1, 2]], quad[:, [0, 2, 3]]])
 
 
 def _beyond(line: Array) -> Array:
