@@ -156,7 +156,8 @@ def write(
     with writing(path):
         part = settings.part(block)
         for name, value in values.items():
-            to[name][part] = value
+            if not _is_nothing(name, value):  # as a chunk that is not there
+                to[name][part] = value
         to[DONE][block] = True
 
 
@@ -169,6 +170,11 @@ def read(path: str, part: tuple[slice, ...]) -> Values:
 
 def _group(path: str) -> Any:
     return load_zarr().open_group(path, mode="r+", use_consolidated=False)
+
+
+def _is_nothing(name: str, values: NDArray[Any]) -> bool:
+    """Whether all are what the array is filled with."""
+    return bool(np.isnan(values).all()) if _may_be_nan(name) else not values.any()
 
 
 @contextmanager
