@@ -18,7 +18,7 @@ from dh2urdf.workspace.maps import branch_counts, counts_at, dexterity, held_val
 from dh2urdf.workspace.nominal import mapped_robot
 from dh2urdf.workspace.placing import BaseMap, Placement, base_map, place
 from dh2urdf.workspace.planar import PlanarArm, planar_arm
-from dh2urdf.workspace.reach import MapSummary, cone, map_summary, reach_map
+from dh2urdf.workspace.reach import MapSummary, cone, map_summary, reach_map, settings_of, store_map
 from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import PLANES, Plane, Section, caption, reach_ball, section
 from dh2urdf.workspace.stored_map import map_surface, open_map

@@ -66,7 +66,7 @@ def map_(
     scheduler
         Address of a Dask scheduler whose workers do the work, such as tcp://10.0.0.1:8786.
     """
-    from dh2urdf.workspace import cone, map_summary, reach_map
+    from dh2urdf.workspace import cone, settings_of, store_map
 
     arm = robot_of(robot, base, tip, reading)
     units = Units("m", "rad")
@@ -79,19 +79,16 @@ def map_(
         angle = math.pi / 6 if within is None else within
         turns = cone(orientations, towards=axis, within=angle, spins=spins or 8)
     with bar("mapping", 1) as report:
-        found = reach_map(
+        settings = settings_of(
             arm,
-            step=step,
-            orientations=orientations if turns is None else turns,
-            region=None if ends is None else [ends[:2], ends[2:4], ends[4:]],
-            within_limits=limits,
-            each=each,
-            refine=refine,
-            client=scheduler,
-            store=output,
-            progress=report,
+            step,
+            orientations if turns is None else turns,
+            None if ends is None else [ends[:2], ends[2:4], ends[4:]],
+            limits,
+            each,
+            refine,
         )
-    told = map_summary(found)
+        told = store_map(arm, settings, output, scheduler, report)
     if json:
         emit_json("map", path=output, within_limits=limits, **told._asdict())
         return

@@ -8,5 +8,5 @@ a task, `run` does all on threads or a Dask cluster; `reach_map` puts them toget
 
 from dh2urdf.workspace.reach.dataset import MapSummary, map_summary
 from dh2urdf.workspace.reach.orientations import cone
-from dh2urdf.workspace.reach.reach_map import reach_map
-from dh2urdf.workspace.reach.settings import Grid, MapSettings
+from dh2urdf.workspace.reach.reach_map import reach_map, store_map
+from dh2urdf.workspace.reach.settings import Grid, MapSettings, settings_of

@@ -112,11 +112,15 @@ class MapSummary(NamedTuple):
 
 def map_summary(found: xarray.Dataset) -> MapSummary:
     """A map in a few numbers, read from its store a layer of blocks at a time."""
-    settings = found.attrs[KEY]
-    share, layer = found["share"], settings["block"]
+    return summary_of(found.attrs[KEY], found["share"])
+
+
+def summary_of(settings: dict[str, Any], share: Any) -> MapSummary:
+    """The numbers of a map's settings, as they are stored, and its shares, sliced by layers."""
+    layer = settings["block"]
     nx, ny, nz = share.shape
     step = settings["step"] / 2 ** settings["refine"]
-    parts = (share[k : k + layer].values for k in range(0, nx, layer))
+    parts = (np.asarray(share[k : k + layer]) for k in range(0, nx, layer))
     seen = [(int((part > 0.0).sum()), float(part.max())) for part in parts]
     k, spins = settings["orientations"]
     volume = sum(count for count, _ in seen) * step**3

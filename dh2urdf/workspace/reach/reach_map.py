@@ -14,12 +14,12 @@ from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.workspace.reach import store as stored
 from dh2urdf.workspace.reach.block import Values
-from dh2urdf.workspace.reach.dataset import empty_values, load_xarray, to_dataset
+from dh2urdf.workspace.reach.dataset import MapSummary, empty_values, load_xarray, to_dataset
 from dh2urdf.workspace.reach.job import Job
 from dh2urdf.workspace.reach.provenance import provenance
 from dh2urdf.workspace.reach.refined import around
 from dh2urdf.workspace.reach.run import connected, on_cluster, on_threads
-from dh2urdf.workspace.reach.settings import Block, settings_of
+from dh2urdf.workspace.reach.settings import Block, MapSettings, settings_of
 from dh2urdf.workspace.refine import Progress
 
 if TYPE_CHECKING:
@@ -94,11 +94,41 @@ def reach_map(
     (6, True)
     """
     xr = load_xarray()
+    path = None if store is None else _place(store)
+    settings = settings_of(robot, step, orientations, region, within_limits, each, refine)
+    values, finest, said = _worked(robot, settings, client, path, progress)
+    if path is not None:
+        whole: xarray.Dataset = xr.open_zarr(path, chunks=None)
+        return whole
+    assert values is not None
+    return to_dataset(finest, values, said)
+
+
+def store_map(
+    robot: Robot,
+    settings: MapSettings,
+    store: str | os.PathLike[str],
+    client: Any = None,
+    progress: Progress | None = None,
+) -> MapSummary:
+    """The work of :func:`reach_map` into a store, told in a few numbers, without xarray.
+
+    Raises
+    ------
+    As :func:`reach_map`.
+    """
+    path = _place(store)
+    _worked(robot, settings, client, path, progress)
+    return stored.summary(path)
+
+
+def _worked(
+    robot: Robot, settings: MapSettings, client: Any, path: str | None, progress: Progress | None
+) -> tuple[Values | None, MapSettings, dict[str, Any]]:
+    """Values over the finest grid, where there is no store; its settings; what is said of them."""
     arm: Robot = instance(robot, "robot", Robot)
     if progress is not None:
         instance(progress, "progress", Callable)
-    path = None if store is None else _place(store)
-    settings = settings_of(arm, step, orientations, region, within_limits, each, refine)
     levels = [settings]
     for _ in range(settings.refine):
         levels.append(levels[-1].halved())
@@ -114,11 +144,7 @@ def reach_map(
         for k, level in enumerate(levels):
             job = Job.of(arm, level, paths[k], paths[k - 1] if k else None)
             values = _level(job, values, found, told)
-    if path is not None:
-        whole: xarray.Dataset = xr.open_zarr(path, chunks=None)
-        return whole
-    assert values is not None
-    return to_dataset(levels[-1], values, said)
+    return values, levels[-1], said
 
 
 class _Told:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import HALVINGS, LENGTH, VOXELS
-from dh2urdf.doors import finite_array, flag, integer, number
+from dh2urdf.doors import finite_array, flag, instance, integer, number
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
@@ -111,7 +111,7 @@ def settings_of(
     refine: int,
 ) -> MapSettings:
     """Settings of arguments that are checked here."""
-    task, turns = tried(robot, orientations)
+    task, turns = tried(instance(robot, "robot", Robot), orientations)
     grid = _grid(robot, number(step, "step", 1e-6, LENGTH, unit="m"), region)
     even = (BLOCK_POSES / (turns.shape[0] * turns.shape[1])) ** (1 / 3)
     side = min(SIDES, key=lambda s: abs(math.log(s / even)))

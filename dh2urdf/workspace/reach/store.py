@@ -20,9 +20,11 @@ from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.dataset import (
     KEY,
     PURPOSE,
+    MapSummary,
     attributes,
     coordinates,
     kind_of,
+    summary_of,
     variables,
 )
 from dh2urdf.workspace.reach.settings import Block, MapSettings
@@ -159,6 +161,12 @@ def write(
             if not _is_nothing(name, value):  # as a chunk that is not there
                 to[name][part] = value
         to[DONE][block] = True
+
+
+def summary(path: str) -> MapSummary:
+    """A map that is there in a few numbers."""
+    group = _group(path)
+    return summary_of(dict(group.attrs[KEY]), group["share"])
 
 
 def read(path: str, part: tuple[slice, ...]) -> Values:
