@@ -4,6 +4,8 @@ Which eliminations suit an arm is found by trying all twelve on random poses.
 """
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from typing import TypeAlias
 
@@ -14,9 +16,8 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
-from dh2urdf.kernels.certificate import finish_batch
-from dh2urdf.kernels.general_6r import ARM_6R, MOST, solve_general_6r
-from dh2urdf.kernels.numbers import any_set, sincos
+from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
+from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
 
 Arm: TypeAlias = NDArray[np.void]
@@ -57,7 +58,6 @@ class General6R(SolverBase):
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
-        self._kernel, self._finish = solve_general_6r, finish_batch
         self._idle: list[Arm] = []
 
     @cached_property
@@ -91,13 +91,19 @@ class General6R(SolverBase):
     def solve_unfinished(self, Ts: Array, out: Outputs) -> IntArray:
         """Candidates of poses Ts (m, 4, 4), limits or not: q and counts; the poses in doubt."""
         doubt = np.zeros(len(Ts), np.int64)
-        try:  # a copy of the plan that no other thread has
+        with self._record() as arm:
+            solve_general_6r(arm, Ts, out.q, out.residual, out.counts, doubt)
+        return np.flatnonzero(doubt)
+
+    @contextmanager
+    def _record(self) -> Iterator[Arm]:
+        """A copy of the plan that no other thread has meanwhile."""
+        try:
             arm = self._idle.pop()
         except IndexError:
             arm = self.plan.copy()
-        self._kernel(arm, Ts, out.q, out.residual, out.counts, doubt)
+        yield arm
         self._idle.append(arm)
-        return np.flatnonzero(doubt)
 
     def details(self) -> str:
         """Name the axes and the method."""
@@ -107,19 +113,26 @@ class General6R(SolverBase):
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) in two calls; those in doubt are searched, too."""
-        doubt = self.solve_unfinished(Ts, out)
-        rows = np.arange(len(doubt))
-        searched = search_in_doubt(self.chain, Ts[doubt], out.rows(doubt), rows, within_limits)
-        self._finish(self.chain.tables, Ts, within_limits, out)
-        out.put(doubt, searched)
+        """Solve poses Ts (m, 4, 4); those in doubt are searched, too."""
+        doubt = self.solve_sure(Ts, within_limits, out)
+        if len(doubt):
+            found, deep = out.rows(doubt), np.arange(len(doubt))
+            found.counts[:] = -1 - found.counts
+            out.put(doubt, search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits))
+
+    def solve_sure(self, Ts: Array, within_limits: bool, out: Outputs) -> IntArray:
+        """Solve poses Ts (m, 4, 4) but those in doubt, whose counts are -1 minus their candidates.
+
+        Returned are their indices.
+        """
+        with self._record() as arm:
+            doubts = finish_general_6r(self.chain.tables, arm, Ts, within_limits, out)
+        return np.flatnonzero(out.counts < 0) if doubts else np.empty(0, np.int64)
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
-        """The kernels alone, of a pose that is not in doubt."""
-        doubt, arm = np.zeros(len(Ts), np.int64), self.plan.copy()
-        solve: Step = solve_general_6r, (arm, Ts, out.q, out.residual, out.counts, doubt), False
-        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
-        return solve, (any_set, (doubt,), False), finish
+        """The kernel alone, where it has no doubt."""
+        arguments = self.chain.tables, self.plan.copy(), Ts, within_limits, out
+        return ((finish_general_6r, arguments, False),)
 
 
 def _z(angle: float, offset: float) -> Array:

@@ -39,6 +39,11 @@ from dh2urdf.transforms import Array
 
 _Family = type[SphericalWrist | ThreeParallel]
 
+CALIBRATED = 1e-3
+"""Distance [rad, sizes] from the nominal arm from which its solutions are hardly ever trusted. With
+three parallel axes the general solver then comes first; with a wrist it would miss solutions of
+one pose in a thousand at which singularities nearly meet."""
+
 
 class Refereed(SolverBase):
     """Six revolute joints, and the general solver for poses that are left in doubt."""
@@ -79,6 +84,8 @@ class NearFamily(Refereed):
         self.distance = float(f"{self.nominal.form.error:.3g}")
         noise = math.sqrt(max(self.distance / min(1.0, chain.size), 1e-16))
         self.slack = min(max(SLACK, SLACK_OF_NEAR * self.distance, noise), 0.3)
+        far = self.distance > CALIBRATED * min(1.0, chain.size)
+        self.far = far and family is ThreeParallel and not self.reversed
         self.trust = np.array([chain.size, NOISE_MOTION * noise, NEARLY_SINGULAR * noise])
 
     @classmethod
@@ -98,11 +105,23 @@ class NearFamily(Refereed):
         return (
             f"{seen}poses of the arm are up to {self.distance:.1g} (m, rad) away from those of a "
             f"nominal one, whose solutions are seeds of Newton's method on the exact chain "
-            f"({self.nominal.explain()}); near singularities, where noise takes and gives "
-            f"branches, {self.general.explain()}"
+            f"({self.nominal.explain()}); {'first' if self.far else 'near singularities'}, where "
+            f"noise takes and gives branches, {self.general.explain()}"
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4) by the nominal arm, and where in doubt by the general solver.
+
+        Or, far from the nominal arm, by the general solver first, and where in doubt by both.
+        """
+        if not self.far:
+            self._solve_both(Ts, within_limits, out)
+        elif len(rows := self.general.solve_sure(Ts, within_limits, out)):
+            some = Outputs.of(len(rows), self.kmax, 6)
+            self._solve_both(Ts[rows], within_limits, some)
+            out.put(rows, some)
+
+    def _solve_both(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
         wrist = isinstance(self.nominal, SphericalWrist)
         poses, form = Ts, self.nominal.form
@@ -119,7 +138,9 @@ class NearFamily(Refereed):
         out.put(rows, wide)
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
-        """The nominal arm's solutions as seeds, of a pose that is not in doubt."""
+        """Of a pose that is not in doubt: the general solver, or the nominal arm's as seeds."""
+        if self.far:
+            return self.general.steps(Ts, within_limits, out)
         form, poses = self.nominal.form, np.empty_like(Ts)
         wrist = isinstance(self.nominal, SphericalWrist)
         solve = solve_near_wrist if wrist else solve_near_parallel

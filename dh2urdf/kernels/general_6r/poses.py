@@ -12,12 +12,16 @@ looked at again, first with new samples where the polynomial is small, then with
 
 from typing import Annotated, Any, TypeAlias
 
+import numpy as np
+
+from dh2urdf.kernels.certificate import finish_all, turn_inside
 from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.elimination import eliminate, prepare
 from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
 from dh2urdf.kernels.general_6r.roots import find_roots, nudge, place_target
+from dh2urdf.kernels.newton import POLISH, pose_residual, work_array
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Counts, Poses, Solutions, Values
+from dh2urdf.kernels.shapes import Chain, Counts, Outputs, Poses, Solutions, Values
 
 Arms: TypeAlias = Annotated[Any, ARM_6R, "arm_6r", 1]
 
@@ -100,3 +104,39 @@ def solve_general_6r(
         arm["ready"] = 1
     for m in range(Ts.shape[0]):
         count[m], doubt[m] = _solve_pose(Ts[m], q[m], residual[m], arm)
+
+
+def _measure(chain, T, found, rows):
+    """Residuals of isolated solutions of one pose on the exact chain; the largest."""
+    (q, residual, branch, free), worst = rows, 0.0
+    for k in range(found):
+        residual[k], branch[k], free[k] = pose_residual(chain, T, q[k]), -1, 0
+        worst = max(worst, residual[k])
+    return worst
+
+
+@entry(n=6, solutions=16)
+def finish_general_6r(chain: Chain, arms: Arms, Ts: Poses, within_limits: bool, outputs: Outputs):
+    """Certified solutions of poses Ts (m, 4, 4), by the record ``arms`` (1,) of the chain.
+
+    Those of a pose that are all regular are neither united nor members of a family. A count is
+    -1 minus that of the candidates where there may be more; returned is how many are so.
+    """
+    q, residual, count, branch, free = outputs
+    arm, doubts, work, trial = arms[0], 0, work_array(6), np.empty((2, 6))
+    if arm["ready"] == 0:
+        prepare(arm)
+        arm["ready"] = 1
+    for m in range(Ts.shape[0]):
+        rows = q[m], residual[m], branch[m], free[m]
+        found, doubt = _solve_pose(Ts[m], q[m], residual[m], arm)
+        if doubt == 1:
+            found, doubts = -1 - found, doubts + 1
+        else:
+            apart = how_many_below(arm["kept"], found, CROWDED) == 0
+            if apart and _measure(chain, Ts[m], found, rows) <= POLISH:
+                found = turn_inside(chain, Ts[m], within_limits, *rows, found)
+            else:
+                found = finish_all(chain, Ts[m], within_limits, rows, found, trial, work)
+        count[m] = found
+    return doubts

@@ -17,11 +17,5 @@ from dh2urdf.kernels.numbers.dual_quaternions import (
 )
 from dh2urdf.kernels.numbers.elementary import asin, atan2, few_turns, hypot, sincos
 from dh2urdf.kernels.numbers.lanes import COLUMN, LANES, null_vectors, reduce_columns, solve_upper
-from dh2urdf.kernels.numbers.poses import (
-    any_family,
-    any_set,
-    first_bad_pose,
-    is_pose,
-    pad_solutions,
-)
+from dh2urdf.kernels.numbers.poses import any_family, first_bad_pose, is_pose, pad_solutions
 from dh2urdf.kernels.numbers.trig import add_square, arctangent, trig_roots

@@ -61,14 +61,6 @@ def any_family(counts: Counts, free: Codes):
     return False
 
 
-def any_set(flags: Counts):
-    """Whether one of some numbers is not zero."""
-    for i in range(flags.shape[0]):
-        if flags[i] != 0:
-            return True
-    return False
-
-
 @entry()
 def first_bad_pose(Ts: Poses):
     """Index of the first of the poses Ts (m, 4, 4) that is not in SE(3), or -1."""
