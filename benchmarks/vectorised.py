@@ -46,7 +46,7 @@ def reports(text: str, remarks: list[tuple[int, bool, str]]) -> list[Loop]:
         if line.strip() != MARK:
             continue
         said = [remark for remark in remarks if number < remark[0] <= number + 2]
-        reasons = [why for _, good, why in said if not good and "not vect" in why]
+        reasons = [why for _, good, why in said if not good and "vectorize" not in why]
         found.append(Loop(function, any(good for _, good, _ in said), "".join(reasons[:1])))
     return found
 
@@ -69,7 +69,8 @@ def compiled(command: list[str], level: str, kernel: str) -> list[Loop]:
         raise SystemExit(f"{' '.join(command)}: {told.stderr[-500:]}")
     said_of = (GCC if of_gcc else CLANG).finditer(told.stderr)
     remarks = [(int(m[1]), m[2].startswith(("optimized", "vectorized")), m[0]) for m in said_of]
-    return reports(text, [(line, good, why.rpartition(": ")[2]) for line, good, why in remarks])
+    short = [(n, good, why.partition(" [-R")[0].rpartition(": ")[2]) for n, good, why in remarks]
+    return reports(text, short)
 
 
 def compilers() -> list[list[str]]:
