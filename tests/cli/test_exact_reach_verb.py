@@ -40,3 +40,27 @@ def test_arms_without_a_section_are_told_the_reach_of_their_tip(run, arm, words)
     assert status == 0
     assert "tip: " in out
     assert words in err
+
+
+@pytest.mark.parametrize("arm", ["planar_rr", "franka_fer", "gantry"])
+def test_without_a_section_to_draw_the_numbers_are_told_first(run, tmp_path, arm):
+    """The same numbers as without a picture, then why there is none and what to leave out."""
+    alone = run("workspace", arm, "--exact")
+    status, out, err = run("workspace", arm, "--exact", "-o", "reach.svg")
+    assert (alone[0], status, out) == (0, 2, alone[1])
+    assert "no section to draw in reach.svg: " in err
+    assert err.rstrip().endswith("leave out --output")
+    assert not (tmp_path / "reach.svg").exists()
+    status, out, _ = run("workspace", arm, "--exact", "-o", "reach.svg", "--json")
+    assert status == 2
+    assert "no section to draw" in out + _
+
+
+def test_heights_are_told_as_above_only_where_they_are(run):
+    """The KR 16's axis 1 points down, the gantry's joint 1 slides along x of the base."""
+    up = run("workspace", "kuka_kr16_2", "--exact")[1]
+    assert "tip: -1.218945533 to 1.508913556 m above the shoulder" in up
+    along = run("workspace", "gantry", "--exact")[1]
+    assert "tip: 0 to 2 m along axis 1 from the shoulder" in along
+    assert "above" not in along
+    assert "m from axis 1" not in along

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
 from dh2urdf import DHConvention, DHRow, DHTable, Robot, list_tables
 from dh2urdf.exceptions import ArgumentError
@@ -95,6 +96,90 @@ def test_no_configuration_reaches_farther_or_nearer(name):
     np.testing.assert_allclose(np.linalg.norm(ends, axis=1), found.distance, atol=1e-12)
     assert (found.q["distance"] >= robot.lower).all()
     assert (found.q["distance"] <= robot.upper).all()
+
+
+def random_arm(seed):
+    """Three to six turning joints with limits; lengths and twists that makers use, or any."""
+    rng = np.random.default_rng(seed)
+    rows = [
+        DHRow(
+            a=rng.choice([0.0, 0.1, 0.3, rng.uniform(0.0, 0.5)]),
+            d=rng.choice([0.0, 0.1, rng.uniform(0.0, 0.5)]),
+            alpha=rng.choice([0.0, math.pi / 2, -math.pi / 2]),
+            lower=-rng.uniform(0.3, 3.0),
+            upper=rng.uniform(0.3, 3.0),
+        )
+        for _ in range(int(rng.integers(3, 7)))
+    ]
+    return arm(*rows)
+
+
+def bounded_search(robot, centre, sign):
+    """Smallest (sign 1) or largest (-1) distance by SciPy's L-BFGS-B from six starts."""
+
+    def signed(q):
+        gap = robot.fk(q)[:3, 3] - centre
+        return sign * gap @ gap / 2, sign * gap @ robot.jacobian(q)[:3]
+
+    rng = np.random.default_rng(8)
+    q = robot.lower + rng.random((4_000, robot.n)) * (robot.upper - robot.lower)
+    at = rng.random(q.shape)
+    q = np.where(at < 0.15, robot.lower, np.where(at > 0.85, robot.upper, q))
+    order = np.argsort(sign * np.linalg.norm(robot.fk(q)[:, :3, 3] - centre, axis=1))
+    bounds = list(zip(robot.lower, robot.upper, strict=True))
+    options = {"ftol": 1e-16, "gtol": 1e-11}
+    ends = [
+        minimize(signed, q[i], jac=True, bounds=bounds, method="L-BFGS-B", options=options).fun
+        for i in order[[0, 2, 10, 50, 200, 1000]]
+    ]
+    return math.sqrt(2 * max(sign * min(ends), 0.0))
+
+
+@pytest.mark.parametrize("which", ["stanford", "omron_cobra600", *range(20)])
+def test_a_bounded_search_finds_nothing_farther_or_nearer(which):
+    """SciPy's, within the limits, from starts on and between them: to a ten-millionth."""
+    robot = Robot.from_dh(which) if isinstance(which, str) else random_arm(which)
+    found = extreme_reach(robot)
+    nearest, farthest = (bounded_search(robot, found.centre, sign) for sign in (1, -1))
+    assert found.distance[0] <= nearest + 1e-7
+    assert found.distance[1] >= farthest - 1e-7
+
+
+def test_the_stanford_arm_comes_nearest_with_two_joints_at_limits():
+    """The slide drawn in and joint 6 at its limit: 0.3237 m from the shoulder, no start nearby."""
+    robot = Robot.from_dh("stanford")
+    found = extreme_reach(robot)
+    q = np.array([1.12039, 0.587277, 0.3048, 0.0, math.pi / 2, -2.96706])
+    assert (robot.lower - 1e-5 <= q).all()
+    assert (q <= robot.upper + 1e-5).all()
+    told = float(np.linalg.norm(robot.fk(q)[:3, 3] - found.centre))
+    assert found.distance[0] == pytest.approx(told, abs=1e-7)
+
+
+@pytest.mark.parametrize(
+    ("name", "sign"), [("kuka_kr16_2", -1.0), ("kinova_gen3", -1.0), ("puma560", 1.0)]
+)
+def test_heights_are_up_where_axis_1_points_down(name, sign):
+    """Lowest and highest of random places along z of the base are inside those told as above."""
+    robot = Robot.from_dh(name)
+    found = extreme_reach(robot)
+    assert found.axis == pytest.approx(robot.chain.axes[0], abs=1e-12)
+    assert sign * found.axis[2] > 0.0
+    low, high = found.above
+    z = np.sort(found.places["height"][:, 2] - found.centre[2])
+    np.testing.assert_allclose(z, (low, high), atol=1e-9)
+    q = robot.lower + np.random.default_rng(1).random((5_000, robot.n)) * (
+        robot.upper - robot.lower
+    )
+    heights = robot.fk(q)[:, 2, 3] - found.centre[2]
+    assert low - 1e-9 <= heights.min() < heights.max() <= high + 1e-9
+
+
+def test_heights_of_an_arm_that_lies_are_along_axis_1():
+    """Axis 1 across z of the base, as the gantry's slide: nothing is told as above."""
+    found = extreme_reach(Robot.from_dh("gantry"))
+    np.testing.assert_allclose(found.axis, [1.0, 0.0, 0.0], atol=1e-12)
+    assert found.above is None
 
 
 def test_section_of_a_torus_has_its_void():

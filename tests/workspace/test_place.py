@@ -105,6 +105,18 @@ def test_a_pose_out_of_reach_from_everywhere_is_named_so():
     assert place(UR5E, job[2:], height=(1.8, 2.2)).found
 
 
+@pytest.mark.parametrize("seed", range(12, 18))
+def test_a_base_between_the_places_of_the_lattice_is_found(seed):
+    """Twelve poses of random joint values: few bases reach all, none of the first lattice need."""
+    T_world_base = trans(2.0, 1.0, 0.0) @ rot_z(0.7)
+    robot = Robot.from_dh("denso_vs060")
+    q = np.random.default_rng(seed).uniform(robot.lower, robot.upper, (12, robot.n))
+    found = place(robot, T_world_base @ robot.fk(q))
+    assert found.found
+    assert found.margin > 0.0
+    assert found.tried < 60_000
+
+
 def test_mounting_region_and_yaw_are_kept():
     """Hanging from above, inside the region and the turns asked for; the poses are reached."""
     job = points((0, 0, 0.2), (0.2, 0.1, 0.2))
@@ -188,6 +200,6 @@ def test_the_picture_is_the_same_each_time():
     placed = [(arm, place(arm, job, yaw=0.0)) for arm in arms]
     pictures = [picture_bytes(placement_figure(job, placed), "svg") for _ in range(2)]
     assert pictures[0] == pictures[1]
-    assert b"no base reaches all 3 poses" in pictures[0]
+    assert b"no base found that reaches all 3 poses" in pictures[0]
     with pytest.raises(ArgumentError):
         placement_figure(job, [])

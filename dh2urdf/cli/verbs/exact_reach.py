@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from dh2urdf.workspace import ExtremeReach, ReachSection, Volume
 
 DIGITS = 9
-"""Digits after the point [m]: what is promised."""
+"""Digits after the point [m]."""
 
 
 def tell_exact_reach(
@@ -26,27 +26,35 @@ def tell_exact_reach(
 
     tip = extreme_reach(arm, within_limits=limits)
     section = wrist = volume = None
+    lacking = ""
     try:
         section = reach_section(arm, within_limits=limits)
         wrist = extreme_reach(arm, "wrist", within_limits=limits)
         volume = reach_volume(arm, section)
     except ArgumentError as reason:
-        if output is not None:
-            raise
-        note(f"no section: {reason}")
-    if output is not None and section and wrist and volume:
+        lacking = str(reason)
+    drawn = None if lacking else output
+    if drawn is not None and section and wrist and volume:
         from dh2urdf.figures import exact_section_figure, save_picture
 
         picture = exact_section_figure(arm, section, wrist, volume)
-        save_picture(picture, output, dpi=dpi, force=force)
+        save_picture(picture, drawn, dpi=dpi, force=force)
     if json:
         reach = {"tip": _reach_data(tip), "wrist": _reach_data(wrist)}
-        emit_json("workspace", path=output, within_limits=limits, reach=reach,
+        emit_json("workspace", path=drawn, within_limits=limits, reach=reach,
                   section=_section_data(section), volume=_volume_data(volume))  # fmt: skip
-        return
-    emit("\n".join(_lines(tip, wrist, section, volume)))
-    if output is not None:
-        emit(str(output))
+    else:
+        turns = not arm.chain.prismatic[0]
+        emit("\n".join([*_lines(tip, wrist, section, volume, turns), *_named(drawn)]))
+    if lacking and output is not None:
+        raise ArgumentError(f"no section to draw in {output}: {lacking}; leave out --output")
+    if lacking:
+        note(f"no section: {lacking}")
+
+
+def _named(path: Path | None) -> list[str]:
+    """The picture's name, where there is one."""
+    return [] if path is None else [str(path)]
 
 
 def _lines(
@@ -54,15 +62,21 @@ def _lines(
     wrist: ExtremeReach | None,
     section: ReachSection | None,
     volume: Volume | None,
+    turns: bool,
 ) -> list[str]:
-    """A line for each fact."""
+    """A line for each fact; joint 1 turns about axis 1, or slides along it."""
     shoulder = ", ".join(_shown(v) for v in tip.centre.tolist())
     lines = [f"shoulder at {shoulder} m in the base"]
     for reach in (tip, wrist):
         if reach is None or (reach is wrist and reach.point == "tip"):
             continue
-        for what, ends in (("from the shoulder", reach.distance), ("from axis 1", reach.radius),
-                           ("above the shoulder", reach.height)):  # fmt: skip
+        facts = [("from the shoulder", reach.distance)]
+        facts += [("from axis 1", reach.radius)] if turns else []
+        if reach.above is None:
+            facts.append(("along axis 1 from the shoulder", reach.height))
+        else:
+            facts.append(("above the shoulder", reach.above))
+        for what, ends in facts:
             lines.append(f"{reach.point}: {_shown(ends[0])} to {_shown(ends[1])} m {what}")
     if section is not None and volume is not None:
         outlines, voids = len(section.rings) - len(section.voids), len(section.voids)
@@ -80,7 +94,7 @@ def _shown(value: float) -> str:
 
 
 def _reach_data(reach: ExtremeReach | None) -> dict[str, Any] | None:
-    names = ("point", "centre", "distance", "radius", "height", "q", "places")
+    names = ("point", "centre", "axis", "distance", "radius", "height", "q", "places")
     return None if reach is None else {name: getattr(reach, name) for name in names}
 
 

@@ -55,8 +55,9 @@ def place_(
 
     The margin of a configuration is the smaller of two shares: how far its joints are from their
     limits, 1 in the middle, and its smallest singular value, 1 where that is largest. A base has
-    the margin of its worst pose. Where no base reaches all poses, those that stand in the way are
-    told, and the exit status is 1.
+    the margin of its worst pose. Bases are tried on a lattice, then on finer ones about the best.
+    Where none of them reaches all poses, those that stand in the way are told, and the exit status
+    is 1; a base between them may, and --region lays them closer.
 
     Parameters
     ----------
@@ -179,6 +180,7 @@ def _text(arm: Robot, placement: Placement, read: Poses, *, deg: bool) -> str:
         reached = m - len(placement.missed)
         head = [f"{name}: no base found that reaches all {m} poses"]
         head.append(f"{reached} of {m} poses from {base}")
+        head.append("between the bases tried there may be one: --region and --yaw lay them closer")
     count = int((placement.map.margin > 0.0).sum())
     head.append(f"{count} of {placement.map.margin.size} places of the map reach all; "
                 f"{placement.tried} bases tried")  # fmt: skip
@@ -186,7 +188,7 @@ def _text(arm: Robot, placement: Placement, read: Poses, *, deg: bool) -> str:
 
 
 def _map_lines(placement: Placement) -> list[str]:
-    """The map in letters: tenths of the margin, or of the poses where no base reaches all."""
+    """The map in letters: tenths of the margin, or of the poses where no place reaches all."""
     area = placement.map
     rows, columns = np.nonzero(area.reached > 0.0)
     if not len(rows):

@@ -68,9 +68,9 @@ def workspace_(
     envelope
         Draw the boundary of all that is reached, in the round, a quarter of it cut out.
     exact
-        Not by a grid: how far and near the tip and the wrist reach, to 1e-9; the section of the
-        wrist's reach, with voids, from where the arm is singular and its limits; its volume. No
-        picture is needed then.
+        Not by a grid: how far and near the tip and the wrist reach, the best of searches that each
+        end to 1e-9; the section of the wrist's reach, with voids, from where the arm is singular
+        and its limits; its volume. No picture is needed then.
     against
         A second map: the first one, this, and their difference are drawn.
     variable

@@ -151,7 +151,7 @@ def _caption(m: int, arms: list[Placed]) -> str:
         text = f"{name}: all {m} poses from {base}; margin {margin}."
         if not placement.found:
             reached = m - len(placement.missed)
-            text = f"{name}: no base reaches all {m} poses; {reached} from {base}."
+            text = f"{name}: no base found that reaches all {m} poses; {reached} from {base}."
         lines.append(text)
     lines.append("Grey: bases that leave poses out, the darker the fewer. Collisions not checked.")
     return "\n".join(textwrap.fill(line, LETTERS * len(arms)) for line in lines)

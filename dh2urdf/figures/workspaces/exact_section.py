@@ -1,6 +1,7 @@
 """The exact section of an arm's reach: what bounds it, and how far and near the arm reaches."""
 
 import textwrap
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,8 @@ def exact_section_figure(
 ) -> Picture:
     """Draw the section through axis 1 of what the wrist point reaches, both halves of it.
 
+    Where axis 1 is parallel to z of the base, that is up.
+
     Parameters
     ----------
     robot : Robot
@@ -53,14 +56,18 @@ def exact_section_figure(
     with mpl.rc_context(RC):
         figure = Picture(figsize=(7.6, 6.0))
         axes = figure.add_axes((0.105, 0.16, 0.63, 0.78))
-        _area(axes, section.rings)
+        up = -1.0 if reach.above is not None and reach.axis[2] < 0.0 else 1.0
+        rings = [replace(ring, points=ring.points * [1.0, up], between=ring.between * [1.0, up])
+                 for ring in section.rings]  # fmt: skip
+        _area(axes, rings)
         for kind, colour in _colours(section).items():
-            _edges(axes, section.rings, kind, colour)
-        _extremes(axes, section, reach)
+            _edges(axes, rings, kind, colour)
+        _extremes(axes, section, reach, up)
         axes.axvline(0.0, color=INK, lw=0.8, ls=(0, (8, 2, 1, 2)), alpha=0.7)
         axes.set_aspect("equal")
         axes.margins(0.06)
-        axes.set(xlabel="distance from axis 1 / m", ylabel="height over the shoulder / m")
+        way = "along axis 1 from" if reach.above is None else "above"
+        axes.set(xlabel="distance from axis 1 / m", ylabel=f"height {way} the shoulder / m")
         axes.legend(
             loc="upper left", bbox_to_anchor=(1.01, 1.0), frameon=False, fontsize=9, borderpad=0
         )
@@ -78,7 +85,7 @@ def _colours(section: ReachSection) -> dict[str, str]:
     return folds | {kind: LIMITS[i % len(LIMITS)] for i, kind in enumerate(limits)}
 
 
-def _area(axes: Any, rings: tuple[Ring, ...]) -> None:
+def _area(axes: Any, rings: list[Ring]) -> None:
     """What is reached, on both sides of the axis."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -90,7 +97,7 @@ def _area(axes: Any, rings: tuple[Ring, ...]) -> None:
         axes.add_patch(patch)
 
 
-def _edges(axes: Any, rings: tuple[Ring, ...], kind: str, colour: str) -> None:
+def _edges(axes: Any, rings: list[Ring], kind: str, colour: str) -> None:
     """The pieces of the boundary of a kind, in one line with gaps."""
     parts = [np.full((1, 2), np.nan)]
     for ring in rings:
@@ -104,8 +111,11 @@ def _edges(axes: Any, rings: tuple[Ring, ...], kind: str, colour: str) -> None:
     axes.plot(*(line * [-1.0, 1.0]).T, color=colour, lw=1.9, solid_capstyle="round")
 
 
-def _extremes(axes: Any, section: ReachSection, reach: ExtremeReach) -> None:
-    """Circles of the smallest and the largest distance from the shoulder, a place on each."""
+def _extremes(axes: Any, section: ReachSection, reach: ExtremeReach, up: float) -> None:
+    """Circles of the smallest and the largest distance from the shoulder, a place on each.
+
+    ``up`` is -1 where axis 1 points down.
+    """
     angles = np.linspace(-np.pi, np.pi, 361)
     words = zip(reach.distance, reach.places["distance"], ("nearest", "farthest"), strict=True)
     for distance, place, word in words:
@@ -114,7 +124,7 @@ def _extremes(axes: Any, section: ReachSection, reach: ExtremeReach) -> None:
             circle = distance * np.cos(angles), distance * np.sin(angles)
             axes.plot(*circle, color=MUTED, lw=1.0, ls="--", label=label)
             x, y, z = (inverse(section.T_base_axis) @ np.append(place, 1.0))[:3].tolist()
-            axes.plot(np.hypot(x, y), z, "o", ms=5.5, mfc="white", mec=INK, mew=1.3, zorder=6)
+            axes.plot(np.hypot(x, y), up * z, "o", ms=5.5, mfc="white", mec=INK, mew=1.3, zorder=6)
     axes.plot(0.0, 0.0, "+", ms=10, mec=INK, mew=1.6, zorder=6, label="shoulder")
 
 

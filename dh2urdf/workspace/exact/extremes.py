@@ -1,4 +1,4 @@
-"""The largest and the smallest reach, by Newton steps from many starts.
+"""The largest and the smallest reach, by Newton steps from starts on all faces of the limits.
 
 At an extreme distance the line from the shoulder to the point meets every axis that is free to turn
 (Kumar and Waldron, "The workspaces of a mechanical manipulator", J. Mech. Des. 103, 1981): its
@@ -16,14 +16,24 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.exact.carried_point import CarriedPoint, carried_point
 
-STARTS, FOLLOWED = 20_000, 48
-"""Configurations that are looked at, and the best of them from which steps are made."""
+EACH, FACES = 20, 3**7
+"""Configurations looked at on each face of the limits, the best of which is followed, and the most
+faces, drawn at random where there are more."""
+
+ROUGH, KEPT = 12, 48
+"""Steps from all starts, and the best of them from which steps go on to the end."""
 
 STEPS = 200
 """Newton steps at most; a handful will do but where a joint hardly counts."""
 
+SCALES = (1.0, 0.25, 0.0625, 0.0078125)
+"""Parts of a step that are tried."""
+
 FLAT = 1e-9
 """Curvature, relative to the largest, below which a joint does not count."""
+
+PARALLEL = 1e-9
+"""Sine of the angle between directions up to which they count as parallel."""
 
 Values = Callable[[Array], Array]
 Slopes = Callable[[Array], tuple[Array, Array]]
@@ -39,6 +49,8 @@ class ExtremeReach:
         ``tip`` or ``wrist point``.
     centre : array, shape (3,)
         The shoulder in base [m]: the point of axis 1 nearest to axis 2.
+    axis : array, shape (3,)
+        Direction of axis 1 in base.
     distance : tuple of 2 floats
         Smallest and largest distance from the shoulder [m].
     radius : tuple of 2 floats
@@ -54,11 +66,20 @@ class ExtremeReach:
 
     point: str
     centre: Array
+    axis: Array
     distance: tuple[float, float]
     radius: tuple[float, float]
     height: tuple[float, float]
     q: dict[str, Array]
     places: dict[str, Array]
+
+    @property
+    def above(self) -> tuple[float, float] | None:
+        """``height`` along z of the base [m], None where axis 1 is not parallel to that."""
+        if np.hypot(self.axis[0], self.axis[1]) > PARALLEL:
+            return None
+        low, high = self.height
+        return (low, high) if self.axis[2] > 0.0 else (-high, -low)
 
 
 def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = True) -> ExtremeReach:
@@ -76,7 +97,9 @@ def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = Tru
     Returns
     -------
     ExtremeReach
-        Each extreme known to 1e-9 of the arm's size, the best of all starts.
+        Each extreme is attained in its configuration, and the end of a descent to 1e-9 of the arm's
+        size: the best of those from all starts, the same each time. It is not proven that none is
+        farther or nearer: starts are on all faces of the limits of up to seven joints.
 
     Raises
     ------
@@ -100,7 +123,7 @@ def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = Tru
         q[name] = np.stack([configuration for _, configuration in found])
     T = carried.T_base_axis
     places = {name: carried.places(each) @ T[:3, :3].T + T[:3, 3] for name, each in q.items()}
-    return ExtremeReach(carried.name, T[:3, 3].copy(), **ends, q=q, places=places)
+    return ExtremeReach(carried.name, T[:3, 3].copy(), T[:3, 2].copy(), **ends, q=q, places=places)
 
 
 def bounds_of(carried: CarriedPoint, within_limits: bool) -> tuple[Array, Array]:
@@ -147,51 +170,67 @@ def _extreme(
         hessian = np.einsum("kxi,x,kxj->kij", J, W, J) + curve
         return sign * gradient, sign * hessian
 
-    q = _best_starts(values, low, high)
-    q, value = _descended(q, values, slopes, low, high)
+    q, value = _descended(_starts(values, low, high), values, slopes, low, high, ROUGH)
+    q = q[np.argsort(value, kind="stable")[:KEPT]]
+    q, value = _descended(q, values, slopes, low, high, STEPS)
     best = int(np.argmin(value))
     at = carried.places(q[best : best + 1])[0]
     end = float(at[2]) if weights is None else float(np.sqrt((at * at) @ W))
     return end, q[best]
 
 
-def _best_starts(values: Values, low: Array, high: Array) -> Array:
-    """The best of many configurations, the corners of the limits among them, (k, n)."""
-    rng = np.random.default_rng(0)
+def _starts(values: Values, low: Array, high: Array) -> Array:
+    """The best of some configurations on each face of the limits, the corners among them, (k, n).
+
+    A face has each joint at its lower limit, between the limits or at its upper one.
+    """
+    rng, n = np.random.default_rng(0), len(low)
     a, b = np.where(np.isfinite(low), low, -np.pi), np.where(np.isfinite(high), high, np.pi)
-    shares = rng.random((STARTS, len(a)))
-    shares[: STARTS // 4] = shares[: STARTS // 4].round()
-    q = a + shares * (b - a)
-    return np.asarray(q[np.argsort(values(q), kind="stable")[:FOLLOWED]])
+    numbers = np.arange(3**n) if 3**n <= FACES else rng.choice(3**n, FACES, replace=False)
+    held = numbers[:, None] // 3 ** np.arange(n) % 3 / 2.0
+    shares = rng.random((len(held), EACH, n))
+    on_face = np.repeat(held[:, None], EACH, axis=1)
+    q = a + np.where(on_face == 0.5, shares, on_face) * (b - a)
+    best = values(q.reshape(-1, n)).reshape(len(held), EACH).argmin(axis=1)
+    return np.asarray(q[np.arange(len(held)), best])
 
 
 def _descended(
-    q: Array, values: Values, slopes: Slopes, low: Array, high: Array
+    q: Array, values: Values, slopes: Slopes, low: Array, high: Array, steps: int
 ) -> tuple[Array, Array]:
-    """Newton steps downhill within bounds from configurations (k, n), and the values there.
+    """Steps downhill within bounds from configurations (k, n), and the values there.
 
-    The Hessian's eigenvalues are taken by size, so that a step leads downhill at a saddle too.
+    Newton steps with the Hessian's eigenvalues by size, so that they lead downhill at a saddle too,
+    projected onto the bounds; steps along the gradient where none of those does, as may be where a
+    joint at its limit is pushed out by the others.
     """
     value = values(q)
-    for _ in range(STEPS):
-        gradient, hessian = slopes(q)
-        held = ((q <= low) & (gradient > 0.0)) | ((q >= high) & (gradient < 0.0))
-        gradient = np.where(held, 0.0, gradient)
-        free = ~held[:, :, None] & ~held[:, None, :]
-        size, ways = np.linalg.eigh(np.where(free, hessian, 0.0))
-        size = np.abs(size)
-        floor = FLAT * size.max(axis=1, keepdims=True) + 1e-300
-        along = np.einsum("kij,ki->kj", ways, gradient) / np.maximum(size, floor)
-        step = -np.einsum("kij,kj->ki", ways, along)
-        step *= np.minimum(1.0, 1.0 / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
-        gain = np.zeros(len(q))
-        for scale in (1.0, 0.25, 0.0625, 0.0078125):
-            trial = np.clip(q + scale * step, low, high)
-            lower = values(trial)
-            better = (gain == 0.0) & (lower < value)
-            gain = np.where(better, value - lower, gain)
-            q = np.where(better[:, None], trial, q)
-            value = np.where(better, lower, value)
-        if not gain.any():
+    going = np.arange(len(q))
+    for _ in range(steps):
+        start = q[going]
+        for step in _steps(start, slopes, low, high):
+            for scale in SCALES:
+                rows = np.flatnonzero((q[going] == start).all(axis=1))
+                trial = np.clip(start[rows] + scale * step[rows], low, high)
+                lower = values(trial)
+                better = lower < value[going[rows]]
+                q[going[rows[better]]], value[going[rows[better]]] = trial[better], lower[better]
+        going = going[(q[going] != start).any(axis=1)]
+        if not len(going):
             break
     return q, value
+
+
+def _steps(q: Array, slopes: Slopes, low: Array, high: Array) -> tuple[Array, Array]:
+    """The Newton step and that along the gradient from configurations (k, n), at most 1 long."""
+    gradient, hessian = slopes(q)
+    held = ((q <= low) & (gradient > 0.0)) | ((q >= high) & (gradient < 0.0))
+    gradient = np.where(held, 0.0, gradient)
+    free = ~held[:, :, None] & ~held[:, None, :]
+    size, ways = np.linalg.eigh(np.where(free, hessian, 0.0))
+    size = np.abs(size)
+    most = np.maximum(size.max(axis=1, keepdims=True), 1e-200)
+    along = np.einsum("kij,ki->kj", ways, gradient) / np.maximum(size, FLAT * most)
+    steps = -np.einsum("kij,kj->ki", ways, along), -gradient / most
+    long = [np.maximum(np.abs(step).max(axis=1, keepdims=True), 1.0) for step in steps]
+    return steps[0] / long[0], steps[1] / long[1]

@@ -25,6 +25,9 @@ AT_ONCE = 64
 BEAM = (192, 96, 48, 24, 12, 12, 12, 12, 12, 12)
 """Bases about which each finer lattice is laid, half as wide as the one before."""
 
+SOUGHT, ASKED = 384, 100_000
+"""Such bases while none reaches all poses, and how many poses a lattice asks for then, about."""
+
 
 @dataclass(frozen=True, eq=False)
 class BaseMap:
@@ -149,13 +152,18 @@ def finer(
     region: Array,
     tell: Progress,
 ) -> tuple[Array, int]:
-    """The best base (4,) of ever finer lattices about the best ones, and how many were tried."""
-    steps, tried = lattice.steps, len(bases)
-    for level, width in enumerate(BEAM):
-        order = np.lexsort((-margin, count))[:width]
+    """The best base (4,) of ever finer lattices about the best ones, and how many were tried.
+
+    Of bases that miss as many poses a mix is taken, from all over the region.
+    """
+    steps, tried, rng = lattice.steps, len(bases), np.random.default_rng(0)
+    sides = [[-1, 0, 1] if step else [0] for step in steps]
+    moves = np.stack(np.meshgrid(*sides, indexing="ij"), -1).reshape(-1, 4)
+    for level, least in enumerate(BEAM):
+        width = max(least, min(SOUGHT, ASKED // (len(moves) * len(job)))) if count.all() else least
+        order = np.lexsort((rng.permutation(len(bases)), -margin, count))[:width]
         steps = steps / 2
-        moves = np.stack(np.meshgrid(*[[-1, 0, 1] if s else [0] for s in steps], indexing="ij"), -1)
-        new = (bases[order, None] + moves.reshape(-1, 4) * steps).reshape(-1, 4)
+        new = (bases[order, None] + moves * steps).reshape(-1, 4)
         new = np.clip(new, region[:, 0], region[:, 1])
         new = np.unique(np.concatenate([bases[order], new.round(12)]), axis=0)
         count, margin = worth(job, new, lambda *_: None)

@@ -1,4 +1,4 @@
-"""The best base for a job, or which of its poses stand in the way of one."""
+"""The best base found for a job, or which of its poses stand in the way of one."""
 
 import math
 from collections.abc import Callable
@@ -45,7 +45,7 @@ class Placement:
     missed : tuple of int
         Poses out of reach from this base, which reaches the most of all bases tried.
     never : tuple of int
-        Those of the first hundred of them that no base reaches, on a lattice about each.
+        Those of the first hundred of them that are reached from no base of a lattice about each.
     reasons : tuple of str
         Why each of the first hundred of ``missed`` is out of reach from this base.
     map : BaseMap
@@ -93,8 +93,8 @@ def place(
     configuration, a base that of its worst pose.
 
     Bases are tried on a lattice, a twelfth of the reach and 15 degrees apart, then on ever finer
-    ones about the best; the same each time. That none is found is no proof that there is none
-    between them.
+    ones about the best, or about those that miss the fewest poses; the same each time. That none
+    is found is no proof that there is none between them; a smaller ``region`` lays them closer.
 
     Parameters
     ----------
