@@ -28,7 +28,7 @@ Messages
     ``joints[3].alpha`` is the third row of the file, counted from 1.
 """
 
-from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign
+from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign, refuse_unwritable
 from dh2urdf.dh_io.cells.expressions import parse_cell
 from dh2urdf.dh_io.cells.told import Told, told
 from dh2urdf.dh_io.cells.units import SI, Kind, Units

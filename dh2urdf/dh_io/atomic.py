@@ -71,6 +71,19 @@ def atomic_write(path: str | os.PathLike[str], content: str | bytes | Iterable[b
     return where
 
 
+def refuse_unwritable(path: Path) -> None:
+    """Refuse a folder and a missing one before the work of which the answer would go there.
+
+    Raises
+    ------
+    OutputError
+        What :func:`atomic_write` would say.
+    """
+    code = errno.EISDIR if path.is_dir() else 0 if path.parent.is_dir() else errno.ENOENT
+    if code:
+        raise OutputError(f"{shown(path)}: cannot write: {_REASONS[code]}")
+
+
 def refuse_foreign(path: Path, *marks: str, same: bytes = b"") -> None:
     """Refuse to write over a file without a mark of this package that holds anything but ``same``.
 

@@ -9,6 +9,7 @@ from dh2urdf.cli.options import Json, Link
 from dh2urdf.cli.output import emit, emit_file, emit_json, read_any, robot_of
 from dh2urdf.cli.progress import note
 from dh2urdf.cli.reading import DEFAULT, Reading
+from dh2urdf.dh_io import refuse_foreign, refuse_unwritable
 from dh2urdf.exceptions import ArgumentError
 
 
@@ -19,7 +20,7 @@ def export_(
     ros2: Path | None = None,
     plugin: bool = False,
     output: Annotated[Path | None, Parameter(name=["--output", "-o"])] = None,
-    language: Literal["c", "c++", "python", "rust"] | None = None,
+    language: Literal["c", "c++", "python"] | None = None,
     prefix: str | None = None,
     held: str | None = None,
     tests: Path | None = None,
@@ -72,7 +73,7 @@ def export_(
         raise ArgumentError(
             "export: -o FILE writes the solver's source code, --ros2 DIR a ROS 2 package"
         )
-    from dh2urdf.export.source import export_solver, exported
+    from dh2urdf.export.source import MARK, export_solver, exported
 
     robot = robot_of(arm, base, tip, reading)
     joint: int | str | None = held
@@ -81,6 +82,10 @@ def export_(
     to_stdout = str(output) == "-"
     if tests is not None and (language == "python" or output.suffix.lower() == ".py"):
         raise ArgumentError("--tests writes a C program: it does nothing for Python")
+    if tests is not None:
+        refuse_unwritable(tests)
+        if not force:
+            refuse_foreign(tests, MARK)
     if to_stdout:
         made = exported(robot, language=language or "c", prefix=prefix, held=joint)
     else:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign
+from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign, refuse_unwritable
 from dh2urdf.dh_io.files import shown
 from dh2urdf.doors import choice, flag, found, instance, integer
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
@@ -106,6 +106,7 @@ def export_solver(
     'three parallel axes'
     """
     target = Path(path)
+    refuse_unwritable(target)
     made = exported(robot, language=language, prefix=prefix, held=held, path=target)
     if not flag(force, "force"):
         refuse_foreign(target, MARK, same=made.text.encode())
