@@ -13,7 +13,7 @@ from dh2urdf.bounds import LENGTH
 from dh2urdf.doors import choice, number
 from dh2urdf.exceptions import ArgumentError, MissingExtraError, UnreachedError
 from dh2urdf.transforms import Array
-from dh2urdf.workspace.section import PLANES, Section
+from dh2urdf.workspace.section import PLANES, Plane, Section
 from dh2urdf.workspace.surface_nets import Flags, Index, edge_ends, surface_net
 
 if TYPE_CHECKING:
@@ -38,32 +38,41 @@ class MapCut(NamedTuple):
 
 
 def open_map(source: Any) -> xarray.Dataset:
-    """A map as of :func:`reach_map`: the dataset itself, or the path of its Zarr group.
+    """A map as of :func:`reach_map`: the dataset itself, or the path or URL of its Zarr group.
 
     Raises
     ------
     ArgumentError
-        There is no such group, or it is no map.
+        There is no such group, it is no map, or one that is not finished.
     MissingExtraError
     """
     try:
         import xarray as xr
     except ImportError:
         raise MissingExtraError("scale", "a map of the reach") from None
-    found = source
+    found, where = source, "map"
     if isinstance(source, str | os.PathLike):
-        if not Path(source).is_dir():
+        where = str(source)
+        if "://" not in where and not Path(source).is_dir():
             raise ArgumentError(f"{source}: no such map; `dh2urdf map` writes one")
         try:
             found = xr.open_zarr(source, consolidated=False)
         except Exception as fault:  # of zarr, numcodecs, xarray: what is there is no group
             raise ArgumentError(f"{source}: no map that can be read: {fault}") from None
     if not isinstance(found, xr.Dataset) or "share" not in found or found.share.ndim != 3:
-        raise ArgumentError(f"{source if found is not source else 'map'}: holds no map of a reach")
+        raise ArgumentError(f"{where}: holds no map of a reach")
+    if not found.attrs.get("complete", 1):
+        part = float(found.share.notnull().mean())
+        raise ArgumentError(
+            f"{where}: is not finished, {part:.0%} of its voxels are worked out; the call that "
+            "began it goes on with the rest"
+        )
     return found
 
 
-def map_cut(found: xarray.Dataset, variable: str, plane: str, at: float | None) -> MapCut:
+def map_cut(
+    found: xarray.Dataset, variable: str, plane: str = "", at: float | None = None
+) -> MapCut:
     """The layer of voxels whose centres are nearest to a plane.
 
     Parameters
@@ -71,13 +80,19 @@ def map_cut(found: xarray.Dataset, variable: str, plane: str, at: float | None) 
     found : xarray.Dataset
     variable : str
         One of ``VARIABLES``.
-    plane : {"xz", "yz", "xy"}
+    plane : {"xz", "yz", "xy"}, optional
+        That of a map of one layer, else xz.
     at : float, optional
         Height of the plane along its normal [m]; the middle of the map.
     """
     choice(variable, "variable", VARIABLES)
-    chosen = PLANES[choice(plane, "plane", PLANES)]
+    chosen = PLANES[choice(plane, "plane", PLANES)] if plane else _plane_of(found)
+    flat = _plane_of(found)
     axes = [np.asarray(found[axis].values, float) for axis in "xyz"]
+    if len(axes[flat.normal]) == 1 and chosen != flat:
+        raise ArgumentError(
+            f"plane: {chosen.name} cuts a map of one layer to a line; it lies in {flat.name}"
+        )
     across = axes[chosen.normal]
     height = float(across.mean()) if at is None else number(at, "at", -LENGTH, LENGTH)
     step = float(np.ptp(across)) / max(len(across) - 1, 1) or 1e-9
@@ -89,6 +104,14 @@ def map_cut(found: xarray.Dataset, variable: str, plane: str, at: float | None) 
     share = found.share.isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen)).values
     values = np.where(share > 0.0, values, np.nan)
     return MapCut(Section(chosen, float(across[k]), axes[chosen.u], axes[chosen.v]), values)
+
+
+def _plane_of(found: xarray.Dataset) -> Plane:
+    """The plane of a map of one layer of voxels, else xz."""
+    for plane in PLANES.values():
+        if found.share.sizes["xyz"[plane.normal]] == 1:
+            return plane
+    return PLANES["xz"]
 
 
 def _names(plane: Any) -> tuple[str, str]:

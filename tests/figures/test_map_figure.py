@@ -88,3 +88,15 @@ def test_the_map_of_a_planar_arm_is_drawn_in_its_plane():
     region = [[-1.1, 1.1], [-1.1, 1.1], [-0.05, 0.05]]
     found = reach_map(robot, step=0.1, orientations=12, region=region, within_limits=False)
     assert b"rrr reaches" in picture_bytes(map_figure(found, plane="xy"), "svg")
+
+
+def test_a_flat_map_is_drawn_in_its_plane_unasked(tmp_path, run):
+    """From the command line, with an area; the planes that cut it to a line are refused."""
+    assert run("map", "planar_rr", "-o", "rr.zarr", "--step", "0.1")[0] == 0
+    assert run("workspace", "rr.zarr", "-o", "rr.svg") == (0, "rr.svg\n", "")
+    drawn = (tmp_path / "rr.svg").read_bytes()
+    assert drawn == picture_bytes(map_figure(tmp_path / "rr.zarr", plane="xy"), "svg")
+    assert b"reaches 0 m" not in drawn
+    code, _, err = run("workspace", "rr.zarr", "-o", "xz.svg", "--plane", "xz")
+    assert code == 2
+    assert "plane: xz cuts a map of one layer to a line; it lies in xy" in err

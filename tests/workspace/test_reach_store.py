@@ -15,7 +15,7 @@ import xarray
 import dh2urdf
 from dh2urdf import Robot
 from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
-from dh2urdf.workspace import reach_map
+from dh2urdf.workspace import map_summary, open_map, reach_map
 from dh2urdf.workspace.reach import job, provenance, store
 
 GIVEN = {"step": 0.1, "orientations": 2800, "region": ((0.0, 0.8), (-0.4, 0.4), (0.0, 0.8))}
@@ -173,7 +173,90 @@ def test_files_that_may_not_grow_are_one_error(ur5e, tmp_path):
         [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True,
         env={**os.environ, "PYTHONPATH": str(Path(dh2urdf.__file__).parents[1])},
     )  # fmt: skip
-    assert "arm.zarr: File too large; blocks that are done are kept" in done.stdout
+    assert "arm.zarr: File too large; this call worked out nothing" in done.stdout
+
+
+def begun(robot, path, monkeypatch, **given):
+    """A map of which some blocks are done, as a kill or a fault leaves it."""
+
+    def stop(done, total):
+        if done == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        reach_map(robot, **given, store=path, progress=stop)
+
+
+def test_a_map_that_is_not_finished_says_so(ur5e, whole, tmp_path, monkeypatch, run):
+    """Its attribute is 0, what is not worked out is NaN, and who draws or sums it up refuses."""
+    path = tmp_path / "arm.zarr"
+    begun(ur5e, path, monkeypatch, **GIVEN)
+    part, marks = xarray.open_zarr(path), store.done(str(path))
+    assert 3 <= marks.sum() < marks.size
+    assert part.attrs["complete"] == 0
+    lasting = marks.repeat(4, 0).repeat(4, 1).repeat(4, 2)
+    for name in ("share", "solutions_mean", "solutions_max"):
+        np.testing.assert_array_equal(np.isfinite(part[name].values), lasting)
+    for use in (open_map, map_summary):
+        with pytest.raises(ArgumentError, match=r"is not finished, \d+% of its voxels"):
+            use(part)
+    code, out, err = run("workspace", "arm.zarr", "-o", "arm.png")
+    assert (code, out) == (2, "")
+    assert "arm.zarr: is not finished" in err
+    assert not (tmp_path / "arm.png").exists()
+    reach_map(ur5e, **GIVEN, store=path)
+    xarray.testing.assert_identical(open_map(path).load(), whole)
+    assert whole.attrs["complete"] == 1
+
+
+@pytest.mark.parametrize("name", ["share", "solutions_max", "limit_margin", "singular_value_each"])
+def test_a_chunk_that_is_gone_is_worked_out_again(ur5e, tmp_path, monkeypatch, name):
+    """A block whose mark is there and a file is not is noticed, and it alone is done again."""
+    given = GIVEN | {"each": name.endswith("each")}
+    path = tmp_path / "arm.zarr"
+    reach_map(ur5e, **given, store=path)
+    before = files(path)
+    (path / name / "c/1/1/1" / ("0" if given["each"] else "")).unlink()
+    worked, once = [], job.block_values
+    monkeypatch.setattr(job, "block_values", lambda *a: worked.append(a[2]) or once(*a))
+    reach_map(ur5e, **given, store=path)
+    assert [tuple(map(int, block)) for block in worked] == [(1, 1, 1)]
+    assert files(path) == before
+
+
+def test_urls_go_to_fsspec(ur5e, whole, tmp_path, run):
+    """A map in fsspec's memory, and by file:// where it says; no folder is named like a URL."""
+    kept = reach_map(ur5e, **GIVEN, store="memory://maps/arm.zarr")
+    xarray.testing.assert_identical(kept.load(), whole)
+    xarray.testing.assert_identical(open_map("memory://maps/arm.zarr").load(), whole)
+    reach_map(ur5e, **GIVEN, store=f"file://{tmp_path}/arm%20a.zarr")
+    xarray.testing.assert_identical(open_map(tmp_path / "arm a.zarr").load(), whole)
+    kept = run("map", "ur5e", "-o", "nothing://bucket/arm.zarr", "--step", "0.4")
+    assert kept == (2, "", "dh2urdf: nothing://bucket/arm.zarr: Protocol not known: nothing\n")
+    assert [p.name for p in tmp_path.iterdir()] == ["arm a.zarr"]
+
+
+def test_a_protocol_whose_package_is_missing_is_one_error(tmp_path, monkeypatch, run):
+    """The package that fsspec asks for is named, and nothing is written."""
+    monkeypatch.setitem(sys.modules, "s3fs", None)
+    code, out, err = run("map", "ur5e", "-o", "s3://bucket/arm.zarr", "--step", "0.4")
+    assert (code, out) == (2, "")
+    assert err == "dh2urdf: s3://bucket/arm.zarr: Install s3fs to access S3\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_map_is_not_written_to_standard_output(tmp_path, run):
+    """A map is a folder: -o - is refused, and no folder of that name is made."""
+    code, out, err = run("map", "ur5e", "-o", "-", "--step", "0.4")
+    assert (code, out) == (2, "")
+    assert "a map is a folder" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_place_that_takes_nothing_is_told_so(ur5e):
+    """Where the store cannot even be begun, nothing is said of blocks that are kept."""
+    with pytest.raises(OutputError, match=r"/proc/arm.zarr: .*; this call worked out nothing$"):
+        reach_map(ur5e, **GIVEN, store="/proc/arm.zarr")
 
 
 def test_voxels_are_halved_where_shares_change(ur5e, tmp_path):

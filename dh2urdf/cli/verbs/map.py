@@ -1,7 +1,6 @@
 """``dh2urdf map``: where the tip can be, in how many ways and how well, as a Zarr group."""
 
 import math
-from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -12,6 +11,7 @@ from dh2urdf.cli.output import emit, emit_json, robot_of, ten_digits
 from dh2urdf.cli.progress import bar
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io import Kind, Units
+from dh2urdf.exceptions import ArgumentError
 
 ENDS = "x from", "x to", "y from", "y to", "z from", "z to"
 
@@ -20,7 +20,7 @@ def map_(
     robot: Arm,
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"])],
+    output: Annotated[str, Parameter(name=["--output", "-o"])],
     step: Annotated[float, real(1e-6, LENGTH, Kind.LENGTH)] = 0.05,
     orientations: Annotated[int, whole(1, ORIENTATIONS)] = 200,
     region: Values = None,
@@ -44,7 +44,7 @@ def map_(
     Parameters
     ----------
     output
-        The Zarr group to write, such as arm.zarr; xarray opens it.
+        The Zarr group to write, such as arm.zarr or s3://bucket/arm.zarr; xarray opens it.
     step
         Side of a voxel, in metres.
     orientations
@@ -68,6 +68,8 @@ def map_(
     """
     from dh2urdf.workspace import cone, settings_of, store_map
 
+    if output == "-":
+        raise ArgumentError("--output -: a map is a folder; give a path such as arm.zarr")
     arm = robot_of(robot, base, tip, reading)
     units = Units("m", "rad")
     ends = None

@@ -51,7 +51,7 @@ def workspace_(
     Parameters
     ----------
     plane
-        Plane of the section in the base; default: that of a planar arm, else xz.
+        Plane of the section in the base; default: that of a planar arm or a flat map, else xz.
     at
         Where the plane stands along its normal, in metres.
     rpy
@@ -90,7 +90,7 @@ def workspace_(
         assert output is not None
         from dh2urdf.figures import map_figure, save_picture
 
-        cut = map_figure(robot, against, variable=variable or "share", plane=plane or "xz", at=at)
+        cut = map_figure(robot, against, variable=variable or "share", plane=plane or "", at=at)
         path = save_picture(cut, output, dpi=dpi, force=force)
         return emit_json("workspace", path=path) if json else emit(str(path))
     _refuse("a robot that is no map", {"--against": against, "--variable": variable})

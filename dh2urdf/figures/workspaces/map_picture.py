@@ -34,7 +34,7 @@ def map_figure(
     against: Any = None,
     *,
     variable: str = "share",
-    plane: str = "xz",
+    plane: str = "",
     at: float | None = None,
 ) -> Picture:
     """Draw a cut through a map; with a second one on the same grid both, and their difference.
@@ -46,14 +46,15 @@ def map_figure(
     variable : str
         ``share``, ``solutions_mean``, ``solutions_max``, ``manipulability``, ``singular_value`` or
         ``limit_margin``.
-    plane : {"xz", "yz", "xy"}
+    plane : {"xz", "yz", "xy"}, optional
+        That of a map of one layer, else xz.
     at : float, optional
         Height of the plane along its normal [m]; the middle of the map.
 
     Raises
     ------
     ArgumentError
-        No map; two on different grids.
+        No map, or one that is not finished; two on different grids.
     UnreachedError
         The map ends before the plane.
     """

@@ -60,9 +60,7 @@ def _best_spins(found: _Found, settings: MapSettings) -> _Found:
 
 
 def _kept(values: NDArray[np.generic]) -> NDArray[np.generic]:
-    """Numbers as a map keeps them, NaN where nothing is reached."""
-    if values.dtype.kind == "u":
-        return values
+    """Numbers as a map keeps them, a measure NaN where nothing is reached."""
     return np.where(values == -np.inf, np.nan, values).astype(np.float32)
 
 

@@ -10,12 +10,16 @@ from dh2urdf.exceptions import MissingExtraError
 from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.measured import MEASURES
 from dh2urdf.workspace.reach.settings import MapSettings
+from dh2urdf.workspace.stored_map import open_map
 
 if TYPE_CHECKING:
     import xarray
 
 KEY = "dh2urdf_map"
 """Attribute with the settings: a group with it is a map."""
+
+COMPLETE = "complete"
+"""Attribute: 1 once all blocks are worked out, 0 before."""
 
 PURPOSE = "a map of the reach"
 
@@ -70,17 +74,11 @@ def to_dataset(settings: MapSettings, values: Values, attrs: dict[str, Any]) -> 
     return dataset
 
 
-def kind_of(name: str) -> np.dtype[np.generic]:
-    """Numbers by which a variable is kept."""
-    kinds = {"level": np.uint8, "solutions_max": np.uint16, "solutions_each": np.uint16}
-    return np.dtype(kinds.get(name, np.float32))
-
-
 def empty_values(settings: MapSettings) -> Values:
     """Room for all variables."""
     k = len(settings.turns)
     return {
-        name: np.empty((*settings.grid.shape, *[k] * (len(axes) - 3)), kind_of(name))
+        name: np.empty((*settings.grid.shape, *[k] * (len(axes) - 3)), np.float32)
         for name, axes in variables(settings).items()
     }
 
@@ -111,7 +109,14 @@ class MapSummary(NamedTuple):
 
 
 def map_summary(found: xarray.Dataset) -> MapSummary:
-    """A map in a few numbers, read from its store a layer of blocks at a time."""
+    """A map in a few numbers, read from its store a layer of blocks at a time.
+
+    Raises
+    ------
+    ArgumentError
+        No map, or one that is not finished.
+    """
+    found = open_map(found)
     return summary_of(found.attrs[KEY], found["share"])
 
 

@@ -13,7 +13,7 @@ from dh2urdf.robot import Robot
 from dh2urdf.workspace.reach.dataset import KEY
 from dh2urdf.workspace.reach.settings import MapSettings
 
-LAYOUT = 1
+LAYOUT = 2
 """Number of the layout of stores; it grows when a variable changes its meaning."""
 
 

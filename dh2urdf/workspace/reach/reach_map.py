@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable
 from contextlib import ExitStack, closing
 from typing import TYPE_CHECKING, Any
+from urllib.parse import unquote, urlsplit
 
 from numpy.typing import ArrayLike
 
@@ -14,7 +15,13 @@ from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.workspace.reach import store as stored
 from dh2urdf.workspace.reach.block import Values
-from dh2urdf.workspace.reach.dataset import MapSummary, empty_values, load_xarray, to_dataset
+from dh2urdf.workspace.reach.dataset import (
+    COMPLETE,
+    MapSummary,
+    empty_values,
+    load_xarray,
+    to_dataset,
+)
 from dh2urdf.workspace.reach.job import Job
 from dh2urdf.workspace.reach.provenance import provenance
 from dh2urdf.workspace.reach.refined import around
@@ -101,7 +108,7 @@ def reach_map(
         whole: xarray.Dataset = xr.open_zarr(path, chunks=None)
         return whole
     assert values is not None
-    return to_dataset(finest, values, said)
+    return to_dataset(finest, values, {**said, COMPLETE: 1})
 
 
 def store_map(
@@ -165,7 +172,7 @@ def _level(job: Job, coarse: Values | None, client: Any, told: _Told) -> Values 
     if job.path is None:
         values = empty_values(settings)
     else:
-        marks = stored.done(job.path)
+        marks = stored.take_back(job.path, settings)
         blocks = [block for block in blocks if not marks[block]]
         told.done += int(marks.sum())
 
@@ -183,6 +190,8 @@ def _level(job: Job, coarse: Values | None, client: Any, told: _Told) -> Values 
                 assert values is not None
                 values[name][settings.part(block)] = part
             told()
+    if job.path is not None:
+        stored.finish(job.path)
     return values
 
 
@@ -197,4 +206,6 @@ def _place(store: str | os.PathLike[str]) -> str:
         text = os.fspath(store)
     except TypeError:
         raise ArgumentError(f"store: expected a path or a URL, got {store!r:.60}") from None
+    if str(text).startswith("file://"):
+        text = unquote(urlsplit(str(text)).path)
     return str(text) if "://" in str(text) else os.path.abspath(text)

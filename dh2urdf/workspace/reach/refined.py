@@ -41,7 +41,7 @@ def refined_block(robot: Robot, settings: MapSettings, block: Block, coarse: Val
     )
     values = {name: _doubled(v[inner]) for name, v in coarse.items() if v.ndim == 3}
     if "level" not in values:
-        values["level"] = np.zeros(values["share"].shape, np.uint8)
+        values["level"] = np.zeros(values["share"].shape, np.float32)
     halved = _doubled(_steep(coarse["share"])[inner])
     points = settings.grid.points(part)[halved.ravel()]
     for name, new in values_at(robot, settings, points).items():

@@ -1,7 +1,8 @@
 """A map in a Zarr group: variables in blocks, what has been done, where it came from.
 
 Blocks are written by whoever works them out, first their variables, then a mark in
-``progress/done``; one without a mark is worked out again.
+``progress/done``; one without a mark is worked out again. NaN is what has not been worked out, and
+a measure where nothing is reached; the attribute ``complete`` becomes 1 after the last block.
 """
 
 from __future__ import annotations
@@ -18,15 +19,16 @@ from numpy.typing import NDArray
 from dh2urdf.exceptions import ArgumentError, MissingExtraError, OutputError, OutputExistsError
 from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.dataset import (
+    COMPLETE,
     KEY,
     PURPOSE,
     MapSummary,
     attributes,
     coordinates,
-    kind_of,
     summary_of,
     variables,
 )
+from dh2urdf.workspace.reach.measured import MEASURES
 from dh2urdf.workspace.reach.settings import Block, MapSettings
 
 DONE = "progress/done"
@@ -48,10 +50,11 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
         It cannot be written.
     """
     zarr = load_zarr()
-    with writing(path):
+    with writing(path, "this call worked out nothing"):
         group = _opened(zarr, path)
         if group is None:
-            group = zarr.open_group(path, mode="w-", zarr_format=3, attributes={**said, **CF})
+            attrs = {**said, **CF, COMPLETE: 0}
+            group = zarr.open_group(path, mode="w-", zarr_format=3, attributes=attrs)
         elif KEY not in group.attrs:
             raise _other(path)
         _refuse_others(path, dict(group.attrs[KEY]), said[KEY])
@@ -68,7 +71,16 @@ def _opened(zarr: Any, path: str) -> Any:
         if "://" not in path and (place.is_file() or (place.is_dir() and any(place.iterdir()))):
             raise _other(path) from None
         return None
-    except (FileExistsError, NotADirectoryError, ValueError, TypeError):  # a file, or an array
+    except ImportError as error:  # of fsspec, for the protocol of a URL
+        raise ArgumentError(f"{path}: {error}") from None
+    except (
+        FileExistsError,
+        NotADirectoryError,
+        ValueError,
+        TypeError,
+    ) as error:  # a file, or an array
+        if "Protocol not known" in str(error):
+            raise ArgumentError(f"{path}: {error}") from None
         raise _other(path) from None
 
 
@@ -102,13 +114,12 @@ def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
     side, k = settings.side, len(settings.turns)
     for name, axes in variables(settings).items():
         each = [k] * (len(axes) - 3)
-        kind = kind_of(name)
         group.create_array(
             name,
             shape=(*settings.grid.shape, *each),
             chunks=(side, side, side, *each),
-            dtype=kind,
-            fill_value=kind.type(np.nan if _may_be_nan(name) else 0),
+            dtype="float32",
+            fill_value=np.nan,
             dimension_names=axes,
             attributes=attributes(name),
             overwrite=True,
@@ -123,13 +134,13 @@ def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
         dimension_names=("block_x", "block_y", "block_z"),
         attributes={"long_name": "whether a block is worked out"},
     )
+    _consolidate(zarr, group)
+
+
+def _consolidate(zarr: Any, group: Any) -> None:
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Consolidated metadata")
         zarr.consolidate_metadata(group.store, path=group.path)
-
-
-def _may_be_nan(name: str) -> bool:
-    return not name.startswith(("share", "solutions", "level"))
 
 
 def done(path: str) -> NDArray[np.bool_]:
@@ -137,6 +148,64 @@ def done(path: str) -> NDArray[np.bool_]:
     with writing(path):
         marks: NDArray[np.bool_] = _group(path)[DONE][...]
         return marks
+
+
+def take_back(path: str, settings: MapSettings) -> NDArray[np.bool_]:
+    """Which blocks are done, the marks of those removed that have lost a chunk since."""
+    with writing(path):
+        group = _group(path)
+        marks: NDArray[np.bool_] = group[DONE][...]
+        lost = marks & _lacking(group, settings, marks)
+        if lost.any() or not marks.all():
+            _complete(group, 0)
+        for block in map(tuple, np.argwhere(lost)):
+            group[DONE][block] = marks[block] = False
+        return marks
+
+
+def _lacking(group: Any, settings: MapSettings, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Which blocks lack values, of those that are marked: a chunk that is gone reads as NaN."""
+    lacking, side = np.zeros(settings.counts, np.bool_), settings.side
+    voxels = [
+        "share",
+        "solutions_mean",
+        "solutions_max",
+        *MEASURES,
+        *["level"] * ("level" in group),
+    ]
+    for k in np.flatnonzero(marks.any(axis=(1, 2))):
+        layer = slice(k * side, (k + 1) * side)
+        bad = _empty({name: group[name][layer] for name in voxels}, "max").any(axis=0)
+        for axis in (0, 1):
+            starts = np.arange(0, bad.shape[axis], side)
+            bad = np.logical_or.reduceat(bad, starts, axis=axis)
+        lacking[k] = bad
+    each = [f"{name}_each" for name in ("solutions", *MEASURES)] if settings.each else []
+    for block in map(tuple, np.argwhere(marks)) if each else ():
+        part = settings.part(block)
+        lacking[block] |= _empty({name: group[name][part] for name in each}, "each").any()
+    return lacking
+
+
+def _empty(values: Values, kind: str) -> NDArray[np.bool_]:
+    """Where a variable is NaN, a measure only where there is a solution."""
+    reached: NDArray[np.bool_] = np.greater(values[f"solutions_{kind}"], 0)
+    empty = np.zeros(reached.shape, np.bool_)
+    for name, v in values.items():
+        empty |= np.isnan(v) & reached if name.startswith(MEASURES) else np.isnan(v)
+    return empty
+
+
+def finish(path: str) -> None:
+    """Say that all blocks are worked out."""
+    with writing(path):
+        _complete(_group(path), 1)
+
+
+def _complete(group: Any, value: int) -> None:
+    if group.attrs[COMPLETE] != value:
+        group.attrs[COMPLETE] = value
+        _consolidate(load_zarr(), group)
 
 
 def arrays(path: str) -> dict[str, Any]:
@@ -158,8 +227,7 @@ def write(
     with writing(path):
         part = settings.part(block)
         for name, value in values.items():
-            if not _is_nothing(name, value):  # as a chunk that is not there
-                to[name][part] = value
+            to[name][part] = value  # a chunk of NaN only is not written
         to[DONE][block] = True
 
 
@@ -180,23 +248,19 @@ def _group(path: str) -> Any:
     return load_zarr().open_group(path, mode="r+", use_consolidated=False)
 
 
-def _is_nothing(name: str, values: NDArray[Any]) -> bool:
-    """Whether all are what the array is filled with."""
-    return bool(np.isnan(values).all()) if _may_be_nan(name) else not values.any()
+KEPT = "blocks that are done are kept, the same call goes on with the rest"
 
 
 @contextmanager
-def writing(path: str) -> Iterator[None]:
-    """Say of a full disk, or of one that takes nothing, where it was, and that work is kept."""
+def writing(path: str, left: str = KEPT) -> Iterator[None]:
+    """Say of a full disk, or of one that takes nothing, where it was, and what is left."""
     try:
         yield
     except (OutputError, ArgumentError):
         raise
     except OSError as error:
         reason = error.strerror or str(error)
-        raise OutputError(
-            f"{path}: {reason}; blocks that are done are kept, the same call goes on with the rest"
-        ) from None
+        raise OutputError(f"{path}: {reason}; {left}") from None
 
 
 def load_zarr() -> Any:
