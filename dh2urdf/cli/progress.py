@@ -35,19 +35,26 @@ def track(items: Sequence[T], what: str) -> Iterator[T]:
 
 @contextmanager
 def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
-    """A function to call with the number done and the total; on a terminal it draws a bar."""
+    """A function to call with the number done and the total; on a terminal it draws a bar.
+
+    What is left is foretold by the work since the first call: what was done before that took its
+    time elsewhere. A call with another total, or with fewer done, begins again.
+    """
     start = time.monotonic()
     if not sys.stderr.isatty():
-        due, before = start + QUIET, -1
+        due, first, last = start + QUIET, (0, start), (0, 0)
 
         def tell(done: int, total: int) -> None:
-            nonlocal due, before
+            nonlocal due, first, last
             now = time.monotonic()
-            before = min(done - 1, before) if before >= 0 else done - 1
+            if total != last[1] or done < last[0]:
+                first = done, now
+            last = done, total
             if done < total and now >= due:
                 due = now + EVERY
-                left = (total - done) * (now - start) / (done - before)
-                note(f"{what}: {done} of {total}, {left:.0f} s left")
+                mine = done - first[0]
+                left = f", {(total - done) * (now - first[1]) / mine:.0f} s left" if mine else ""
+                note(f"{what}: {done} of {total}{left}")
 
         yield tell
         return
@@ -56,8 +63,13 @@ def bar(what: str, total: int) -> Iterator[Callable[[int, int], None]]:
 
     with Progress(console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         task = progress.add_task(what, total=total, visible=False)
+        told = 0, 0
 
         def report(done: int, total: int) -> None:
+            nonlocal told
+            if total != told[1] or done < told[0]:
+                progress.reset(task, total=total, completed=done)
+            told = done, total
             late = time.monotonic() - start > PATIENCE
             progress.update(task, completed=done, total=total, visible=late)
             if late:

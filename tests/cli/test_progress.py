@@ -29,14 +29,26 @@ def test_a_log_gets_a_line_every_five_seconds_of_long_work(seconds, told, monkey
 
 
 def test_work_that_goes_on_foretells_by_what_it_did_itself(monkeypatch, capsys):
-    """Six of ten were done before: two more in four seconds leave two for the next four."""
+    """Seven of ten are done when it first tells: one more in three seconds leaves six seconds."""
     now = 100.0
     monkeypatch.setattr(progress.time, "monotonic", lambda: now)
     with progress.bar("mapping", 1) as report:
-        for done in (7, 8):
-            now += 2.0
+        for done, seconds in ((7, 1.0), (8, 3.0)):
+            now += seconds
             report(done, 10)
-    assert capsys.readouterr().err == "mapping: 7 of 10, 6 s left\n"
+    assert capsys.readouterr().err == "mapping: 8 of 10, 6 s left\n"
+
+
+def test_a_first_report_foretells_nothing_and_a_new_total_begins_again(monkeypatch, capsys):
+    """130 of 1000 after a long first part are told alone; ten finer steps have their own pace."""
+    now = 100.0
+    monkeypatch.setattr(progress.time, "monotonic", lambda: now)
+    with progress.bar("placing", 1) as report:
+        for done, total in ((130, 1000), (330, 1000), (1, 10), (2, 10)):
+            now += 10.0
+            report(done, total)
+    lines = ["130 of 1000", "330 of 1000, 34 s left", "1 of 10", "2 of 10, 80 s left"]
+    assert capsys.readouterr().err == "".join(f"placing: {line}\n" for line in lines)
 
 
 def test_a_map_tells_how_far_it_is(run, monkeypatch):
@@ -47,7 +59,9 @@ def test_a_map_tells_how_far_it_is(run, monkeypatch):
     argv = ["-o", "reach.svg", "--points", "21", "--orientations", "3"]
     status, out, err = run("workspace", "puma560", *argv)
     assert (status, out) == (0, "reach.svg\n")
-    done = [int(d) for d in re.findall(r"^mapping: (\d+) of 1000, \d+ s left$", err, re.MULTILINE)]
+    done = [
+        int(d) for d in re.findall(r"^mapping: (\d+) of 1000(?:, \d+ s left)?$", err, re.MULTILINE)
+    ]
     falls = [k for k in range(1, len(done)) if done[k] <= done[k - 1]]
     assert len(falls) == 1
     assert falls[0] >= 2

@@ -177,8 +177,8 @@ def test_bad_arguments_are_refused():
     """Each by name."""
     job = points((0, 0, 0.3))
     for wrong, words in (
-        ({"region": [[1, 0], [0, 1]]}, "lower ends first"),
-        ({"height": (1.0, 0.0)}, "lower ends first"),
+        ({"region": [[1, 0], [0, 1]]}, "region, x: lower end first, got 1 and 0"),
+        ({"height": (1.0, 0.0)}, "height: lower end first, got 1 and 0"),
         ({"yaw": (-6.0, 6.0)}, "one turn"),
         ({"task": "all"}, "task"),
         ({"mount": [0, 0]}, "mount"),
@@ -189,8 +189,21 @@ def test_bad_arguments_are_refused():
         place(UR5E, np.eye(4))
     with pytest.raises(PoseError):
         place(UR5E, 2 * job)
-    with pytest.raises(NoSolverError):
+    with pytest.raises(NoSolverError, match="task 'position'; it has one for") as told:
         place(Robot.from_dh("franka_fer"), job, task="position")
+    assert "\n" not in str(told.value)
+
+
+def test_progress_of_each_part_rises():
+    """Bases, then finer lattices: within a total what is done never falls."""
+    job = points(*[(x, 0.0, 0.3) for x in np.linspace(0.0, 1.2, 150)])
+    told = []
+    place(UR5E, job, yaw=0.0, progress=lambda *step: told.append(step))
+    parts = [[step for step in told if step[::2] == key] for key in {each[::2] for each in told}]
+    assert {what for what, *_ in told} == {"bases", "finer lattices"}
+    for part in parts:
+        done = [step[1] for step in part]
+        assert done == sorted(done)
 
 
 def test_the_picture_is_the_same_each_time():

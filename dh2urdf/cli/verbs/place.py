@@ -153,7 +153,17 @@ def _range(
     """One number, or a range of two."""
     if not cells:
         return None
-    ends = read_numbers(cells, what, (1, 2), kind, Units("m", "deg" if deg else "rad"))
+    unit = "deg" if deg else "rad"
+    ends = read_numbers(cells, what, (1, 2), kind, Units("m", unit))
+    if kind is Kind.ANGLE and max(map(abs, ends)) > 2 * np.pi + 1e-9:
+        turn, hint = ("360", "") if deg else ("6.2832", "; degrees are 90deg, or bare with --deg")
+        raise ArgumentError(
+            f"{what}: expected -{turn} to {turn} {unit}, got {' '.join(cells)} {unit}{hint}"
+        )
+    if ends[0] > ends[-1]:
+        raise ArgumentError(f"{what}: lower end first, got {' '.join(cells)}")
+    if kind is Kind.ANGLE and ends[-1] - ends[0] > 2 * np.pi + 1e-9:
+        raise ArgumentError(f"{what}: a range of one turn at most, got {' '.join(cells)} {unit}")
     return ends[0] if len(ends) == 1 else (ends[0], ends[1])
 
 
@@ -163,7 +173,10 @@ def _pairs(cells: list[str] | None) -> list[list[float]] | None:
         return None
     x0, x1, y0, y1 = read_numbers(cells, "--region", (4,), Kind.LENGTH, Units("m", "rad"))
     if x0 > x1 or y0 > y1 or max(map(abs, (x0, x1, y0, y1))) > LENGTH:
-        raise ArgumentError("--region: lower x, upper x, lower y, upper y are needed")
+        raise ArgumentError(
+            f"--region: lower x, upper x, lower y, upper y are needed, up to {LENGTH:g} m, "
+            f"got {' '.join(cells)}"
+        )
     return [[x0, x1], [y0, y1]]
 
 
@@ -178,17 +191,26 @@ def _text(arm: Robot, placement: Placement, read: Poses, *, deg: bool) -> str:
         head = [f"{name}: base at {base}", reach]
     else:
         reached = m - len(placement.missed)
+        base = base if reached else "any base that was tried"
         head = [f"{name}: no base found that reaches all {m} poses"]
         head.append(f"{reached} of {m} poses from {base}")
-        head.append("between the bases tried there may be one: --region and --yaw lay them closer")
-    count = int((placement.map.margin > 0.0).sum())
-    head.append(f"{count} of {placement.map.margin.size} places of the map reach all; "
-                f"{placement.tried} bases tried")  # fmt: skip
+        if not placement.never:
+            head.append("between those tried there may be one: --region and --yaw lay them closer")
+    count, size = int((placement.map.margin > 0.0).sum()), placement.map.margin.size
+    some = f"{count} of {size} places of the map reach all"
+    most = round(float(placement.map.reached.max()) * m)
+    few = f"{size} places of the map, which reach {most} of {m} poses at most"
+    if placement.found:
+        few = f"the base is between the {few}"
+    head.append(f"{some if count else few}; {placement.tried} bases tried")
     return "\n".join([*head, *_map_lines(placement)])
 
 
 def _map_lines(placement: Placement) -> list[str]:
-    """The map in letters: tenths of the margin, or of the poses where no place reaches all."""
+    """The map in letters: tenths of the margin; where no place reaches all, poses reached.
+
+    Of more than nine poses these are tenths, too.
+    """
     area = placement.map
     rows, columns = np.nonzero(area.reached > 0.0)
     if not len(rows):
@@ -199,12 +221,16 @@ def _map_lines(placement: Placement) -> list[str]:
         return []
     margin, reached = area.margin[part], area.reached[part]
     whole = bool((area.margin > 0.0).any())
-    what = "margin, . where poses are left out" if whole else "poses that are reached"
-    lines = [f"tenths of the {what}; bases at x {x[0]:.2f} to {x[-1]:.2f} m, y as written"]
-    tenths = np.minimum((10.0 * (margin if whole else reached) + 1e-9).astype(int), 9)
+    m = len(placement.margins)
+    what = "tenths of the margin, . where poses are left out"
+    if not whole:
+        what = f"poses reached, of {m}" if m <= 9 else f"tenths of the {m} poses that are reached"
+    lines = [f"{what}; bases at x {x[0]:.2f} to {x[-1]:.2f} m, y as written"]
+    times = 10.0 if whole or m > 9 else m
+    digits = np.minimum((times * (margin if whole else reached) + 1e-9).astype(int), 9)
     for k in range(len(y) - 1, -1, -1):
         signs = [" " if reached[k, i] == 0.0 else "." if whole and margin[k, i] == 0.0
-                 else str(tenths[k, i]) for i in range(len(x))]  # fmt: skip
+                 else str(digits[k, i]) for i in range(len(x))]  # fmt: skip
         lines.append(f"{y[k]:8.2f}  {' '.join(signs)}".rstrip())
     return lines
 

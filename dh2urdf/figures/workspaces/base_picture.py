@@ -19,8 +19,8 @@ from dh2urdf.workspace import Placement, reach_ball
 SIDE, HIGH, MOST = 5.4, 5.6, 4
 """Width of a panel and height of the picture [in], and panels at most."""
 
-GREY = ("#f6f7f8", "#c3c8cf")
-"""Colours of bases that reach none, and nearly all, of the poses."""
+GREY, DARK = ("#f6f7f8", "#c3c8cf"), "#4b5563"
+"""Colours of bases that reach none, and nearly all, of the poses; the latter where none does."""
 
 MISSED = "#d62728"
 """Colour of poses out of reach from the best base."""
@@ -61,8 +61,8 @@ def placement_figure(Ts: ArrayLike, placed: Sequence[tuple[Robot, Placement]]) -
         figure = Picture(figsize=(SIDE * len(arms) + 0.3, HIGH))
         width = 1.0 / len(arms)
         for k, arm in enumerate(arms):
-            axes = figure.add_axes(((k + 0.14) * width, 0.18, 0.68 * width, 0.75))
-            bar = figure.add_axes(((k + 0.845) * width, 0.24, 0.03 * width, 0.58))
+            axes = figure.add_axes(((k + 0.13) * width, 0.18, 0.66 * width, 0.75))
+            bar = figure.add_axes(((k + 0.81) * width, 0.24, 0.03 * width, 0.58))
             _panel(axes, bar, T, arm, top)
             axes.set(xlim=corners[:, 0], ylim=corners[:, 1])
         figure.text(0.02, 0.015, _caption(len(T), arms), color=MUTED, size=9, va="bottom")
@@ -76,7 +76,8 @@ def _corners(T: Array, arms: list[Placed]) -> Array:
         area = placement.map
         rows, columns = np.nonzero(area.reached >= min(0.5, float(area.reached.max())))
         spots.append(np.stack([area.x[columns], area.y[rows]], axis=1))
-        spots.append(placement.T_world_base[None, :2, 3])
+        if np.isfinite(placement.q).any():
+            spots.append(placement.T_world_base[None, :2, 3])
     found = np.concatenate(spots)
     low, high = found.min(axis=0), found.max(axis=0)
     half = 0.6 * max(float((high - low).max()), 0.2)
@@ -86,20 +87,24 @@ def _corners(T: Array, arms: list[Placed]) -> Array:
 def _panel(axes: Any, bar: Any, T: Array, arm: Placed, top: float) -> None:
     """One robot's map."""
     from matplotlib.colors import LinearSegmentedColormap
+    from matplotlib.ticker import MaxNLocator
 
     robot, placement = arm
     area = placement.map
-    grey = LinearSegmentedColormap.from_list("share", GREY)
+    whole = bool((area.margin > 0.0).any())
+    grey = LinearSegmentedColormap.from_list("share", GREY if whole else (GREY[0], DARK))
     edges = [_edges(values) for values in (area.x, area.y)]
     axes.set_facecolor(GREY[0])
-    shares = np.where(area.margin > 0.0, np.nan, area.reached)
-    axes.pcolormesh(*edges, shares, cmap=grey, vmin=0.0, vmax=1.0, linewidth=0)
-    margins = np.where(area.margin > 0.0, area.margin, np.nan)
-    drawn = axes.pcolormesh(*edges, margins, cmap="viridis", vmin=0.0, vmax=top, linewidth=0)
-    key = bar.figure.colorbar(drawn, cax=bar)
-    key.set_label("margin of the worst pose")
+    counts = np.where(area.margin > 0.0, np.nan, area.reached * len(T))
+    drawn = axes.pcolormesh(*edges, counts, cmap=grey, vmin=0.0, vmax=len(T), linewidth=0)
+    if whole:
+        margins = np.where(area.margin > 0.0, area.margin, np.nan)
+        drawn = axes.pcolormesh(*edges, margins, cmap="viridis", vmin=0.0, vmax=top, linewidth=0)
+    key = bar.figure.colorbar(drawn, cax=bar, ticks=MaxNLocator(6, integer=not whole))
+    key.set_label("margin of the worst pose" if whole else f"poses reached, of {len(T)}")
     key.outline.set_visible(False)
-    _arm(axes, robot, placement)
+    if np.isfinite(placement.q).any():
+        _arm(axes, robot, placement)
     _poses(axes, T, placement)
     axes.set_aspect("equal")
     axes.set(xlabel="world $x$ / m", ylabel="world $y$ / m")
@@ -151,6 +156,7 @@ def _caption(m: int, arms: list[Placed]) -> str:
         text = f"{name}: all {m} poses from {base}; margin {margin}."
         if not placement.found:
             reached = m - len(placement.missed)
+            base = base if reached else "any base that was tried"
             text = f"{name}: no base found that reaches all {m} poses; {reached} from {base}."
         lines.append(text)
     lines.append("Grey: bases that leave poses out, the darker the fewer. Collisions not checked.")

@@ -89,25 +89,27 @@ def missed(job: Job, bases: Array, tell: Progress) -> NDArray[np.int64]:
     order = _spread(job.T_world_tool[:, :3, 3])
     out, seen = np.zeros(len(bases), np.int64), np.zeros(len(bases), np.int64)
 
-    def count(rows: NDArray[np.intp], until: int) -> None:
+    def count(asked: NDArray[np.intp], until: int, at_once: int) -> None:
         """Ask these bases, all of which have seen as many poses, for those up to some number."""
-        some = order[seen[rows[0]] : until]
-        told = partial(_tell_part, tell, seen[rows[0]] / len(order), len(some) / len(order))
-        hit = job.reached(bases[np.repeat(rows, len(some))], np.tile(some, len(rows)), told)
-        out[rows] += (~hit).reshape(len(rows), -1).sum(axis=1)
-        seen[rows] = until
+        before = seen[asked[0]]
+        some = order[before:until]
+        parts = _some_at_a_time(asked, at_once)
+        for k, rows in enumerate(parts):
+            share = len(some) / len(order) / len(parts)
+            told = partial(_tell_part, tell, before / len(order) + k * share, share)
+            hit = job.reached(bases[np.repeat(rows, len(some))], np.tile(some, len(rows)), told)
+            out[rows] += (~hit).reshape(len(rows), -1).sum(axis=1)
+            seen[rows] = until
 
     left = np.arange(len(bases))
     for start in range(0, len(order), AT_ONCE):
-        for rows in _some_at_a_time(left, AT_ONCE):
-            count(rows, min(start + AT_ONCE, len(order)))
+        count(left, min(start + AT_ONCE, len(order)), AT_ONCE)
         left = left[out[left] == 0]
         if not len(left):
             break
     if not len(left):
         for until in np.unique(seen[seen < len(order)]).tolist():
-            for rows in _some_at_a_time(np.flatnonzero(seen == until), len(order)):
-                count(rows, len(order))
+            count(np.flatnonzero(seen == until), len(order), len(order))
     return out
 
 

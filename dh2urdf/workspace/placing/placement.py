@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.bounds import JOB_POSES, LENGTH
 from dh2urdf.doors import choice, finite_array, flag, instance, number
-from dh2urdf.exceptions import ArgumentError
+from dh2urdf.exceptions import ArgumentError, NoSolverError
 from dh2urdf.poses import check_pose
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, pose, rot_z, rpy_to_matrix
@@ -18,6 +18,9 @@ from dh2urdf.workspace.placing.lattice import BaseMap, Lattice, finer, lattice_o
 from dh2urdf.workspace.section import reach_ball
 
 TASKS = ("pose", "position", "position+axis")
+
+RANGES = ("region, x", "region, y", "height", "yaw")
+"""What messages call the ranges of a base."""
 
 LOOKED_AT = 100
 """Poses out of reach of which more is said: the first."""
@@ -218,8 +221,25 @@ def _job(
     if mount is not None:
         angles = finite_array(mount, "mount", "three angles", shape=(3,))
         T_foot_base = pose(rpy_to_matrix(angles.tolist()), np.zeros(3))
-    arm.solver_for(task=task)
+    _check_solver(arm, task)
     return Job(arm, T, T_foot_base, task, flag(within_limits, "within_limits"))
+
+
+def _check_solver(robot: Robot, task: str) -> None:
+    """Raise where no solver finds all solutions for a task, in a line."""
+    lacking = []
+    for each in (task, *TASKS):
+        try:
+            robot.solver_for(task=each)
+        except NoSolverError:
+            lacking.append(each)
+        if not lacking:
+            return
+    has = " and ".join(each for each in TASKS if each not in lacking)
+    instead = f"it has one for {has}" if has else "it has none for any task"
+    raise NoSolverError(
+        f"{robot.model.name}: no solver finds all solutions for task {task!r}; {instead}"
+    )
 
 
 def _told(progress: Told | None) -> Told:
@@ -244,10 +264,15 @@ def _box(
         out[:2] = finite_array(region, "region", "numbers of shape (2, 2)", shape=(2, 2))
     out[2] = _ends(height, "height", LENGTH)
     out[3] = (-math.pi, math.pi) if yaw is None else _ends(yaw, "yaw", 2 * math.pi)
-    if (np.abs(out) > LENGTH).any() or (out[:, 0] > out[:, 1]).any():
-        raise ArgumentError(f"region, height, yaw: lower ends first, got {out.tolist()}")
+    for name, (low, high) in zip(RANGES, out.tolist(), strict=True):
+        if max(-low, high) > LENGTH:
+            raise ArgumentError(f"{name}: at most {LENGTH:g} m, got {low:g} and {high:g}")
+        if low > high:
+            raise ArgumentError(f"{name}: lower end first, got {low:g} and {high:g}")
     if out[3, 1] - out[3, 0] > 2 * math.pi + 1e-9:
-        raise ArgumentError("yaw: expected a range of one turn at most")
+        raise ArgumentError(
+            f"yaw: a range of one turn at most, got {out[3, 0]:g} and {out[3, 1]:g} rad"
+        )
     return out
 
 
