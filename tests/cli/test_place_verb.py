@@ -85,6 +85,7 @@ def test_where_nothing_is_reached_no_base_is_told(run, tmp_path):
     (tmp_path / "job.csv").write_text("x,y,z,roll,pitch,yaw\n0.5,0,5,0,0,0\n")
     status, out, err = run("place", "ur5e", "job.csv", "--yaw=0", "-o", "map.svg")
     assert status == 1
+    assert "no base found that reaches the pose\n" in out
     assert "\n0 of 1 poses from any base that was tried\n" in out
     assert "--region" not in out
     assert "out of reach from any base that was tried" in err

@@ -185,14 +185,15 @@ def _text(arm: Robot, placement: Placement, read: Poses, *, deg: bool) -> str:
     m, name = len(placement.margins), arm.model.name
     turn = f"{placement.yaw * 180 / np.pi:.2f} deg" if deg else f"{placement.yaw:.4f} rad"
     base = f"x {placement.x:.4f} m, y {placement.y:.4f} m, z {placement.z:.4f} m, yaw {turn}"
+    whole = f"all {m} poses" if m > 1 else "the pose"
     if placement.found:
         worst = read.name(int(placement.margins.argmin()))
-        reach = f"all {m} poses reached, margin {placement.margin:.3f} at {worst}"
+        reach = f"{whole} reached, margin {placement.margin:.3f} at {worst}"
         head = [f"{name}: base at {base}", reach]
     else:
         reached = m - len(placement.missed)
         base = base if reached else "any base that was tried"
-        head = [f"{name}: no base found that reaches all {m} poses"]
+        head = [f"{name}: no base found that reaches {whole}"]
         head.append(f"{reached} of {m} poses from {base}")
         if not placement.never:
             head.append("between those tried there may be one: --region and --yaw lay them closer")

@@ -146,18 +146,18 @@ def _poses(axes: Any, T: Array, placement: Placement) -> None:
 
 def _caption(m: int, arms: list[Placed]) -> str:
     """What is shown, and the best base of each."""
-    lines = []
+    lines, whole = [], f"all {m} poses" if m > 1 else "the pose"
     for robot, placement in arms:
         name = plain(robot.model.name)
         place = zip("xyz", (placement.x, placement.y, placement.z), strict=True)
         at = ", ".join(f"{axis} {number(round(value, 3))} m" for axis, value in place)
         base = f"{at}, yaw {number(round(np.degrees(placement.yaw), 1))}°"
         margin = number(round(placement.margin, 3))
-        text = f"{name}: all {m} poses from {base}; margin {margin}."
+        text = f"{name}: {whole} from {base}; margin {margin}."
         if not placement.found:
             reached = m - len(placement.missed)
             base = base if reached else "any base that was tried"
-            text = f"{name}: no base found that reaches all {m} poses; {reached} from {base}."
+            text = f"{name}: no base found that reaches {whole}; {reached} from {base}."
         lines.append(text)
     lines.append("Grey: bases that leave poses out, the darker the fewer. Collisions not checked.")
     return "\n".join(textwrap.fill(line, LETTERS * len(arms)) for line in lines)
