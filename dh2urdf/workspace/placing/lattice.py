@@ -25,8 +25,9 @@ AT_ONCE = 64
 BEAM = (192, 96, 48, 24, 12, 12, 12, 12, 12, 12)
 """Bases about which each finer lattice is laid, half as wide as the one before."""
 
-SOUGHT, ASKED = 384, 100_000
-"""Such bases while none reaches all poses, and how many poses a lattice asks for then, about."""
+SOUGHT, ASKED, SEEKING = 384, 100_000, 6
+"""Such bases while none reaches all poses, how many poses a lattice asks for then, about, and the
+number of lattices in which that is sought: down to a quarter of a degree."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +163,8 @@ def finer(
     sides = [[-1, 0, 1] if step else [0] for step in steps]
     moves = np.stack(np.meshgrid(*sides, indexing="ij"), -1).reshape(-1, 4)
     for level, least in enumerate(BEAM):
-        width = max(least, min(SOUGHT, ASKED // (len(moves) * len(job)))) if count.all() else least
+        sought = min(SOUGHT, ASKED // (len(moves) * len(job))) if level < SEEKING else 0
+        width = max(least, sought) if count.all() else least
         order = np.lexsort((rng.permutation(len(bases)), -margin, count))[:width]
         steps = steps / 2
         new = (bases[order, None] + moves * steps).reshape(-1, 4)
