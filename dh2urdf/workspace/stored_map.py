@@ -30,6 +30,18 @@ VARIABLES = (
 """Those of a map over x, y, z."""
 
 
+SETTINGS = "dh2urdf_map"
+"""Attribute with the settings: a group with it is a map."""
+
+ASKED = {
+    "task": "task",
+    "within_limits": "joint limits",
+    "orientations": "orientations",
+    "rotations": "rotations tried",
+}
+"""Settings that two maps have to share to be compared."""
+
+
 class MapCut(NamedTuple):
     """Values of a map on its layer nearest to a plane, (rows, columns), NaN where nothing is."""
 
@@ -120,13 +132,27 @@ def _names(plane: Any) -> tuple[str, str]:
 
 
 def same_grid(first: xarray.Dataset, second: xarray.Dataset) -> None:
-    """Refuse two maps on different grids."""
+    """Refuse two maps on different grids, or of which something else was asked."""
     for axis in "xyz":
         a, b = (np.asarray(found[axis].values, float) for found in (first, second))
         if a.shape != b.shape or not np.allclose(a, b, rtol=0.0, atol=1e-9):
             raise ArgumentError(
                 f"the maps are on different grids along {axis}: make both with one region and step"
             )
+    was, now = (dict(found.attrs.get(SETTINGS, {})) for found in (first, second))
+    for key, words in ASKED.items():
+        if was and now and was.get(key) != now.get(key):
+            both = f": {_told(was.get(key))} and {_told(now.get(key))}"
+            told = "" if key == "rotations" else both
+            raise ArgumentError(f"the maps differ in their {words}{told}; make both with the same")
+
+
+def _told(value: Any) -> str:
+    """A setting in a message: of orientations how many, with their spins."""
+    if isinstance(value, list | tuple):
+        count, spins = value
+        return f"{count}" if spins == 1 else f"{count} in {spins} spins"
+    return {True: "kept", False: "ignored"}.get(value, str(value))
 
 
 def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.int64]]:

@@ -6,7 +6,7 @@ import pytest
 from dh2urdf import DHRow, DHTable, Robot
 from dh2urdf.exceptions import ArgumentError, UnreachedError
 from dh2urdf.figures import map_figure, picture_bytes
-from dh2urdf.workspace import map_surface, open_map, reach_map
+from dh2urdf.workspace import cone, map_surface, open_map, reach_map
 
 pytest.importorskip("xarray")
 
@@ -44,6 +44,30 @@ def test_maps_on_different_grids_are_not_compared(maps):
         map_figure(maps[0], variable="colour")
     with pytest.raises(UnreachedError, match="ends before"):
         map_figure(maps[0], at=5.0)
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    ({"orientations": 20}, "orientations: 30 and 20"),
+    ({"orientations": cone(30, spins=1)}, "rotations tried"),
+    ({"within_limits": False}, "joint limits: kept and ignored"),
+])  # fmt: skip
+def test_maps_of_other_questions_are_not_compared(maps, change, words):
+    """Where two maps on one grid were asked otherwise, the message names it."""
+    given = {"step": 0.1, "orientations": 30, "region": REGION, **change}
+    other = reach_map(Robot.from_dh("ur5e"), **given)
+    with pytest.raises(ArgumentError, match=f"the maps differ in their {words}"):
+        map_figure(maps[0], other)
+
+
+def test_maps_of_one_arm_are_told_apart_by_their_files(maps, tmp_path):
+    """Titles say which is less which, by names or, where those are equal, too, by paths."""
+    for name in ("a.zarr", "b.zarr", "sub/a.zarr"):
+        maps[0].to_zarr(tmp_path / name, consolidated=False)
+    drawn = picture_bytes(map_figure(tmp_path / "a.zarr", tmp_path / "b.zarr"), "svg")
+    assert b"a.zarr less b.zarr" in drawn
+    drawn = picture_bytes(map_figure(tmp_path / "a.zarr", tmp_path / "sub/a.zarr"), "svg")
+    assert b"sub/a.zarr" in drawn
+    assert b"ur5e (1) less ur5e (2)" in picture_bytes(map_figure(maps[0], maps[0]), "svg")
 
 
 def test_a_stored_map_is_drawn_as_it_was(maps, tmp_path):

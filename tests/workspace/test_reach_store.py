@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -109,6 +110,23 @@ def test_maps_of_other_settings_are_not_mixed(ur5e, tmp_path, change, key):
     with pytest.raises(ArgumentError, match=r"is a map with robot ur5e, asked is ur3e"):
         reach_map(Robot.from_dh("ur3e"), **small, store=tmp_path / "arm.zarr")
     assert files(tmp_path) == before
+
+
+def test_a_changed_arm_is_refused_by_what_changed(ur5e, tmp_path):
+    """The joint and its limit, or the link after it, with both values; no digests."""
+    small = GIVEN | {"region": ((0.0, 0.2), (0.0, 0.2), (0.0, 0.2))}
+    reach_map(ur5e, **small, store=tmp_path / "arm.zarr")
+    rows = ur5e.table.rows
+    for change, words in [
+        ({"upper": 1.5}, r"upper limit of shoulder_lift_joint 6\.28\d*, asked is 1\.5;"),
+        (
+            {"a": -0.5},
+            r"link after shoulder_lift_joint, row \d, column 4: -?0\.425, asked is -?0\.5;",
+        ),
+    ]:
+        other = replace(ur5e.table, rows=(rows[0], replace(rows[1], **change), *rows[2:]))
+        with pytest.raises(ArgumentError, match=rf"arm.zarr: is a map with {words}"):
+            reach_map(Robot.from_dh(other), **small, store=tmp_path / "arm.zarr")
 
 
 def test_a_store_of_another_version_is_refused(ur5e, tmp_path, monkeypatch):

@@ -1,7 +1,7 @@
 """``dh2urdf map``: where the tip can be, in how many ways and how well, as a Zarr group."""
 
 import math
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -12,6 +12,10 @@ from dh2urdf.cli.progress import bar
 from dh2urdf.cli.reading import DEFAULT, Reading
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.exceptions import ArgumentError
+
+if TYPE_CHECKING:
+    from dh2urdf.robot import Robot
+    from dh2urdf.workspace import MapSummary
 
 ENDS = "x from", "x to", "y from", "y to", "z from", "z to"
 
@@ -67,9 +71,15 @@ def map_(
         Address of a Dask scheduler whose workers do the work, such as tcp://10.0.0.1:8786.
     """
     from dh2urdf.workspace import cone, settings_of, store_map
+    from dh2urdf.workspace.task import task_of
 
     if output == "-":
         raise ArgumentError("--output -: a map is a folder; give a path such as arm.zarr")
+    if each and refine:
+        raise ArgumentError("--each: values of each orientation are kept without --refine only")
+    for option, value in (("--within", within), ("--spins", spins)):
+        if value is not None and not towards:
+            raise ArgumentError(f"{option} does nothing without --towards")
     arm = robot_of(robot, base, tip, reading)
     units = Units("m", "rad")
     ends = None
@@ -77,26 +87,56 @@ def map_(
         ends = read_numbers(region, "--region", (6,), Kind.LENGTH, units, names=ENDS)
     turns = None
     if towards:
+        if task_of(arm).sides == "turns" or task_of(arm).name == "position":
+            raise ArgumentError(
+                f"--towards: the joints of {arm.model.name} do not let its tool be turned towards "
+                "a direction"
+            )
         axis = read_numbers(towards, "--towards", (3,), Kind.NUMBER, units)
         angle = math.pi / 6 if within is None else within
         turns = cone(orientations, towards=axis, within=angle, spins=spins or 8)
     with bar("mapping", 1) as report:
-        settings = settings_of(
-            arm,
-            step,
-            orientations if turns is None else turns,
-            None if ends is None else [ends[:2], ends[2:4], ends[4:]],
-            limits,
-            each,
-            refine,
-        )
+        try:
+            settings = settings_of(
+                arm,
+                step,
+                orientations if turns is None else turns,
+                None if ends is None else [ends[:2], ends[2:4], ends[4:]],
+                limits,
+                each,
+                refine,
+            )
+        except ArgumentError as error:
+            raise ArgumentError(f"--{error}") from None
         told = store_map(arm, settings, output, scheduler, report)
     if json:
         emit_json("map", path=output, within_limits=limits, **told._asdict())
         return
+    emit(_text(output, arm, told, one=turns is None and task_of(arm).sides == "none"))
+
+
+def _text(output: str, arm: "Robot", told: "MapSummary", *, one: bool) -> str:
+    """A map in a few lines; ``one``: of an arm that is tried in one orientation."""
+    from dh2urdf.workspace.section import reach_ball
+
     shape = " x ".join(map(str, told.shape))
-    emit(
-        f"{output}\n{shape} voxels of {ten_digits(told.step)} m, {told.orientations} orientations: "
-        f"{told.poses} poses\nreached: {told.volume:.4g} m^3, at best {told.largest_share:.3g} of "
-        "the orientations"
-    )
+    size = f"{told.volume:.4g} m^3" if told.area is None else f"{told.area:.4g} m^2"
+    lines = [
+        output,
+        f"{shape} voxels of {ten_digits(told.step)} m, {told.orientations} orientation"
+        f"{'s' * (told.orientations != 1)}, task {told.task}: {told.poses} poses",
+        f"reached: {size}, at best {told.largest_share:.3g} of the orientations",
+    ]
+    if one:
+        lines.append(
+            f"{arm.model.name} has too few joints to turn its tool all around: one orientation was "
+            "tried, --orientations does nothing"
+        )
+    if told.largest_share == 0.0:
+        centre, radius = reach_ball(arm)
+        place = ", ".join(f"{c:.3g}" for c in centre + 0.0)
+        lines.append(
+            f"no voxel's centre is reached: the tip stays within {radius:.3g} m of ({place}); "
+            "see --region and --step"
+        )
+    return "\n".join(lines)

@@ -1,6 +1,8 @@
 """A cut through a map of reach, or through two and their difference."""
 
+import os
 import textwrap
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -54,7 +56,8 @@ def map_figure(
     Raises
     ------
     ArgumentError
-        No map, or one that is not finished; two on different grids.
+        No map, or one that is not finished; two on different grids, or with other orientations,
+        limits or tasks.
     UnreachedError
         The map ends before the plane.
     """
@@ -62,7 +65,7 @@ def map_figure(
     if len(maps) > 1:
         same_grid(*maps)
     cuts = [map_cut(each, variable, plane, at) for each in maps]
-    names = [str(each.attrs.get("robot", "map")) for each in maps]
+    names = _names(maps, [found, against])
     count = 1 if len(cuts) == 1 else 3
     top = max(float(np.nanmax(cut.values, initial=0.0)) for cut in cuts) or 1.0
     with mpl.rc_context(RC):
@@ -83,6 +86,17 @@ def map_figure(
         )
         figure.text(0.02, 0.015, plain(text), color=MUTED, size=9, va="bottom")
         return figure
+
+
+def _names(maps: list[Any], sources: list[Any]) -> list[str]:
+    """Names of the arms; of maps of one arm, those of their files."""
+    names = [str(each.attrs.get("robot", "map")) for each in maps]
+    if len(set(names)) == len(names):
+        return names
+    given = [s if isinstance(s, str | os.PathLike) else f"{name} ({k})"
+             for k, (s, name) in enumerate(zip(sources, names, strict=False), 1)]  # fmt: skip
+    short = [Path(s).name for s in given]
+    return short if len(set(short)) == len(short) else [str(s) for s in given]
 
 
 def _panel(

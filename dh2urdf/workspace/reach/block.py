@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.reach.measured import MEASURES, measure
-from dh2urdf.workspace.reach.settings import Block, MapSettings
+from dh2urdf.workspace.reach.settings import Block, MapSettings, bounded
 from dh2urdf.workspace.section import last_axis_ball, reach_ball
 
 PIECE = 4096
@@ -96,7 +96,7 @@ def _near(robot: Robot, settings: MapSettings, points: Array, turns: Array) -> N
     The tip is within a ball, and where its orientation is kept the last axis, too:
     ``|p + R w - c| <= r``.
     """
-    if not _bounded(robot, settings.within_limits):
+    if not bounded(robot, settings.within_limits):
         return np.arange(len(points) * len(turns))
     centre, radius = reach_ball(robot)
     inside = np.square(points - centre).sum(axis=1) <= (radius * FAR) ** 2
@@ -110,9 +110,3 @@ def _near(robot: Robot, settings: MapSettings, points: Array, turns: Array) -> N
         far += 2.0 * p[:, e : e + 1] * v[:, e]
     row, turn = np.nonzero(far <= limit[:, None])
     return np.asarray(np.flatnonzero(inside)[row] * len(turns) + turn)
-
-
-def _bounded(robot: Robot, within_limits: bool) -> bool:
-    """Whether no joint slides farther than the arm's lengths take into account."""
-    ends = np.concatenate([robot.lower[robot.slides], robot.upper[robot.slides]])
-    return not len(ends) or (within_limits and bool(np.isfinite(ends).all()))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -10,13 +11,13 @@ from dh2urdf.exceptions import MissingExtraError
 from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.measured import MEASURES
 from dh2urdf.workspace.reach.settings import MapSettings
-from dh2urdf.workspace.stored_map import open_map
+from dh2urdf.workspace.reach.units import measure_units
+from dh2urdf.workspace.stored_map import SETTINGS, open_map
 
 if TYPE_CHECKING:
     import xarray
 
-KEY = "dh2urdf_map"
-"""Attribute with the settings: a group with it is a map."""
+KEY = SETTINGS
 
 COMPLETE = "complete"
 """Attribute: 1 once all blocks are worked out, 0 before."""
@@ -27,28 +28,39 @@ WORDS = {
     "share": ("share of orientations reached", "1"),
     "solutions_mean": ("solutions of an orientation, mean over all tried", "1"),
     "solutions_max": ("most solutions of an orientation", "1"),
-    "manipulability": ("largest manipulability sqrt(det(J J^T)), lengths in m", "1"),
-    "singular_value": ("largest of the solutions' smallest singular values of J", "1"),
-    "limit_margin": ("largest of the solutions' distances from a joint limit", "rad or m"),
+    "solutions_each": ("solutions of each orientation", "1"),
+    "manipulability": ("largest manipulability sqrt(det(J J^T)), J in m and rad", ""),
+    "singular_value": ("largest of the solutions' smallest singular values of J, in m and rad", ""),
+    "limit_margin": ("largest of the solutions' distances from a joint limit", ""),
     "level": ("how often the voxel of these values was halved", "1"),
 }
-"""For each variable what it says and its unit."""
+"""For each variable what it says and its unit; that of a measure depends on the arm."""
 
 
 def variables(settings: MapSettings) -> dict[str, tuple[str, ...]]:
     """Names of a map's variables, and their axes."""
     voxels: tuple[str, ...] = "x", "y", "z"
-    names = dict.fromkeys((name for name in WORDS if name != "level" or settings.level), voxels)
+    names = dict.fromkeys(WORDS, voxels)
+    del names["solutions_each"]
+    if not settings.level:
+        del names["level"]
     if settings.each:
         each = "solutions_each", *(f"{name}_each" for name in MEASURES)
         names |= dict.fromkeys(each, (*voxels, "orientation"))
     return names
 
 
-def attributes(name: str) -> dict[str, str]:
-    """What a variable says, and its unit."""
-    whole = name.removesuffix("_each")
-    words, unit = WORDS[f"{whole}_max" if whole == "solutions" else whole]
+def attributes(name: str, said: dict[str, Any]) -> dict[str, str]:
+    """What a variable says, and its unit, of a map with such attributes."""
+    whole = name if name in WORDS else name.removesuffix("_each")
+    words, unit = WORDS[whole]
+    if name != whole:
+        words = f"{words}, of each orientation"
+    if whole in MEASURES:
+        kinds = json.loads(said["chain"])["joint_types"]
+        unit = measure_units(kinds, said[KEY]["task"])[whole]
+        if unit == "rad or m":
+            words = f"{words}, the least number of those in rad and those of slides in m"
     return {"long_name": words, "units": unit}
 
 
@@ -68,7 +80,8 @@ def to_dataset(settings: MapSettings, values: Values, attrs: dict[str, Any]) -> 
     """The map of arrays over the whole grid."""
     xr = load_xarray()
     data = {
-        name: (axes, values[name], attributes(name)) for name, axes in variables(settings).items()
+        name: (axes, values[name], attributes(name, attrs))
+        for name, axes in variables(settings).items()
     }
     dataset: xarray.Dataset = xr.Dataset(data, coordinates(settings), attrs)
     return dataset
@@ -94,18 +107,23 @@ class MapSummary(NamedTuple):
         Side of one [m].
     orientations, poses : int
         Orientations a voxel, and that times the voxels (as if all were of this size).
-    volume : float
-        Of the voxels that are reached in an orientation [m^3].
+    volume, area : float or None
+        Of the voxels that are reached in an orientation [m^3]; of a map of one layer the area
+        [m^2].
     largest_share : float
         Of the orientations, in a voxel.
+    task : str
+        What was asked of each pose, as of :meth:`dh2urdf.Robot.ik`.
     """
 
     shape: tuple[int, int, int]
     step: float
     orientations: int
     poses: int
-    volume: float
+    volume: float | None
+    area: float | None
     largest_share: float
+    task: str
 
 
 def map_summary(found: xarray.Dataset) -> MapSummary:
@@ -128,9 +146,16 @@ def summary_of(settings: dict[str, Any], share: Any) -> MapSummary:
     parts = (np.asarray(share[k : k + layer]) for k in range(0, nx, layer))
     seen = [(int((part > 0.0).sum()), float(part.max())) for part in parts]
     k, spins = settings["orientations"]
-    volume = sum(count for count, _ in seen) * step**3
+    count, flat = sum(count for count, _ in seen), 1 in share.shape
     return MapSummary(
-        (nx, ny, nz), step, k, nx * ny * nz * k * spins, volume, max(most for _, most in seen)
+        shape=(nx, ny, nz),
+        step=step,
+        orientations=k,
+        poses=nx * ny * nz * k * spins,
+        volume=None if flat else count * step**3,
+        area=count * step**2 if flat else None,
+        largest_share=max(most for _, most in seen),
+        task=settings["task"],
     )
 
 

@@ -27,6 +27,10 @@ def tried(robot: Robot, given: object) -> tuple[Task, Array]:
     task = task_of(robot)
     if isinstance(given, int | np.integer):
         return task, _uniform(robot, task, integer(given, "orientations", 1, ORIENTATIONS))[:, None]
+    if task.name == "position":
+        raise ArgumentError(
+            f"orientations: {robot.model.name} is mapped by position only, a number is expected"
+        )
     turns = finite_array(given, "orientations", EXPECTED, shape=(..., 3, 3))
     turns = turns[:, None] if turns.ndim == 3 else turns
     if turns.ndim != 4 or not 1 <= turns.shape[0] * turns.shape[1] <= ORIENTATIONS:

@@ -31,6 +31,9 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
         "title": f"Reach of {robot.model.name}, {robot.tip} in {robot.base}",
         "source": f"dh2urdf {version('dh2urdf')}, dh2urdf.workspace.reach_map",
         "robot": robot.model.name,
+        "task": settings.task,
+        "joint_limits": "kept" if settings.within_limits else "ignored",
+        "step": settings.grid.step,
         "table": table_to_text(robot.table, "yaml") if robot.table else "",
         "chain": json.dumps(arm),
         KEY: {

@@ -75,7 +75,7 @@ def reach_map(
         Where the map is kept as a Zarr group while it grows. One that is there with the same
         settings is gone on with; workers write to it themselves, so all have to see it.
     progress : callable, optional
-        Called with the number of blocks done and their total.
+        Called with the number of blocks done, those of earlier calls among them, and their total.
 
     Returns
     -------

@@ -18,7 +18,7 @@ Coarse = Callable[[Block], Values | None]
 
 Answered = Generator[tuple[Block, Values | None]]
 
-PATIENCE = 10
+PATIENCE = 5
 """Seconds to wait for a scheduler."""
 
 
@@ -91,9 +91,17 @@ def connected(client: Any) -> Iterator[Any]:
         return
     if not isinstance(client, str):
         raise ArgumentError("client: expected a dask.distributed.Client or a scheduler's address")
+
+    class Closed(Client):  # type: ignore[misc]
+        """One that never came to run has nothing to wait for when it is let go."""
+
+        def __del__(self) -> None:
+            if self.status == "running":
+                super().__del__()
+
     try:
-        made = Client(client, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
+        made = Closed(client, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError, MemoryError) as error:  # the last: of what is no scheduler
         raise SchedulerError(
             f"{client}: no Dask scheduler answers there: {_short(error)}"
         ) from None

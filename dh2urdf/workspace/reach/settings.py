@@ -112,24 +112,52 @@ def settings_of(
 ) -> MapSettings:
     """Settings of arguments that are checked here."""
     task, turns = tried(instance(robot, "robot", Robot), orientations)
-    grid = _grid(robot, number(step, "step", 1e-6, LENGTH, unit="m"), region)
+    inside = flag(within_limits, "within_limits")
+    grid = _grid(robot, number(step, "step", 1e-6, LENGTH, unit="m"), region, inside)
     even = (BLOCK_POSES / (turns.shape[0] * turns.shape[1])) ** (1 / 3)
     side = min(SIDES, key=lambda s: abs(math.log(s / even)))
-    inside, kept = flag(within_limits, "within_limits"), flag(each, "each")
+    kept = flag(each, "each")
     levels = integer(refine, "refine", 0, HALVINGS)
     if levels and kept:
         raise ArgumentError("each: values of each orientation are kept of voxels of one size only")
+    if levels and common_axis(robot)[1]:
+        raise ArgumentError(
+            "refine: a planar arm reaches nothing beside its plane, where halves of voxels would "
+            "be; expected 0, and a smaller step"
+        )
     return MapSettings(grid, turns, task.name, inside, kept, side, levels)
 
 
-def _grid(robot: Robot, step: float, region: ArrayLike | None) -> Grid:
+def bounded(robot: Robot, within_limits: bool) -> bool:
+    """Whether no joint slides farther than the arm's lengths take into account."""
+    ends = np.concatenate([robot.lower[robot.slides], robot.upper[robot.slides]])
+    return not len(ends) or (within_limits and bool(np.isfinite(ends).all()))
+
+
+def _endless(robot: Robot) -> str:
+    """Names of the joints that slide without limits; where all have some, of all that slide."""
+    endless = robot.slides & ~(np.isfinite(robot.lower) & np.isfinite(robot.upper))
+    which = endless if endless.any() else robot.slides
+    return ", ".join(name for name, one in zip(robot.chain.names, which, strict=True) if one)
+
+
+def _grid(robot: Robot, step: float, region: ArrayLike | None, within_limits: bool) -> Grid:
     """Voxels that fill a region (3, 2) [m], or hold all that the arm reaches."""
     if region is not None:
         ends = finite_array(region, "region", "three pairs of numbers", shape=(3, 2))
-        if not (ends[:, 0] < ends[:, 1]).all():
-            raise ArgumentError(f"region: each pair begins with the lower end, got {ends.tolist()}")
+        for name, (low_end, high_end) in zip("xyz", ends.tolist(), strict=True):
+            if not low_end < high_end:
+                raise ArgumentError(
+                    f"region: each pair begins with the lower end, got {name} from {low_end:g} to "
+                    f"{high_end:g}"
+                )
         low, counts = ends[:, 0], np.ceil((ends[:, 1] - ends[:, 0]) / step - WHOLE)
     else:
+        if not bounded(robot, within_limits):
+            raise ArgumentError(
+                f"region: {_endless(robot)} slides without an end; say from where to where along "
+                "x, y, z is mapped"
+            )
         centre, radius = reach_ball(robot)
         half = np.full(3, np.ceil(radius / step - WHOLE))
         low, counts = centre - half * step, 2 * half

@@ -7,6 +7,7 @@ a measure where nothing is reached; the attribute ``complete`` becomes 1 after t
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -57,7 +58,7 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
             group = zarr.open_group(path, mode="w-", zarr_format=3, attributes=attrs)
         elif KEY not in group.attrs:
             raise _other(path)
-        _refuse_others(path, dict(group.attrs[KEY]), said[KEY])
+        _refuse_others(path, dict(group.attrs), said)
         if DONE not in group:
             _make(zarr, group, settings)
 
@@ -90,13 +91,40 @@ def _other(path: str) -> OutputExistsError:
 
 def _refuse_others(path: str, here: dict[str, Any], asked: dict[str, Any]) -> None:
     """Refuse to go on with a map of other settings, naming the first."""
-    for key, value in asked.items():
-        if here.get(key) != value:
-            was, now = (str(v) if len(str(v)) <= 60 else "another" for v in (here.get(key), value))
-            raise ArgumentError(
-                f"{path}: is a map with {key} {was}, asked is {now}; maps are not mixed: give "
-                "another path, or the settings it was begun with"
-            )
+    for key, value in asked[KEY].items():
+        was = here[KEY].get(key)
+        if was == value:
+            continue
+        if key == "chain":
+            chains = json.loads(here["chain"]), json.loads(asked["chain"])
+            what, was, now = _other_part(*chains)
+        else:
+            what, now = key, value
+        told, other = (str(v) if len(str(v)) <= 60 else "another" for v in (was, now))
+        raise ArgumentError(
+            f"{path}: is a map with {what} {told}, asked is {other}; maps are not mixed: give "
+            "another path, or the settings it was begun with"
+        )
+
+
+def _other_part(here: dict[str, Any], asked: dict[str, Any]) -> tuple[str, Any, Any]:
+    """The first joint, limit or link in which two chains differ, and both values."""
+    names, others = here["joint_names"], asked["joint_names"]
+    if names != others:
+        return "joints", ", ".join(names), ", ".join(others)
+    for k, name in enumerate(names):
+        for key in ("joint_types", "lower", "upper"):
+            a, b = here[key][k], asked[key][k]
+            if a != b:
+                what = {"joint_types": "type", "lower": "lower limit", "upper": "upper limit"}[key]
+                free = "none" if what.endswith("limit") else ""
+                return f"{what} of {name}", free if a is None else a, free if b is None else b
+    for name, a, b in zip(["the base", *names], here["links"], asked["links"], strict=True):
+        if a != b:
+            row, column = np.argwhere(np.asarray(a) != np.asarray(b))[0]
+            what = f"link after {name}, row {row + 1}, column {column + 1}:"
+            return what, a[row][column], b[row][column]
+    raise AssertionError("chains of another digest are the same")
 
 
 def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
@@ -121,7 +149,7 @@ def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
             dtype="float32",
             fill_value=np.nan,
             dimension_names=axes,
-            attributes=attributes(name),
+            attributes=attributes(name, dict(group.attrs)),
             overwrite=True,
         )
     group.create_array(
