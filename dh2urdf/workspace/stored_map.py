@@ -112,10 +112,33 @@ def map_cut(
     if abs(float(across[k]) - height) > step:
         raise UnreachedError(f"the map ends before the plane {'xyz'[chosen.normal]} = {height:g} m")
     layer = found[variable].isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen))
-    values = np.asarray(layer.values, float)
-    share = found.share.isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen)).values
+    values = _read(layer)
+    share = _whole(found.share.isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen)))
     values = np.where(share > 0.0, values, np.nan)
     return MapCut(Section(chosen, float(across[k]), axes[chosen.u], axes[chosen.v]), values)
+
+
+def _whole(share: xarray.DataArray) -> Array:
+    """Shares of which none is missing."""
+    values = _read(share)
+    lacking = int(np.isnan(values).sum())
+    if lacking:
+        raise ArgumentError(
+            f"the map lacks {lacking} of {values.size} voxels that are to be drawn; the call that "
+            "wrote it works them out again"
+        )
+    return values
+
+
+def _read(values: xarray.DataArray) -> Array:
+    """Values of a map, or one error where its files are damaged."""
+    try:
+        return np.asarray(values.values, float)
+    except (RuntimeError, ValueError, OSError) as error:  # of a codec, a disk
+        raise ArgumentError(
+            f"the map's {values.name} cannot be read: {error}; the call that wrote it works it out "
+            "again"
+        ) from None
 
 
 def _plane_of(found: xarray.Dataset) -> Plane:
@@ -165,11 +188,11 @@ def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.
         The share is nowhere above the level.
     """
     level = number(level, "level", 0.0, 1.0)
-    share = np.asarray(found.share.transpose("x", "y", "z").values, float)
+    share = _whole(found.share.transpose("x", "y", "z"))
     lines = [np.asarray(found[axis].values, float) for axis in "xyz"]
     if not (share > level).any():
         raise UnreachedError(f"the share of orientations is nowhere above {level:g}")
-    field = np.pad(np.nan_to_num(share), 1) - level
+    field = np.pad(share, 1) - level
     nodes = [_beyond(line) for line in lines]
 
     def crossing(axis: int, index: Index, _: Flags) -> tuple[Array, Array]:

@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -239,6 +240,35 @@ def test_a_chunk_that_is_gone_is_worked_out_again(ur5e, tmp_path, monkeypatch, n
     monkeypatch.setattr(job, "block_values", lambda *a: worked.append(a[2]) or once(*a))
     reach_map(ur5e, **given, store=path)
     assert [tuple(map(int, block)) for block in worked] == [(1, 1, 1)]
+    assert files(path) == before
+
+
+def test_a_damaged_chunk_of_each_orientation_is_mended(ur5e, tmp_path):
+    """What cannot be decoded is worked out again, too."""
+    given = GIVEN | {"region": ((0.2, 0.6), (0.0, 0.4), (0.0, 0.4)), "each": True}
+    path = tmp_path / "arm.zarr"
+    reach_map(ur5e, **given, store=path)
+    before = files(path)
+    os.truncate(path / "limit_margin_each/c/0/0/0/0", 12)
+    reach_map(ur5e, **given, store=path)
+    assert files(path) == before
+
+
+@pytest.mark.parametrize("fault", ["truncated", "gone", "no array"])
+def test_a_damaged_map_is_not_drawn_and_is_mended(ur5e, tmp_path, run, fault):
+    """One message instead of a picture; the call that wrote it ends in the bits of before."""
+    path = tmp_path / "arm.zarr"
+    reach_map(ur5e, **GIVEN, store=path)
+    before = files(path)
+    if fault == "no array":
+        shutil.rmtree(path / "share")
+    for chunk in (path / "share").rglob("c/*/*/*"):
+        os.truncate(chunk, 12) if fault == "truncated" else chunk.unlink()
+    code, out, err = run("workspace", "arm.zarr", "-o", "arm.png")
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    words = {"truncated": "cannot be read", "gone": "lacks 64 of 64", "no array": "holds no map"}
+    assert words[fault] in err
+    reach_map(ur5e, **GIVEN, store=path)
     assert files(path) == before
 
 

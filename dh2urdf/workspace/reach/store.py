@@ -34,6 +34,9 @@ from dh2urdf.workspace.reach.settings import Block, MapSettings
 
 DONE = "progress/done"
 
+DAMAGED = RuntimeError, ValueError
+"""What codecs raise of a chunk that they cannot decode."""
+
 CF = {"coordinates": "rotation"}
 """What tells readers that this variable is a coordinate."""
 
@@ -59,7 +62,7 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
         elif KEY not in group.attrs:
             raise _other(path)
         _refuse_others(path, dict(group.attrs), said)
-        if DONE not in group:
+        if any(name not in group for name in (*variables(settings), DONE)):
             _make(zarr, group, settings)
 
 
@@ -192,7 +195,10 @@ def take_back(path: str, settings: MapSettings) -> NDArray[np.bool_]:
 
 
 def _lacking(group: Any, settings: MapSettings, marks: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Which blocks lack values, of those that are marked: a chunk that is gone reads as NaN."""
+    """Which blocks lack values, of those that are marked: a chunk that is gone reads as NaN.
+
+    Where a chunk cannot be decoded, all blocks of its layer count as lacking.
+    """
     lacking, side = np.zeros(settings.counts, np.bool_), settings.side
     voxels = [
         "share",
@@ -203,7 +209,11 @@ def _lacking(group: Any, settings: MapSettings, marks: NDArray[np.bool_]) -> NDA
     ]
     for k in np.flatnonzero(marks.any(axis=(1, 2))):
         layer = slice(k * side, (k + 1) * side)
-        bad = _empty({name: group[name][layer] for name in voxels}, "max").any(axis=0)
+        try:
+            bad = _empty({name: group[name][layer] for name in voxels}, "max").any(axis=0)
+        except DAMAGED:
+            lacking[k] = True
+            continue
         for axis in (0, 1):
             starts = np.arange(0, bad.shape[axis], side)
             bad = np.logical_or.reduceat(bad, starts, axis=axis)
@@ -211,7 +221,10 @@ def _lacking(group: Any, settings: MapSettings, marks: NDArray[np.bool_]) -> NDA
     each = [f"{name}_each" for name in ("solutions", *MEASURES)] if settings.each else []
     for block in map(tuple, np.argwhere(marks)) if each else ():
         part = settings.part(block)
-        lacking[block] |= _empty({name: group[name][part] for name in each}, "each").any()
+        try:
+            lacking[block] |= _empty({name: group[name][part] for name in each}, "each").any()
+        except DAMAGED:
+            lacking[block] = True
     return lacking
 
 
