@@ -33,21 +33,23 @@ def tell_exact_reach(
         volume = reach_volume(arm, section)
     except ArgumentError as reason:
         lacking = str(reason)
-    drawn = None if lacking else output
-    if drawn is not None and section and wrist and volume:
+    if lacking and output is not None:
+        raise ArgumentError(
+            f"no section to draw in {output}: {lacking}; without --output the reach of its tip is "
+            "told"
+        )
+    if output is not None and section and wrist and volume:
         from dh2urdf.figures import exact_section_figure, save_picture
 
         picture = exact_section_figure(arm, section, wrist, volume)
-        save_picture(picture, drawn, dpi=dpi, force=force)
+        save_picture(picture, output, dpi=dpi, force=force)
     if json:
         reach = {"tip": _reach_data(tip), "wrist": _reach_data(wrist)}
-        emit_json("workspace", path=drawn, within_limits=limits, reach=reach,
+        emit_json("workspace", path=output, within_limits=limits, reach=reach,
                   section=_section_data(section), volume=_volume_data(volume))  # fmt: skip
     else:
         turns = not arm.chain.prismatic[0]
-        emit("\n".join([*_lines(tip, wrist, section, volume, turns), *_named(drawn)]))
-    if lacking and output is not None:
-        raise ArgumentError(f"no section to draw in {output}: {lacking}; leave out --output")
+        emit("\n".join([*_lines(tip, wrist, section, volume, turns), *_named(output)]))
     if lacking:
         note(f"no section: {lacking}")
 
