@@ -53,14 +53,20 @@ def test_worker_processes_make_the_same_bits(ur5e, client, tmp_path, refine):
 def test_a_worker_killed_half_way_changes_nothing(ur5e, cluster, client, tmp_path):
     """Its blocks in flight are done by others, those that it had written are not done again."""
     alone, killed, path = reach_map(ur5e, **GIVEN), [], tmp_path / "arm.zarr"
+    written = {}
 
     def kill(done, total):
         if done == 2 and not killed:
+            for block in zip(*store.done(str(path)).nonzero(), strict=True):
+                chunk = path.joinpath("share", "c", *map(str, block))
+                written[chunk] = chunk.stat().st_mtime_ns
             killed.append(next(iter(cluster.workers.values())).pid)
             os.kill(killed[0], signal.SIGKILL)
 
     kept = reach_map(ur5e, **GIVEN, client=client, store=path, progress=kill)
     assert killed
+    assert written
+    assert {chunk: chunk.stat().st_mtime_ns for chunk in written} == written
     xarray.testing.assert_identical(kept.load(), alone)
     assert store.done(str(path)).all()
 
