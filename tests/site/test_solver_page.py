@@ -12,6 +12,9 @@ from structured import random_tables
 
 import dh2urdf
 from dh2urdf import DHTable, JointType, Origin
+
+pytest.importorskip("sphinx", reason="the page is made by the tools of the extra docs")
+
 from docs.extensions import solver_page, wasm
 
 pytestmark = [

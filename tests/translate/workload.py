@@ -13,8 +13,7 @@ import numpy as np
 import dh2urdf
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.exceptions import ConfigurationError, NoSolverError
-from dh2urdf.ik.arm import Task
-from dh2urdf.kernels.measures import best_measures
+from dh2urdf.workspace.reach.measured import measure
 
 QUARTER = 1.5707963267948966
 
@@ -115,7 +114,7 @@ def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str
                 continue
             yield name, _batch(found)
             best = np.empty((3, few))
-            best_measures(robot.chain.tables, Task(task).number, found.q, found.count, best)
+            measure(robot, task, found, best)
             measured.append(best)
             yield f"{name}, one by one", _singles(robot, q, T[: min(few, 4)], asked)
         found = robot.ik_numeric(T[3], task=task, seed=q[4], solutions=2, starts=6)
