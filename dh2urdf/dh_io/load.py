@@ -9,7 +9,6 @@ from dh2urdf.dh_io.cells.document import Report
 from dh2urdf.dh_io.cells.told import NOTHING, Told, told
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, shown
-from dh2urdf.dh_io.formats.frame import is_frame, read_frame
 from dh2urdf.dh_io.forms import CONF, read_conf_file, refuse_model
 from dh2urdf.dh_io.names import FOLDER, list_tables, near_names, shipped_name
 from dh2urdf.dh_io.read import FORMATS, TableFile, read_table
@@ -69,9 +68,12 @@ def load_table(
     0.335
     """
     given = told(convention, units, model=model)
-    if is_frame(path):
-        report = Report("columns", "", "frame")
-        return check_document(read_frame(path, report), report, "robot", given)[0]
+    if not isinstance(path, str | os.PathLike):
+        from dh2urdf.dh_io.formats.frame import is_frame, read_frame
+
+        if is_frame(path):
+            report = Report("columns", "", "frame")
+            return check_document(read_frame(path, report), report, "robot", given)[0]
     return load_table_file(path, given).table
 
 

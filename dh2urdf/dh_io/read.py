@@ -4,6 +4,7 @@ import difflib
 import os
 import re
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,11 +15,6 @@ from dh2urdf.dh_io.cells.told import NOTHING, Told
 from dh2urdf.dh_io.cells.units import Units
 from dh2urdf.dh_io.checker import check_document
 from dh2urdf.dh_io.files import path_of, read_text, shown
-from dh2urdf.dh_io.formats.csv import read_csv
-from dh2urdf.dh_io.formats.json import read_json
-from dh2urdf.dh_io.formats.markdown import read_markdown, read_page
-from dh2urdf.dh_io.formats.toml import read_toml
-from dh2urdf.dh_io.formats.yaml import read_yaml
 from dh2urdf.dh_io.forms import other_form
 from dh2urdf.doors import choice
 from dh2urdf.exceptions import TableFileError
@@ -35,15 +31,18 @@ FORMATS = {
 }
 """Format of a file by its suffix."""
 
-_READERS: dict[str, Callable[[str, Report], Node]] = {
-    "yaml": read_yaml,
-    "toml": read_toml,
-    "json": read_json,
-    "csv": read_csv,
-    "tsv": read_csv,
-    "markdown": read_markdown,
-    "text": read_page,
+Reader = Callable[[str, Report], Node]
+
+_READERS = {
+    "yaml": "yaml:read_yaml",
+    "toml": "toml:read_toml",
+    "json": "json:read_json",
+    "csv": "csv:read_csv",
+    "tsv": "csv:read_csv",
+    "markdown": "markdown:read_markdown",
+    "text": "markdown:read_page",
 }
+"""Module in `formats` and function, imported when a file of the format is read."""
 
 
 _SIGNS = {
@@ -130,7 +129,8 @@ def parse_table(
 
     Messages call the text by the file's name, whose stem names a table that has no name.
     """
-    read = _READERS[choice(format, "format", _READERS, TableFileError)]
+    module, function = _READERS[choice(format, "format", _READERS, TableFileError)].split(":")
+    read: Reader = getattr(import_module(f"dh2urdf.dh_io.formats.{module}"), function)
     if format != "markdown":
         refuse_page(text, filename)
     report = Report.of_text(filename, text, format)

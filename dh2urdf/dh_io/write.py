@@ -7,7 +7,6 @@ from dh2urdf.dh import DHTable
 from dh2urdf.dh_io.atomic import atomic_write
 from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units
 from dh2urdf.dh_io.files import path_of
-from dh2urdf.dh_io.formats.written import WRITERS, Numbers
 from dh2urdf.dh_io.load import TableLike, as_table
 from dh2urdf.dh_io.read import FORMATS, format_of
 from dh2urdf.doors import choice, instance, integer
@@ -67,6 +66,8 @@ def table_to_text(
     table: TableLike, format: str, units: Units = SI, digits: int | None = None
 ) -> str:
     """Text of a table in one of the formats; parameters as of :func:`write_table`."""
+    from dh2urdf.dh_io.formats.written import WRITERS, Numbers
+
     table, pair = as_table(table), instance(units, "units", tuple, TableError)
     if digits is not None:
         digits = integer(digits, "digits", 0, 17, TableError)

@@ -8,14 +8,6 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import LENGTH
 from dh2urdf.chain import SerialChain
 from dh2urdf.chain.ortho_parallel import OrthoParallel
-from dh2urdf.conversions.forms import (
-    FORMS,
-    OPW_KEYS,
-    form_text,
-    read_axes_form,
-    read_opw,
-    screw_axes,
-)
 from dh2urdf.dh import DHTable
 from dh2urdf.doors import choice, finite_array, number
 from dh2urdf.exceptions import UrdfError
@@ -59,6 +51,8 @@ class RobotForms:
         ------
         TableError, ArgumentError
         """
+        from dh2urdf.conversions.forms import OPW_KEYS, read_opw
+
         lengths = {"a1": a1, "a2": a2, "b": b, "c1": c1, "c2": c2, "c3": c3, "c4": c4}
         each = {key: number(v, key, -LENGTH, LENGTH) for key, v in lengths.items()}
         six = (finite_array(v, "offsets or signs", "6 numbers").tolist() for v in (offsets, signs))
@@ -85,6 +79,8 @@ class RobotForms:
         ------
         UrdfError, PoseError
         """
+        from dh2urdf.conversions.forms import read_axes_form
+
         content = {"screws": S, "tool": M, "names": names}
         return cls.from_dh(read_axes_form(content, name)[0])
 
@@ -114,6 +110,8 @@ class RobotForms:
         M : array, shape (4, 4)
             ``T_base_tip`` at q = 0.
         """
+        from dh2urdf.conversions.forms import screw_axes
+
         return screw_axes(self._own_chain())
 
     def to_form(self, form: str, format: str = "yaml") -> str:
@@ -128,6 +126,8 @@ class RobotForms:
         ------
         NotOrthoParallelError
         """
+        from dh2urdf.conversions.forms import FORMS, form_text
+
         chosen = FORMS[choice(form, "form", FORMS)]
         content = chosen.content(self._own_chain(), self._called())
         return form_text(content, chosen.head, choice(format, "format", ("yaml", "json")))
