@@ -156,12 +156,75 @@ def test_mujoco_fuses_links_on_fixed_joints(urdf):
     assert "tool0" in {model.body(i).name for i in range(model.nbody)}
 
 
-def test_pinocchio_does_not_follow_mimics(urdf):
-    """As the advice says: a mimicking joint is free, unless asked for."""
+def pinocchio_moves(path):
+    """Degrees of freedom without and with being asked to follow."""
+    return [pin.buildModelFromUrdf(path, mimic=asked).nv for asked in (False, True)] == [2, 1]
+
+
+def yourdfpy_moves(path):
+    """Only the leader is a value, and the follower's link turns by both joints."""
+    import yourdfpy
+
+    robot = yourdfpy.URDF.load(path)
+    robot.update_cfg([0.25])
+    turned = np.arctan2(*robot.get_transform("fore", "upper")[[0, 0], [2, 0]])
+    return robot.actuated_joint_names == ["shoulder"] and abs(turned - 0.25) < 1e-12
+
+
+def mujoco_moves(path):
+    """An equality of the follower and its leader, beside two numbers in qpos."""
+    import mujoco
+
+    model = mujoco.MjModel.from_xml_path(path)
+    new = tuple(map(int, mujoco.__version__.split(".")[:2])) >= (3, 13)
+    return (model.nq, model.neq) == (2, int(new))
+
+
+def pybullet_moves(path):
+    """The follower stays when its leader is put somewhere else."""
+    pybullet = pytest.importorskip("pybullet")
+    client = pybullet.connect(pybullet.DIRECT)
+    arm = pybullet.loadURDF(path, useFixedBase=True)
+    pybullet.resetJointState(arm, 0, 0.25)
+    state = pybullet.getJointState(arm, 1)[0]
+    pybullet.disconnect(client)
+    return state == 0
+
+
+def drake_moves(path):
+    """A constraint, with a discrete time step only."""
+    parsing = pytest.importorskip("pydrake.multibody.parsing")
+    plants = pytest.importorskip("pydrake.multibody.plant")
+    plant = plants.MultibodyPlant(0.001)
+    plant.set_discrete_contact_approximation(plants.DiscreteContactApproximation.kSap)
+    parsing.Parser(plant).AddModels(path)
+    plant.Finalize()
+    return plant.num_constraints() == 1
+
+
+def ikpy_moves(path):
+    """The follower is a link of its own: with the leader turned, its link turns by that alone."""
+    chains = pytest.importorskip("ikpy.chain")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        chain = chains.Chain.from_urdf_file(path, base_elements=["base_link"])
+        T = chain.forward_kinematics([0, 0.25, 0])
+    return abs(np.arctan2(T[1, 0], T[0, 0]) - 0.25) < 1e-9 and abs(T[2, 2] - 1) < 1e-12
+
+
+@pytest.mark.parametrize("does", [pinocchio_moves, yourdfpy_moves, mujoco_moves])
+def test_who_moves_a_follower_along(does, urdf):
+    """As the advice says of Pinocchio, yourdfpy and MuJoCo."""
     (text,) = FAULTS["mimic"]
-    path = str(urdf(text))
-    assert pin.buildModelFromUrdf(path).nv == 2
-    assert pin.buildModelFromUrdf(path, True).nv == 1
+    assert does(str(urdf(text)))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("does", [pybullet_moves, drake_moves, ikpy_moves])
+def test_who_else_moves_a_follower_along(does, urdf):
+    """As the advice says of PyBullet, Drake and ikpy."""
+    (text,) = FAULTS["mimic"]
+    assert does(str(urdf(text)))
 
 
 def test_frames_of_two_kinds_share_a_name_in_pinocchio(urdf):

@@ -154,14 +154,21 @@ def mimic_leader(doc: Document) -> Iterator[Finding]:
 
 
 def mimic(doc: Document) -> Iterator[Finding]:
-    """No joint follows another."""
-    own = "move it on its own; Pinocchio follows when asked (mimic=True)"
-    effect = accept("Pinocchio PyBullet KDL ikpy", own)
+    """No joint follows another: some programs move it along, others on its own."""
+    equality = "makes an equality of it from 3.13 on, which simulation keeps and qpos may not"
+    constraint = "makes a constraint of it, which a SAP solver in discrete time keeps; else free"
+    effects = (
+        accept("yourdfpy RViz", "move it along"),
+        accept("Pinocchio", "moves it along when asked: buildModelFromUrdf(path, mimic=True)"),
+        accept("MuJoCo", equality),
+        accept("Drake", constraint),
+        accept("PyBullet KDL ikpy", "move it on its own"),
+    )
     for joint, element in _followers(doc):
         leader = doc.joint_by_name.get(element.get("joint", ""))
         if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
-            mend = "couple the joints in your own program"
-            yield finding(element, f"follows {leader.get('name')!r}", effect, mend=mend)
+            mend = "set both values in programs that move it on its own"
+            yield finding(element, f"follows {leader.get('name')!r}", *effects, mend=mend)
 
 
 def _followers(doc: Document) -> Iterator[tuple[etree._Element, etree._Element]]:
