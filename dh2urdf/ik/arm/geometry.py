@@ -116,7 +116,12 @@ class AxisLines:
 
     def parallel(self, i: int) -> bool:
         """Whether lines i and i + 1 are parallel."""
-        return bool(np.array_equal(self.axes[i], self.axes[i + 1]))
+        return self._parallel[i]
+
+    @cached_property
+    def _parallel(self) -> list[bool]:
+        same: list[bool] = (self.axes[1:] == self.axes[:-1]).all(axis=1).tolist()
+        return same
 
     def meet(self, i: int) -> bool:
         """Whether lines i and i + 1 have exactly one point in common."""
@@ -203,24 +208,16 @@ class DHForm:
     @cached_property
     def rows(self) -> Array:
         """Rows of a, cos alpha, sin alpha, d, theta, sliding, sign; shape (n, 7)."""
-        lines, chain = self.lines, self.lines.chain
-        frames, n = self.frames, chain.n
-        rows = np.zeros((n, 7))
-        for i in range(n):
-            rows[i, 5], rows[i, 6] = chain.prismatic[i], lines.signs[i]
-            rows[i, 1] = 1.0
-            if i == n - 1:
-                break
-            step = product(inverted(frames[i]), frames[i + 1])
-            x = step[:3, 0]
-            rows[i, 4] = atan2(float(x[1]), float(x[0]))
-            rows[i, 3] = step[2, 3]
-            sine, cosine = sincos(float(rows[i, 4]))
-            a = cosine * step[0, 3] + sine * step[1, 3]
-            rows[i, 0] = a if abs(a) > lines.length else 0.0
-            rows[i, 1:3] = _unit(step[2, 2], step[2, 1])
-            if lines.parallel(i):
-                rows[i, 1:3] = 1.0, 0.0
+        lines, chain, frames = self.lines, self.lines.chain, self.frames
+        rows = np.zeros((chain.n, 7))
+        rows[:, 1], rows[:, 5], rows[:, 6] = 1.0, chain.prismatic, lines.signs
+        steps = product(inverted(frames[:-1]), frames[1:])
+        for i, (x, y, z, _) in enumerate(steps.tolist()):
+            theta = atan2(y[0], x[0])
+            sine, cosine = sincos(theta)
+            a = cosine * x[3] + sine * y[3]
+            ca, sa = (1.0, 0.0) if lines.parallel(i) else _unit(z[2], z[1])
+            rows[i, :5] = a if abs(a) > lines.length else 0.0, ca, sa, z[3], theta
         rows[np.abs(rows[:, 3]) <= 1e-15 * chain.size, 3] = 0.0
         return rows
 
@@ -234,23 +231,17 @@ class DHForm:
         """Inverse of base, inverse of tool, tool; shape (3, 4, 4): what the kernels need."""
         return np.stack([inverted(self.frames[0]), inverted(self.tool), self.tool])
 
+    @cached_property
+    def links(self) -> Array:
+        """The snapped arm as links between z axes, shape (n + 1, 4, 4)."""
+        motions = [row_motion(row, 0.0) for row in self.rows]
+        return np.stack([self.frames[0], *motions[:-1], product(motions[-1], self.tool)])
+
     def fk(self, q: Array) -> Array:
         """Forward kinematics of the snapped arm at q (m, n), shape (m, 4, 4)."""
-        a, ca, sa, d, theta, slides, sign = self.rows.T
-        turn = sign * q
-        t, d = np.where(slides, theta, turn + theta), np.where(slides, turn + d, d)
-        st, ct = np.array([sincos(angle) for angle in t.ravel().tolist()]).T.reshape(2, *t.shape)
-        motions = np.zeros((*t.shape, 4, 4))
-        motions[..., 0, 0], motions[..., 0, 1] = ct, -st * ca
-        motions[..., 0, 2], motions[..., 0, 3] = st * sa, a * ct
-        motions[..., 1, 0], motions[..., 1, 1] = st, ct * ca
-        motions[..., 1, 2], motions[..., 1, 3] = -ct * sa, a * st
-        motions[..., 2, 1], motions[..., 2, 2], motions[..., 2, 3] = sa, ca, d
-        motions[..., 3, 3] = 1.0
-        T: Array = self.frames[0]
-        for i in range(t.shape[1]):
-            T = product(T, motions[:, i])
-        return product(T, self.tool)
+        T = np.empty((len(q), 4, 4))
+        chain_fk_batch(self.links, self.lines.chain.prismatic, q * self.lines.signs, T)
+        return T
 
     @cached_property
     def error(self) -> float:
