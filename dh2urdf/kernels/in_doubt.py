@@ -60,7 +60,7 @@ DAMPING = 0.5
 """Their damping, in squares of the error; where there is a solution it vanishes."""
 
 LONGEST = 0.6
-"""The longest of them [rad]."""
+"""The longest of them [rad, or in sizes of the arm]."""
 
 ALMOST = 1e-10
 """Residual [m and rad] at which no plain steps are needed."""
@@ -104,6 +104,7 @@ def _converges(chain, T, q, ended, A, step, damped):
 
     ``ended`` is the largest residual of one.
     """
+    _, joints = chain
     for k in range(STEPS + MORE):
         residual = error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
         if k >= STEPS and (residual <= POLISH or residual > HALVED):
@@ -118,7 +119,7 @@ def _converges(chain, T, q, ended, A, step, damped):
         scale = min(1.0, MAX_TURN / max(longest, MAX_TURN))
         q += step * scale
     for j in range(6):
-        q[j] = principal(q[j])
+        q[j] = q[j] if joints[j, 0] != 0.0 else principal(q[j])
     return pose_residual(chain, T, q) <= ended
 
 
@@ -164,7 +165,7 @@ def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
 
 def _approach(chain, goal, patience, q, best, dq, damped):
     """Levenberg's steps from q (6,); the residual of the best configuration, which is left in q."""
-    least, since = math.inf, 0
+    (_, joints), least, since = chain, math.inf, 0
     for _ in range(patience * DAMPED):
         residual = error_and_jacobian(chain, goal, q, damped)
         if residual < least:
@@ -182,10 +183,10 @@ def _approach(chain, goal, patience, q, best, dq, damped):
         add_transposed(damped, 1.0, dq)
         longest = LONGEST
         for j in range(6):
-            longest = max(longest, abs(dq[j]))
+            longest = max(longest, abs(dq[j]) / (goal[2] if joints[j, 0] != 0.0 else 1.0))
         q += dq * (LONGEST / longest)
     for j in range(6):
-        q[j] = principal(best[j])
+        q[j] = best[j] if joints[j, 0] != 0.0 else principal(best[j])
     return least
 
 

@@ -9,7 +9,7 @@ turns; `in_doubt` searches poses that a solver is not sure of; `given` checks wh
 from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
 from dh2urdf.ik.arm.geometry import AxisLines, DHForm, form_of, lines_of, pose_along, row_motion
 from dh2urdf.ik.arm.given import as_configuration, as_tolerance, many_poses, one_pose
-from dh2urdf.ik.arm.in_doubt import keep_sharp, search_in_doubt, unite_families
+from dh2urdf.ik.arm.in_doubt import keep_sharp, search_in_doubt, starts_of, unite_families
 from dh2urdf.ik.arm.limits import (
     TWO_PI,
     all_turns,

@@ -1,4 +1,4 @@
-"""Poses of six turning joints in doubt: what many starts find, and a member of each family."""
+"""Poses of six joints in doubt: what many starts find, and a member of each family."""
 
 from functools import cache
 
@@ -33,12 +33,21 @@ ALIKE = 1e-14
 
 
 @cache
-def _starts() -> Array:
-    """Configurations (``STARTS``, 6)."""
+def _angles(joints: int) -> Array:
+    """Angles of every joint (``STARTS``, joints)."""
     rng = np.random.default_rng(4)
-    starts: Array = rng.uniform(-np.pi, np.pi, (STARTS, 6))
-    grid = np.pi / 4.0
-    starts[::2] = grid * np.round(starts[::2] / grid) + 0.02 * rng.standard_normal((STARTS // 2, 6))
+    starts: Array = rng.uniform(-np.pi, np.pi, (STARTS, joints))
+    grid, few = np.pi / 4.0, (STARTS // 2, joints)
+    starts[::2] = grid * np.round(starts[::2] / grid) + 0.02 * rng.standard_normal(few)
+    return starts
+
+
+def starts_of(chain: SerialChain) -> Array:
+    """Configurations (``STARTS``, n); slides up to the arm's size."""
+    starts = _angles(chain.n)
+    if chain.prismatic.any():
+        starts = starts.copy()
+        starts[:, chain.prismatic] *= chain.size / np.pi
     return starts
 
 
@@ -54,7 +63,7 @@ def search_in_doubt(
         return wide
     wide.q[:, : found.q.shape[1]], wide.counts[:] = found.q, found.counts
     some = wide.rows(deep)
-    search_from(chain.tables, _starts(), chain.size, Ts[deep], some)
+    search_from(chain.tables, starts_of(chain), chain.size, Ts[deep], some)
     wide.put(deep, some)
     finish_batch(chain.tables, Ts, False, wide)
     search_beside(chain.tables, Ts, wide)

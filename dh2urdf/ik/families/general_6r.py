@@ -1,4 +1,4 @@
-"""Any arm of six revolute joints: elimination, then Newton on the exact chain.
+"""Any arm of six joints, at most one of them slides: elimination, then Newton on the exact chain.
 
 Which eliminations suit an arm is found by trying all twelve on random poses.
 """
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
-from dh2urdf.ik.families.closed_form import STUCK, not_six_revolute
+from dh2urdf.ik.families.closed_form import STUCK
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
@@ -27,7 +27,13 @@ TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 """Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
 
 GRID = 2.0**-24
-"""What slides of frames are rounded to, in parts of the longest link: no library decides bits."""
+"""What shifts of frames are rounded to, in parts of the longest link: no library decides bits."""
+
+SLIDES = 1
+"""Most joints that slide."""
+
+REACH = 0.3
+"""What a slide is measured in, in parts of the summed lengths of the links."""
 
 POSES = 24
 """Random poses on which each elimination is tried."""
@@ -52,18 +58,21 @@ class General6R(SolverBase):
     """Raghavan and Roth's elimination of five joints; up to 16 solutions."""
 
     name = "general 6R"
-    needs = "six revolute joints, any axes"
+    needs = "six joints, any axes, at most one of them sliding"
     kmax = 16
     if_spare = STUCK
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
+        if chain.prismatic.any():
+            kinds = "".join("P" if slides else "R" for slides in chain.prismatic)
+            self.name = f"general {kinds}"
         self._idle: list[Arm] = []
 
     @cached_property
     def plan(self) -> Arm:
         """The eliminations that suit the arm; they are chosen when first asked for."""
-        return plan_general_6r(self.links)
+        return plan_general_6r(self.links, self.chain.prismatic)
 
     def like(self, chain: SerialChain) -> "General6R":
         """The solver of a chain that differs little, with the same eliminations if they do."""
@@ -75,18 +84,24 @@ class General6R(SolverBase):
         """Whether the configurations of a few random poses are among their solutions."""
         rng = np.random.default_rng(0)
         q = rng.uniform(-np.pi, np.pi, (TRIALS, 6))
+        slides = self.chain.prismatic
+        q[:, slides] *= self.chain.size / np.pi
         poses = np.stack([self.chain.fk(row) for row in q])
         out = Outputs.of(TRIALS, self.kmax, 6)
         out.q[:] = 0.0
         self.solve_unfinished(poses, out)
-        gap = np.abs(np.remainder(out.q - q[:, None] + np.pi, 2.0 * np.pi) - np.pi).max(axis=2)
+        way = out.q - q[:, None]
+        turns = np.abs(np.remainder(way + np.pi, 2.0 * np.pi) - np.pi)
+        gap = np.where(slides, np.abs(way) / self.chain.size, turns).max(axis=2)
         gap[np.arange(self.kmax) >= out.counts[:, None]] = np.inf
         return bool((gap.min(axis=1) < SAME).all())
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the elimination from covering the chain; None if nothing does."""
-        return not_six_revolute(chain)
+        if chain.n != 6 or chain.prismatic.sum() > SLIDES:
+            return "it needs six joints of which one slides at most"
+        return None
 
     def solve_unfinished(self, Ts: Array, out: Outputs) -> IntArray:
         """Candidates of poses Ts (m, 4, 4), limits or not: q and counts; the poses in doubt."""
@@ -141,34 +156,78 @@ def _z(angle: float, offset: float) -> Array:
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, offset], [0, 0, 0, 1.0]])
 
 
-def _short_links(links: Array) -> Array:
+def _shift(way: Array) -> Array:
+    """A shift without a turn."""
+    out = np.eye(4)
+    out[:3, 3] = way
+    return out
+
+
+def _short_links(links: Array, slides: Array) -> tuple[Array, Array]:
     """The same chain with each joint's origin slid along its axis, so that the links are short.
 
-    Minimises ``sum |t_i - a_i e3 + a_(i+1) R_i e3|^2`` over the slides a_1 ... a_6.
+    Minimises ``sum |t_i - b_i + R_i a_(i+1)|^2`` over ``a_i = b_i = s_i e3`` of joints that turn;
+    a joint that slides may be anywhere: only along its axis do a_i and b_i differ. Returns the
+    links and these differences, the slides' zeros [m].
     """
-    matrix, rhs = np.zeros((15, 6)), np.zeros(15)
+    # of each joint: which unknowns, along which axes, before it and after it
+    places: list[tuple[IntArray, IntArray, Array]] = []
+    free = 0
+    for joint_slides in slides.tolist():
+        first, last = ([0, 1, 2], [0, 1, 3]) if joint_slides else ([0], [0])
+        axes = np.eye(3) if joint_slides else np.eye(3)[2:]
+        places.append((free + np.array(first), free + np.array(last), axes.T))
+        free += 4 if joint_slides else 1
+    matrix, rhs = np.zeros((15, free)), np.zeros(15)
     for i in range(1, 6):
         rows = slice(3 * i - 3, 3 * i)
-        matrix[rows, i - 1] = [0.0, 0.0, -1.0]
-        matrix[rows, i] = links[i, :3, 2]
+        matrix[rows, places[i - 1][1]] = -places[i - 1][2]
+        matrix[rows, places[i][0]] = product(links[i, :3, :3], places[i][2])
         rhs[rows] = -links[i, :3, 3]
     grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
-    slides = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
-    short = links.copy()
-    for i in range(6):
-        short[i] = product(short[i], _z(0.0, slides[i]))
-        short[i + 1] = product(_z(TURN[i], -slides[i]), short[i + 1])
-    return short
+    ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
+    short, zeros = links.copy(), np.zeros(6)
+    for i, (before, after, axes) in enumerate(places):
+        a, b = (product(axes, ways[some][:, None])[:, 0] for some in (before, after))
+        zeros[i] = a[2] - b[2]
+        short[i] = product(short[i], _shift(a))
+        turn = 0.0 if slides[i] else TURN[i]
+        short[i + 1] = product(_z(turn, 0.0), _shift(-b), short[i + 1])
+    return short, zeros
 
 
-def _random_poses(links: Array) -> Array:
+def _outer_slides(chain: Array, slides: Array, outer: Array) -> None:
+    """Directions of the slides next to base and tool, and of their shares of a vector.
+
+    ``outer`` (6, 2, 3), seen from joint 1 or joint 6; by links (5, 3, 4) between the joints.
+    """
+    for joints, seen in ((range(6), 0), (range(5, -1, -1), 1)):
+        turn, ways, some = np.eye(3), [], []
+        for j in joints:
+            if not slides[j]:
+                break
+            ways.append(turn[:, 2])
+            some.append(j)
+            if seen == 0 and j < 5:
+                turn = product(turn, chain[j, :, :3])
+            elif j > 0:
+                turn = product(turn, chain[j - 1, :, :3].T)
+        if some:
+            outer[some, 0], outer[some, 1] = ways, np.linalg.pinv(np.array(ways), rcond=1e-6).T
+
+
+def _random_poses(arm: Arm) -> Array:
     """Reachable poses (POSES, 4, 4), the same ones each time."""
     rng = np.random.default_rng(0)
     poses = np.empty((POSES, 4, 4))
+    links, slides = np.zeros((7, 4, 4)), arm["slides"][0]
+    links[:, :3], links[:, 3, 3] = arm["links"][0], 1.0
+    span = arm["reach"][0] * arm["size"][0] / REACH / math.pi
     for m, q in enumerate(rng.uniform(-math.pi, math.pi, (POSES, 6))):
         T = links[0]
         for i in range(6):
-            T = product(T, _z(q[i], 0.0), links[i + 1])
+            Z = _z(0.0, arm["middles"][0, i] + span * q[i]) if slides[i] else _z(q[i], 0.0)
+            T = product(T, Z, links[i + 1])
         poses[m] = T
     return poses
 
@@ -176,8 +235,11 @@ def _random_poses(links: Array) -> Array:
 def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
     """The eliminations to keep, best first: by solutions found, then by precision."""
     eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
+    slides = arm["slides"][0]
+    # the last joint of the loop has to turn
+    eliminations = [(s, r) for s, r in eliminations if not slides[(6 - s if r else s + 5) % 6]]
     outputs = np.empty((1, 16, 6)), np.empty((1, 16)), *np.zeros((2, 1), np.int64)
-    found, digits = np.zeros(12), np.zeros(12)
+    found, digits = np.zeros(len(eliminations)), np.zeros(len(eliminations))
     for k, elimination in enumerate(eliminations):
         _choose(arm, [elimination])
         for m in range(POSES):
@@ -199,29 +261,37 @@ def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
 
 def _place(arm: Arm, links: Array) -> None:
     """Set the links (7, 4, 4) of an arm."""
-    short = _short_links(links)
-    size = float(np.linalg.norm(short[1:6, :3, 3], axis=1).max()) or 1.0
+    short, arm["middles"][0] = _short_links(links, arm["slides"][0])
+    lengths = np.linalg.norm(short[1:6, :3, 3], axis=1)
+    size = float(lengths.max()) or 1.0
     arm["links"], arm["size"], arm["ends"] = links[:, :3], size, inverse(short[[0, 6]])
+    arm["reach"] = REACH * max(float(lengths.sum()) / size, 1.0)
     sines, cosines = zip(*(sincos(x) for x in TURN.tolist()), strict=True)
     arm["turns"] = cosines, sines, TURN
     arm["chain"][0, :5] = short[1:6, :3]
     arm["chain"][0, :5, :, 3] /= size
+    _outer_slides(arm["chain"][0, :5], arm["slides"][0], arm["outer"][0])
 
 
-def blank_general_6r(links: Array) -> Arm:
-    """The record (1,) of an arm with these links (7, 4, 4), no eliminations chosen."""
+def blank_general_6r(links: Array, slides: NDArray[np.bool_] | None = None) -> Arm:
+    """The record (1,) of an arm with these links (7, 4, 4), no eliminations chosen.
+
+    ``slides`` (6,): which joints do; none by default.
+    """
     arm = np.zeros(1, ARM_6R)
+    if slides is not None:
+        arm["slides"] = slides
     _place(arm, links)
     return arm
 
 
-def plan_general_6r(links: Array) -> Arm:
-    """The record (1,) by which the kernel solves an arm with these links (7, 4, 4).
+def plan_general_6r(links: Array, slides: NDArray[np.bool_] | None = None) -> Arm:
+    """The record (1,) by which the kernel solves an arm, its arguments as of `blank_general_6r`.
 
-    ``T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]``.
+    ``T_base_tool = links[0] Z_1(q1) links[1] ... Z_6(q6) links[6]``.
     """
-    arm = blank_general_6r(links)
-    _choose(arm, _rank(arm, _random_poses(links)))
+    arm = blank_general_6r(links, slides)
+    _choose(arm, _rank(arm, _random_poses(arm)))
     return arm
 
 

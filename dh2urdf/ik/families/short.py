@@ -22,6 +22,7 @@ from dh2urdf.ik.arm import (
     keep_sharp,
     lines_of,
     plain_ranges,
+    starts_of,
     unite_families,
 )
 from dh2urdf.kernels.certificate import finish_batch, search_valleys
@@ -58,11 +59,6 @@ TRIALS = 8
 
 VANISHED = 1e-9
 """Singular value of a loop's matrix, columns of size about 1, that counts as zero."""
-
-
-STARTS = 64
-"""Starts of the search, the same ones for every pose; every other one near a grid of 45 degrees,
-where arms of right angles have their singular poses."""
 
 SEEDS, WIDTH = 64, 96
 """Most seeds of a pose, and most candidates."""
@@ -244,23 +240,12 @@ class ThreeSlides(SolverBase):
         )
 
 
-def _starts(chain: SerialChain) -> Array:
-    """Configurations (``STARTS``, n)."""
-    rng = np.random.default_rng(4)
-    starts: Array = rng.uniform(-np.pi, np.pi, (STARTS, chain.n))
-    grid = np.pi / 4.0
-    near = grid * np.round(starts[::2] / grid) + 0.02 * rng.standard_normal((STARTS // 2, chain.n))
-    starts[::2] = near
-    starts[:, chain.prismatic] *= chain.size / np.pi
-    return starts
-
-
 def search_short(chain: SerialChain, Ts: Array, found: Outputs, within_limits: bool) -> Outputs:
     """Solve poses Ts (d, 4, 4), their solutions, limits aside, being known: wider outputs."""
     d, k = len(Ts), found.q.shape[1]
     wide, seeds = Outputs.of(d, WIDTH, chain.n), np.empty((d, SEEDS, chain.n))
     seeds[:, :k], many = found.q, found.counts.copy()
-    search_starts(chain.tables, _starts(chain), chain.size, Ts, seeds, many)
+    search_starts(chain.tables, starts_of(chain), chain.size, Ts, seeds, many)
     wide.q[:, :SEEDS], wide.counts[:] = seeds, many
     search_valleys(chain.tables, chain.size, Ts, seeds, many, wide.q, wide.counts)
     finish_batch(chain.tables, Ts, False, wide)

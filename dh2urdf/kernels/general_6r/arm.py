@@ -1,4 +1,4 @@
-"""What the general 6R solver knows of an arm, and the arrays that it works in: one record."""
+"""What the general solver knows of an arm, and the arrays that it works in: one record."""
 
 import numpy as np
 
@@ -18,6 +18,8 @@ _INTEGERS = {
     "trials": (),  # number of eliminations
     "choices": (MOST, 2),  # where each cuts the loop, and in which direction
     "ready": (),  # whether their left sides are known
+    "slides": 6,  # whether each joint slides
+    "loop_slides": 6,  # the same of the closed loop
     "order": FOUND + 1,  # of facts by place, their number last
 }
 
@@ -26,6 +28,9 @@ _ARM = {
     "links": (7, 3, 4),  # T_base_tool = links[0] Rz(q1) links[1] ... Rz(q6) links[6]
     "ends": (2, 4, 4),  # inverses of the first and the last of the short links
     "turns": (3, 6),  # cosines and sines of the joints' zeros inside the solver, and the zeros
+    "reach": (),  # the length x = 1 of a slide, in parts of the size
+    "middles": 6,  # zeros of slides but for what the pose adds to those next to base or tool [m]
+    "outer": (6, 2, 3),  # of these the direction, and that of its share of a vector
     "chain": (6, 3, 4),  # short links in between, in parts of the size; then the target
     "lefts": (MOST + 1, 14, 27),  # left sides
 }

@@ -1,4 +1,4 @@
-"""Six equations in three joints of a closed chain of six revolute joints.
+"""Six equations in three joints of a closed chain of six joints.
 
 The loop ``Z_1 C_1 Z_2 C_2 ... Z_6 C_6 = 1`` is cut at joints 2 and 6 (Raghavan & Roth 1993):
 
@@ -10,7 +10,10 @@ the left and bilinear in those of joints 1, 2 on the right. The left null space 
 side's eight non-constant columns leaves six equations in joints 3, 4, 5.
 
 Coefficients come from samples at 0 and +-120 degrees, which determine a function
-``a + b cos + c sin`` exactly.
+``a + b cos + c sin`` exactly. A joint is three functions: one that slides, by ``d = reach x``,
+stands for (1, x^2, x) where one that turns does for (1, cos, sin), for samples at x = 0 and +-1,
+and for powers of x itself where that one does for powers of the tangent of half its angle. Label 6
+has to turn.
 """
 
 import math
@@ -74,67 +77,90 @@ def moved_back(A, line):
     return turned_back(A, line[0]), applied_inverse(A, line[1])
 
 
-def _turned_line(sample, line):
-    """``Z(0, 120 or -120 deg) (l, p)`` for sample 0, 1, 2."""
+def _sampled_line(slide, reach, sample, line):
+    """``Z (l, p)`` at 0, 120 or -120 deg for sample 0, 1, 2; at 0 or +-reach where Z slides."""
     (lx, ly, lz), (px, py, pz) = line
+    if slide != 0:
+        d = 0.0 if sample == 0 else reach if sample == 1 else -reach
+        return (lx, ly, lz), (px, py, pz + d)
     c = 1.0 if sample == 0 else -0.5
     s = 0.0 if sample == 0 else HALF_SQRT3 if sample == 1 else -HALF_SQRT3
     return (c * lx - s * ly, s * lx + c * ly, lz), (c * px - s * py, s * px + c * py, pz)
 
 
-def _left_coefficients(loop, left):
+def _left_coefficients(loop, slides, reach, left):
     """Coefficients of the left side's fourteen functions, to left (14, 27).
 
     Joint 3, the hidden one, stays as (1, cos, sin). Joints 4 and 5 are written in (1, x, x^2) and
     (1, sqrt2 y, y^2) with x, y the tangents of half the angles, after a multiplication by
-    ``(1 + x^2)(1 + y^2)``: column ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j.
+    ``(1 + x^2)(1 + y^2)``: column ``9 m + 3 i + j`` for (1, cos, sin), x^i and y^j. One that
+    slides needs no multiplication; where it is hidden, ``d = reach tan(q/2)``, and all is
+    multiplied by ``cos(q/2)^2``.
     """
     C = loop[4]
     start = (C[0, 2], C[1, 2], C[2, 2]), (C[0, 3], C[1, 3], C[2, 3])
     for c in range(3):
-        line5 = _moved(loop[3], _turned_line(c, start))
+        line5 = _moved(loop[3], _sampled_line(slides[4], reach, c, start))
         for b in range(3):
-            line4 = _moved(loop[2], _turned_line(b, line5))
+            line4 = _moved(loop[2], _sampled_line(slides[3], reach, b, line5))
             for a in range(3):
-                line_functions(_turned_line(a, line4), left, 9 * a + 3 * b + c)
+                line = _sampled_line(slides[2], reach, a, line4)
+                line_functions(line, left, 9 * a + 3 * b + c)
     for f in range(14):
         for i in range(9):
-            _series_of_samples(left[f], i, 9)
+            _series_of_samples(slides[2], left[f], i, 9)
+            if slides[2] != 0:
+                _hide(left[f], i)
         for a in range(0, 27, 9):
             for i in range(a, a + 3):
-                _powers_of_samples(left[f], i, 3, 2.0)
+                _powers_of_samples(slides[3], left[f], i, 3, 2.0)
             for i in range(a, a + 9, 3):
-                _powers_of_samples(left[f], i, 1, SQRT2)
+                _powers_of_samples(slides[4], left[f], i, 1, SQRT2)
 
 
-def _series_of_samples(row, i, stride):
-    """``(1, cos, sin)`` in place of samples at 0, 120 and -120 degrees."""
+def _series_of_samples(slide, row, i, stride):
+    """``(1, cos, sin)`` in place of samples at 0, 120 and -120 degrees, or ``(1, x^2, x)``."""
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
-    row[i] = (y0 + y1 + y2) / 3.0
-    row[i + stride] = (2.0 * y0 - y1 - y2) / 3.0
-    row[i + 2 * stride] = (y1 - y2) * INV_SQRT3
+    if slide != 0:
+        row[i + stride], row[i + 2 * stride] = 0.5 * (y1 + y2) - y0, 0.5 * (y1 - y2)
+    else:
+        row[i] = (y0 + y1 + y2) / 3.0
+        row[i + stride] = (2.0 * y0 - y1 - y2) / 3.0
+        row[i + 2 * stride] = (y1 - y2) * INV_SQRT3
 
 
-def _powers_of_samples(row, i, stride, scale):
-    """The same in (1, 2 t / scale, t^2), t the tangent of half the angle, times ``1 + t^2``."""
+def _hide(row, i):
+    """``(1, x^2, x)`` times ``cos(q/2)^2`` in (1, cos q, sin q), x the tangent of q/2."""
+    constant, square = 0.5 * row[i], 0.5 * row[i + 9]
+    row[i], row[i + 9], row[i + 18] = constant + square, constant - square, 0.5 * row[i + 18]
+
+
+def _powers_of_samples(slide, row, i, stride, scale):
+    """The same in (1, 2 t / scale, t^2), t the tangent of half the angle, times ``1 + t^2``.
+
+    Of a slide in (1, 2 x / scale, x^2).
+    """
     y0, y1, y2 = row[i], row[i + stride], row[i + 2 * stride]
-    row[i + stride] = (y1 - y2) * scale * INV_SQRT3
-    row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
+    if slide != 0:
+        row[i + stride], row[i + 2 * stride] = 0.25 * scale * (y1 - y2), 0.5 * (y1 + y2) - y0
+    else:
+        row[i + stride] = (y1 - y2) * scale * INV_SQRT3
+        row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
-def _right_coefficients(loop, samples, right):
+def _right_coefficients(loop, slides, reach, samples, right):
     """Coefficients of the right side's fourteen functions of joints 1 and 2, to right (9, 14)."""
     start = moved_back(loop[5], ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0)))
     for a in range(3):
-        line1 = moved_back(loop[0], _turned_line((3 - a) % 3, start))
+        line1 = moved_back(loop[0], _sampled_line(slides[0], reach, (3 - a) % 3, start))
         for b in range(3):
-            line2 = moved_back(loop[1], _turned_line((3 - b) % 3, line1))
+            line2 = moved_back(loop[1], _sampled_line(slides[1], reach, (3 - b) % 3, line1))
             line_functions(line2, samples, 3 * a + b)
     for f in range(14):
         for a in range(3):
-            _series_of_samples(samples[f], 3 * a, 1)
+            _series_of_samples(slides[1], samples[f], 3 * a, 1)
         for b in range(3):
-            _series_of_samples(samples[f], b, 3)
+            _series_of_samples(slides[0], samples[f], b, 3)
         for r in range(9):
             right[r, f] = samples[f, RIGHT_ORDER[r]]
 
@@ -175,10 +201,11 @@ def _reduce_right(right, beta, basis):
                     basis[r, i] += d * right[j, i]
 
 
-def _six_equations(right, basis, lefts, e, equations):
+def _six_equations(right, basis, slides, lefts, e, equations):
     """Project left side e on the null space: ``equations`` (6, 27), columns as in left.
 
-    The constant of the right side is brought over, times ``(1 + x^2)(1 + y^2)``.
+    The constant of the right side is brought over, times ``(1 + x^2)(1 + y^2)``, or what of it
+    joints that turn need; times ``cos(q/2)^2`` where the hidden joint slides.
     """
     left = lefts[e]
     for r in range(6):
@@ -187,28 +214,46 @@ def _six_equations(right, basis, lefts, e, equations):
             w = basis[8 + r, f]
             constant += w * right[8, f]
             equations[r] += w * left[f]
-        for m in range(0, 9, 6):
-            equations[r, m] -= constant
-            equations[r, m + 2] -= constant
+        if slides[2] != 0:
+            constant *= 0.5
+        for h in range(0, 9 * (1 + min(slides[2], 1)), 9):
+            for m in range(h, h + (9 if slides[3] == 0 else 3), 6):
+                equations[r, m] -= constant
+                if slides[4] == 0:
+                    equations[r, m + 2] -= constant
 
 
 def prepare(arm):
     """The left sides of the eliminations, as far as they do not depend on the pose."""
-    choices = arm["choices"]
+    choices, slides = arm["choices"], arm["loop_slides"]
     for e in range(arm["trials"]):
         _close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
-        _left_coefficients(arm["loop"], arm["lefts"][e])
+        _name_slides(e, arm)
+        _left_coefficients(arm["loop"], slides, arm["reach"], arm["lefts"][e])
+
+
+def _name_slides(e, arm):
+    """Say which labels of the loop of elimination e slide."""
+    for i in range(6):
+        arm["loop_slides"][i] = arm["slides"][joint_of(arm["choices"], e, i)]
+
+
+def joint_of(choices, e, i):
+    """The joint that label i, from 0 on, of the loop of elimination e stands for."""
+    shift = choices[e, 0]
+    return (shift + i) % 6 if choices[e, 1] == 0 else (11 - shift - i) % 6
 
 
 def eliminate(e, arm):
     """The six equations of elimination e."""
     loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
-    right, basis = arm["right"], arm["basis"]
+    right, basis, slides, reach = arm["right"], arm["basis"], arm["loop_slides"], arm["reach"]
     _close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
-    _right_coefficients(loop, samples, right)
+    _name_slides(e, arm)
+    _right_coefficients(loop, slides, reach, samples, right)
     _reduce_right(right, arm["factors"], basis)
     left = e
     if 2 <= (5 - choices[e, 0]) % 6 <= 4:
         left = OWN
-        _left_coefficients(loop, lefts[left])
-    _six_equations(right, basis, lefts, left, arm["equations"])
+        _left_coefficients(loop, slides, reach, lefts[left])
+    _six_equations(right, basis, slides, lefts, left, arm["equations"])

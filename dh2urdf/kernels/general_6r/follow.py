@@ -5,7 +5,14 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import TWO_PI
-from dh2urdf.kernels.general_6r.resultant import other_joints, resultants, split_pairs, two_joints
+from dh2urdf.kernels.general_6r.elimination import joint_of
+from dh2urdf.kernels.general_6r.resultant import (
+    as_length,
+    other_joints,
+    sample_resultants,
+    split_pairs,
+    two_joints,
+)
 from dh2urdf.kernels.newton import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
 
@@ -48,26 +55,34 @@ def _seeds(e, roots, count, copies, arm):
     W, b, second, frames = arm["W"], arm["null"], arm["second"], arm["frames"]
     turns, hidden = arm["turns"], arm["hidden"]
     c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
-    shift, reverse = arm["choices"][e, 0], arm["choices"][e, 1]
+    slides, reach = arm["loop_slides"], arm["reach"]
+    sign = 1.0 if arm["choices"][e, 1] == 0 else -1.0
     lanes = count * copies
     n = (lanes + 7) // 8 * 8
     for k in side_by_side(n):
         root = roots[min(k // copies, count - 1)]
         hidden[0, k], hidden[1, k] = sincos(root)[1], sincos(root)[0]
         c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
-    resultants(arm["equations"], hidden, n, arm["A"], W, arm["determinant"], arm["V"], arm["beta"])
+    sample_resultants(n, arm)
     for copy in range(copies):
         null_vectors(W, b, second if copy > 0 else b, copy == 0, n)
     if copies == 2:
         split_pairs(b, second, n)
     two_joints(b, n, c, s)
-    other_joints(loop, right, factors, basis, frames, n, c, s, arm["functions"], arm["pairs"])
+    for i in range(2, 5):
+        if slides[i] != 0:
+            as_length(reach, i, n, c, s)
+    functions, pairs = arm["functions"], arm["pairs"]
+    other_joints(loop, slides, reach, right, factors, basis, frames, n, c, s, functions, pairs)
     for i in range(6):
-        joint = (shift + i) % 6 if reverse == 0 else (11 - shift - i) % 6
-        sign = 1.0 if reverse == 0 else -1.0
+        joint = joint_of(arm["choices"], e, i)
         p = i * LANES
         o = joint * LANES
         tc, ts = turns[0, joint], turns[1, joint]
+        if slides[i] != 0:
+            for k in side_by_side(n):
+                cosines[o + k], sines[o + k] = 1.0, turns[2, joint] + sign * arm["size"] * s[p + k]
+            continue
         for k in side_by_side(n):
             x, z = c[p + k], sign * s[p + k]
             cosines[o + k] = x * tc - z * ts
@@ -86,13 +101,14 @@ def polish_lanes(lanes, damped, converged, arm):
     target, A, J, V, beta = arm["target"], arm["A"], arm["W"], arm["V"], arm["beta"]
     cosines, sines, frames = arm["cosines"], arm["sines"], arm["frames"]
     links, size, scale, seeded = arm["links"], arm["size"], arm["determinant"], arm["seeded"]
+    slides = arm["slides"]
     error, position, angle, before = arm["error"], arm["position"], arm["angle"], arm["before"]
     n = (lanes + 7) // 8 * 8
     goal = converged * max(size, 1.0)
     weight = 1.0 / size
     before[:lanes] = math.inf
     for step in range(MOST_STEPS + 1):
-        chain_frames(links, cosines, sines, n, frames)
+        chain_frames(links, slides, cosines, sines, n, frames)
         pose_error(target, frames, n, error, position, angle)
         going = 0
         for k in range(lanes):
@@ -109,7 +125,7 @@ def polish_lanes(lanes, damped, converged, arm):
             break
         if step == DAMPED_STEPS:
             damped = 0
-        newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines)
+        newton_step(frames, slides, error, size, damped, n, A, J, scale, V, beta, cosines, sines)
     for k in range(lanes):
         product = abs(scale[k])
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
@@ -123,17 +139,19 @@ def keep_lane(k, found, out_q, out_residual, arm):
     """
     cosines, sines, position, angle = arm["cosines"], arm["sines"], arm["position"], arm["angle"]
     size, q, determinant, kept = arm["size"], arm["q"], arm["determinant"], arm["kept"]
+    slides = arm["slides"]
     residual = max(position[k], angle[k])
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
         return found, -1
     for i in range(6):
-        q[i] = atan2(sines[i * LANES + k], cosines[i * LANES + k])
+        sine = sines[i * LANES + k]
+        q[i] = atan2(sine, cosines[i * LANES + k]) if slides[i] == 0 else sine
     place, singular, members = found, -1, 0
     for f in range(found):
         far = 0.0
         for i in range(6):
             d = abs(q[i] - out_q[f, i])
-            far = max(far, min(d, TWO_PI - d))
+            far = max(far, min(d, TWO_PI - d) if slides[i] == 0 else d / size)
         loose = max(residual, out_residual[f])
         if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
             place = f
@@ -157,10 +175,10 @@ def keep_lane(k, found, out_q, out_residual, arm):
 
 def _at_root(e, root, q, arm):
     """Whether the hidden joint of elimination e has the value of a root at a solution q (6,)."""
-    shift, turns = arm["choices"][e, 0], arm["turns"]
-    reverse = arm["choices"][e, 1] != 0
-    joint = (9 - shift) % 6 if reverse else (2 + shift) % 6
-    value = q[joint] - turns[2, joint]
+    reverse, joint = arm["choices"][e, 1] != 0, joint_of(arm["choices"], e, 2)
+    value = q[joint] - arm["turns"][2, joint]
+    if arm["slides"][joint] != 0:
+        value = 2.0 * atan2(value, arm["reach"] * arm["size"])
     gap = (value + root if reverse else value - root) / TWO_PI
     return abs(gap - np.floor(gap + 0.5)) < AT_ROOT / TWO_PI
 

@@ -11,9 +11,13 @@ Its upper half is triangularised on the columns of E0, its lower half on those o
 of each are left, without v and x^3 v: a 6 x 6 matrix whose null vector is ``(v, x v)`` up to
 scale. The determinant of the whole is the product of all diagonal entries met.
 
+A hidden slide, ``d = reach tan(q/2)``, leaves a factor ``cos(q/2)^8``: each entry has its square,
+and the determinant is of degree 16 in d.
+
 The null vector gives joints 4 and 5. The fourteen functions of the line of axis 6, evaluated on the
 left side, then give the cosines and sines of joints 1 and 2 by linear equations; joint 6 is the
-rotation that closes the loop. Arrays ``cosines`` and ``sines`` hold six runs of ``LANES`` doubles.
+rotation that closes the loop. Arrays ``cosines`` and ``sines`` hold six runs of ``LANES`` doubles;
+of a joint that slides the second one its length.
 """
 
 import math
@@ -32,6 +36,8 @@ LOWER = np.array([[0, 1, 2, 0], [0, 1, 3, 4]])
 HIGHER = np.array([[3, 4, 5, 0], [1, 2, 4, 5]])
 LOWER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0, 1.0 / SQRT2, 1.0, 1.0 / SQRT2]])
 HIGHER_SCALE = np.array([[1.0, 1.0, 1.0, 0.0], [1.0 / SQRT2, 1.0, 1.0 / SQRT2, 1.0]])
+FARTHEST = 1e-8
+"""Least ``cos(q/2)^2`` of a hidden slide that is divided by: beyond there is no arm."""
 
 
 def _fill(equations, term, hidden, n, A, column):
@@ -67,8 +73,29 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
         determinant[k] *= W[last + k]
 
 
+def sample_resultants(n, arm):
+    """Determinants at n values of the hidden joint, in ``hidden`` of the record."""
+    equations, hidden, determinant = arm["equations"], arm["hidden"], arm["determinant"]
+    resultants(equations, hidden, n, arm["A"], arm["W"], determinant, arm["V"], arm["beta"])
+    if arm["loop_slides"][2] != 0:
+        for k in side_by_side(n):
+            square = max(0.5 * (1.0 + hidden[0, k]), FARTHEST)
+            determinant[k] /= square * square * (square * square)
+
+
+def as_length(reach, place, n, cosines, sines):
+    """The length of a slide in place of the angle by the tangent of whose half it is written."""
+    o = place * LANES
+    for k in side_by_side(n):
+        sines[o + k] = reach * sines[o + k] / max(1.0 + cosines[o + k], FARTHEST)
+        cosines[o + k] = 1.0
+
+
 def two_joints(b, n, cosines, sines):
-    """Joints 4 and 5, in six runs of LANES, from the rank-one vectors ``(v, x v)``."""
+    """Joints 4 and 5, in six runs of LANES, from the rank-one vectors ``(v, x v)``.
+
+    Each as an angle: one that slides is the tangent of half of it.
+    """
     for k in side_by_side(n):
         p0, p1, p2 = b[k], b[LANES + k], b[2 * LANES + k]
         r0, r1, r2 = b[3 * LANES + k], b[4 * LANES + k], b[5 * LANES + k]
@@ -162,19 +189,20 @@ def _project(basis, row, constant, functions, n, out):
             out[o + k] += w * functions[f, k]
 
 
-def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions, y):
+def other_joints(loop, slides, reach, right, beta, basis, frames, n, cosines, sines, functions, y):
     """Joints 1, 2 and 6 of n lanes.
 
     ``right``, ``beta`` and ``basis`` as the elimination leaves them; frames (7 * 144,), functions
     (14, 24) and y (96,) scratch.
     """
-    chain_frames(loop[1:5], cosines[2 * LANES :], sines[2 * LANES :], n, frames)
+    chain_frames(loop[1:5], slides[2:], cosines[2 * LANES :], sines[2 * LANES :], n, frames)
     _functions(loop, frames, n, functions)
     for row in range(4, 8):
         _project(basis, row, right[8], functions, n, y)
     d4, d5, d6, d7 = 1.0 / beta[12], 1.0 / beta[13], 1.0 / beta[14], 1.0 / beta[15]
     r45, r46, r56 = right[5, 4], right[6, 4], right[6, 5]
     r47, r57, r67 = right[7, 4], right[7, 5], right[7, 6]
+    slide1, slide2 = slides[0] != 0, slides[1] != 0
     for k in side_by_side(n):
         s2 = y[3 * LANES + k] * d7
         c2 = (y[2 * LANES + k] - r67 * s2) * d6
@@ -184,14 +212,21 @@ def other_joints(loop, right, beta, basis, frames, n, cosines, sines, functions,
         h2 = 1.0 / (math.sqrt(c2 * c2 + s2 * s2) + 1e-300)
         cosines[k], sines[k] = c1 * h1, s1 * h1
         cosines[LANES + k], sines[LANES + k] = c2 * h2, s2 * h2
-    _last_joint(loop, frames, n, cosines, sines)
+        if slide1:
+            cosines[k], sines[k] = 1.0, reach * s1
+        if slide2:
+            cosines[LANES + k], sines[LANES + k] = 1.0, reach * s2
+    _last_joint(loop, slides, frames, n, cosines, sines)
 
 
-def _last_joint(loop, frames, n, cosines, sines):
+def _last_joint(loop, slides, frames, n, cosines, sines):
     """Joint 6: first row of ``Z_6^-1 = C_6 Z_1 C_1 Z_2 (C_2 Z_3 C_3 Z_4 C_4 Z_5 C_5)``."""
     x0, y0, z0 = loop[5, 0, 0], loop[5, 0, 1], loop[5, 0, 2]
+    slide1, slide2 = slides[0] != 0, slides[1] != 0
     for k in side_by_side(n):
         c1, s1, c2, s2 = cosines[k], sines[k], cosines[LANES + k], sines[LANES + k]
+        s1 = 0.0 if slide1 else s1
+        s2 = 0.0 if slide2 else s2
         x, y, z = turned_back(loop[0], (x0 * c1 + y0 * s1, y0 * c1 - x0 * s1, z0))
         x, y = x * c2 + y * s2, y * c2 - x * s2
         f = LEFT + k

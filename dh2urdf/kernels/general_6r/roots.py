@@ -11,9 +11,9 @@ from dh2urdf.kernels.general_6r.arc_samples import (
     window_nodes,
 )
 from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
-from dh2urdf.kernels.general_6r.resultant import resultants
+from dh2urdf.kernels.general_6r.resultant import sample_resultants
 from dh2urdf.kernels.numbers import LANES, side_by_side, sincos
-from dh2urdf.kernels.rigid import load_pose, times_link
+from dh2urdf.kernels.rigid import dot, load_pose, times_link, turned, turned_back
 
 HOPELESS = 1e-2
 """Noise, as a part of the polynomial's largest coefficient, at which it says nothing."""
@@ -37,13 +37,43 @@ EDGE = 1e-7
 
 
 def place_target(T, arm):
-    """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6."""
+    """Set the target T (4, 4), and close the chain with it: seen from joint 1 to joint 6.
+
+    Zeros of slides next to base or tool follow it.
+    """
     ends, C, target, size = arm["ends"], arm["chain"][5], arm["target"], arm["size"]
     target[:] = T[:3]
     r = times_link(times_link(load_pose(ends[0]), T), ends[1])
     C[0, 0], C[0, 1], C[0, 2], C[0, 3] = r[0], r[1], r[2], r[3] / size
     C[1, 0], C[1, 1], C[1, 2], C[1, 3] = r[4], r[5], r[6], r[7] / size
     C[2, 0], C[2, 1], C[2, 2], C[2, 3] = r[8], r[9], r[10], r[11] / size
+    slides, zeros = arm["slides"], arm["turns"][2]
+    for i in range(6):
+        if slides[i] != 0:
+            zeros[i] = arm["middles"][i]
+    if slides[0] != 0:
+        px, py, pz = _shorten(0, (C[0, 3], C[1, 3], C[2, 3]), arm)
+        C[0, 3], C[1, 3], C[2, 3] = px, py, pz
+    if slides[5] != 0:
+        # the way from joint 6 to joint 1
+        px, py, pz = turned_back(C, (-C[0, 3], -C[1, 3], -C[2, 3]))
+        px, py, pz = turned(C, _shorten(5, (px, py, pz), arm))
+        C[0, 3], C[1, 3], C[2, 3] = -px, -py, -pz
+
+
+def _shorten(end, p, arm):
+    """Take from a way p between joints 1 and 6 what the slides next to one of them do of it."""
+    outer, zeros, size = arm["outer"], arm["turns"][2], arm["size"]
+    px, py, pz = p
+    sign = 1.0 if end == 0 else -1.0
+    for i in range(3):
+        j = i if end == 0 else 5 - i
+        share = dot(p, (outer[j, 1, 0], outer[j, 1, 1], outer[j, 1, 2]))
+        zeros[j] += sign * share * size
+        px -= share * outer[j, 0, 0]
+        py -= share * outer[j, 0, 1]
+        pz -= share * outer[j, 0, 2]
+    return px, py, pz
 
 
 def nudge(pose, t):
@@ -151,19 +181,11 @@ def add_roots(k, middle, half_tan, pairs, count, arm):
 def find_roots(arm):
     """Roots of the six equations' resultant, as by `add_roots`."""
     count, k = 0, 0
+    # a slide is sampled neither at infinity nor next to it
+    start = 0.5 * ARC if arm["loop_slides"][2] != 0 else 0.0
     while count >= 0 and (k == 0 or k <= arm["spans"][0, 0]):
-        middle, half_tan = place_samples(k, 0.0, arm)
-        lanes = arm["hidden"].shape[1]
-        resultants(
-            arm["equations"],
-            arm["hidden"],
-            lanes,
-            arm["A"],
-            arm["W"],
-            arm["determinant"],
-            arm["V"],
-            arm["beta"],
-        )
+        middle, half_tan = place_samples(k, start, arm)
+        sample_resultants(arm["hidden"].shape[1], arm)
         count = add_roots(k, middle, half_tan, PAIRS, count, arm)
         k += 1
     return count

@@ -1,7 +1,8 @@
-"""Newton's method on the exact chain of six revolute joints, many seeds side by side.
+"""Newton's method on the exact chain of six joints, many seeds side by side.
 
 The chain is ``L_0 Z_1 L_1 ... Z_6 L_6 = target``. Angles are held as cosines and sines and
-turned by the tangent of the step, so that no trigonometric function is called.
+turned by the tangent of the step, so that no trigonometric function is called; what slides has
+its length where the sine would be.
 """
 
 import math
@@ -11,13 +12,13 @@ from dh2urdf.kernels.rigid import load_pose
 
 FRAME = 12 * LANES
 LARGEST_STEP = 0.5
-"""A Newton step [rad] is shortened to this."""
+"""A Newton step [rad, or in sizes of the arm] is shortened to this."""
 
 
-def chain_frames(steps, cosines, sines, n, frames):
+def chain_frames(steps, slides, cosines, sines, n, frames):
     """``F_0 = steps[0]``, ``F_i = F_(i-1) Z_i steps[i]`` for n lanes, to seven runs of twelve.
 
-    steps (7, 3, 4); cosines, sines six runs of LANES.
+    steps (7, 3, 4); slides (6,) is 1 where a joint does; cosines, sines six runs of LANES.
     """
     for e in range(12):
         value = steps[0, e // 4, e % 4]
@@ -26,7 +27,7 @@ def chain_frames(steps, cosines, sines, n, frames):
             frames[f + k] = value
     for i in range(len(steps) - 1):
         a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = load_pose(steps[i + 1])
-        q = i * LANES
+        q, slide = i * LANES, slides[i] != 0
         for row in range(3):
             f = i * FRAME + 4 * row * LANES
             g = f + FRAME
@@ -35,6 +36,8 @@ def chain_frames(steps, cosines, sines, n, frames):
                 p = frames[f + 3 * LANES + k]
                 c, s = cosines[q + k], sines[q + k]
                 x, y = u * c + v * s, v * c - u * s
+                if slide:
+                    x, y, p = u, v, p + z * s
                 frames[g + k] = x * a00 + y * a10 + z * a20
                 frames[g + LANES + k] = x * a01 + y * a11 + z * a21
                 frames[g + 2 * LANES + k] = x * a02 + y * a12 + z * a22
@@ -68,15 +71,14 @@ def pose_error(target, frames, n, error, position, angle):
         angle[k] = turn if trace > 1.0 else 3.0
 
 
-def _newton_system(frames, error, n, A):
+def _newton_system(frames, slides, error, size, n, A):
     """``J step = error`` of n lanes, J the geometric Jacobian at the tip in base axes.
 
-    The right side is the seventh column of A.
+    Steps of what slides count in sizes of the arm. The right side is the seventh column of A.
     """
     e = 6 * FRAME
     for i in range(6):
-        f = i * FRAME
-        a = i * COLUMN
+        f, a, slide = i * FRAME, i * COLUMN, slides[i] != 0
         for k in side_by_side(n):
             zx, zy, zz = frames[f + 48 + k], frames[f + 144 + k], frames[f + 240 + k]
             x = frames[e + 72 + k] - frames[f + 72 + k]
@@ -86,6 +88,9 @@ def _newton_system(frames, error, n, A):
             A[a + 24 + k] = zz * x - zx * z
             A[a + 48 + k] = zx * y - zy * x
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
+            if slide:
+                A[a + k], A[a + 24 + k], A[a + 48 + k] = size * zx, size * zy, size * zz
+                A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = 0.0, 0.0, 0.0
         b = 6 * COLUMN + i * LANES
         o = i * LANES
         for k in side_by_side(n):
@@ -122,15 +127,15 @@ def _damped_system(J, weight, n, order, A):
                 A[a + k] += J[o + k] * J[o + k]
 
 
-def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines, sines):
-    """Turn the joints of n lanes by a Newton step, shortened to half a radian.
+def newton_step(frames, slides, error, size, damped, n, A, J, scale, V, beta, cosines, sines):
+    """Move the joints of n lanes by a Newton step, shortened to half a radian or half of a size.
 
     A and J (7 * 144,) scratch; error is overwritten with the step. ``scale`` becomes
     the determinant of the Jacobian, up to its sign; of the damped normal matrix if ``damped`` is 1.
     """
-    _newton_system(frames, error, n, J if damped == 1 else A)
+    _newton_system(frames, slides, error, size, n, J if damped == 1 else A)
     if damped == 1:
-        _damped_system(J, weight, n, len(error) // LANES, A)
+        _damped_system(J, 1.0 / size, n, len(error) // LANES, A)
     scale[:n] = 1.0
     reduce_columns(A, 6, 7, n, scale, V, beta)
     for i in range(6):
@@ -145,10 +150,10 @@ def newton_step(frames, error, weight, damped, n, A, J, scale, V, beta, cosines,
             largest = max(largest, abs(error[i * LANES + k]))
         beta[k] = LARGEST_STEP / largest
     for i in range(6):
-        e = i * LANES
+        e, slide = i * LANES, slides[i] != 0
         for k in side_by_side(n):
             t = error[e + k] * beta[k]
             c, s = cosines[e + k], sines[e + k]
             h = 1.0 / math.sqrt(1.0 + t * t)
             cosines[e + k] = (c - s * t) * h
-            sines[e + k] = (s + c * t) * h
+            sines[e + k] = s + size * t if slide else (s + c * t) * h
