@@ -29,7 +29,16 @@ if TYPE_CHECKING:
         write_mjcf,
         write_urdf,
     )
-    from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin, dh_factors, dh_transform
+    from dh2urdf.dh import (
+        DHConvention,
+        DHRow,
+        DHTable,
+        JointType,
+        Mimic,
+        Origin,
+        dh_factors,
+        dh_transform,
+    )
     from dh2urdf.dh.reach import dh_parameters
     from dh2urdf.dh_io import write_table as save_table
     from dh2urdf.export.source import Exported, export_solver
@@ -49,7 +58,7 @@ _LATE = {
         "comparison": "Comparison compare",
         "conversions.assign": "to_convention",
         "conversions.write": "ConversionReport UrdfOptions urdf_text write_mjcf write_urdf",
-        "dh": "DHConvention DHRow DHTable JointType Origin dh_factors dh_transform",
+        "dh": "DHConvention DHRow DHTable JointType Mimic Origin dh_factors dh_transform",
         "dh.reach": "dh_parameters",
         "export.source": "Exported export_solver",
         "extract": "Extraction extract_dh",
@@ -76,6 +85,7 @@ __all__ = [
     "IKPath",
     "IKSolutions",
     "JointType",
+    "Mimic",
     "Origin",
     "Robot",
     "SerialChain",

@@ -16,6 +16,14 @@ residual of 1e-9 that a solution may have."""
 NUMBER = 1e30
 """Largest number of any other kind: squares and products of it are still floats."""
 
+RATIO = 1e6
+"""Largest multiplier of a joint that follows another or adds to it: rounding of so many turns is
+seen in the eleventh digit."""
+
+INVERTIBLE = 1e-9
+"""Smallest singular value, relative to the largest, of the matrix by which values move coupled
+joints: so many of its digits are lost on the way back."""
+
 INERTIA = 1e29
 """Largest entry of an inertia tensor [kg m^2]: in other axes it may be three times as large."""
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf import transforms as tf
 from dh2urdf.bounds import ANGLE, INERTIA, LENGTH, NUMBER
+from dh2urdf.dh.mimic import Mimic
 from dh2urdf.dh.motions import DHConvention, dh_transform
 from dh2urdf.dh.reach import why_unreachable
 from dh2urdf.doors import choice, found, instance, number, real_array, text
@@ -84,6 +85,11 @@ class DHRow:
         ``(ixx, ixy, ixz, iyy, iyz, izz)`` [kg m^2] about the centre of mass, axes of DH frame i.
     origin : Origin or None
         The step of a fixed row, in place of its four parameters.
+    mimic : Mimic or None
+        The joint that this one follows; it has no value in q then, and ``lower`` and ``upper``
+        bound the joint itself.
+    serial_lower, serial_upper : float or None
+        Bounds of the joint itself [rad] or [m], where the table's couplings tell it from q.
 
     Raises
     ------
@@ -108,6 +114,9 @@ class DHRow:
     com: tuple[float, float, float] | None = None
     inertia: tuple[float, float, float, float, float, float] | None = None
     origin: Origin | None = None
+    mimic: Mimic | None = None
+    serial_lower: float | None = None
+    serial_upper: float | None = None
 
     def __post_init__(self) -> None:
         kinds = tuple(JointType)
@@ -115,12 +124,14 @@ class DHRow:
         problems += _put(self, "name", lambda v: text(v, "name"))
         for key in ("theta", "d", "a", "alpha", "sign"):
             problems += _scalar(self, key)
-        for key in ("lower", "upper", "velocity", "effort", "damping", "friction", "mass"):
+        for key in _OPTIONAL:
             problems += _scalar(self, key) if getattr(self, key) is not None else []
         for key, size in (("com", 3), ("inertia", 6)):
             problems += _vector(self, key, size) if getattr(self, key) is not None else []
         if self.origin is not None:
             problems += _put(self, "origin", lambda v: instance(v, "origin", Origin))
+        if self.mimic is not None:
+            problems += _put(self, "mimic", lambda v: instance(v, "mimic", Mimic))
         bad = {problem.partition(":")[0] for problem in problems}
         problems += [p for p in self._range_problems(bad) if p.partition(":")[0] not in bad]
         if problems:
@@ -132,9 +143,14 @@ class DHRow:
         out = []
         if "sign" not in bad and self.sign not in (1, -1):
             out.append(f"sign: {self.sign!r} is not allowed; +1 or -1")
-        lower = None if {"lower", "upper"} & bad else self.lower
-        if lower is not None and self.upper is not None and lower > self.upper:
-            out.append(f"lower: {lower!r} lies above upper {self.upper!r}")
+        for low, high in _PAIRS:
+            lower, upper = getattr(self, low), getattr(self, high)
+            if not {low, high} & bad and None not in (lower, upper) and lower > upper:
+                out.append(f"{low}: {lower!r} lies above {high} {upper!r}")
+        offset = self.mimic.offset if self.mimic is not None and "mimic" not in bad else 0.0
+        if abs(offset) > ANGLE and self.joint_type is JointType.REVOLUTE:
+            expected = f"expected a number from {-ANGLE:g} to {ANGLE:g} rad"
+            out.append(f"mimic.offset: {expected}, got {offset!r}")
         for key in ("mass", "velocity", "damping", "friction", "effort"):
             value = None if key in bad else getattr(self, key)
             if value is not None and value < 0:
@@ -181,12 +197,14 @@ class DHRow:
         return dh_transform(theta, d, self.a, self.alpha, convention)
 
 
-_JOINT_ONLY = ("lower", "upper", "velocity", "effort", "damping", "friction", "mass")
+_PAIRS = (("lower", "upper"), ("serial_lower", "serial_upper"))
+_OPTIONAL = (*_PAIRS[0], *_PAIRS[1], "velocity", "effort", "damping", "friction", "mass")
+_JOINT_ONLY = (*_OPTIONAL, "mimic")
 
 
 def _bound(row: DHRow | Origin, key: str) -> tuple[float, str]:
     """Largest value of a field, and its unit for messages."""
-    if key in ("lower", "upper"):
+    if key in (*_PAIRS[0], *_PAIRS[1]):
         key = "d" if getattr(row, "joint_type", "") is JointType.PRISMATIC else "theta"
     if key in ("d", "a", "com", "xyz"):
         return LENGTH, "m"

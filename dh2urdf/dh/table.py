@@ -6,7 +6,9 @@ A revolute joint puts ``sign * q + theta`` in place of theta and a prismatic joi
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice
 from typing import Any, Self
 
@@ -14,6 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import JOINTS, LENGTH, ROWS
+from dh2urdf.dh.coupling import JointMap, joint_map, joint_ranges, problems_between, read_only
+from dh2urdf.dh.mimic import ReadOnly
 from dh2urdf.dh.motions import DHConvention, convention_of
 from dh2urdf.dh.print import table_html, table_latex, table_text
 from dh2urdf.dh.row import DHRow, JointType, Origin
@@ -66,11 +70,14 @@ class DHTable:
         ``tool0`` in frame n.
     source, checked : str
         Where the figures come from, and what they were checked against.
+    couplings : mapping of str to mapping of str to float
+        What adds to a joint's own value: with ``{"joint_3": {"joint_2": 1.0}}`` the third joint
+        is at q3 + q2. Joints by name; plain numbers, or [rad/m] and [m/rad].
 
     Raises
     ------
     TableError
-        No joint at all, or two joints of one name.
+        No joint at all, two joints of one name, or joints that cannot follow one another so.
     """
 
     rows: tuple[DHRow, ...]
@@ -80,6 +87,7 @@ class DHTable:
     tool: Origin = field(default_factory=Origin)
     source: str = ""
     checked: str = ""
+    couplings: Mapping[str, Mapping[str, float]] = field(default_factory=ReadOnly)
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -102,6 +110,15 @@ class DHTable:
         twice = sorted({name for name in names if names.count(name) > 1})
         if twice:
             raise TableError(f"name: {', '.join(map(repr, twice))} names more than one joint")
+        put(self, "couplings", read_only(self.couplings))
+        wrong = problems_between(self.joints, names, self.couplings)
+        if wrong:
+            raise TableError(
+                [
+                    f"{'.'.join([names[row] if row >= 0 else 'couplings', *keys])}: {message}"
+                    for row, keys, message in wrong
+                ]
+            )
 
     @classmethod
     def from_array(
@@ -175,6 +192,18 @@ class DHTable:
         """Number of joints."""
         return len(self.joints)
 
+    @cached_property
+    def joint_map(self) -> JointMap | None:
+        """How the values q move the joints; None where each joint is at a value of its own."""
+        if not self.couplings and all(row.mimic is None for row in self.rows):
+            return None
+        return joint_map(self.joints, self.joint_names, self.couplings)
+
+    @cached_property
+    def joint_ranges(self) -> tuple[tuple[float, float], ...]:
+        """Bounds of the joints themselves [rad] or [m]: those of q, or what comes out of them."""
+        return tuple(joint_ranges(self.joints, self.joint_names, self.couplings))
+
     @property
     def has_steps_between(self) -> bool:
         """True where a fixed row stands between two joints."""
@@ -198,6 +227,8 @@ class DHTable:
     def transforms(self, q: ArrayLike) -> Array:
         """``T_{i-1,i}`` for i = 1 ... n at q (n,), fixed rows folded in, shape (n, 4, 4).
 
+        Here and in :meth:`frames` and :meth:`fk` q is where the joints themselves are, also those
+        that follow or are coupled; a :class:`dh2urdf.Robot` takes the values that move them.
         A fixed row before the first joint moves frame 0 and is not part of these.
         """
         config = self._config(q)

@@ -7,6 +7,7 @@ from dh2urdf.dh_io.cells.document import NOWHERE, Items, Keys, Node, Report, Sca
 from dh2urdf.dh_io.cells.schema import CONVENTIONS, TABLE_KEYS, did_you_mean
 from dh2urdf.dh_io.cells.told import NOTHING, Told
 from dh2urdf.dh_io.cells.units import SI, UNIT_SIZES, Kind, Units, unit_name
+from dh2urdf.dh_io.couplings import check_between, read_couplings
 from dh2urdf.dh_io.near_misses import near_misses
 from dh2urdf.dh_io.rows import read_row
 from dh2urdf.exceptions import TableError
@@ -34,6 +35,9 @@ def check_document(
     if (constants := cells.get("constants")) is not None:
         context.define(constants)
     rows = _rows(cells, context)
+    couplings = read_couplings(cells.get("couplings"), context)
+    numbers = [number for number, row in enumerate(rows, 1) if row.is_joint]
+    check_between([row for row in rows if row.is_joint], numbers, couplings, context)
     texts = {
         key: context.text(cell, key)
         for key in ("name", "source", "checked")
@@ -43,7 +47,7 @@ def check_document(
     report.raise_faults()
     words = {"name": name, **texts}
     try:
-        table = DHTable(tuple(rows), convention, base=base, tool=tool, **words)
+        table = DHTable(tuple(rows), convention, base=base, tool=tool, couplings=couplings, **words)
     except TableError as error:
         for problem in error.problems:
             key = problem.partition(":")[0]

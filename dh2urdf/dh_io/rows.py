@@ -5,13 +5,14 @@ from collections.abc import Callable
 from decimal import Decimal
 from typing import Any, TypeVar
 
-from dh2urdf.dh import DHRow, JointType, Origin
+from dh2urdf.dh import DHRow, JointType, Mimic, Origin
 from dh2urdf.dh_io.cells.cells import Cells, Context, found
 from dh2urdf.dh_io.cells.document import Node, Scalar
 from dh2urdf.dh_io.cells.expressions import Lookup, plain_text, to_float
-from dh2urdf.dh_io.cells.schema import JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
+from dh2urdf.dh_io.cells.schema import BY_TYPE, JOINT_TYPES, ROW_KEYS, ROW_KINDS, did_you_mean
 from dh2urdf.dh_io.cells.units import Kind
 from dh2urdf.dh_io.cells.values import ExpressionError, Value
+from dh2urdf.dh_io.couplings import read_mimic
 from dh2urdf.exceptions import TableError
 
 _VARIABLE = re.compile(
@@ -55,8 +56,9 @@ class _Row:
         self.check_variables(parts)
         self.check_missing()
         kind = Kind.LENGTH if self.type is JointType.PRISMATIC else Kind.ANGLE
-        for key in ("lower", "upper", "velocity"):
+        for key in BY_TYPE:
             fields[key] = self.number(key, kind)
+        fields["mimic"] = self.mimic(kind)
         for key in ("effort", "damping", "friction", "mass"):
             fields[key] = self.number(key, Kind.NUMBER)
         fields["com"] = self.vector("com", "x, y, z")
@@ -231,11 +233,22 @@ class _Row:
         xyz, rpy = self.vector("xyz", "x, y, z"), self.vector("rpy", "roll, pitch, yaw")
         return self.cells.origin(xyz, rpy)
 
+    def mimic(self, kind: Kind) -> Mimic | None:
+        """What the row follows; whether its joint is there, and slides as well, is asked later."""
+        node = self.cells.get("mimic")
+        if node is None:
+            return None
+        read = read_mimic(node, self.cells.at("mimic"), kind, self.context)
+        if read is None:
+            self.bad.add("mimic")
+        return read
+
     def check_limits(self, fields: dict[str, Any]) -> None:
-        lower, upper = fields["lower"], fields["upper"]
-        if lower is not None and upper is not None and lower > upper:
-            self.fault("lower", f"it lies above upper ({found(self.cells.cells['upper'])})")
-            fields["lower"] = None
+        for low, high in (("lower", "upper"), ("serial_lower", "serial_upper")):
+            lower, upper = fields[low], fields[high]
+            if lower is not None and upper is not None and lower > upper:
+                self.fault(low, f"it lies above {high} ({found(self.cells.cells[high])})")
+                fields[low] = None
 
     def build(self, fields: dict[str, Any]) -> DHRow:
         """Build the row; what `DHRow` refuses is noted at the cell it names."""
@@ -246,7 +259,8 @@ class _Row:
         except TableError as error:
             others = [p for p in error.problems if p.partition(":")[0] not in self.bad]
             self.cells.refuse(TableError(others))
-        return DHRow(joint_type=self.type)
+            named = not any(problem.startswith("name:") for problem in others)
+        return DHRow(joint_type=self.type, name=fields["name"] if named else "")
 
 
 def to_centre_of_mass(

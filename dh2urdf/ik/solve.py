@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import SAMPLES, THREADS
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import Coupling, SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.engine import AtOnce, nothing_at_once
-from dh2urdf.exceptions import ArgumentError, ConfigurationError, PoseError
+from dh2urdf.exceptions import ArgumentError, ConfigurationError, NoSolverError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Solver,
@@ -63,8 +63,13 @@ Asked = tuple[Task | str, Locked | None, bool, int | None, bool]
 class InverseKinematics:
     """Inverse kinematics of one chain; its methods are documented at :class:`dh2urdf.Robot`."""
 
-    def __init__(self, chain: SerialChain, referee: ForwardKinematics) -> None:
-        self.chain, self.referee, self.own = chain, referee, in_own_unit(chain)
+    def __init__(
+        self, chain: SerialChain, coupling: Coupling | None, referee: ForwardKinematics
+    ) -> None:
+        if coupling is not None:
+            refuse_coupling(chain, coupling)
+        self.chain, self.coupling, self.referee = chain, coupling, referee
+        self.own = in_own_unit(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
         self._at_once: list[AtOnce] = [nothing_at_once] * 4
@@ -72,7 +77,7 @@ class InverseKinematics:
         self._held = HeldCalls()
 
     def __getstate__(self) -> dict[str, Any]:
-        return InverseKinematics(self.chain, self.referee).__dict__
+        return InverseKinematics(self.chain, self.coupling, self.referee).__dict__
 
     @property
     def solver(self) -> Solver:
@@ -255,6 +260,14 @@ class InverseKinematics:
         else:
             problem = Problem(self.own, solver, task, self.referee)
         return problem if self.own is self.chain else ScaledProblem(self.chain, problem)
+
+
+def refuse_coupling(chain: SerialChain, coupling: Coupling) -> None:
+    """Refuse an arm of which joints follow others."""
+    raise NoSolverError(
+        f"{chain.n} joints move by {coupling.n} values (mimic joints); "
+        "ik needs joints that move independently; ik_numeric finds solutions one at a time"
+    )
 
 
 def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:

@@ -1,13 +1,11 @@
 """The joint values of a robot: what q means, and how it is read."""
 
-from functools import cached_property
-
 import numpy as np
 import pinocchio as pin
 from numpy.typing import ArrayLike, NDArray
 
-from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.chains import ChainPath, Coupling, is_continuous
+from dh2urdf.chain import Coupling, SerialChain
+from dh2urdf.conversions.chains import ChainPath, is_continuous
 from dh2urdf.doors import finite_array, generator, real_array
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.transforms import Array
@@ -57,11 +55,10 @@ class RobotConfigurations:
         high = np.where(np.isfinite(self.upper), self.upper, np.maximum(far, low + far))
         return low, high
 
-    @cached_property
-    def slides(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    @property
+    def slides(self) -> NDArray[np.bool_]:
         """True where a value of q is a length, shape (n,)."""
-        index = range(self.n) if self._coupling is None else self._coupling.first
-        return self.chain.prismatic[list(index)]
+        return (self._coupling or self.chain).prismatic
 
     def _flat(self, q: ArrayLike, finite: bool = True) -> tuple[Array, tuple[int, ...]]:
         """Chain configurations (m, chain.n) as kernels take them, and the leading shape.
@@ -77,7 +74,7 @@ class RobotConfigurations:
             )
         flat = config.reshape(-1, self.n)
         if self._coupling is not None:
-            flat = flat @ self._coupling.matrix.T + self._coupling.offset
+            flat = self._coupling.joints(flat)
         return np.require(flat, requirements=["C", "A", "W"]), config.shape[:-1]
 
     def _values(self) -> tuple[Array, Array, NDArray[np.bool_]]:

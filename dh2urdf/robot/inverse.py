@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.exceptions import NoSolverError
 from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.lazily import is_lazy, lazy_ik
 from dh2urdf.transforms import Array
@@ -311,12 +310,7 @@ class RobotIK(RobotConfigurations):
     def _ik(self) -> InverseKinematics:
         from dh2urdf.ik.solve import InverseKinematics
 
-        if len(self.joint_names) != self.chain.n:
-            raise NoSolverError(
-                f"{self.chain.n} joints move by {len(self.joint_names)} values (mimic joints); "
-                "ik needs joints that move independently; ik_numeric finds solutions one at a time"
-            )
-        return InverseKinematics(self.chain, self._placements)
+        return InverseKinematics(self.chain, self._coupling, self._placements)
 
     def _placements(self, q: Array) -> Array:
         """Poses of the tip in the base by Pinocchio, for configurations (k, n)."""

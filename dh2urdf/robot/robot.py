@@ -12,19 +12,18 @@ import pinocchio as pin
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import JOINTS
-from dh2urdf.chain import settled_state
+from dh2urdf.chain import coupling_of, follow, settled_state
 from dh2urdf.conversions.chains import (
     carried_dh_frames,
     carried_joint_frames,
     chain_path,
-    couple,
     frame_id,
     model_to_chain,
     with_locked,
 )
-from dh2urdf.conversions.read import NOTHING, TEXT, Mimic, Xacro, read_description, xacro_given
+from dh2urdf.conversions.read import NOTHING, TEXT, Xacro, read_description, xacro_given
 from dh2urdf.conversions.write import LinkFrames, add_masses, dh_to_chain, link_frames, table_model
-from dh2urdf.dh import DHTable
+from dh2urdf.dh import DHTable, Mimic
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.doors import flag, real_array
 from dh2urdf.exceptions import ConfigurationError, UrdfError, VerificationError
@@ -112,10 +111,11 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         self._path = path
         if table and frames:
             self.chain, self._carried = dh_to_chain(table, frames), carried_dh_frames(table, frames)
+            self._coupling = coupling_of(table, self.chain)
         else:
             self.chain = model_to_chain(model, path)
             self._carried = carried_joint_frames(model, path, self.chain)
-        self._coupling = couple(self.chain, mimics or {})
+            self._coupling = follow(self.chain, mimics or {})
         self._bounds()
         self._plain = (self.n,) if self._coupling is None else None
         self._working = _Working(model)
@@ -139,7 +139,10 @@ class Robot(RobotExplained, RobotPictures, RobotFormulas):
         given = as_table(table)
         frames = link_frames(given)
         model = table_model(given, frames)
-        return cls(model, "base_link", "tool0", table=given, frames=frames)
+        robot = cls(model, "base_link", "tool0", table=given, frames=frames)
+        if robot._coupling is not None:
+            robot.warnings = robot._coupling.warnings
+        return robot
 
     @cached_property
     def model(self) -> pin.Model:

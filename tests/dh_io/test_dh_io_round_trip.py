@@ -4,6 +4,7 @@ import json
 import math
 import struct
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from dh2urdf import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf import DHConvention, DHRow, DHTable, JointType, Mimic, Origin
 from dh2urdf.dh_io import SI, Units, parse_table, read_table, table_to_text, write_table
 from dh2urdf.exceptions import TableError
 
@@ -55,6 +56,22 @@ def joints(draw: st.DrawFn, number: int) -> DHRow:
     )
 
 
+@st.composite
+def between(draw: st.DrawFn, rows: list[DHRow]) -> tuple[list[DHRow], dict[str, Any]]:
+    """The rows, the last one following the first or coupled to it and to others."""
+    places = [i for i, row in enumerate(rows) if row.is_joint]
+    names = [rows[i].name or f"joint_{k}" for k, i in enumerate(places, 1)]
+    way = draw(st.sampled_from(["none", "none", "mimic", "couplings"]))
+    if len(set(names)) < len(names) or len(names) < 2 or way == "none":
+        return rows, {}
+    ratios, last = st.floats(-1e4, 1e4), places[-1]
+    if way == "mimic":
+        follows = Mimic(names[0], draw(ratios), draw(numbers))
+        return [*rows[:last], replace(rows[last], mimic=follows), *rows[last + 1 :]], {}
+    drivers = draw(st.lists(st.sampled_from(names[:-1]), min_size=1, unique=True))
+    return rows, {names[-1]: {name: draw(st.floats(-10, 10)) for name in drivers}}
+
+
 fixed_rows = origins.map(lambda o: DHRow(joint_type=JointType.FIXED, origin=o)) | st.builds(
     lambda p: DHRow(*p, JointType.FIXED), st.tuples(numbers, numbers, numbers, numbers)
 )
@@ -64,9 +81,11 @@ fixed_rows = origins.map(lambda o: DHRow(joint_type=JointType.FIXED, origin=o)) 
 def tables(draw: st.DrawFn) -> DHTable:
     rows = [draw(joints(0))]
     rows += [draw(joints(k) | fixed_rows) for k in range(1, draw(st.integers(1, 4)))]
+    rows, couplings = draw(between(rows))
     return DHTable(
         tuple(rows),
         draw(st.sampled_from(DHConvention)),
+        couplings=couplings,
         name=draw(words),
         base=draw(maybe_origins),
         tool=draw(maybe_origins),

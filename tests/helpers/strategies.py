@@ -6,7 +6,7 @@ from dataclasses import replace
 from dh_product import rows as numbers
 from hypothesis import strategies as st
 
-from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Mimic, Origin
 
 QUARTERS = st.sampled_from([0.0, math.pi / 2, -math.pi / 2, math.pi, -math.pi])
 NEAR = st.sampled_from([1e-12, -1e-9, 1e-6, math.pi / 2 - 1e-9, 1.5708, math.pi - 1e-12])
@@ -58,6 +58,53 @@ def tables(draw, max_joints=9):
         base=draw(st.one_of(st.just(Origin()), origins())),
         tool=draw(st.one_of(st.just(Origin()), origins())),
     )
+
+
+RATIOS = st.one_of(st.sampled_from([1.0, -1.0, 0.5, 2.0, -0.25]), st.floats(-2, 2))
+
+
+@st.composite
+def coupled_tables(draw, max_joints=7, square=False):
+    """A table of which joints follow others or are coupled, or both; ``square`` without mimics."""
+    table = draw(tables(max_joints).filter(lambda table: table.n > 1))
+    names, rows, couplings = table.joint_names, list(table.rows), {}
+    places = [i for i, row in enumerate(rows) if row.is_joint]
+    order = draw(st.permutations(range(table.n)))
+    leads = order[:1] if not square else order
+    for k in order[1:]:
+        way = draw(st.sampled_from(["own", "couplings"] + ["mimic"] * (not square)))
+        if way == "mimic":
+            row = replace(rows[places[k]], lower=None, upper=None)
+            follows = Mimic(names[draw(st.sampled_from(order[: order.index(k)]))], draw(RATIOS))
+            offset = draw(st.sampled_from([0.0, 0.25]))
+            rows[places[k]] = replace(row, mimic=replace(follows, offset=offset))
+            continue
+        if way == "couplings":
+            others = [i for i in (order[: order.index(k)] if square else leads) if i != k]
+            some = draw(st.lists(st.sampled_from(others), min_size=1, max_size=2, unique=True))
+            couplings[names[k]] = {names[i]: draw(RATIOS) for i in some}
+        if not square:
+            leads = [*leads, k]
+    return replace(table, rows=tuple(rows), couplings=couplings)
+
+
+def moved_joints(table, q):
+    """Where the joints are at values q, by what mimic and couplings say, word by word."""
+    values = iter(q)
+    own = {
+        n: next(values)
+        for n, r in zip(table.joint_names, table.joints, strict=True)
+        if r.mimic is None
+    }
+    mimics = {n: r.mimic for n, r in zip(table.joint_names, table.joints, strict=True) if r.mimic}
+
+    def at(name):
+        if name in mimics:
+            return mimics[name].multiplier * at(mimics[name].joint) + mimics[name].offset
+        others = table.couplings.get(name, {}).items()
+        return own[name] + sum(ratio * own[other] for other, ratio in others)
+
+    return [at(name) for name in table.joint_names]
 
 
 def scaled(table, factor):

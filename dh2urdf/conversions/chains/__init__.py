@@ -1,16 +1,10 @@
 """From a tree, a Pinocchio model or typed axes to the serial chain between two links.
 
 `extract_source` takes whatever there is: `tree_chain`, `model_chain`, `typed_axes`; `carried`
-is drives, bodies, frames and followers that ride on joints, `referee` Pinocchio's word.
+is drives, bodies and frames that ride on joints, `referee` Pinocchio's word.
 """
 
-from dh2urdf.conversions.chains.carried import (
-    Coupling,
-    carried_dh_frames,
-    carried_joint_frames,
-    carry,
-    couple,
-)
+from dh2urdf.conversions.chains.carried import carried_dh_frames, carried_joint_frames, carry
 from dh2urdf.conversions.chains.extract_source import read_source
 from dh2urdf.conversions.chains.model_chain import (
     ChainPath,

@@ -116,7 +116,7 @@ def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | No
 def _remarks(tree: KinematicTree, moving: Sequence[Step], cut: frozenset[str]) -> list[str]:
     """What a user should know of the chain and cannot see from it."""
     remarks = [
-        f"{step.joint.where}: follows joint {step.joint.mimic.leader!r} in the file; "
+        f"{step.joint.where}: follows joint {step.joint.mimic.joint!r} in the file; "
         "in the table it is a joint of its own"
         for step in moving
         if step.joint.mimic

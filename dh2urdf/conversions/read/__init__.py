@@ -18,7 +18,6 @@ from dh2urdf.conversions.read.kinematic_tree import (
     TIP_NAMES,
     Actuation,
     KinematicTree,
-    Mimic,
     Step,
     find_path,
     link_name,

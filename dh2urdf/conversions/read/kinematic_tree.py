@@ -9,12 +9,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import takewhile
-from typing import NamedTuple
 
 import numpy as np
 
 from dh2urdf.bounds import JOINTS
 from dh2urdf.conversions.write import Inertial
+from dh2urdf.dh import Mimic
 from dh2urdf.dh_io.files import shown
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, UrdfError
@@ -34,14 +34,6 @@ class TreeLink:
     name: str
     where: str
     inertial: Inertial | None = None
-
-
-class Mimic(NamedTuple):
-    """What a joint follows: ``q = multiplier * q_leader + offset``."""
-
-    leader: str
-    multiplier: float
-    offset: float
 
 
 @dataclass(frozen=True)

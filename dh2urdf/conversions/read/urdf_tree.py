@@ -9,14 +9,14 @@ from dh2urdf.bounds import ANGLE, LINKS
 from dh2urdf.conversions.read.kinematic_tree import (
     MOVING,
     KinematicTree,
-    Mimic,
     TreeJoint,
     TreeLink,
     listed,
 )
 from dh2urdf.conversions.read.urdf_elements import UrdfReader
+from dh2urdf.dh import Mimic
 from dh2urdf.dh_io.files import shown
-from dh2urdf.exceptions import UrdfError
+from dh2urdf.exceptions import TableError, UrdfError
 
 
 def read_urdf(
@@ -109,7 +109,7 @@ class _Forest:
             follows = Mimic(leader, factor, offset)
             joint = self.joints[name] = replace(self.joints[name], mimic=follows)
             self.above[joint.child] = joint
-        except UrdfError as error:
+        except (UrdfError, TableError) as error:
             reader.mends.append(f"{error}; left out")
             element.remove(mimic)
 

@@ -1,6 +1,5 @@
 """From a DH table to a serial chain, and to the frames in which the URDF puts its links."""
 
-import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -96,6 +95,6 @@ def dh_to_chain(table: DHTable, frames: LinkFrames | None = None) -> SerialChain
         links=turned_round(links, [row.sign for row in joints]),
         joint_types=tuple(row.joint_type for row in joints),
         names=table.joint_names,
-        lower=np.array([-math.inf if r.lower is None else r.lower for r in joints]),
-        upper=np.array([math.inf if r.upper is None else r.upper for r in joints]),
+        lower=np.array([low for low, _ in table.joint_ranges]),
+        upper=np.array([high for _, high in table.joint_ranges]),
     )

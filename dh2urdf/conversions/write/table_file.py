@@ -63,15 +63,16 @@ def table_difference(a: DHTable, b: DHTable, count: int = 16) -> tuple[float, fl
 
 def arm_size(table: DHTable) -> float:
     """How far the arm reaches at most [m], its slides drawn out."""
-    slides = (row for row in table.joints if row.joint_type is JointType.PRISMATIC)
-    travel = [np.abs(default_limits(row, table)).max() for row in slides]
+    kinds = enumerate(row.joint_type for row in table.joints)
+    slides = [i for i, kind in kinds if kind is JointType.PRISMATIC]
+    travel = [np.abs(default_limits(table, i)).max() for i in slides]
     return math.hypot(*table.base.xyz) + table.length + float(sum(travel)) or 1.0
 
 
 def random_configurations(table: DHTable, count: int, seed: int = 0) -> Array:
     """Configurations within the limits, at most one turn each way, shape (count, n)."""
     rng = np.random.default_rng(seed)
-    bounds = np.array([default_limits(row, table) for row in table.joints])
+    bounds = np.array([default_limits(table, i) for i in range(table.n)])
     turns = np.array([row.joint_type is JointType.REVOLUTE for row in table.joints])
     low = np.where(turns, np.maximum(bounds[:, 0], -2 * np.pi), bounds[:, 0])
     high = np.where(turns, np.minimum(bounds[:, 1], 2 * np.pi), bounds[:, 1])

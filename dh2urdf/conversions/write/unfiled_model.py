@@ -70,7 +70,7 @@ class _Builder:
         row, name = self.joints[i - 1], self.names[i - 1]
         effort = DEFAULT_EFFORT if row.effort is None else row.effort
         velocity = DEFAULT_VELOCITY if row.velocity is None else row.velocity
-        bounds = np.array([effort, velocity, *default_limits(row, self.table)])
+        bounds = np.array([effort, velocity, *default_limits(self.table, i - 1)])
         place = pin.SE3(self.frames.origins[i - 1])
         model = self.model
         at = model.addJoint(i - 1, _joint_model(row), place, name, *bounds[:, None])

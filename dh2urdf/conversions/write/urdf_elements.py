@@ -1,7 +1,6 @@
 """From a DH table to the text of a URDF; every rule here has a consumer that breaks without it."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from lxml import etree
@@ -41,20 +40,42 @@ def urdf_text_and_warnings(table: DHTable, options: UrdfOptions) -> tuple[str, t
     return _Writer(table, options).write()
 
 
-def default_limits(row: DHRow, table: DHTable) -> tuple[float, float]:
-    """Lower and upper bound of q [rad] or [m], made up where the row has none.
+def default_limits(table: DHTable, i: int) -> tuple[float, float]:
+    """Lower and upper bound of joint i, from 0, [rad] or [m]; made up where the table has none.
 
     Revolute: +-2 pi. Prismatic: as far as the table's own lengths sum to, at least 1 m. Where
-    the given bound lies beyond that, as far again beyond it.
+    the given bound lies beyond that, as far again beyond it. A joint that follows goes as far as
+    the one that leads, a coupled one as far as the bounds of q put it.
     """
+    row, (lower, upper) = table.joints[i], table.joint_ranges[i]
     slides = row.joint_type is JointType.PRISMATIC
-    far, bound = (table.length or 1.0, LENGTH) if slides else (2.0 * math.pi, ANGLE)
-    lower, upper = row.lower, row.upper
-    if lower is None:
-        lower = -far if upper is None or upper > -far else max(upper - far, -bound)
-    if upper is None:
-        upper = far if lower < far else min(lower + far, bound)
-    return lower, upper
+    far, bound = far_of(table, slides), LENGTH if slides else ANGLE
+    if row.mimic is not None:
+        ends = default_limits(table, table.joint_names.index(row.mimic.joint))
+        low, high = sorted(row.mimic.multiplier * end + row.mimic.offset for end in ends)
+        lower, upper = (
+            own if math.isfinite(own) else other for own, other in ((lower, low), (upper, high))
+        )
+    if lower == -math.inf:
+        lower = -far if upper > -far else upper - far
+    if upper == math.inf:
+        upper = far if lower < far else lower + far
+    return max(lower, -bound), min(upper, bound)
+
+
+def far_of(table: DHTable, slides: bool) -> float:
+    """How far a joint without limits goes either way [rad] or [m]."""
+    return (table.length or 1.0) if slides else 2.0 * math.pi
+
+
+def coupling_remarks(table: DHTable) -> list[str]:
+    """What a URDF says of coupled joints, a sentence each."""
+    return [
+        f"{name} is at its value plus {terms}, which no <mimic> can say: the file moves the joint "
+        "itself, and its limits are the range that results"
+        for name in table.couplings
+        if (terms := " plus ".join(f"{v:g} {other}" for other, v in table.couplings[name].items()))
+    ]
 
 
 def check_names(table: DHTable) -> None:
@@ -87,7 +108,7 @@ class _Writer:
         for i, row in enumerate(self.table.joints, 1):
             link = f"link_{i}"
             self._link(link, self.masses[i], self.bodies[i])
-            self._joint(self.table.joint_names[i - 1], row, parent, link, i)
+            self._joint(row, parent, link, i)
             parent = link
         self._massless_link("tool0", parent, self.frames.tool)
         self._side_links()
@@ -109,6 +130,8 @@ class _Writer:
         if any(row.mass is None for row in self.table.joints):
             estimate = f"estimated from the drawn bodies at {self.options.density:g} kg/m^3"
             self.robot.append(etree.Comment(f" links without a mass in the table: {estimate} "))
+        for remark in coupling_remarks(self.table):
+            self.robot.append(etree.Comment(f" {remark.replace('--', '- -')} "))
         for name, rgba in MATERIALS.items():
             if any(b.material == name for bodies in self.bodies for b in bodies):
                 material = etree.SubElement(self.robot, "material", name=name)
@@ -134,11 +157,11 @@ class _Writer:
         etree.SubElement(joint, "child", link=child)
         return joint
 
-    def _joint(self, name: str, row: DHRow, parent: str, child: str, i: int) -> None:
-        T = self.frames.origins[i - 1]
+    def _joint(self, row: DHRow, parent: str, child: str, i: int) -> None:
+        name, T = self.table.joint_names[i - 1], self.frames.origins[i - 1]
         joint = self._placed(name, str(row.joint_type), parent, child, T)
         etree.SubElement(joint, "axis", xyz="0 0 1" if row.sign > 0 else "0 0 -1")
-        lower, upper = default_limits(row, self.table)
+        lower, upper = default_limits(self.table, i - 1)
         effort = DEFAULT_EFFORT if row.effort is None else row.effort
         velocity = DEFAULT_VELOCITY if row.velocity is None else row.velocity
         limits = {"lower": lower, "upper": upper, "effort": effort, "velocity": velocity}
@@ -146,6 +169,10 @@ class _Writer:
         etree.SubElement(joint, "limit", {k: self._number(v) for k, v in limits.items()})
         if row.damping is not None or row.friction is not None:
             etree.SubElement(joint, "dynamics", {k: self._number(v) for k, v in losses.items()})
+        if row.mimic is not None:
+            numbers = {"multiplier": row.mimic.multiplier, "offset": row.mimic.offset}
+            follows = {"joint": row.mimic.joint, **{k: repr(v) for k, v in numbers.items()}}
+            etree.SubElement(joint, "mimic", follows)
 
     def _link(self, name: str, inertial: Inertial, bodies: list[Body]) -> None:
         link = etree.SubElement(self.robot, "link", name=name)
@@ -165,24 +192,28 @@ class _Writer:
             etree.SubElement(element, "material", name=body.material)
 
     def _limit_warnings(self) -> None:
-        """Say which limits were made up, the same ones together."""
+        """Say which limits were made up, the same ones together; and what the file cannot say."""
         made_up: dict[str, list[str]] = {}
-        for name, row in zip(self.table.joint_names, self.table.joints, strict=True):
-            missing = [key for key in ("lower", "upper") if getattr(row, key) is None]
-            if missing:
+        for i, (name, row) in enumerate(
+            zip(self.table.joint_names, self.table.joints, strict=True)
+        ):
+            ends = zip(("lower", "upper"), self.table.joint_ranges[i], strict=True)
+            missing = [key for key, end in ends if not math.isfinite(end)]
+            if missing and row.mimic is None:
                 half = f" ({missing[0]})" if len(missing) == 1 else ""
-                made_up.setdefault(self._made_up(row), []).append(name + half)
+                made_up.setdefault(self._made_up(i), []).append(name + half)
         self.warnings += [
             f"{', '.join(names)}: no limits in the table; written as {written}"
             for written, names in made_up.items()
         ]
+        self.warnings += coupling_remarks(self.table)
 
-    def _made_up(self, row: DHRow) -> str:
-        """The limits of a row that has none, in words."""
-        slides = row.joint_type is JointType.PRISMATIC
-        far = default_limits(replace(row, lower=None, upper=None), self.table)[1]
-        both = zip(default_limits(row, self.table), (row.lower, row.upper), strict=True)
-        beyond = [v for v, given in both if given is None and abs(v) > far]
+    def _made_up(self, i: int) -> str:
+        """The limits of a joint that has none, in words."""
+        slides = self.table.joints[i].joint_type is JointType.PRISMATIC
+        far = far_of(self.table, slides)
+        both = zip(default_limits(self.table, i), self.table.joint_ranges[i], strict=True)
+        beyond = [v for v, given in both if not math.isfinite(given) and abs(v) > far]
         if beyond:
             return f"{beyond[0]:.6g} {'m' if slides else 'rad'}, beyond the one that is given"
         reach = f"+-{far:.6g} m, as far as the table's lengths sum to"

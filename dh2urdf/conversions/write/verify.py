@@ -80,8 +80,8 @@ def compare_with_table(
 
 def _check_limits(limits: Array, table: DHTable, slack: float) -> None:
     """Compare the limits that were read with the table's."""
-    for name, row, read in zip(table.joint_names, table.joints, limits.tolist(), strict=True):
-        low, high = wanted = default_limits(row, table)
+    for i, (name, read) in enumerate(zip(table.joint_names, limits.tolist(), strict=True)):
+        low, high = wanted = default_limits(table, i)
         close = np.allclose(read, wanted, rtol=1e-15, atol=slack)
         if not close or read[0] > read[1] or (read[0] == read[1] and low < high):
             raise VerificationError(

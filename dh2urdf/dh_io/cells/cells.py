@@ -4,18 +4,20 @@ import re
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 
+from dh2urdf.bounds import RATIO
 from dh2urdf.dh import JointType, Origin
 from dh2urdf.dh.quoting import XML_FORBIDDEN
-from dh2urdf.dh_io.cells.document import Items, Keys, Mark, Node, Report, Scalar
+from dh2urdf.dh_io.cells.document import NOWHERE, Items, Keys, Mark, Node, Report, Scalar
 from dh2urdf.dh_io.cells.expressions import PI_NAMES, Lookup, evaluate, plain_text, to_float
 from dh2urdf.dh_io.cells.schema import FLAGS, MISUSED_KEYS, TRUTHS, canonical, did_you_mean, nearest
-from dh2urdf.dh_io.cells.units import SI, Kind, Units, unit_kind, unit_name
+from dh2urdf.dh_io.cells.units import EXACT, SI, Kind, Units, to_si, unit_kind, unit_name
 from dh2urdf.dh_io.cells.values import FUNCTIONS, ExpressionError, Value
 from dh2urdf.exceptions import TableError
 
 _SLIPS = str.maketrans({"O": "0", "o": "0", "l": "1", "I": "1", ",": "."})
 _LINK_LENGTH = re.compile(r"[lI]_?\d")
 _NUMBER_MUST = re.compile(r"^-?[\d.e+-]+ (?=must)")
+_RATIO = re.compile(r"(.*?)\s*([^\W\d_]+|°)\s*/\s*([^\W\d_]+|°)")
 _PLAIN_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
 
 
@@ -29,12 +31,17 @@ def found(node: Node) -> str:
 
 @dataclass
 class Context:
-    """What all cells of a file share."""
+    """What all cells of a file share.
+
+    By path: ``places`` of cells, ``marks`` of keys, ``ratios`` the kinds that multipliers say.
+    """
 
     report: Report
     units: Units = SI
     constants: dict[str, Value] = field(default_factory=dict)
     places: dict[str, Scalar] = field(default_factory=dict)
+    ratios: dict[str, tuple[Kind, Kind] | None] = field(default_factory=dict)
+    marks: dict[str, Mark] = field(default_factory=dict)
 
     def value(
         self, cell: Node, path: str, kind: Kind, lookup: Lookup | None = None, *, free: bool = False
@@ -127,6 +134,33 @@ class Context:
             else:
                 value = self.value(cell, path, Kind.NUMBER, free=True)
                 self.constants[name] = value or Value(Decimal(1))
+
+    def mark_of(self, path: str) -> Mark:
+        """Where a cell, or the one that holds it, was read."""
+        while path and path not in self.marks and path not in self.places:
+            path = path.rpartition(".")[0]
+        return self.places[path].mark if path in self.places else self.marks.get(path, NOWHERE)
+
+    def ratio(self, cell: Node, path: str) -> float | None:
+        """A multiplier: a plain number, or with units such as ``0.8 mm/deg`` in [m] and [rad]."""
+        match = _RATIO.fullmatch(cell.text.strip()) if isinstance(cell, Scalar) else None
+        units = [unit_name(word) for word in match.groups()[1:]] if match else []
+        upper, lower = map(unit_kind, units or ("", ""))
+        number, size = cell, Decimal(1)
+        self.ratios[path] = None
+        if match and upper and lower and isinstance(cell, Scalar):
+            self.ratios[path], number = (upper, lower), replace(cell, text=match[1])
+            size = EXACT.divide(*(to_si(size, unit) for unit in units))
+        value = self.value(number, path, Kind.NUMBER)
+        if value is None or not isinstance(cell, Scalar):
+            return None
+        self.places[path] = cell
+        out = to_float(EXACT.multiply(value.number, size))
+        if abs(out) <= RATIO:
+            return out
+        expected = f"expected a number from {-RATIO:g} to {RATIO:g}"
+        self.report.fault(cell.mark, path, f"found {found(cell)}; {expected}")
+        return None
 
     def _units(self, cell: Scalar) -> Units:
         """Units of a cell, its column's where the header names one."""

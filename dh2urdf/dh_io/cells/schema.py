@@ -9,13 +9,36 @@ from dh2urdf.dh import DHConvention, JointType
 from dh2urdf.dh_io.cells.units import Kind
 
 TABLE_KEYS = (
-    "name", "source", "checked", "convention", "units", "constants", "base", "tool", "joints",
+    "name", "source", "checked", "convention", "units", "constants", "base", "tool", "couplings",
+    "joints",
 )  # fmt: skip
 
 ROW_KEYS = (
-    "name", "type", "theta", "d", "a", "alpha", "sign", "lower", "upper", "velocity", "effort",
-    "damping", "friction", "mass", "com", "inertia", "inertia_frame", "xyz", "rpy",
-)  # fmt: skip
+    "name",
+    "type",
+    "theta",
+    "d",
+    "a",
+    "alpha",
+    "sign",
+    "mimic",
+    "lower",
+    "upper",
+    "serial_lower",
+    "serial_upper",
+    "velocity",
+    "effort",
+    "damping",
+    "friction",
+    "mass",
+    "com",
+    "inertia",
+    "inertia_frame",
+    "xyz",
+    "rpy",
+)
+
+MIMIC_KEYS = ("joint", "multiplier", "offset")  # fmt: skip
 
 ROW_KINDS = {
     "theta": Kind.ANGLE,
@@ -26,7 +49,10 @@ ROW_KINDS = {
     "xyz": Kind.LENGTH,
     "rpy": Kind.ANGLE,
 }
-"""What a row's cells measure; ``lower``, ``upper`` and ``velocity`` go by the joint's type."""
+"""What a row's cells measure; limits and ``velocity`` go by the joint's type."""
+
+BY_TYPE = ("lower", "upper", "serial_lower", "serial_upper", "velocity")
+"""What measures as the joint moves: lengths of one that slides, else angles."""
 
 _ALIASES = {
     "theta": ("th", "θ", "ϑ", "joint_angle"),
@@ -53,6 +79,8 @@ _ALIASES = {
     "effort": ("max_effort", "effort_limit", "torque", "max_torque"),
     "com": ("centre_of_mass", "center_of_mass", "cog", "centre_of_gravity", "center_of_gravity"),
     "joints": ("rows",),
+    "couplings": ("coupling",),
+    "mimic": ("mimics", "follows"),
 }
 _CANONICAL = {alias: key for key, aliases in _ALIASES.items() for alias in aliases}
 

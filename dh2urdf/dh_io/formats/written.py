@@ -3,12 +3,13 @@
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import NamedTuple
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
 from dh2urdf.dh.print import MINUS, Look, degrees, heads, html_page, table_latex, table_text
 from dh2urdf.dh.quoting import markdown
-from dh2urdf.dh_io.cells.schema import ROW_KEYS, ROW_KINDS
+from dh2urdf.dh_io.cells.schema import BY_TYPE, ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.cells.units import Kind, Units, decimal_text
 from dh2urdf.grids import grid_csv, grid_markdown
 
@@ -19,6 +20,7 @@ MARK = "written from a DH table"
 """In files for reading, by which their writer knows them again."""
 
 Quote = Callable[[str], str]
+Nest = Callable[[list[Field]], str]
 Widths = dict[str, int]
 
 _FIELDS = ROW_KEYS[ROW_KEYS.index("theta") : ROW_KEYS.index("inertia_frame")]
@@ -70,21 +72,54 @@ def _origin(origin: Origin, numbers: Numbers) -> list[Field]:
     ]
 
 
-def _row(row: DHRow, numbers: Numbers, quote: Quote) -> list[Field]:
+def _row(row: DHRow, table: DHTable, numbers: Numbers, quote: Quote, nest: Nest) -> list[Field]:
     """Cells of a row in the order of the keys, those left out that say nothing."""
     out: list[Field] = [("name", quote(row.name))] if row.name else []
     out.append(("type", quote(str(row.joint_type))))
     if row.origin is not None:
         return out + _origin(row.origin, numbers)
     moved = Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE
-    kinds = {**ROW_KINDS, **dict.fromkeys(("lower", "upper", "velocity"), moved)}
+    kinds = {**ROW_KINDS, **dict.fromkeys(BY_TYPE, moved)}
     for key in _FIELDS:
         value, kind = getattr(row, key), kinds.get(key, Kind.NUMBER)
         if value is None or (key == "sign" and value == 1):
             continue
+        if key == "mimic":
+            out.append((key, nest(_mimic(row, table, numbers, quote))))
+            continue
         each = [numbers.text(v, kind) for v in (value if isinstance(value, tuple) else (value,))]
         out.append((key, each if isinstance(value, tuple) else each[0]))
     return out
+
+
+def _mimic(row: DHRow, table: DHTable, numbers: Numbers, quote: Quote) -> list[Field]:
+    """What a row follows."""
+    mimic = row.mimic
+    assert mimic is not None
+    leader = table.joints[table.joint_names.index(mimic.joint)]
+    kind = Kind.LENGTH if row.joint_type is JointType.PRISMATIC else Kind.ANGLE
+    multiplier, offset = _ratio(mimic.multiplier, row, leader), numbers.text(mimic.offset, kind)
+    word = multiplier if "/" not in multiplier else quote(multiplier)
+    return [("joint", quote(mimic.joint)), ("multiplier", word), ("offset", offset)]
+
+
+def _ratio(value: float, row: DHRow, other: DHRow) -> str:
+    """A multiplier; between joints of two kinds in metres and radians, as it says itself."""
+    number = decimal_text(value)
+    if (row.joint_type is JointType.PRISMATIC) is (other.joint_type is JointType.PRISMATIC):
+        return number
+    return f"{number}{'m/rad' if row.joint_type is JointType.PRISMATIC else 'rad/m'}"
+
+
+def _couplings(table: DHTable, equals: str, key: Quote, quote: Quote) -> str:
+    """Couplings in braces: ``{joint_3: {joint_2: 1}}``."""
+    joints = dict(zip(table.joint_names, table.joints, strict=True))
+    parts: list[Field] = []
+    for name, terms in table.couplings.items():
+        ratios = ((o, _ratio(value, joints[name], joints[o])) for o, value in terms.items())
+        fields: list[Field] = [(o, r if "/" not in r else quote(r)) for o, r in ratios]
+        parts.append((name, _inline(fields, equals, key)))
+    return _inline(parts, equals, key)
 
 
 def _escaped(text: str) -> str:
@@ -122,9 +157,19 @@ def _json_word(text: str) -> str:
 
 def _line_word(text: str) -> str:
     """Text for one line of a CSV or Markdown file."""
-    if _is_plain_line(text):
-        return text
-    return _MARKUP.sub(lambda sign: f"\\u{ord(sign[0]):04x}", json.dumps(text))
+    return text if _is_plain_line(text) else _quoted(text)
+
+
+def _quoted(text: str, quote: Quote = json.dumps) -> str:
+    """The same in double quotes."""
+    return _MARKUP.sub(lambda sign: f"\\u{ord(sign[0]):04x}", quote(text))
+
+
+def _words_of(fields: list[Field]) -> str:
+    """A row's mimic in a cell: ``joint_5 -1 0``; a name that is not one word in double quotes."""
+    joint, multiplier, offset = (str(value) for _, value in fields)
+    word = joint if joint[:1] == '"' or _PLAIN.fullmatch(joint) else _quoted(joint)
+    return " ".join([word, multiplier.strip('"'), offset])
 
 
 def _inline(fields: Sequence[Field], equals: str, key: Quote, widths: Widths | None = None) -> str:
@@ -153,7 +198,10 @@ def _parts(
     pair: list[Field] = [("length", word(units.length)), ("angle", word(units.angle))]
     steps = [("units", pair), *_origins(table, numbers)]
     head += [f"{key(k)}{equals}{_inline(fields, equals, key)}" for k, fields in steps]
-    rows = [_row(row, numbers, word) for row in table.rows]
+    if table.couplings:
+        head.append(f"{key('couplings')}{equals}{_couplings(table, equals, word, word)}")
+    nest = partial(_inline, equals=equals, key=key)
+    rows = [_row(row, table, numbers, word, nest) for row in table.rows]
     widths = _widths(rows)
     return head, [_inline(row, equals, key, widths) for row in rows]
 
@@ -181,6 +229,9 @@ def _lines(table: DHTable, numbers: Numbers) -> list[str]:
     lines.append(f"units: {', '.join(numbers.units)}")
     for key, fields in _origins(table, numbers):
         lines += [f"{key}.{part}: {' '.join(values)}" for part, values in fields]
+    if table.couplings:
+        name = partial(_quoted, quote=_escaped)
+        lines.append(f"couplings: {_couplings(table, ': ', name, name)}")
     return lines
 
 
@@ -188,7 +239,7 @@ def _grid(
     table: DHTable, numbers: Numbers, heads: Mapping[str, str]
 ) -> tuple[list[str], list[list[str]]]:
     """Header and cells; a column that no row fills is left out, save the four parameters."""
-    rows = [dict(_row(row, numbers, _line_word)) for row in table.rows]
+    rows = [dict(_row(row, table, numbers, _line_word, _words_of)) for row in table.rows]
     keys = [k for k in ROW_KEYS if k in ("theta", "d", "a", "alpha") or any(k in r for r in rows)]
     cells = ([r.get(k, "") for k in keys] for r in rows)
     texts = [[c if isinstance(c, str) else " ".join(c) for c in row] for row in cells]

@@ -152,8 +152,8 @@ def write_ros2_package(
 def home_of(table: DHTable) -> dict[str, float]:
     """Each joint's value [rad, m] at home: zero where its limits allow, else their middle."""
     values = {}
-    for name, row in zip(table.joint_names, table.joints, strict=True):
-        lower, upper = default_limits(row, table)
+    for i, name in enumerate(table.joint_names):
+        lower, upper = default_limits(table, i)
         values[name] = 0.0 if lower <= 0.0 <= upper else 0.5 * (lower + upper)
     return values
 

@@ -186,7 +186,7 @@ def place_solver(carried: CarriedPoint, low: Array, high: Array) -> Callable[[Ar
     free = np.array([True, False, False])
     lower, upper = np.where(free, -np.inf, low), np.where(free, np.inf, high)
     chain = replace(carried.chain, lower=lower, upper=upper)
-    solver = InverseKinematics(chain, lambda q: chain.fk(q[0])[None])
+    solver = InverseKinematics(chain, None, lambda q: chain.fk(q[0])[None])
     asked = "position", None, True, None, False
 
     def solve(places: Array) -> IKBatch:

@@ -44,7 +44,7 @@ ANYWHERE = "pose", None, False, None, False
 
 @cache
 def solver_of(chain):
-    return InverseKinematics(chain, partial(ref.forward, chain))
+    return InverseKinematics(chain, None, partial(ref.forward, chain))
 
 
 def lost(chain, q):

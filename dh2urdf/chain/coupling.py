@@ -1,0 +1,137 @@
+"""What moves and what is moved: the values q of a robot, and the joints of its chain.
+
+They differ where a joint follows another (a hollow wrist, a parallelogram, ``<mimic>`` of a URDF)
+and where a controller counts an angle otherwise than from the link before, such as FANUC's J3 from
+the level: ``q_chain = matrix @ q + offset``.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain.serial_chain import SerialChain, settled_state
+from dh2urdf.dh import DHTable, Mimic
+from dh2urdf.transforms import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling:
+    """``q_chain = matrix @ q + offset``.
+
+    Parameters
+    ----------
+    matrix, offset : array, shape (chain.n, n) and (chain.n,)
+    names : tuple of n str
+        Joints whose values q are.
+    lower, upper : array, shape (n,)
+        Bounds of q [rad] or [m], within which every follower of one value stays in its own; what
+        moves by several values is bounded by the chain's limits, too.
+    prismatic : array of bool, shape (n,)
+        True where a value is a length.
+    warnings : tuple of str
+        Joints whose own bounds leave nothing of those of the others, and so count for nothing.
+    """
+
+    matrix: Array
+    offset: Array
+    names: tuple[str, ...]
+    lower: Array
+    upper: Array
+    prismatic: NDArray[np.bool_]
+    warnings: tuple[str, ...] = ()
+
+    __getstate__ = settled_state
+
+    @property
+    def n(self) -> int:
+        """Number of values."""
+        return len(self.names)
+
+    @cached_property
+    def inverse(self) -> Array | None:
+        """The matrix (n, chain.n) back to the values, None where it is not square."""
+        square = self.matrix.shape[0] == self.matrix.shape[1]
+        return np.asarray(np.linalg.inv(self.matrix), float) if square else None
+
+    def joints(self, q: Array) -> Array:
+        """Joints of the chain (..., chain.n) at values q (..., n)."""
+        return q @ self.matrix.T + self.offset
+
+    def values(self, joints: Array) -> Array:
+        """Values q (..., n) of joints (..., n) of a square coupling."""
+        assert self.inverse is not None
+        out: Array = (joints - self.offset) @ self.inverse.T
+        return out
+
+
+def follow(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
+    """The coupling of a chain of which joints follow others; None where none does.
+
+    A leader that is not on the chain itself is still a value of q, since it moves the tip.
+    """
+    if not any(name in mimics for name in chain.names):
+        return None
+    terms = [_resolve(name, mimics) for name in chain.names]
+    names = tuple(dict.fromkeys(leader for leader, _, _ in terms))
+    matrix = np.zeros((chain.n, len(names)))
+    offset = np.array([constant for _, _, constant in terms])
+    for k, (leader, factor, _) in enumerate(terms):
+        matrix[k, names.index(leader)] = factor
+    first = [int(np.flatnonzero([t[0] == name for t in terms])[0]) for name in names]
+    own = [
+        chain.names.index(v) if v in chain.names else k for v, k in zip(names, first, strict=True)
+    ]
+    bounds = np.full(len(names), -np.inf), np.full(len(names), np.inf)
+    return _bounded(chain, Coupling(matrix, offset, names, *bounds, chain.prismatic[own]))
+
+
+def coupling_of(table: DHTable, chain: SerialChain) -> Coupling | None:
+    """The coupling of a table's chain; None where every joint is at a value of its own."""
+    joints = table.joint_map
+    if joints is None:
+        return None
+    rows, own = table.joints, list(joints.own)
+    low = [-np.inf if rows[i].lower is None else rows[i].lower for i in own]
+    high = [np.inf if rows[i].upper is None else rows[i].upper for i in own]
+    names = tuple(chain.names[i] for i in own)
+    bounds = np.array(low, float), np.array(high, float)
+    return _bounded(
+        chain, Coupling(joints.matrix, joints.offset, names, *bounds, chain.prismatic[own])
+    )
+
+
+def _bounded(chain: SerialChain, given: Coupling) -> Coupling:
+    """The coupling, its bounds narrowed by those of joints that move by one value alone."""
+    lower, upper, warnings = given.lower.copy(), given.upper.copy(), []
+    for k in sorted(range(chain.n), key=lambda k: chain.names[k] not in given.names):
+        moving = np.flatnonzero(given.matrix[k])
+        if len(moving) != 1:
+            continue
+        v, factor = int(moving[0]), given.matrix[k, moving[0]]
+        own = chain.lower[k], chain.upper[k]
+        low, high = sorted((bound - given.offset[k]) / factor for bound in own)
+        if max(lower[v], low) <= min(upper[v], high):
+            lower[v], upper[v] = max(lower[v], low), min(upper[v], high)
+        else:
+            warnings.append(
+                f"joint {chain.names[k]!r}: its limits exclude those of {given.names[v]!r}, which "
+                "it follows; left out"
+            )
+    return Coupling(
+        given.matrix, given.offset, given.names, lower, upper, given.prismatic, tuple(warnings)
+    )
+
+
+def _resolve(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:
+    """Leader, factor and constant of a joint, through chains of mimics."""
+    factor, constant, seen = 1.0, 0.0, {name}
+    while name in mimics and mimics[name].joint not in seen:
+        mimic = mimics[name]
+        constant += factor * mimic.offset
+        factor *= mimic.multiplier
+        name = mimic.joint
+        seen.add(name)
+    return name, factor, constant
