@@ -10,14 +10,20 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf import kernels
 from dh2urdf.kernels import blocks
 from dh2urdf.translate.c_file import CFile
 from dh2urdf.translate.definitions import ELEMENT, HELPERS, folded, home_of, number
 from dh2urdf.translate.source import Source
 from dh2urdf.translate.types import ELEMENTS, Array, Fixed, Tuple
 
-ONE_POSE = {"POSES": 1, "LANES": 1, "BLOCK": blocks.ARMS}
-"""The sizes of a block that has one pose, so that it needs a few kilobytes of stack."""
+SMALL = {
+    "blocks.POSES": 1,
+    "blocks.LANES": 1,
+    "blocks.BLOCK": blocks.ARMS,
+    "two_parallel.branches.TOGETHER": 8,
+}
+"""Sizes of blocks, of one pose, and of parts of a pose, that need a few kilobytes of stack."""
 
 HEAD = """/* A loop whose turns do not depend on one another. */
 #if defined(__GNUC__) && !defined(__clang__)
@@ -29,9 +35,10 @@ HEAD = """/* A loop whose turns do not depend on one another. */
 
 @cache
 def _changed(home: ModuleType, name: str) -> int | None:
-    """A constant of a module that follows from the size of a block, where that has one pose."""
-    if home is blocks and name in ONE_POSE:
-        return ONE_POSE[name]
+    """A constant of a module that follows from the sizes of small blocks."""
+    place = f"{home.__name__}.{name}".removeprefix(f"{kernels.__name__}.")
+    if place in SMALL:
+        return SMALL[place]
     found = None
     for s in ast.parse(inspect.getsource(home)).body:
         match s:

@@ -131,37 +131,46 @@ def elbows(form, slack, wrist, n, S):
         S[valid + i] = exists if reached else 0.0
 
 
+def _solve_block(arm, Ts, within_limits, first, n, outputs):
+    """Poses Ts[first : first + n]; the count of one that is not clean is -1."""
+    (_, joints), form, ends, slack = arm
+    arms, S = ARMS * n, np.empty(ROWS * BLOCK)
+    load_poses(ends, form[0, 3], Ts, first, n, S)
+    sides(n, S)
+    share(POSE, COS, n, S)
+    _shoulders(form, slack, n, S)
+    share(POSE, COS + 1, 2 * n, S)
+    share(SIN, SIN + 1, 2 * n, S)
+    for wrist in range(2):
+        share(COS + 6 * wrist + 4, COS + 6 * wrist + 6, 2 * n, S)
+        share(SIN + 6 * wrist + 4, SIN + 6 * wrist + 6, 2 * n, S)
+    share(VALID, VALID + 2, 2 * n, S)
+    for wrist in range(2):
+        _planes(form, wrist, arms, S)
+        elbows(form, slack, wrist, arms, S)
+        r = 6 * wrist
+        measure(form, ends[2], arms, S, wrist, 0, r + 1, r + 2, r + 3, r + 4, r + 5)
+    emit(form, joints, ANGLES, within_limits, IN_ORDER, True, first, n, S, outputs)
+
+
+def _solve_rest(arm, Ts, within_limits, first, n, outputs):
+    """Those of them that are not clean, one by one."""
+    (_, form, ends, slack), (q, residual, count, branch, free) = arm, outputs
+    for i in range(first, first + n):
+        if count[i] < 0:
+            scratch = make_scratch()
+            tool_to_wrist(ends, Ts[i], scratch[0])
+            pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
+            out = q[i], residual[i], branch[i], free[i]
+            found = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
+            count[i] = found if found >= 0 else (-1 - found) % DEEP
+
+
 @entry(n=6, solutions=8)
 def solve_common_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.parallel_axes.poses.solve_three_parallel` for the common geometry."""
-    (_, joints), form, ends, slack = arm
-    q, residual, count, branch, free = outputs
-    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
-    for first in range(0, m, POSES):
-        n = min(POSES, m - first)
-        arms = ARMS * n
-        load_poses(ends, form[0, 3], Ts, first, n, S)
-        sides(n, S)
-        share(POSE, COS, n, S)
-        _shoulders(form, slack, n, S)
-        share(POSE, COS + 1, 2 * n, S)
-        share(SIN, SIN + 1, 2 * n, S)
-        for wrist in range(2):
-            share(COS + 6 * wrist + 4, COS + 6 * wrist + 6, 2 * n, S)
-            share(SIN + 6 * wrist + 4, SIN + 6 * wrist + 6, 2 * n, S)
-        share(VALID, VALID + 2, 2 * n, S)
-        for wrist in range(2):
-            _planes(form, wrist, arms, S)
-            elbows(form, slack, wrist, arms, S)
-            r = 6 * wrist
-            measure(form, ends[2], arms, S, wrist, 0, r + 1, r + 2, r + 3, r + 4, r + 5)
-        emit(form, joints, ANGLES, within_limits, IN_ORDER, True, first, n, S, outputs)
-        for i in range(first, first + n):
-            if count[i] < 0:
-                scratch = make_scratch()
-                tool_to_wrist(ends, Ts[i], scratch[0])
-                pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
-                out = q[i], residual[i], branch[i], free[i]
-                found = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
-                count[i] = found if found >= 0 else (-1 - found) % DEEP
+    for first in range(0, Ts.shape[0], POSES):
+        n = min(POSES, Ts.shape[0] - first)
+        _solve_block(arm, Ts, within_limits, first, n, outputs)
+        _solve_rest(arm, Ts, within_limits, first, n, outputs)
     return 0

@@ -178,37 +178,49 @@ def _wrists(form, n, S):
         S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
+def _solve_block(arm, Ts, within_limits, first, n, outputs):
+    """Poses Ts[first : first + n]; the count of one that is not clean is -1."""
+    (_, joints), form, ends, slack = arm
+    arms, S = ARMS * n, np.empty(ROWS * BLOCK)
+    load_poses(ends, form[0, 3], Ts, first, n, S)
+    sides(n, S)
+    share(POSE, COS, n, S)
+    _shoulders(form, slack, 2 * n, S)
+    if form[2, 5] != 0.0:
+        _slides(form, slack, arms, S)
+    else:
+        _elbows(form, slack, arms, S)
+    _wrists(form, arms, S)
+    measure(form, ends[2], arms, S, 0, 0, 1, 2, 3, 4, 5)
+    for i in side_by_side(arms):
+        S[BLOCK * (RESIDUAL + 1) + i] = S[BLOCK * RESIDUAL + i]
+    named = form[2, 5] == 0.0
+    emit(form, joints, ANGLES, within_limits, IN_ORDER, named, first, n, S, outputs)
+
+
+def _solve_rest(arm, Ts, within_limits, first, n, outputs):
+    """Those of them that are not clean, one by one; how many are in doubt."""
+    (q, residual, count, branch, free), doubts = outputs, 0
+    slides = arm[1][2, 5] != 0.0
+    for i in range(first, first + n):
+        if count[i] < 0:
+            out = q[i], residual[i], branch[i], free[i]
+            scratch = make_scratch()
+            count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
+            # beside a slide at zero joint 2 hardly turns the tool
+            if count[i] < 0 and slides:
+                doubts += 1
+            elif count[i] < 0:
+                count[i] = (-1 - count[i]) % DEEP
+    return doubts
+
+
 @entry(n=6, solutions=8)
 def solve_common_wrist(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """:func:`dh2urdf.kernels.spherical_wrist.poses.solve_wrist_arm` for the common geometry."""
-    (_, joints), form, ends, slack = arm
-    q, residual, count, branch, free = outputs
-    m, S = Ts.shape[0], np.empty(ROWS * BLOCK)
-    slides, doubts = form[2, 5] != 0.0, 0
-    for first in range(0, m, POSES):
-        n = min(POSES, m - first)
-        arms = ARMS * n
-        load_poses(ends, form[0, 3], Ts, first, n, S)
-        sides(n, S)
-        share(POSE, COS, n, S)
-        _shoulders(form, slack, 2 * n, S)
-        if slides:
-            _slides(form, slack, arms, S)
-        else:
-            _elbows(form, slack, arms, S)
-        _wrists(form, arms, S)
-        measure(form, ends[2], arms, S, 0, 0, 1, 2, 3, 4, 5)
-        for i in side_by_side(arms):
-            S[BLOCK * (RESIDUAL + 1) + i] = S[BLOCK * RESIDUAL + i]
-        emit(form, joints, ANGLES, within_limits, IN_ORDER, not slides, first, n, S, outputs)
-        for i in range(first, first + n):
-            if count[i] < 0:
-                out = q[i], residual[i], branch[i], free[i]
-                scratch = make_scratch()
-                count[i] = solve_pose(arm, Ts[i], within_limits, out, scratch)
-                # beside a slide at zero joint 2 hardly turns the tool
-                if count[i] < 0 and slides:
-                    doubts += 1
-                elif count[i] < 0:
-                    count[i] = (-1 - count[i]) % DEEP
+    doubts = 0
+    for first in range(0, Ts.shape[0], POSES):
+        n = min(POSES, Ts.shape[0] - first)
+        _solve_block(arm, Ts, within_limits, first, n, outputs)
+        doubts += _solve_rest(arm, Ts, within_limits, first, n, outputs)
     return doubts

@@ -24,6 +24,9 @@ FIT, GAP, SEEDS = 12, 13, 14
 """Rows of a branch below six cosines and six sines: how badly it fits, and the square of a sine,
 which may be negative; the number of rows."""
 
+TOGETHER = LANES
+"""Values of joint 1 that are looked at together, a multiple of eight."""
+
 BEYOND = 1e-6
 WIDELY_BEYOND = 0.1
 """By how much the square of a sine may be negative."""
@@ -165,7 +168,7 @@ def _lay(form, seen, hidden, k, seeds):
 
 
 def lay_branch(form, seen, hidden, n, sides, seeds):
-    """One branch at n values of joint 1, cosines and sines ``hidden`` (2, 24), to seeds (14, 24).
+    """One branch at n values of joint 1, cosines and sines ``hidden`` (2, 24), to seeds (14, n).
 
     Cosines and sines of the six axes, how badly the planar arm reaches, and a square that should
     not be negative.

@@ -27,7 +27,14 @@ from dh2urdf.kernels.rigid import (
     turned,
 )
 from dh2urdf.kernels.shapes import Chain, Outputs, Poses
-from dh2urdf.kernels.two_parallel.branches import MOST, SEEDS, lay_branch, take_elbows, take_seed
+from dh2urdf.kernels.two_parallel.branches import (
+    MOST,
+    SEEDS,
+    TOGETHER,
+    lay_branch,
+    take_elbows,
+    take_seed,
+)
 from dh2urdf.kernels.two_parallel.polynomial import TwoParallel, cross, sample, vector
 
 CONVERGED = 1e-14
@@ -136,21 +143,24 @@ def _follow(form, seen, values, count, wide, converged, found, out_q, out_residu
 
     Where ``wide``, also from seeds that fit badly or are for special positions.
     """
-    hidden, n, lane = arm["hidden"], (count + 7) // 8 * 8, 0
-    for k in side_by_side(n):
-        hidden[1, k], hidden[0, k] = sincos(values[k])
-    for b in range(4):
-        sides = 1.0 - 2.0 * (b // 2), 1.0 - 2.0 * (b % 2)
-        lay_branch(form, seen, hidden, n, sides, branches[b])
+    hidden, lane = arm["hidden"], 0
     for k in range(count):
+        i = k % TOGETHER
+        if i == 0:
+            n = min((count - k + 7) // 8 * 8, TOGETHER)
+            for j in side_by_side(n):
+                hidden[1, j], hidden[0, j] = sincos(values[k + j])
+            for b in range(4):
+                sides = 1.0 - 2.0 * (b // 2), 1.0 - 2.0 * (b % 2)
+                lay_branch(form, seen, hidden, n, sides, branches[b])
         for b in range(4):
-            lane = take_seed(form, branches[b], k, wide, lane, arm)
+            lane = take_seed(form, branches[b], i, wide, lane, arm)
             if wide:
-                lane = take_elbows(form, seen, branches[b], k, lane, arm)
+                lane = take_elbows(form, seen, branches[b], i, lane, arm)
         if lane > LANES - (MOST if wide else 4) or (k == count - 1 and lane > 0):
             polish_lanes(lane, 0, converged, arm)
-            for i in range(lane):
-                found, _ = keep_lane(i, found, out_q, out_residual, arm)
+            for j in range(lane):
+                found, _ = keep_lane(j, found, out_q, out_residual, arm)
             lane = 0
     return found
 
@@ -224,7 +234,7 @@ def solve_two_parallel(
     q, residual, count, branch, free = outputs
     doubts = 0
     arm, D, seen = arms[0], np.empty((4, 4)), np.empty((9, 3))
-    branches = np.empty((4, SEEDS, LANES))
+    branches = np.empty((4, SEEDS, TOGETHER))
     for i in range(Ts.shape[0]):
         found = _solve_pose(form, Ts[i], q[i], residual[i], arm, D, seen, branches)
         for k in range(found):

@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -30,6 +31,9 @@ Ned 2, whose solver is a polynomial."""
 
 HELD = {"franka_fer": 6, "kuka_iiwa14": 2}
 """Joints that are held of arms with one to spare."""
+
+SMALL = 16384
+"""Bytes of the stack that any arm's functions take at most."""
 
 SAME = ("-O2", "-ffp-contract=off")
 
@@ -97,6 +101,10 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
     found = arm.run(q)["any"]
     assert_same(found, arm.robot.ik_batch(arm.robot.fk(q), within_limits=False))
     assert found["complete"].mean() > MOSTLY.get(solver, 0.7)
+
+
+STACKS = dict.fromkeys([*FAMILIES.split(), *HELD]) | {"general 6R": other_arms()["general 6R"]}
+"""Arms of each kind of kernels, and the tables of those that do not ship."""
 
 
 @pytest.mark.exhaustive
@@ -169,9 +177,11 @@ def test_what_is_no_pose_has_no_solutions(tmp_path):
     assert (arm.run(np.zeros((2, 6)), Ts)["any"]["count"] == 0).all()
 
 
-def test_the_stack_that_is_stated_suffices(tmp_path):
+@pytest.mark.parametrize("name", STACKS)
+def test_the_stack_that_is_stated_suffices(name, tmp_path):
     """The frames that gcc makes, not optimised, add up to no more."""
-    arm = Arm(Robot.from_dh("puma560"), tmp_path)
+    robot = Robot.from_dh(STACKS[name] or name)
+    arm = Arm(robot, tmp_path, HELD.get(name))
     arm.compile("-O0", "-fstack-usage")
     [listing] = tmp_path.glob("*.su")
     lines = [re.split(r"[:\t]", line) for line in listing.read_text().splitlines()]
@@ -184,7 +194,17 @@ def test_the_stack_that_is_stated_suffices(tmp_path):
         inner = set(re.findall(r"\w+(?=\()", bodies[name])) & bodies.keys()
         return frames[name] + 16 + max(map(most, inner), default=0)
 
-    assert most("arm_ik_near") <= arm.made.stack
+    assert most("arm_ik_near") <= arm.made.stack <= SMALL
+
+
+@pytest.mark.parametrize("name", list_tables())
+def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name):
+    """Writing takes less than two seconds of the processor, what is written 16 KB of stack."""
+    robot = Robot.from_dh(name)
+    start = time.process_time()
+    made = exported(robot, language="c", held=robot.solver.joint if robot.n == 7 else None)
+    assert time.process_time() - start < 2.0
+    assert made.stack <= SMALL
 
 
 def test_names_begin_with_the_arms(tmp_path):
