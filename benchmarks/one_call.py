@@ -1,22 +1,24 @@
 """``python -m benchmarks.one_call``: what one call costs, and what comes before the first answer.
 
 Of each arm, medians over interleaved rounds: ``robot.ik(T)`` within the limits, the same with a
-seed, or with a joint of an arm of seven held (``franka_fer:6``), ``robot.fk(q)`` and
-``robot.jacobian(q)`` in this process; and over processes of their own, the time to import the
-package, build the robot and solve the first pose, and that of ``dh2urdf ik`` as a whole.
+seed, or with a joint of an arm of seven held (``franka_fer:6``), ``robot.fk(q)``,
+``robot.jacobian(q)`` and ``robot.with_table`` of tables that differ by a tenth of a millimetre,
+without and with a first solution, in this process; and over processes of their own, the time to
+import the package, build the robot and solve the first pose, and that of ``dh2urdf ik`` as a whole.
 """
 
 import argparse
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from benchmarks.clock import Block, each, interleaved
 from benchmarks.compare import table
-from dh2urdf import Robot
+from dh2urdf import DHTable, Robot
 
 ARMS = ("puma560", "denso_vs060", "stanford", "kuka_kr6_r700", "ur5", "ur10e", "planar_rr")
 ARMS += ("omron_cobra600", "fanuc_crx10ia", "franka_fer:6", "kuka_iiwa7:2")
@@ -57,17 +59,33 @@ def main() -> None:
         blocks[f"{arm} seeded"] = each(partial(solve, seed=q[0]), robot.fk(q))
         blocks[f"{arm} fk"] = each(robot.fk, q)
         blocks[f"{arm} jacobian"] = each(robot.jacobian, q)
+        tables = [_moved(robot.table, move) for move in rng.normal(0.0, 1e-4, 50)]
+        blocks[f"{arm} table"] = each(robot.with_table, tables)
+        blocks[f"{arm} table, ik"] = each(partial(_first_of, robot, robot.fk(q[0])), tables)
     found = interleaved(blocks, given.seconds, most=400)
     rows = []
     for arm in given.arms:
-        name, asked = arm.partition(":")[0], ("ik", "seeded", "fk", "jacobian")
+        name = arm.partition(":")[0]
+        asked = "ik", "seeded", "fk", "jacobian", "table", "table, ik"
         calls = [f"{1e6 * found[f'{arm} {what}'].median:.2f}" for what in asked]
         first = [_first(name) for _ in range(given.processes)]
         whole = [_whole(name) for _ in range(given.processes)]
         rows.append([arm, *calls, *(f"{np.median(t):.2f}" for t in (first, whole))])
     head = ["arm", "ik, us", "with a seed, us", "fk, us", "jacobian, us"]
+    head += ["with_table, us", "and its first ik, us"]
     head += ["first ik in Python, s", "dh2urdf ik, s"]
     print(table(head, rows))
+
+
+def _moved(table: DHTable, move: float) -> DHTable:
+    """The table with a longer first offset [m]."""
+    first, *others = table.rows
+    return replace(table, rows=(replace(first, d=first.d + move), *others))
+
+
+def _first_of(robot: Robot, T: np.ndarray, table: DHTable) -> None:
+    """The first solution of a robot like another one."""
+    robot.with_table(table).ik(T)
 
 
 def _first(name: str) -> float:

@@ -34,6 +34,7 @@ from dh2urdf.kernels.chain import (
     chain_jacobian,
     chain_jacobian_batch,
 )
+from dh2urdf.robot.another_table import RobotOfAnotherTable
 from dh2urdf.robot.explained import RobotExplained
 from dh2urdf.robot.formulas import RobotFormulas
 from dh2urdf.robot.lazily import is_lazy, lazy_fk
@@ -59,7 +60,7 @@ class _Working(threading.local):
         return _Working, (self._model,)
 
 
-class Robot(RobotExplained, RobotPictures, RobotFormulas):
+class Robot(RobotExplained, RobotPictures, RobotFormulas, RobotOfAnotherTable):
     """Kinematics of the chain from ``base`` to ``tip`` of a Pinocchio model.
 
     Made by :meth:`from_dh` or :meth:`from_urdf`. Any number of threads may call it at once.

@@ -14,6 +14,11 @@ print(*sys.modules)
 """
 
 NOT_NEEDED = ("configparser", "email", "http", "numpy.ma", "scipy", "sympy", "urllib.request")
+NOT_NEEDED += (
+    "dh2urdf.conversions.assign",
+    "dh2urdf.conversions.forms",
+    "dh2urdf.dh_io.formats.csv",
+)
 
 
 @pytest.fixture(scope="module")
