@@ -52,6 +52,9 @@ class MapCut(NamedTuple):
 def open_map(source: Any) -> xarray.Dataset:
     """A map as of :func:`reach_map`: the dataset itself, or the path or URL of its Zarr group.
 
+    Of Zarr's formats only 3 is read, which maps are written in: arrays of format 2 may hold
+    pickles, which are code.
+
     Raises
     ------
     ArgumentError
@@ -68,7 +71,7 @@ def open_map(source: Any) -> xarray.Dataset:
         if "://" not in where and not Path(source).is_dir():
             raise ArgumentError(f"{source}: no such map; `dh2urdf map` writes one")
         try:
-            found = xr.open_zarr(source, consolidated=False)
+            found = xr.open_zarr(source, consolidated=False, zarr_format=3)
         except Exception as fault:  # of zarr, numcodecs, xarray: what is there is no group
             raise ArgumentError(f"{source}: no map that can be read: {fault}") from None
     if not isinstance(found, xr.Dataset) or "share" not in found or found.share.ndim != 3:

@@ -13,9 +13,10 @@ from benchmarks.compare import table
 from benchmarks.results import Results
 from benchmarks.targets import target_rows
 from dh2urdf.checks import RULES, Finding, check_urdf
+from tests.helpers import licences as installed
 from tests.helpers import urdf_faults
 
-__all__ = ["arms", "commands", "examples", "measured", "rules", "schemas"]
+__all__ = ["arms", "commands", "examples", "licences", "measured", "rules", "schemas"]
 
 ROOT = Path(__file__).parents[2]
 SUBJECTS = {
@@ -115,6 +116,12 @@ def _described(value: dict[str, Any], schema: dict[str, Any]) -> tuple[str, str]
     if "enum" in value:
         kind = ", ".join(f"`{json.dumps(word)}`" for word in value["enum"])
     return kind, _plain(value.get("description", ""))
+
+
+def licences() -> str:
+    """What the users' extras bring, each with its licence and what asks for it."""
+    rows = [(one.name, one.licence, one.needed_by) for one in installed.licences("all")]
+    return table(("package", "licence", "needed by"), rows)
 
 
 def measured(part: str) -> str:

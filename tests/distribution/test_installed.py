@@ -3,21 +3,23 @@
 Environments are new ones, made by uv from a package index: ``pytest -m install``.
 """
 
+import json
 import os
 import re
 import subprocess
 import sys
 import tarfile
-import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+from licences import PROJECT, asked
+from packaging.version import Version
 
 pytestmark = pytest.mark.install
 
 ROOT = Path(__file__).parents[2]
-EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"]
+EXTRAS = PROJECT["optional-dependencies"]
 
 VIEW = """
 import urllib.request, dh2urdf
@@ -53,7 +55,7 @@ DEVELOPERS = {
 
 LOWEST = (
     "tests/dh tests/dh_io tests/cli tests/robot tests/conversions tests/figures tests/page "
-    "-k 'not test_labels'"
+    "tests/workspace tests/symbolic -k 'not test_labels'"
 )
 """What is run on the lowest versions: all that calls other packages. Where letters stand in a
 figure is measured with those of the current matplotlib; older ones set them otherwise."""
@@ -181,13 +183,57 @@ def test_an_extra_for_developers_is_enough(built, sources, tmp_path, extra):
     assert done.returncode == 0, (done.stdout[-2000:], done.stderr[-2000:])
 
 
+def lowest(folder, wheel, *extras):
+    """An environment with the lowest version of each package that pyproject.toml names."""
+    named = sorted(set(asked(extras)))
+    environment = Environment(folder, "--resolution", "lowest-direct", *named)
+    uv("pip", "install", "-q", "--no-deps", "--python", environment.python, wheel)
+    listed = uv("pip", "list", "--format", "json", "--python", environment.python).stdout
+    versions = {package["name"]: Version(package["version"]) for package in json.loads(listed)}
+    assert Version("4") <= versions["pin"] < Version("4.1"), "these are not the lowest versions"
+    return environment
+
+
 def test_the_lowest_versions_that_are_allowed_are_enough(built, sources, tmp_path):
     """The tests pass on the oldest of everything that pyproject.toml names; old ones may warn."""
-    lowest = "--resolution", "lowest-direct", f"{built[1]}[test]"
-    environment = Environment(tmp_path, *lowest)
+    environment = lowest(tmp_path, built[1], "test")
     run = "rm -r dh2urdf && python -m pytest -q -n 2 -W ignore::DeprecationWarning"
     done = environment.run(f"{run} {LOWEST}", sources)
     assert done.returncode == 0, done.stdout[-4000:]
+
+
+def test_the_wheel_serves_every_purpose_on_the_lowest_versions(built, tmp_path):
+    """What each extra is for succeeds on the oldest of everything that users' extras name."""
+    environment = lowest(tmp_path, built[1], "all")
+    for command in USES.values():
+        done = environment.run(command)
+        assert done.returncode == 0, done.stderr
+
+
+def audited(packages, folder):
+    """What pip-audit says of packages with their versions; skipped where it cannot say."""
+    (folder / "packages.txt").write_text("\n".join(packages))
+    tool = (
+        f"{sys.executable} -m uv tool run pip-audit -r packages.txt --no-deps --disable-pip -f json"
+    )
+    done = subprocess.run(
+        tool.split(), cwd=folder, capture_output=True, text=True, check=False, timeout=300
+    )
+    if not done.stdout.startswith("{"):
+        pytest.skip(f"no database of advisories in reach: {done.stderr[-200:]}")
+    found = json.loads(done.stdout)["dependencies"]
+    if all("skip_reason" in package for package in found):
+        pytest.skip(f"this package index tells no advisories: {found[0]['skip_reason']}")
+    return [package for package in found if package.get("vulns")]
+
+
+def test_no_advisory_stands_against_what_users_install(built, tmp_path):
+    """pip-audit finds nothing against the newest versions of all that `all` brings."""
+    audited(["numpy==2.0.0"], tmp_path)  # one first: is there an answer at all?
+    environment = Environment(tmp_path, f"{built[1]}[all]")
+    listed = uv("pip", "freeze", "--python", environment.python).stdout.splitlines()
+    packages = [line for line in listed if "==" in line and not line.startswith("dh2urdf")]
+    assert audited(packages, tmp_path) == []
 
 
 def test_the_citation_is_valid():

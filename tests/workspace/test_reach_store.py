@@ -3,16 +3,19 @@
 import errno
 import json
 import os
+import pickle
 import shutil
 import signal
 import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
 import xarray
+from hostile import outcome
 
 import dh2urdf
 from dh2urdf import Robot
@@ -27,6 +30,17 @@ GIVEN = {"step": 0.1, "orientations": 2800, "region": ((0.0, 0.8), (-0.4, 0.4), 
 @pytest.fixture(scope="module")
 def ur5e():
     return Robot.from_dh("ur5e")
+
+
+SMALL = {"step": 0.4, "orientations": 2, "region": ((0.0, 0.4), (0.0, 0.4), (0.0, 0.4))}
+
+
+@pytest.fixture(scope="module")
+def small(ur5e, tmp_path_factory):
+    """A stored map of one voxel."""
+    path = tmp_path_factory.mktemp("small") / "arm.zarr"
+    reach_map(ur5e, **SMALL, store=path).close()
+    return path
 
 
 @pytest.fixture(scope="module")
@@ -157,6 +171,50 @@ def test_what_is_no_map_stays_untouched(ur5e, tmp_path, kind):
     with pytest.raises(OutputExistsError, match=r"arm\.zarr"):
         reach_map(ur5e, **GIVEN, store=path)
     assert files(tmp_path) == before
+
+
+def test_a_pickle_in_a_store_is_never_loaded(ur5e, tmp_path, monkeypatch):
+    """Zarr's format 2 may hold pickles, which are code: no such store is read, nor gone on with."""
+    monkeypatch.setattr("numcodecs.pickles.ALLOW_UNSAFE_PICKLE_DECODE", True, raising=False)
+    path = tmp_path / "arm.zarr"
+    (path / "share").mkdir(parents=True)
+    array = {"shape": [1] * 3, "chunks": [1] * 3, "dtype": "|O", "fill_value": "", "order": "C"}
+    array |= {"compressor": None, "filters": [{"id": "vlen-utf8"}, {"id": "pickle"}]}
+    (path / ".zgroup").write_text('{"zarr_format": 2}')
+    (path / ".zattrs").write_text('{"dh2urdf_map": {}, "chain": "", "complete": 1}')
+    (path / "share" / ".zarray").write_text(json.dumps(array | {"zarr_format": 2}))
+    (path / "share" / ".zattrs").write_text('{"_ARRAY_DIMENSIONS": ["x", "y", "z"]}')
+    chunk = pickle.dumps(Touches(tmp_path / "touched"))
+    (path / "share" / "0.0.0").write_bytes(chunk)
+    with pytest.raises(ArgumentError, match=r"arm.zarr: no map that can be read"):
+        open_map(path).share.load()
+    with pytest.raises(OutputExistsError, match=r"arm\.zarr: is there and no map"):
+        reach_map(ur5e, **GIVEN, store=path)
+    assert not (tmp_path / "touched").exists()
+    pickle.loads(chunk)
+    assert (tmp_path / "touched").exists()
+
+
+@pytest.mark.parametrize("name", ["zarr.json", "share/zarr.json", "progress/done/zarr.json"])
+@pytest.mark.parametrize(
+    "content", [b"", b"\xff", b"[]", b'{"zarr_format": 3}', b'{"a": [{"b": 1}]}']
+)
+def test_a_damaged_file_of_a_store_is_one_message(ur5e, small, tmp_path, name, content):
+    """Whatever stands in a file of metadata, a map is opened or gone on with, or refused."""
+    shutil.copytree(small, tmp_path / "arm.zarr")
+    (tmp_path / "arm.zarr" / name).write_bytes(content)
+    for call in (open_map, lambda path: reach_map(ur5e, **SMALL, store=path)):
+        found = outcome(call, tmp_path / "arm.zarr")
+        assert isinstance(found, xarray.Dataset) or "arm.zarr: " in str(found)
+
+
+class Touches(NamedTuple):
+    """What makes a file where it is unpickled."""
+
+    path: Path
+
+    def __reduce__(self):
+        return Path.touch, (self.path,)
 
 
 def test_a_disk_that_is_full_is_one_error_and_the_map_goes_on(ur5e, whole, tmp_path, monkeypatch):

@@ -105,7 +105,8 @@ def reach_map(
     settings = settings_of(robot, step, orientations, region, within_limits, each, refine)
     values, finest, said = _worked(robot, settings, client, path, progress)
     if path is not None:
-        whole: xarray.Dataset = xr.open_zarr(path, chunks=None)
+        with stored.writing(path):
+            whole: xarray.Dataset = xr.open_zarr(path, chunks=None, zarr_format=3)
         return whole
     assert values is not None
     return to_dataset(finest, values, {**said, COMPLETE: 1})

@@ -17,7 +17,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.exceptions import ArgumentError, MissingExtraError, OutputError, OutputExistsError
+from dh2urdf.exceptions import (
+    ArgumentError,
+    Dh2UrdfError,
+    MissingExtraError,
+    OutputError,
+    OutputExistsError,
+)
 from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.dataset import (
     COMPLETE,
@@ -69,7 +75,7 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
 def _opened(zarr: Any, path: str) -> Any:
     """The group at a path, or None where there is nothing."""
     try:
-        return zarr.open_group(path, mode="r+", use_consolidated=False)
+        return zarr.open_group(path, mode="r+", zarr_format=3, use_consolidated=False)
     except FileNotFoundError:
         place = Path(path)
         if "://" not in path and (place.is_file() or (place.is_dir() and any(place.iterdir()))):
@@ -274,19 +280,21 @@ def write(
 
 def summary(path: str) -> MapSummary:
     """A map that is there in a few numbers."""
-    group = _group(path)
-    return summary_of(dict(group.attrs[KEY]), group["share"])
+    with writing(path):
+        group = _group(path)
+        return summary_of(dict(group.attrs[KEY]), group["share"])
 
 
 def read(path: str, part: tuple[slice, ...]) -> Values:
     """The variables of a part of a map, without those of each orientation."""
-    group = _group(path)
-    names = [name for name, array in group.arrays() if array.ndim == 3]
-    return {name: group[name][part] for name in names}
+    with writing(path):
+        group = _group(path)
+        names = [name for name, array in group.arrays() if array.ndim == 3]
+        return {name: group[name][part] for name in names}
 
 
 def _group(path: str) -> Any:
-    return load_zarr().open_group(path, mode="r+", use_consolidated=False)
+    return load_zarr().open_group(path, mode="r+", zarr_format=3, use_consolidated=False)
 
 
 KEPT = "blocks that are done are kept, the same call goes on with the rest"
@@ -294,14 +302,18 @@ KEPT = "blocks that are done are kept, the same call goes on with the rest"
 
 @contextmanager
 def writing(path: str, left: str = KEPT) -> Iterator[None]:
-    """Say of a full disk, or of one that takes nothing, where it was, and what is left."""
+    """Say of a disk that takes nothing, or a damaged store, where it was, and what to do."""
     try:
         yield
-    except (OutputError, ArgumentError):
+    except Dh2UrdfError:
         raise
     except OSError as error:
         reason = error.strerror or str(error)
         raise OutputError(f"{path}: {reason}; {left}") from None
+    except Exception as error:  # of zarr and codecs: a file of the store holds something else
+        raise OutputError(
+            f"{path}: is damaged ({error}); remove it, or give another path"
+        ) from None
 
 
 def load_zarr() -> Any:
