@@ -153,7 +153,13 @@ def extract_dh(
     >>> [round(row.a, 9) for row in found.table.rows], found.max_error < 1e-9
     ([1.0, 0.7], True)
     """
-    from dh2urdf.conversions.chains import carry, configurations, read_source, table_poses
+    from dh2urdf.conversions.chains import (
+        carry,
+        configurations,
+        following,
+        read_source,
+        table_poses,
+    )
     from dh2urdf.conversions.read import xacro_given
 
     wanted = None if convention is None else convention_of(convention)
@@ -171,9 +177,10 @@ def extract_dh(
     if written is not None and wanted in (None, written.convention):
         fits = written.n == chain.n
         error = pose_error(table_poses(written, qs), truth) if fits else math.inf
-        if error <= allowed:
+        follow = tuple(row.mimic for row in written.joints) == (found.mimics or (None,) * chain.n)
+        if error <= allowed and follow:
             return Extraction(written, found.base, found.tip, error, len(qs), ())
-        warnings.append(_assigned_anew(written, error))
+        warnings.append(_assigned_anew(written, error, follow))
     convention = wanted or DHConvention.STANDARD
     signs = flip_signs(chain, flip)
     changes: list[Change] = []
@@ -188,6 +195,7 @@ def extract_dh(
         assigned = replace(assigned, table=table)
     else:
         warnings += near_misses(assigned, chain, qs)
+    assigned = replace(assigned, table=following(assigned.table, found.mimics))
     table = carry(assigned.table, found)
     error = pose_error(table_poses(table, qs), truth)
     if tolerance == 0 and not error <= allowed:
@@ -199,9 +207,9 @@ def extract_dh(
     return Extraction(table, *ends, error, len(qs), steps, tuple(changes), tuple(warnings))
 
 
-def _assigned_anew(written: DHTable, error: float) -> str:
+def _assigned_anew(written: DHTable, error: float, follow: bool) -> str:
     """Why a table that a file carries is not taken."""
-    differs = f"differs from its joints by {error:.2g}"
+    differs = f"differs from its joints by {error:.2g}" if follow else "has joints follow otherwise"
     misfit = f"has {written.n} joints" if error == math.inf else differs
     return f"the table that the file carries {misfit}; frames are assigned anew"
 

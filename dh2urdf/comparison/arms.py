@@ -1,13 +1,15 @@
 """An arm to be compared, whatever it is given as."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, runtime_checkable
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign import chain_to_dh
+from dh2urdf.conversions.chains import following
 from dh2urdf.conversions.write import dh_to_chain
-from dh2urdf.dh import DHTable
+from dh2urdf.dh import DHTable, Mimic
 from dh2urdf.dh_io.files import shown
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError
@@ -25,6 +27,7 @@ class _Robot(Protocol):
     def chain(self) -> SerialChain: ...
     @property
     def table(self) -> DHTable | None: ...
+    def followed_joints(self) -> Sequence[Mimic | None]: ...
 
 
 class Arm(NamedTuple):
@@ -51,7 +54,8 @@ def arm_of(given: Any, base: str | None, tip: str | None) -> Arm:
         if given.table is not None:
             return of_table(given.table, given.table.name)
         name = str(getattr(given, "source", None) or "robot")
-        return Arm(name, given.chain, chain_to_dh(given.chain).table, written=False)
+        table = following(chain_to_dh(given.chain).table, given.followed_joints())
+        return Arm(name, given.chain, table, written=False)
     if not isinstance(given, (str, os.PathLike)):
         kinds = "a DHTable, a path, the name of a table that ships, a Robot or a SerialChain"
         raise ArgumentError(f"arm: expected {kinds}, got {found(given)}")

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.comparison.arms import Arm, arm_of
+from dh2urdf.comparison.coupled import coupled_otherwise, uncoupled
 from dh2urdf.comparison.diagnose import diagnose
 from dh2urdf.comparison.relate import Related, allowed, relate
 from dh2urdf.comparison.relation import CONFIGURATIONS, Relation
@@ -27,7 +28,8 @@ def compare(
     """Whether two arms are the same, up to what, and where they differ.
 
     Arms are the same if base, tool, zeros and directions of the joints of B can be chosen so that
-    both tools stand at the same pose for every q. Limits and masses are not looked at.
+    both tools stand at the same pose for every q, which moves joints that follow or are coupled
+    along. Limits and masses are not looked at.
 
     Parameters
     ----------
@@ -64,8 +66,12 @@ def compared(a: Arm, b: Arm, tolerance: float) -> Comparison:
     """:func:`compare` of arms."""
     related = _related(a, b, tolerance)
     relation, error = related
-    same = error <= allowed(a.chain, b.chain, tolerance)
+    agree = error <= allowed(a.chain, b.chain, tolerance)
+    coupled = coupled_otherwise(a.table, b.table, relation, tolerance)
+    same = agree and not coupled
     told: dict[str, Any] = dict.fromkeys(("base", "tool", "offsets", "directions"))
+    if coupled:
+        relation, error = None, math.inf
     if relation is not None:
         told = {
             "base": Origin.from_matrix(relation.base),
@@ -74,8 +80,9 @@ def compared(a: Arm, b: Arm, tolerance: float) -> Comparison:
             "directions": tuple(int(s) for s in relation.directions),
         }
     up_to = in_words(a.chain.prismatic, tolerance, **told) if relation else ()
-    told_apart = () if same and not up_to else diagnose(a, b, tolerance, same=same)
-    mistakes, differences = told_apart or ((), ())
+    bare_a, bare_b = (arm._replace(table=uncoupled(arm.table)) for arm in (a, b))
+    found = () if agree and not up_to else diagnose(bare_a, bare_b, tolerance, same=agree)
+    mistakes, differences = found or ((), ())
     return Comparison(
         a.name,
         b.name,
@@ -84,7 +91,7 @@ def compared(a: Arm, b: Arm, tolerance: float) -> Comparison:
         **told,
         max_error=error,
         mistakes=mistakes,
-        differences=differences,
+        differences=(*coupled, *differences),
         configurations=CONFIGURATIONS,
         tolerance=tolerance,
         warnings=(*a.warnings, *b.warnings),

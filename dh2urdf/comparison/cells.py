@@ -41,7 +41,8 @@ class Difference:
         Row of the table, fixed ones included, counted from 1; None for the table as a whole.
     quantity : str
         ``theta``, ``d``, ``a``, ``alpha``, ``sign``, ``type``, ``step`` (of a fixed row),
-        ``base``, ``tool``, ``convention``, ``joints``, or ``axis`` where no cell can be named.
+        ``base``, ``tool``, ``convention``, ``joints``, or ``axis`` where no cell can be named;
+        ``mimic``, ``multiplier``, ``offset`` or ``coupling`` of a joint that values move otherwise.
     a, b : float, str or Origin
         What it is in A and in B, in [rad] and [m].
     tool_error, tool_turn : float

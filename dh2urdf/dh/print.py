@@ -4,19 +4,20 @@ What programs read is written by `dh2urdf.dh_io`.
 """
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
 from dh2urdf import grids
+from dh2urdf.dh.coupling import JointMap
 from dh2urdf.dh.motions import DHConvention
 from dh2urdf.dh.quoting import latex, one_line
 from dh2urdf.dh.row import DHRow, Origin
+from dh2urdf.dh.variables import MINUS, moved_by
 from dh2urdf.grids import number
 
 ROUNDING = 4e-16
 """Relative difference of two conversions from degrees, each rounded once."""
-
-MINUS = "\N{MINUS SIGN}"
 
 COLUMNS = {
     "i": ("i", "$i$"),
@@ -63,6 +64,8 @@ class _Table(Protocol):
     def n(self) -> int: ...
     @property
     def joint_names(self) -> Sequence[str]: ...
+    @property
+    def joint_map(self) -> JointMap | None: ...
     @property
     def source(self) -> str: ...
     @property
@@ -128,33 +131,39 @@ def table_grid(table: _Table, look: Look = LOOK) -> tuple[list[str], list[str], 
     for row in table.rows:
         joint += row.is_joint
         name = one_line(table.joint_names[joint - 1]) if row.is_joint else ""
-        rows.append(_cells(row, joint, name, look))
+        rows.append(_cells(table, row, joint, name, look))
     own, named = [*COLUMNS][:8], heads(table, look)
     kept = [k for k, key in enumerate(own) if key in own[:6] or any(r[k] for r in rows)]
     keys, header, *cells = ([r[k] for k in kept] for r in (own, [named[k][0] for k in own], *rows))
     return keys, header, cells
 
 
-def _cells(row: DHRow, i: int, name: str, look: Look) -> list[str]:
-    theta, d, a, alpha = (
-        *(look.of_angle(row.theta), look.of_length(row.d)),
-        *(look.of_length(row.a), look.of_angle(row.alpha)),
-    )
+def _cells(table: _Table, row: DHRow, i: int, name: str, look: Look) -> list[str]:
+    a, alpha = look.of_length(row.a), look.of_angle(row.alpha)
     if not row.is_joint:
         if row.origin is not None:
             return ["", "fixed", "", "", "", "", "", step(row.origin, look)]
-        return ["", "fixed", theta, d, a, alpha, "", ""]
-    sign = "" if row.sign > 0 else MINUS
+        return ["", "fixed", look.of_angle(row.theta), look.of_length(row.d), a, alpha, "", ""]
     slides = row.joint_type == "prismatic"
+    variable, constant = moved_by(table.joint_map, i - 1, row.sign)
+    theta = look.of_angle(row.theta + (0.0 if slides else constant))
+    d = look.of_length(row.d + (constant if slides else 0.0))
     if slides:
-        d = plus(f"{sign}q{i}", d)
+        d = plus(variable, d)
     else:
-        theta = plus(f"{sign}q{i}", theta)
-    low = "" if row.lower is None else look.limit(row.lower, slides)
-    high = "" if row.upper is None else look.limit(row.upper, slides)
+        theta = plus(variable, theta)
+    return [str(i), name, theta, d, a, alpha, _limits(row, slides, look), ""]
+
+
+def _limits(row: DHRow, slides: bool, look: Look) -> str:
+    """The bounds of a row: of its value in q, and of the joint itself where they are others."""
     unit = f" {look.length}" if slides else "°" if look.angle == "deg" else f" {look.angle}"
-    limits = f"{low or '…'} to {high or '…'}{unit}" if low or high else ""
-    return [str(i), name, theta, d, a, alpha, limits, ""]
+    out = []
+    own, serial = (row.lower, row.upper), (row.serial_lower, row.serial_upper)
+    for word, ends in (("itself " if row.mimic else "", own), ("itself ", serial)):
+        low, high = ("" if end is None else look.limit(end, slides) for end in ends)
+        out += [f"{word}{low or '…'} to {high or '…'}{unit}"] if low or high else []
+    return ", ".join(out)
 
 
 def dynamics_grid(table: _Table, look: Look = LOOK) -> tuple[list[str], list[str], list[list[str]]]:
@@ -195,6 +204,9 @@ def title(table: _Table, look: Look = LOOK) -> str:
     lines = [
         f"{one_line(table.name)}: {table.n} joint{'s' * (table.n != 1)}, {table.convention} DH"
     ]
+    if table.joint_map is not None:
+        names = ", ".join(one_line(table.joint_names[i]) for i in table.joint_map.own)
+        lines.append(f"q = ({names})")
     steps = {"base": table.base, "tool": table.tool}
     lines += [
         f"{key}: {step(origin, look)}" for key, origin in steps.items() if not origin.is_identity
@@ -249,9 +261,5 @@ def _latex_text(text: str) -> str:
 def _latex_cell(key: str, text: str) -> str:
     if key in {"theta", "d", "a", "alpha"} and text:
         plain = text.replace(MINUS, "-")
-        head, mark, index = plain.partition("q")
-        if mark:
-            digits = index[: len(index) - len(index.lstrip("0123456789"))]
-            return f"${head}q_{{{digits}}}{index[len(digits) :]}$"
-        return f"${plain}$"
+        return "$" + re.sub("q([0-9]+)", r"q_{\1}", plain) + "$"
     return latex(text) if key == "name" else _latex_text(text)

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.conversions.assign import chain_to_dh
+from dh2urdf.conversions.chains import following
 from dh2urdf.conversions.write import (
     Body,
     dh_to_chain,
@@ -18,9 +19,10 @@ from dh2urdf.conversions.write import (
 )
 from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.doors import finite_array, instance
+from dh2urdf.drawing.linkages import Bar, linkage_bars
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.robot import Robot
-from dh2urdf.transforms import Array, inverse
+from dh2urdf.transforms import Array, inverse, moved
 
 OUTSIDE = 0.5
 """Distance from the arm, as a share of its size, above which a frame is moved to it."""
@@ -28,17 +30,28 @@ OUTSIDE = 0.5
 
 @dataclass(frozen=True, eq=False)
 class DrawnArm:
-    """A table, its chain, and the bodies of base_link and of links 1 ... n in their frames."""
+    """A table, its chain, and what is drawn of it.
+
+    ``bodies`` are those of base_link, of links 1 ... n and of the ``bars`` of parallelograms, each
+    list in a frame of its own.
+    """
 
     table: DHTable
     chain: SerialChain
     bodies: list[list[Body]]
+    bars: list[Bar]
 
     def link_poses(self, q: Array) -> Array:
-        """``T_base_link`` of base_link and links 1 ... n at q (n,), shape (n + 1, 4, 4)."""
-        poses: Array = self.table.frames(q) @ self._T_dh_link
+        """``T_base_link`` of base_link, links 1 ... n and bars at joints q (n,), (m, 4, 4)."""
+        frames = self.table.frames(q)
+        poses: Array = frames @ self._T_dh_link
         poses[0] = np.eye(4)
-        return poses
+        return np.stack([*poses, *(bar.pose(frames) for bar in self.bars)])
+
+    def bar_ends(self, q: Array) -> list[Array]:
+        """Where bars begin and end in base at joints q (n,), each (2, 3)."""
+        frames = self.table.frames(q)
+        return [moved(bar.pose(frames), np.stack([0 * bar.along, bar.along])) for bar in self.bars]
 
     def frames(self, q: Array) -> Array:
         """DH frames 0 ... n in base at q (n,), moved by ``shifts`` along z, (n + 1, 4, 4)."""
@@ -76,7 +89,9 @@ class DrawnArm:
 def drawn_arm(table: DHTable) -> DrawnArm:
     """The bodies of a table."""
     chain = dh_to_chain(table)
-    return DrawnArm(table, chain, draw_bodies(table, chain))
+    bodies = draw_bodies(table, chain)
+    bars = linkage_bars(table, bodies)
+    return DrawnArm(table, chain, [*bodies, *(bar.bodies for bar in bars)], bars)
 
 
 def table_of(robot: Robot) -> DHTable:
@@ -84,7 +99,8 @@ def table_of(robot: Robot) -> DHTable:
     instance(robot, "robot", Robot)
     if robot.table is not None:
         return robot.table
-    return chain_to_dh(robot.chain, name=robot.model.name).table
+    table = chain_to_dh(robot.chain, name=robot.model.name).table
+    return following(table, robot.followed_joints())
 
 
 def arm_points(robot: Robot, Q: Array) -> Array:

@@ -14,7 +14,8 @@ BRANCH_COLOURS = (
 )
 """Colours of branches, told apart with any colour vision (Okabe and Ito)."""
 
-MATERIAL = {"base": "#3d4c66", "joint": "#546685", "link": "#d6dbe3", "rail": "#9ea8b8"}
+MATERIAL = {"base": "#3d4c66", "joint": "#546685", "link": "#d6dbe3"}
+MATERIAL |= {"rail": "#9ea8b8", "bar": "#8fa9b8"}
 """Colours of drawn bodies in three dimensions."""
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from dh2urdf.conversions.assign import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
 from dh2urdf.dh.print import plus
+from dh2urdf.dh.variables import moved_by
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.readings import TINY, UNITS, measured
@@ -182,7 +183,7 @@ def row_words(table: DHTable, picture: DHRowPicture, units: Units = UNITS) -> st
         words = f"Last frame: free (step 4) as long as the four motions reach frame {i}."
     else:
         words = _case_words(picture, before, after, subscript("x", length_index(table, i)), units)
-    words = f"{words} {_variable_words(row, i, units)}"
+    words = f"{words} {_variable_words(table, row, i, units)}"
     if float(np.abs(picture.T_reached - picture.T_next).max()) > 0:
         words += f" A fixed step leads from there to frame {i}."
     if picture.d.moved:
@@ -214,11 +215,12 @@ def _case_words(picture: DHRowPicture, before: str, after: str, x: str, units: U
     return f"{before} and {after} are one line: a = 0, and {x} may point anywhere across it."
 
 
-def _variable_words(row: DHRow, i: int, units: Units) -> str:
+def _variable_words(table: DHTable, row: DHRow, i: int, units: Units) -> str:
     slides = row.joint_type == "prismatic"
     symbol = subscript("d" if slides else "θ", i)
-    offset = row.d if slides else row.theta
+    variable, constant = moved_by(table.joint_map, i - 1, row.sign, lambda k: subscript("q", k))
+    offset = (row.d if slides else row.theta) + constant
     shown = measured(offset, Kind.LENGTH if slides else Kind.ANGLE, units)
-    sign = "" if row.sign > 0 else "\N{MINUS SIGN}"
-    value = plus(f"{sign}{subscript('q', i)}", shown if abs(offset) >= TINY else "0")
-    return f"The joint moves {symbol} = {value}."
+    value = plus(variable, shown if abs(offset) >= TINY else "0")
+    follows = f" It follows {row.mimic.joint}." if row.mimic else ""
+    return f"The joint moves {symbol} = {value}.{follows}"

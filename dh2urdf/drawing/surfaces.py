@@ -65,13 +65,18 @@ class TableDrawing:
     def __init__(self, arm: DrawnArm) -> None:
         self.arm = arm
         self.nodes = tuple(
-            Node(f"link_{i}" if i else "base", tuple(_by_material(bodies)))
-            for i, bodies in enumerate(arm.bodies)
+            Node(name, tuple(_by_material(bodies)))
+            for name, bodies in zip(_names(arm), arm.bodies, strict=True)
         )
 
     def poses(self, q: Array) -> Array:
-        """``T_base_link`` at q (n,), shape (n + 1, 4, 4)."""
+        """``T_base_node`` at joints q (n,), shape (nodes, 4, 4)."""
         return self.arm.link_poses(q)
+
+
+def _names(arm: DrawnArm) -> list[str]:
+    links = [f"link_{i}" for i in range(1, arm.table.n + 1)]
+    return ["base", *links, *(f"bar_{k}" for k in range(1, len(arm.bars) + 1))]
 
 
 def _by_material(bodies: list[Body]) -> list[Surface]:

@@ -106,8 +106,10 @@ class _ArmPicture:
         self.arm: DrawnArm = drawn_arm(table_of(robot))
         asked = zero_configuration(robot, q)
         self.q = robot.chain_configuration(asked)
-        others = [robot.chain_configuration(zero_configuration(robot, g)) for g in ghosts]
-        self.ghosts = group_ghosts(self.arm, self.q, others, ghost_names)
+        others = [zero_configuration(robot, ghost) for ghost in ghosts]
+        joints = [robot.chain_configuration(q) for q in others]
+        self.ghosts = group_ghosts(self.arm, self.q, joints, ghost_names)
+        self.values = [joint_values(q, robot.slides) for q in others]
         self.key = [(ghost.colour, self._key_of(ghost)) for ghost in self.ghosts if ghost.name]
         self.style, self.show_frames = style, frames
         dh_frames = self.arm.frames(self.q)
@@ -117,7 +119,7 @@ class _ArmPicture:
         self.floor = self._floor()
         self.ghost_parts = [self._parts(ghost.q) for ghost in self.ghosts if ghost.is_drawn]
         notes = [
-            f"pose drawn: {joint_values(self.q, self.arm.chain.prismatic)}",
+            f"pose drawn: {joint_values(asked, robot.slides)}",
             *moved_sentence(self.arm.shifts),
         ]
         self.panel = DHPanel(self.arm.table, notes, self.key) if table else None
@@ -127,7 +129,7 @@ class _ArmPicture:
         """Its name, and its joints where they are few."""
         if self.arm.table.n > FEW or not ghost.is_drawn:
             return ghost.name
-        return f"{ghost.name}: {joint_values(ghost.q, self.arm.chain.prismatic)}"
+        return f"{ghost.name}: {self.values[ghost.number]}"
 
     def _parts(self, q: Array) -> list[Part]:
         return arm_parts(self.arm.bodies, self.arm.link_poses(q))

@@ -8,6 +8,7 @@ import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh.print import degrees, plus, step
+from dh2urdf.dh.variables import moved_by
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.style import FAINT, INK, MUTED, plain
@@ -102,12 +103,16 @@ class DHPanel:
     def _row(self, row: DHRow, i: int) -> list[Cell]:
         if row.origin is not None:
             return [Cell(f"fixed step: {step(row.origin)}", MUTED)]
-        theta, d = self._degrees(row.theta), self._number(row.d)
-        sign = "" if row.sign > 0 else "-"
-        if row.joint_type is JointType.REVOLUTE:
-            theta = plus(f"${sign}q_{{{i}}}$", theta if theta != "0°" else "0")
-        elif row.joint_type is JointType.PRISMATIC:
-            d = plus(f"${sign}q_{{{i}}}$", d)
+        slides, variable, constant = row.joint_type is JointType.PRISMATIC, "", 0.0
+        if row.is_joint:
+            joints = self.table.joint_map
+            variable, constant = moved_by(joints, i - 1, row.sign, "q_{{{}}}".format, "-")
+        theta = self._degrees(row.theta + (0.0 if slides else constant))
+        d = self._number(row.d + (constant if slides else 0.0))
+        if slides:
+            d = plus(f"${variable}$", d)
+        elif row.is_joint:
+            theta = plus(f"${variable}$", theta if theta != "0°" else "0")
         a, alpha = self._number(row.a), self._degrees(row.alpha)
         cells = [Cell(str(i) if row.is_joint else "fixed")]
         for key, text in zip(KEYS[1:], (theta, d, a, alpha), strict=True):

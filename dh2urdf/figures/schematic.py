@@ -25,7 +25,10 @@ DRUM_RADIUS, DRUM_LENGTH = 0.034, 0.10
 BOX_WIDTH, BOX_LENGTH = 0.062, 0.13
 """A prismatic joint's box, as shares of the arm's size."""
 
-PAINT = Paint({"link": (INK, INK), "joint": ("#ffffff", "#eef1f5")}, INK, 0.9)
+BAR = "#7f93a3"
+"""Colour of the lines of a parallelogram."""
+
+PAINT = Paint({"link": (INK, INK), "joint": ("#ffffff", "#eef1f5"), "bar": (BAR, BAR)}, INK, 0.9)
 
 
 def draw_schematic(canvas: Canvas, arm: DrawnArm, q: Array, scale: float) -> None:
@@ -50,6 +53,8 @@ def _parts(arm: DrawnArm, q: Array) -> Iterator[Part]:
     for start, end in pairwise(corners):
         if float(np.linalg.norm(end - start)) > 1e-6 * size:
             yield Part("link", _rod(start, end, ROD * size))
+    for start, end in arm.bar_ends(q):
+        yield Part("bar", _rod(start, end, 0.6 * ROD * size))
     placed: list[Array] = []
     for row, joint in zip(rows, arm.table.joints, strict=True):
         spot, axis = _spot(arm, row, placed)

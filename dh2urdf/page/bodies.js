@@ -111,6 +111,8 @@ function drawShape({vao, count}, kind, colour, opacity, pose, unlit = 0) {
   gl.drawElements(kind, count, gl.UNSIGNED_INT, 0);
 }
 
+const poseOf = (node, i, placed) => node.bar ? barPose(node.bar, placed) : node.fixed ? mul(placed[i], node.fixed) : I4;
+
 // Draw the arm with its DH frames at these places, solid or to be seen through.
 function drawBodies(placed, opacity) {
   if (!gl) return;
@@ -120,7 +122,7 @@ function drawBodies(placed, opacity) {
   gl.uniformMatrix4fv(at("clip"), false, clip());
   ["right", "up", "near"].forEach((name, k) => gl.uniform3fv(at(name), view()[k]));
   drawShape(arm.floor, gl.LINES, [0.9, 0.91, 0.93], 1, I4, 1);
-  const parts = arm.nodes.flatMap((node, i) => node.surfaces.map(s => [s, node.fixed ? mul(placed[i], node.fixed) : I4]));
+  const parts = arm.nodes.flatMap((node, i) => node.surfaces.map(s => [s, poseOf(node, i, placed)]));
   const paint = () => parts.forEach(([s, pose]) => drawShape(s.shape, gl.TRIANGLES, s.colour.map(v => v / 255), opacity, pose));
   if (opacity < 1) {  // depths first, so that of each pixel the nearest surface alone is seen
     gl.colorMask(false, false, false, false);

@@ -50,6 +50,16 @@ function frames(q) {
   return out;
 }
 
+// A vector of a frame in the base.
+const turned = (T, v) => [0, 4, 8].map(k => T[k] * v[0] + T[k + 1] * v[1] + T[k + 2] * v[2]);
+
+// T_base_bar of a bar of a parallelogram, the DH frames being at these places.
+function barPose({turn, at, keep, point, shift}, placed) {
+  const start = add(add(origin(placed[at]), turned(placed[at], point)), turned(placed[keep], shift)), T = [...placed[turn]];
+  start.forEach((v, k) => T[4 * k + 3] = v);
+  return T;
+}
+
 // T_base_tip.
 const fk = q => mul(frames(q)[arm.rows.length], arm.tool);
 

@@ -50,7 +50,7 @@ function showTable() {
     return head;
   });
   const rows = arm.rows.map((row, k) => {
-    const made = element("tr", [element("td", String(k + 1)), ...keys.map(key => tableCell(row, key, k + 1))]);
+    const made = element("tr", [element("td", String(k + 1)), ...keys.map(key => tableCell(row, key))]);
     made.className = `joint-row ${k + 1 === state.row ? "chosen" : ""}`;
     made.onclick = () => lesson(k + 1, row.motions.length);
     return made;
@@ -60,10 +60,10 @@ function showTable() {
 }
 
 // What the joint moves is shown as its variable.
-function tableCell(row, key, i) {
-  const moved = key === (row.slides ? "d" : "theta"), value = rounded(row[key], KINDS[key]);
+function tableCell(row, key) {
+  const moved = key === (row.slides ? "d" : "theta"), value = rounded(row[key] + (moved ? row.constant : 0), KINDS[key]);
   const offset = value ? ` ${value < 0 ? MINUS : "+"} ${typeset(Math.abs(value))}` : "";
-  const made = cell(row[key], KINDS[key], undefined, moved ? `${row.sign < 0 ? MINUS : ""}q${subscripts(i)}${offset}` : undefined);
+  const made = cell(row[key], KINDS[key], undefined, moved ? row.variable + offset : undefined);
   made.style.color = arm.colours[key];
   return made;
 }

@@ -14,11 +14,13 @@ from numpy.typing import ArrayLike
 from dh2urdf.conversions.write import grouped_rows, link_frames
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.dh.print import title
+from dh2urdf.dh.variables import moved_by
 from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.drawing.arm import DrawnArm, drawn_arm, table_of, zero_configuration
 from dh2urdf.drawing.colours import AXIS, QUANTITY
 from dh2urdf.drawing.lesson import motions
+from dh2urdf.drawing.row import subscript
 from dh2urdf.drawing.surfaces import Node, TableDrawing
 from dh2urdf.exceptions import OutputError
 from dh2urdf.robot import Robot
@@ -119,22 +121,30 @@ def _data(robot: Robot, arm: DrawnArm, q: Array) -> dict[str, Any]:
 def _row(table: DHTable, i: int, row: DHRow) -> dict[str, Any]:
     """One joint's row, and what leads from it to frame i."""
     steps = motions(table, i)
+    variable, constant = moved_by(table.joint_map, i - 1, row.sign, lambda k: subscript("q", k))
     after = next((m.T.ravel().tolist() for m in steps if m.key == "step"), None)
     return {
         **{key: getattr(row, key) for key in ("theta", "d", "a", "alpha", "sign")},
         "slides": row.joint_type is JointType.PRISMATIC,
+        "variable": variable,
+        "constant": constant,
         "motions": [[m.key, m.words, m.factor] for m in steps],
         "after": after,
     }
 
 
 def _nodes(arm: DrawnArm) -> list[dict[str, Any]]:
-    """The bodies of each link: in the frame of the base, then of DH frame i."""
+    """The bodies of each link: in the frame of the base, then of DH frame i; then bars."""
     T_dh_link = inverse(np.stack(link_frames(arm.table).dh))
+    places: list[dict[str, Any]] = [
+        {"fixed": T.ravel().tolist() if i else None} for i, T in enumerate(T_dh_link)
+    ]
+    for bar in arm.bars:
+        numbers = {"point": bar.point.tolist(), "shift": bar.shift.tolist()}
+        places.append({"bar": {"turn": bar.turn, "at": bar.at, "keep": bar.keep, **numbers}})
     nodes = TableDrawing(arm).nodes
     return [
-        {"fixed": T_dh_link[i].ravel().tolist() if i else None, "surfaces": _surfaces(node)}
-        for i, node in enumerate(nodes)
+        {**place, "surfaces": _surfaces(node)} for place, node in zip(places, nodes, strict=True)
     ]
 
 

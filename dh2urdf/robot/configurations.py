@@ -6,6 +6,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.chain import Coupling, SerialChain
 from dh2urdf.conversions.chains import ChainPath, is_continuous
+from dh2urdf.dh import Mimic
 from dh2urdf.doors import finite_array, generator, real_array
 from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.transforms import Array
@@ -82,6 +83,19 @@ class RobotConfigurations:
         if self._coupling is None:
             return np.eye(self.n), np.zeros(self.n), self.slides
         return self._coupling.matrix, self._coupling.offset, self.slides
+
+    def followed_joints(self) -> tuple[Mimic | None, ...]:
+        """What each joint of the chain follows of the others; empty where none does."""
+        coupling, names = self._coupling, self.chain.names
+        if coupling is None:
+            return ()
+        out: list[Mimic | None] = []
+        for name, row, offset in zip(names, coupling.matrix, coupling.offset, strict=True):
+            (moving, *more), own = np.flatnonzero(row), name in coupling.names
+            leader = coupling.names[moving]
+            follows = not own and not more and leader in names
+            out.append(Mimic(leader, float(row[moving]), float(offset)) if follows else None)
+        return tuple(out)
 
     def _bounds(self) -> None:
         """Names and limits of the values."""

@@ -3,8 +3,9 @@
 import math
 from typing import Any
 
-from dh2urdf.dh import DHConvention, DHRow, JointType
+from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh.motions import dh_matrix
+from dh2urdf.dh.variables import terms
 from dh2urdf.dh_io import TableLike, as_table
 from dh2urdf.exceptions import MissingExtraError
 from dh2urdf.grids import grid_matrix
@@ -40,17 +41,29 @@ def exact_length(value: float) -> Any:
 
 
 def symbolic_transforms(table: TableLike) -> list[Any]:
-    """``H_i^{i-1}`` for i = 1 ... n as sympy matrices in q_1 ... q_n, fixed rows folded in."""
+    """``H_i^{i-1}`` for i = 1 ... n as sympy matrices, fixed rows folded in.
+
+    In q_1 ... q_n, or in the fewer values by which joints move that follow others.
+    """
     table, out = as_table(table), list[Any]()
     for row in table.rows:
         if row.is_joint:
-            out.append(_row(row, len(out) + 1, table.convention))
+            out.append(_row(row, _joint(table, len(out)), table.convention))
         elif out:
-            out[-1] = out[-1] * _row(row, 0, table.convention)
+            out[-1] = out[-1] * _row(row, None, table.convention)
     return out
 
 
-def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
+def _joint(table: DHTable, i: int) -> Any:
+    """Joint i (from 0) in the values that move it."""
+    sp = import_sympy()
+    parts, constant = terms(table.joint_map, i)
+    slides = table.joints[i].joint_type is JointType.PRISMATIC
+    offset = exact_length(constant) if slides else exact_angle(constant)
+    return sum((exact_length(f) * sp.Symbol(f"q_{k}") for f, k in parts), offset)
+
+
+def _row(row: DHRow, joint: Any, convention: DHConvention) -> Any:
     sp = import_sympy()
     if row.origin is not None:
         roll, pitch, yaw = (exact_angle(v) for v in row.origin.rpy)
@@ -59,9 +72,9 @@ def _row(row: DHRow, i: int, convention: DHConvention) -> Any:
         return R.row_join(p).col_join(sp.Matrix([[0, 0, 0, 1]]))
     theta, d = exact_angle(row.theta), exact_length(row.d)
     if row.joint_type is JointType.REVOLUTE:
-        theta += row.sign * sp.Symbol(f"q_{i}")
+        theta += row.sign * joint
     elif row.joint_type is JointType.PRISMATIC:
-        d += row.sign * sp.Symbol(f"q_{i}")
+        d += row.sign * joint
     a, alpha = exact_length(row.a), exact_angle(row.alpha)
     functions = sp.cos(theta), sp.sin(theta), sp.cos(alpha), sp.sin(alpha)
     return sp.Matrix(dh_matrix(*functions, d, a, convention))

@@ -66,6 +66,7 @@ def show_(
         return
     cells = [*values, *(q or [])]
     config = parse_configuration(cells, arm, deg=deg) if cells else np.zeros(arm.n)
+    joints = arm.chain_configuration(config)
     try:
         name, why = str(arm.solver), arm.solver.explain()
     except NoSolverError as error:
@@ -74,31 +75,35 @@ def show_(
         solver = {"joint_names": arm.joint_names, "solver": name, "solver_explained": why}
         told = {"text": text} if format != "text" else {}
         emit_json(
-            "show", **_table(dh, config), **solver, **(_symbols(dh) if symbolic else {}), **told
+            "show",
+            **_table(dh, config, joints),
+            **solver,
+            **(_symbols(dh) if symbolic else {}),
+            **told,
         )
         return
     emit(text)
     for label, text in (("source", dh.source), ("checked", dh.checked)):
         if text:
             emit(f"\n{label}: {' '.join(one_line(text).split())}")
-    _show_transforms(dh, config)
+    _show_transforms(dh, config, joints)
     if symbolic:
         _show_symbols(dh)
     emit(f"\ninverse kinematics: {name}\n{why}")
 
 
-def _show_transforms(dh: DHTable, config: Array) -> None:
-    shown = ", ".join(number(float(f"{v:.10g}")) for v in config)
-    emit(f"\nat q = ({shown}):")
-    for i, T in enumerate(dh.transforms(config), 1):
+def _show_transforms(dh: DHTable, config: Array, joints: Array) -> None:
+    shown, moved = (", ".join(number(float(f"{v:.10g}")) for v in q) for q in (config, joints))
+    emit(f"\nat q = ({shown}){f', joints at ({moved})' * (dh.joint_map is not None)}:")
+    for i, T in enumerate(dh.transforms(joints), 1):
         emit(f"\nH_{i}^{i - 1} =\n{matrix_text(T)}")
-    frames = dh.frames(config)
+    frames = dh.frames(joints)
     emit(f"\nH_{dh.n}^0 =\n{matrix_text(np.linalg.inv(frames[0]) @ frames[-1])}")
     if not (dh.tool.is_identity and np.array_equal(frames[0], np.eye(4))):
-        emit(f"\nT_base_tool =\n{matrix_text(dh.fk(config))}")
+        emit(f"\nT_base_tool =\n{matrix_text(dh.fk(joints))}")
 
 
-def _table(dh: DHTable, config: Array) -> dict[str, Any]:
+def _table(dh: DHTable, config: Array, joints: Array) -> dict[str, Any]:
     """A table and its transforms as JSON has them."""
     return {
         "name": dh.name,
@@ -106,8 +111,9 @@ def _table(dh: DHTable, config: Array) -> dict[str, Any]:
         "source": dh.source,
         "checked": dh.checked,
         "q": config,
-        "transforms": dh.transforms(config),
-        "T_base_tool": dh.fk(config),
+        "joints": joints,
+        "transforms": dh.transforms(joints),
+        "T_base_tool": dh.fk(joints),
         "table": loads(table_to_text(dh, "json")),
     }
 

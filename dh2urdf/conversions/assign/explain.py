@@ -11,6 +11,7 @@ from dh2urdf.conversions.assign.assigned_table import AssignedTable
 from dh2urdf.conversions.assign.axis_pairs import AxisCase, Normal, common_normal
 from dh2urdf.conversions.assign.frame_ends import BaseChoice, ToolChoice
 from dh2urdf.dh import DHConvention, DHRow, JointType
+from dh2urdf.dh.variables import followed
 from dh2urdf.transforms import Array
 
 
@@ -176,10 +177,11 @@ def _variable(row: DHRow, i: int) -> str:
     """How the joint variable enters its row."""
     slides = row.joint_type is JointType.PRISMATIC
     kind, constant = ("d", row.d) if slides else ("theta", row.theta)
+    follows = f", and joint {i} follows {followed(row.mimic)}" if row.mimic else ""
     if constant == 0 and row.sign > 0:
-        return f" ({kind}_{i} is the joint's variable q_{i})"
+        return f" ({kind}_{i} is the joint's variable q_{i}{follows})"
     sign = "-" if row.sign < 0 else "+"
-    return f" at q_{i} = 0 (the variable is {kind}_{i} {sign} q_{i})"
+    return f" at q_{i} = 0 (the variable is {kind}_{i} {sign} q_{i}{follows})"
 
 
 def _last(found: AssignedTable) -> str:

@@ -4,7 +4,12 @@
 is drives, bodies and frames that ride on joints, `referee` Pinocchio's word.
 """
 
-from dh2urdf.conversions.chains.carried import carried_dh_frames, carried_joint_frames, carry
+from dh2urdf.conversions.chains.carried import (
+    carried_dh_frames,
+    carried_joint_frames,
+    carry,
+    following,
+)
 from dh2urdf.conversions.chains.extract_source import read_source
 from dh2urdf.conversions.chains.model_chain import (
     ChainPath,

@@ -1,5 +1,6 @@
 """What rides on the joints: drives, bodies and frames of a source."""
 
+from collections.abc import Sequence
 from dataclasses import asdict, replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from dh2urdf.conversions.chains.model_chain import ChainPath
 from dh2urdf.conversions.chains.tree_chain import ChainSource
 from dh2urdf.conversions.read import Actuation
 from dh2urdf.conversions.write import FLIP, Inertial, LinkFrames, six_of, without_noise
-from dh2urdf.dh import DHRow, DHTable
+from dh2urdf.dh import DHRow, DHTable, Mimic
 from dh2urdf.transforms import Array, inverse
 
 
@@ -35,6 +36,15 @@ def _carried(
     x, y, z = without_noise(moved.com, 1e-3).tolist()
     m = without_noise(0.5 * (moved.inertia + moved.inertia.T))
     return replace(row, mass=body.mass, com=(x, y, z), inertia=six_of(m))
+
+
+def following(table: DHTable, mimics: Sequence[Mimic | None]) -> DHTable:
+    """The table with what each of its joints follows."""
+    if not any(mimics):
+        return table
+    each = iter(mimics)
+    rows = (replace(row, mimic=next(each)) if row.is_joint else row for row in table.rows)
+    return replace(table, rows=tuple(rows))
 
 
 def carried_dh_frames(table: DHTable, own: LinkFrames) -> Array:

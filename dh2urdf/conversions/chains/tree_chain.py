@@ -9,9 +9,17 @@ import numpy as np
 
 from dh2urdf import transforms as tf
 from dh2urdf.chain import SerialChain
-from dh2urdf.conversions.read import MOVING, Actuation, KinematicTree, Step, find_path, rigid_part
+from dh2urdf.conversions.read import (
+    MOVING,
+    Actuation,
+    KinematicTree,
+    Step,
+    TreeJoint,
+    find_path,
+    rigid_part,
+)
 from dh2urdf.conversions.write import FLIP, Inertial
-from dh2urdf.dh import JointType
+from dh2urdf.dh import JointType, Mimic
 from dh2urdf.transforms import Array
 
 
@@ -24,6 +32,8 @@ class ChainSource:
     bodies : tuple of n Inertial or None
         All that moves with joint i, in the chain's frame of joint i.
     drives : tuple of n Actuation
+    mimics : tuple of n Mimic or None
+        What joint i follows of the others; empty where none does.
     warnings : tuple of str
     origin : str
         What the chain was read from, in a word or a file's name.
@@ -37,6 +47,7 @@ class ChainSource:
     drives: tuple[Actuation, ...]
     warnings: tuple[str, ...] = ()
     origin: str = ""
+    mimics: tuple[Mimic | None, ...] = ()
 
 
 def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
@@ -78,6 +89,7 @@ def tree_to_chain(tree: KinematicTree, base: str, tip: str) -> ChainSource:
         drives=tuple(j.drive for j in joints),
         warnings=(*tree.remarks, *_remarks(tree, moving, cut)),
         origin=os.path.basename(tree.where),
+        mimics=_mimics(tree, joints),
     )
 
 
@@ -113,13 +125,33 @@ def _body(tree: KinematicTree, step: Step, cut: frozenset[str]) -> Inertial | No
     return Inertial.total(parts) if parts else None
 
 
+def _mimics(tree: KinematicTree, joints: Sequence[TreeJoint]) -> tuple[Mimic | None, ...]:
+    """What each joint of a chain follows of it, be it through joints that are off it."""
+    follows = {joint.name: joint.mimic for joint in tree.joints if joint.mimic}
+    names = {joint.name for joint in joints}
+    out: list[Mimic | None] = []
+    for joint in joints:
+        mimic, seen = joint.mimic, {joint.name}
+        while mimic is not None and mimic.joint not in names | seen:
+            seen.add(mimic.joint)
+            above = follows.get(mimic.joint)
+            mimic = above and Mimic(
+                above.joint,
+                mimic.multiplier * above.multiplier,
+                mimic.multiplier * above.offset + mimic.offset,
+            )
+        out.append(None if mimic is None or mimic.joint in seen else mimic)
+    return tuple(out) if any(out) else ()
+
+
 def _remarks(tree: KinematicTree, moving: Sequence[Step], cut: frozenset[str]) -> list[str]:
     """What a user should know of the chain and cannot see from it."""
+    follows = _mimics(tree, [step.joint for step in moving]) or (None,) * len(moving)
     remarks = [
-        f"{step.joint.where}: follows joint {step.joint.mimic.joint!r} in the file; "
+        f"{step.joint.where}: follows joint {step.joint.mimic.joint!r}, which is not on the chain; "
         "in the table it is a joint of its own"
-        for step in moving
-        if step.joint.mimic
+        for step, mimic in zip(moving, follows, strict=True)
+        if step.joint.mimic and mimic is None
     ]
     held = [
         last.joint.name

@@ -19,6 +19,7 @@ from dh2urdf.conversions.read.kinematic_tree import (
     Actuation,
     KinematicTree,
     Step,
+    TreeJoint,
     find_path,
     link_name,
     listed,

@@ -1,6 +1,7 @@
 """An MJCF's bodies and joints, as MuJoCo compiles them; the only importer of mujoco here."""
 
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,16 @@ from dh2urdf.conversions.read.apart import read_apart
 from dh2urdf.conversions.read.kinematic_tree import Actuation, KinematicTree, TreeJoint, TreeLink
 from dh2urdf.conversions.read.urdf_elements import as_pinocchio_takes
 from dh2urdf.conversions.write import Inertial
+from dh2urdf.dh import Mimic
 from dh2urdf.dh_io.files import shown
 from dh2urdf.exceptions import UrdfError
 from dh2urdf.transforms import Array
 
 NUMBERS = "body_pos body_quat body_mass body_inertia body_ipos jnt_axis jnt_pos qpos0 site_pos"
 """What is read of a compiled model, by MuJoCo's own names."""
+
+JOINT_EQUALITY = 2
+"""``mjEQ_JOINT``."""
 
 KINDS = ("free", "ball", "prismatic", "revolute")
 """MuJoCo's joint types in its own order."""
@@ -68,7 +73,36 @@ class _Bodies:
         if m.njnt == 0:
             raise UrdfError(f"{self.where}: no joints")
         name = os.path.splitext(os.path.basename(self.where))[0]
-        return KinematicTree(self.where, name, root, self.links, tuple(self.joints))
+        remarks = self.follow()
+        return KinematicTree(self.where, name, root, self.links, tuple(self.joints), remarks)
+
+    def follow(self) -> tuple[str, ...]:
+        """Let joints follow as ``<equality><joint>`` says; returns what is not taken over.
+
+        MuJoCo's ``q1 - q1_0 = c0 + c1 (q2 - q2_0) + ...``, the references being ``qpos0``.
+        """
+        m, remarks, follows = self.m, list[str](), dict[str, Mimic]()
+        for e in range(m.neq):
+            if m.eq_type[e] != JOINT_EQUALITY or not m.eq_active0[e] or m.eq_obj2id[e] < 0:
+                continue
+            ids = int(m.eq_obj1id[e]), int(m.eq_obj2id[e])
+            own, other = (m.joint(j).name or f"joint_{j}" for j in ids)
+            constant, factor, *higher = m.eq_data[e][:5].tolist()
+            bent, circle = any(higher), other == own
+            at = other
+            while at in follows and not circle:
+                at = follows[at].joint
+                circle = at == own
+            if bent or circle or own in follows:
+                why = "no straight line" if bent else "in a circle" if circle else "of a second one"
+                remarks.append(
+                    f"{self.where}: <equality> of joint {shown(own)!r}, {why}; not followed"
+                )
+                continue
+            start, lead = (float(m.qpos0[m.jnt_qposadr[j]]) for j in ids)
+            follows[own] = Mimic(other, factor, start + constant - factor * lead)
+        self.joints = [replace(j, mimic=follows.get(j.name)) for j in self.joints]
+        return tuple(remarks)
 
     def body(self, b: int, parent: str) -> str:
         """Links and joints from a body's parent to the body."""

@@ -86,6 +86,7 @@ class _Mjcf:
             etree.SubElement(assets, "material", name=material.get("name"), rgba=rgba)
         world = etree.SubElement(root, "worldbody")
         self._link(etree.SubElement(world, "body", name="base_link"), "base_link")
+        self._followers()
         etree.indent(root, space="  ")
         return f"{etree.tostring(root, encoding='unicode')}\n"
 
@@ -104,6 +105,16 @@ class _Mjcf:
             else:  # MuJoCo rounds a site that nearly stands in its body's frame, but not a body
                 frame = etree.SubElement(body, "body", {"name": child, **place})
                 etree.SubElement(frame, "site", name=child, group="4")
+
+    def _followers(self) -> None:
+        """Equalities, which simulation keeps, of joints that follow others."""
+        follows = [(j, j.find("mimic")) for j in self.urdf.iterchildren("joint")]
+        follows = [(joint, mimic) for joint, mimic in follows if mimic is not None]
+        equality = etree.SubElement(self.root, "equality") if follows else None
+        for joint, mimic in follows:
+            pair = {"joint1": joint.get("name"), "joint2": mimic.get("joint")}
+            line = f"{mimic.get('offset')} {mimic.get('multiplier')} 0 0 0"
+            etree.SubElement(equality, "joint", {**pair, "polycoef": line})
 
     def _joints_on(self, link: str) -> Iterator[etree._Element]:
         for joint in self.urdf.iterchildren("joint"):

@@ -7,8 +7,9 @@ from functools import partial
 from typing import NamedTuple
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType, Origin
-from dh2urdf.dh.print import MINUS, Look, degrees, heads, html_page, table_latex, table_text
+from dh2urdf.dh.print import Look, degrees, heads, html_page, table_latex, table_text
 from dh2urdf.dh.quoting import markdown
+from dh2urdf.dh.variables import MINUS
 from dh2urdf.dh_io.cells.schema import BY_TYPE, ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.cells.units import Kind, Units, decimal_text
 from dh2urdf.grids import grid_csv, grid_markdown

@@ -15,7 +15,7 @@ ALIKE = 1e-6
 
 
 class Ghost(NamedTuple):
-    """A configuration (n,), its colour and what the key says of it.
+    """Joints (n,), their colour, what the key says of it; which of those given it is, from 0.
 
     One that looks like the arm itself is not drawn: its colour is that of ink.
     """
@@ -23,6 +23,7 @@ class Ghost(NamedTuple):
     q: Array
     colour: str
     name: str
+    number: int = -1
 
     @property
     def is_drawn(self) -> bool:
@@ -46,13 +47,14 @@ def group_ghosts(
         group.append(k)
     padded = ["", *map(plain, names), *[""] * (len(ghosts) - len(names))]
     out = []
-    for number, group in enumerate(groups):
+    for rank, group in enumerate(groups):
         own = [padded[k] for k in group if padded[k]]
-        if number == 0:
+        if rank == 0:
             out += [Ghost(q, INK, f"as drawn: {merged_name(own)}")] if own else []
             continue
-        colour = BRANCH_COLOURS[(number - 1) % len(BRANCH_COLOURS)]
-        out.append(Ghost(ghosts[group[0] - 1], colour, merged_name(own)))
+        colour = BRANCH_COLOURS[(rank - 1) % len(BRANCH_COLOURS)]
+        number = group[0] - 1
+        out.append(Ghost(ghosts[number], colour, merged_name(own), number))
     return out
 
 

@@ -33,6 +33,7 @@ BODY = Paint(
         "joint": ("#8a95a9", "#c0c8d5"),
         "link": ("#dde1e7", "#f1f3f6"),
         "rail": ("#b3bbc8", "#d8dde5"),
+        "bar": ("#a3b6c1", "#cfdae1"),
     },
     "#414b5e",
 )
@@ -47,6 +48,7 @@ def ghost_paint(colour: str) -> Paint:
         "joint": (middle, pale),
         "base": (middle, pale),
         "rail": (pale, pale),
+        "bar": (pale, pale),
     }
     return Paint(tones, mix(colour, 0.8), 0.7, 0.75)
 

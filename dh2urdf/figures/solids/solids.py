@@ -26,6 +26,9 @@ STRIP = (0.25, 0.75)
 SHEEN = 0.45
 """Brightness of that strip; it has no outline."""
 
+ROUNDED = ("link", "bar")
+"""Materials of rods that run into the balls at their ends."""
+
 NORMALS = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], float)
 
 
@@ -56,14 +59,14 @@ def outlines(parts: Iterable[Part], view: View) -> list[Array]:
 
 
 def arm_parts(bodies: list[list[Body]], link_poses: Array) -> list[Part]:
-    """Parts of an arm: the rods and balls of a link together, everything else on its own."""
+    """Parts of an arm: the rods and balls of a link or bar together, all else on its own."""
     parts = []
     for link, T_base_link in zip(bodies, link_poses, strict=True):
         placed = [(body, T_base_link @ body.pose) for body in link]
-        rods = [(body, T) for body, T in placed if body.material == "link"]
-        parts += [Part(body.material, [(body, T)]) for body, T in placed if body.material != "link"]
-        if rods:
-            parts.append(Part("link", rods))
+        parts += [Part(b.material, [(b, T)]) for b, T in placed if b.material not in ROUNDED]
+        for material in ROUNDED:
+            if rods := [(body, T) for body, T in placed if body.material == material]:
+                parts.append(Part(material, rods))
     return parts
 
 

@@ -10,10 +10,11 @@ import numpy as np
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh.print import plus
 from dh2urdf.dh.row import Origin
+from dh2urdf.dh.variables import moved_by
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.drawing.lesson import Motion
-from dh2urdf.drawing.readings import DIGITS, MINUS, Reading, reading, sign_of
+from dh2urdf.drawing.readings import DIGITS, Reading, reading, sign_of
 from dh2urdf.transforms import Array, matrix_to_rpy
 from dh2urdf.viewer.arm_scene import quaternions
 
@@ -130,7 +131,7 @@ def table(dh: DHTable, row: int, units: Units) -> str:
     for given in dh.rows:
         joint += given.is_joint
         marked = MARKED if given.is_joint and joint == row else ""
-        body += f'<tr style="{marked}">{_cells(given, joint, units)}</tr>'
+        body += f'<tr style="{marked}">{_cells(dh, given, joint, units)}</tr>'
     return (
         f'<div style="{STYLE}"><table style="border-collapse:collapse" data-dh="table">'
         f'<thead><tr style="border-bottom:1px solid #999">{head}</tr></thead>'
@@ -138,16 +139,19 @@ def table(dh: DHTable, row: int, units: Units) -> str:
     )
 
 
-def _cells(row: DHRow, i: int, units: Units) -> str:
+def _cells(dh: DHTable, row: DHRow, i: int, units: Units) -> str:
     """Cells of one row; a step that DH motions cannot make is said in words."""
     first = f'<td style="{CELL}">{i if row.is_joint else "fixed"}</td>'
     if row.origin is not None:
         return f'{first}<td colspan="4" style="{CELL}">{_step(row.origin, units)}</td>'
-    moved = ("d" if row.joint_type is JointType.PRISMATIC else "theta") if row.is_joint else ""
+    moved, variable, constant = "", "", 0.0
+    if row.is_joint:
+        moved = "d" if row.joint_type is JointType.PRISMATIC else "theta"
+        variable, constant = moved_by(dh.joint_map, i - 1, row.sign)
     cells = first
     for key, kind in KINDS_OF.items():
-        read = reading(getattr(row, key), kind, units)
-        text = plus(f"{MINUS if row.sign < 0 else ''}q{i}", read.text) if key == moved else ""
+        read = reading(getattr(row, key) + constant * (key == moved), kind, units)
+        text = plus(variable, read.text) if key == moved else ""
         cells += f'<td style="{CELL}{NUMBERS}color:{QUANTITY[key]}">{number(read, text)}</td>'
     return cells
 

@@ -175,17 +175,6 @@ def test_continuous_joints_are_plain_angles():
     assert found.max_error <= 1e-14
 
 
-def test_mimicking_joints_are_told():
-    """A joint that follows another is a joint of its own in the table, with a warning."""
-    text = URDF.replace("</robot>", "").replace(
-        '<limit lower="-0.1" upper="0.2" effort="8" velocity="1"/>',
-        '<limit lower="-0.1" upper="0.2" effort="8" velocity="1"/><mimic joint="shoulder"/>',
-    )
-    found = extract_dh(text + "</robot>")
-    assert any("follows joint 'shoulder'" in warning for warning in found.warnings)
-    assert found.table.n == 2
-
-
 def test_limits_that_are_missing_or_infinite_are_none():
     """No <limit>, or an infinite one, is no limit, and the first is worth a warning."""
     without = URDF.replace('<limit lower="-2" upper="1" effort="9" velocity="3"/>', "")
