@@ -87,6 +87,12 @@ class SerialChain:
         out.flags.writeable = False
         return out
 
+    @property
+    def value_units(self) -> Array:
+        """What one of each value is in [rad] or [m], shape (n,)."""
+        units: Array = np.where(self.prismatic, self.unit, 1.0)
+        return units
+
     @cached_property
     def tables(self) -> tuple[Array, Array]:
         """Links (n + 1, 4, 4) and joints (n, 3: sliding, lower, upper), as kernels take them."""

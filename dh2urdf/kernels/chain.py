@@ -153,13 +153,31 @@ def chain_frames_batch(
             r = times_link(r, links[i + 1])
 
 
+def chain_pose(chain, q):
+    """The tip of a configuration q (n,), of an `AnyChain`."""
+    links, joints = chain
+    r = load_pose(links[0])
+    if joints.shape[0] == q.shape[0]:
+        for i in range(q.shape[0]):
+            r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
+    else:
+        for i in range(links.shape[0] - 1):
+            k = q.shape[0] + i
+            value = joints[k, 1] * q[int(joints[k, 0])]
+            r = joint_times_link(r, joints[k, 2] != 0.0, value, links[i + 1])
+    return r
+
+
 def jacobian_rows(chain, q, J):
     """Geometric Jacobian at the tip in base axes, joint i in row i of J (n, 6 or more); the tip.
 
     Linear before angular: ``(z_i x (p_tip - p_i), z_i)`` revolute, ``(z_i, 0)`` prismatic (Spong,
-    eqs. 4.57 to 4.60). The joints' points are kept in J until the tip is known.
+    eqs. 4.57 to 4.60). The joints' points are kept in J until the tip is known. Where joints follow
+    values, the row of a value is the sum over its joints.
     """
     links, joints = chain
+    if joints.shape[0] != q.shape[0]:
+        return _rows_of_values(links, joints, q, J)
     r = load_pose(links[0])
     for i in range(q.shape[0]):
         J[i, 0], J[i, 1], J[i, 2] = r[3], r[7], r[11]
@@ -173,6 +191,35 @@ def jacobian_rows(chain, q, J):
         else:
             x, y, z = r[3] - J[i, 0], r[7] - J[i, 1], r[11] - J[i, 2]
             J[i, 0], J[i, 1], J[i, 2] = zy * z - zz * y, zz * x - zx * z, zx * y - zy * x
+    return r
+
+
+def _rows_of_values(links, joints, q, J):
+    """:func:`jacobian_rows` where joints follow values: first moments about the base.
+
+    ``f z x (p_tip - p) = f z x p_tip - f z x p``: the first term is one for all joints of a value.
+    """
+    n = q.shape[0]
+    for v in range(n):
+        for e in range(6):
+            J[v, e] = 0.0
+    r = load_pose(links[0])
+    for i in range(links.shape[0] - 1):
+        at, factor, slides = int(joints[n + i, 0]), joints[n + i, 1], joints[n + i, 2] != 0.0
+        zx, zy, zz = factor * r[2], factor * r[6], factor * r[10]
+        if slides:
+            J[at, 0], J[at, 1], J[at, 2] = J[at, 0] + zx, J[at, 1] + zy, J[at, 2] + zz
+        else:
+            J[at, 0] -= zy * r[11] - zz * r[7]
+            J[at, 1] -= zz * r[3] - zx * r[11]
+            J[at, 2] -= zx * r[7] - zy * r[3]
+            J[at, 3], J[at, 4], J[at, 5] = J[at, 3] + zx, J[at, 4] + zy, J[at, 5] + zz
+        r = joint_times_link(r, slides, factor * q[at], links[i + 1])
+    for v in range(n):
+        zx, zy, zz = J[v, 3], J[v, 4], J[v, 5]
+        J[v, 0] += zy * r[11] - zz * r[7]
+        J[v, 1] += zz * r[3] - zx * r[11]
+        J[v, 2] += zx * r[7] - zy * r[3]
     return r
 
 

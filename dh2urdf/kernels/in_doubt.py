@@ -24,7 +24,7 @@ from dh2urdf.kernels.newton import (
     work_array,
 )
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
+from dh2urdf.kernels.shapes import AnyChain, Floats, Outputs, Poses
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
@@ -145,7 +145,7 @@ def _add_if_new(chain, T, q, count, trial, A, step, damped):
 
 
 @entry(n=6)
-def search_beside(chain: Chain, Ts: Poses, outputs: Outputs):
+def search_beside(chain: AnyChain, Ts: Poses, outputs: Outputs):
     """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
     q, _, count, _, _ = outputs
     A, step, trial = np.empty((6, 7)), np.empty(6), np.empty(6)
@@ -212,7 +212,11 @@ def _try_starts(chain, goal, starts, patience, q, count, room):
 
 @entry(n=6)
 def search_from(
-    chain: Chain, starts: Annotated[Floats, "starts", 6], unit: float, Ts: Poses, outputs: Outputs
+    chain: AnyChain,
+    starts: Annotated[Floats, "starts", 6],
+    unit: float,
+    Ts: Poses,
+    outputs: Outputs,
 ):
     """Append to q (m, kmax, 6) what Newton's method finds of poses Ts (m, 4, 4) from starts (s, 6).
 

@@ -54,6 +54,17 @@ class Chain(NamedTuple):
     joints: Joints
 
 
+class AnyChain(NamedTuple):
+    """A serial chain whose joints may follow its values: its links, kinds and limits of the values.
+
+    Where joints follow, there are as many rows more as joints: the value that moves it, by how much
+    a joint moves for one of it, 1.0 where the joint slides.
+    """
+
+    links: Annotated[Floats, "frames", 4, 4]
+    joints: Annotated[Floats, "moves", 3]
+
+
 class Found(NamedTuple):
     """Solutions of one pose: a row of `Outputs`, without their number."""
 

@@ -126,6 +126,8 @@ def known_of(op: ast.AST, a: Known, b: Known) -> Known:
     sign, _ = SIGNS[type(op)]
     if isinstance(a, int | float) and isinstance(b, int | float):
         return _OPERATORS[sign](a, b) if sign in _OPERATORS and (sign != "/" or b) else None
+    if isinstance(a, str) and a == b and sign in ("==", "!="):
+        return sign == "=="
     both = isinstance(a, int | str) and isinstance(b, int | str)
     return f"({a} {sign} {b})" if both and sign in "+-*" and a and b else None
 

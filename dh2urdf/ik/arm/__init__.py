@@ -63,4 +63,5 @@ from dh2urdf.ik.arm.task import (
     spare_joints,
     task_error,
     task_jacobian,
+    tips_at,
 )

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.transforms import Array, product, rot_z, trans
 
 NORMAL = (2.0**-4, 2.0**4)
@@ -23,6 +23,8 @@ RIGID = 1e-6
 
 def in_own_unit(chain: SerialChain) -> SerialChain:
     """The chain with its lengths in a unit that makes it 1 to 2 long; itself if it is normal."""
+    if isinstance(chain, CoupledChain):
+        chain = chain.in_turns
     length = chain.length if chain.length > RIGID * chain.size else chain.size
     if NORMAL[0] <= length <= NORMAL[1]:
         return chain
@@ -38,6 +40,8 @@ def lengths_in(Ts: Array, unit: float) -> Array:
 
 def hold(chain: SerialChain, held: Mapping[int, float]) -> SerialChain:
     """The chain without the held joints: ``links[i] Z_i(value) links[i + 1]`` become one link."""
+    if isinstance(chain, CoupledChain):
+        return chain.held(dict(held))
     links = [chain.links[0]]
     for i in range(chain.n):
         if i in held:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.ik.arm.shared_tolerances import FAMILY_RANK, NO_RANK, SPARE_RANK, WEAK_RANK
 from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 from dh2urdf.transforms import Array, dot, product
@@ -55,20 +55,40 @@ def task_error(T_found: Array, T: Array, task: Task) -> Array:
     return np.concatenate([position, turn], axis=1)
 
 
+def _joints(chain: SerialChain, q: Array) -> tuple[Array, NDArray[np.bool_]]:
+    """Values (k, N) of the joints at configurations q (k, n), and which slide."""
+    if isinstance(chain, CoupledChain):
+        return np.ascontiguousarray(q @ chain.matrix.T), chain.sliding
+    return np.ascontiguousarray(q), chain.prismatic
+
+
+def _tips(chain: SerialChain, slides: NDArray[np.bool_], joints: Array) -> Array:
+    """Poses (k, 4, 4) at values (k, N) of the joints."""
+    T = np.empty((len(joints), 4, 4))
+    chain_fk_batch(chain.links, slides, joints, T)
+    return T
+
+
+def tips_at(chain: SerialChain, q: Array) -> Array:
+    """``T_base_tool`` at configurations q (k, n), shape (k, 4, 4)."""
+    joints, slides = _joints(chain, q)
+    return _tips(chain, slides, joints)
+
+
 def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
     """Derivative of the task at configurations q (k, n), shape (k, 3 or 6, n).
 
     For ``position+axis`` the turn about the tool's own z is taken out.
     """
-    q = np.ascontiguousarray(q)
-    J = np.empty((len(q), 6, chain.n))
-    chain_jacobian_batch(chain.links, chain.prismatic, q, J)
+    q, slides = _joints(chain, q)
+    J = np.empty((len(q), 6, q.shape[1]))
+    chain_jacobian_batch(chain.links, slides, q, J)
+    if isinstance(chain, CoupledChain):
+        J = J @ chain.matrix
     if task is Task.POSITION:
         return J[:, :3]
     if task is Task.POSITION_AXIS:
-        T = np.empty((len(q), 4, 4))
-        chain_fk_batch(chain.links, chain.prismatic, q, T)
-        z = T[:, :3, 2]
+        z = _tips(chain, slides, q)[:, :3, 2]
         J[:, 3:] -= z[:, :, None] * product(z[:, None], J[:, 3:])
     return J
 
@@ -102,7 +122,7 @@ def spare_joints(chain: SerialChain, task: Task) -> int:
 
 def hardly_moves(chain: SerialChain, task: Task) -> bool:
     """Whether the tool moves little in one direction everywhere, but more than within rounding."""
-    if task is not Task.POSE or not 1 < chain.n <= MOST_JOINTS:
+    if task is not Task.POSE or isinstance(chain, CoupledChain) or not 1 < chain.n <= MOST_JOINTS:
         return False
     sigma = _singular_values(chain, task)
     least = (sigma / sigma[:, :1]).max(axis=0)

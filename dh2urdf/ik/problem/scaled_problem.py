@@ -6,8 +6,6 @@ Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chains`; what 
 
 from dataclasses import replace
 
-import numpy as np
-
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import HeldSolver, Outputs, lengths_in
 from dh2urdf.ik.problem.batch_solutions import IKBatch
@@ -24,7 +22,7 @@ class ScaledProblem(Problem):
     def __init__(self, chain: SerialChain, inner: Problem) -> None:
         super().__init__(chain, inner.solver, inner.task, inner.referee)
         self.inner, self.unit = inner, inner.chain.unit
-        self.scale = np.where(chain.prismatic, self.unit, 1.0)
+        self.scale = inner.chain.value_units / chain.value_units
 
     @property
     def sampled(self) -> bool:

@@ -19,10 +19,10 @@ from dh2urdf.ik.arm import (
     moving_joints,
     task_error,
     task_jacobian,
+    tips_at,
     turned_to,
 )
 from dh2urdf.ik.families import search_short
-from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.transforms import Array
 
 STARTS = 64
@@ -119,6 +119,4 @@ def nearly_reaching(
 
 def _weighted(chain: SerialChain, q: Array, T: Array, task: Task, weight: Array) -> Array:
     """Weighted task errors of configurations q (k, n), shape (k, 3 or 6)."""
-    poses = np.empty((len(q), 4, 4))
-    chain_fk_batch(chain.links, chain.prismatic, q, poses)
-    return task_error(poses, T, task) * weight
+    return task_error(tips_at(chain, q), T, task) * weight

@@ -9,7 +9,7 @@ from dh2urdf.kernels.certificate.certify import ACCEPT, TWO_PI
 from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, pose_residual
 from dh2urdf.kernels.numbers import any_family, entry
 from dh2urdf.kernels.shapes import (
-    Chain,
+    AnyChain,
     Configuration,
     Counts,
     Floats,
@@ -79,7 +79,9 @@ def _measure(chain, task, T, q, damped):
 
 
 @entry()
-def measure_all(chain: Chain, task: int, Ts: Poses, q: Solutions, count: Counts, residual: Values):
+def measure_all(
+    chain: AnyChain, task: int, Ts: Poses, q: Solutions, count: Counts, residual: Values
+):
     """Residuals (m, k) of configurations q (m, k, n), the first ``count[i]`` of each pose Ts[i]."""
     damped = make_damped(q.shape[2])
     for i in range(q.shape[0]):
@@ -97,7 +99,7 @@ def distance2(q, seed):
 
 @entry()
 def measure_and_sort(
-    chain: Chain, task: int, T: Pose, seed: Configuration, found: Found, distance: Sizes
+    chain: AnyChain, task: int, T: Pose, seed: Configuration, found: Found, distance: Sizes
 ):
     """Measure solutions of a pose T (4, 4), and sort them by ``distance`` from a seed (n,).
 
@@ -118,7 +120,7 @@ def _sort_in(chain, task, T, seed, found, distance, k, damped):
         k -= 1
 
 
-def keep_inside(chain: Chain, slack: float, task: int, Ts: Poses, outputs: Outputs):
+def keep_inside(chain: AnyChain, slack: float, task: int, Ts: Poses, outputs: Outputs):
     """Of one pose, leave out the solutions with free joints that are outside the limits; how many.
 
     Other members of their families may be inside. Where a solution has free joints, all residuals
@@ -144,7 +146,7 @@ def keep_inside(chain: Chain, slack: float, task: int, Ts: Poses, outputs: Outpu
 
 
 def arrange_near(
-    chain: Chain,
+    chain: AnyChain,
     slack: float,
     task: int,
     Ts: Poses,
@@ -171,7 +173,7 @@ def arrange_near(
 
 @entry()
 def arrange_plain(
-    chain: Chain,
+    chain: AnyChain,
     largest: Configuration,
     slack: float,
     task: int,

@@ -27,7 +27,7 @@ from dh2urdf.kernels.newton import (
     work_array,
 )
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Outputs, Poses
+from dh2urdf.kernels.shapes import AnyChain, Outputs, Poses
 
 NEAR = 0.01
 """Joint distance [rad or m] below which two solutions may be one."""
@@ -103,7 +103,7 @@ def name_families(chain, T, rows, count, suspected, work):
 
 
 @entry()
-def name_batch(chain: Chain, Ts: Poses, outputs: Outputs):
+def name_batch(chain: AnyChain, Ts: Poses, outputs: Outputs):
     """Name the families of solutions q (m, kmax, n) of poses Ts (m, 4, 4) anew, in place."""
     q, residual, count, branch, free = outputs
     work = work_array(q.shape[2])
@@ -247,7 +247,7 @@ def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
 
 
 @entry()
-def finish_batch(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
+def finish_batch(chain: AnyChain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose Ts[i], in place.
 
     The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
@@ -271,7 +271,7 @@ def reverse_joints(q, free):
 
 
 @entry()
-def turn_back(chain: Chain, Ts: Poses, within_limits: bool, outputs: Outputs):
+def turn_back(chain: AnyChain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Reverse the joints of solutions q (m, kmax, n), and certify them on the chain, in place.
 
     The reversed chain measures its position error at the other end.

@@ -1,4 +1,4 @@
-"""Real roots of a trigonometric polynomial of degree 8, by its Bernstein coefficients on arcs.
+"""Real roots of a trigonometric polynomial, by its Bernstein coefficients on arcs.
 
 These change sign at least as often as it has roots there, and by an even number more (Descartes):
 none means no root, one means one. Arcs with more changes are halved until they are decided, so no
@@ -7,7 +7,6 @@ root is overlooked.
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.general_6r.arc_shapes import (
     CENTRE,
     CHANGES,
@@ -26,7 +25,7 @@ from dh2urdf.kernels.general_6r.arc_shapes import (
     shape,
 )
 from dh2urdf.kernels.general_6r.brackets import SLOPE, X, narrow_brackets, place_bracket
-from dh2urdf.kernels.numbers import LANES, atan2
+from dh2urdf.kernels.numbers import atan2
 
 NARROWEST = 2e-4
 """Length [rad] of an arc below which a pair at an extremum of f counts as a double root."""
@@ -46,9 +45,8 @@ UNSURE = 1e-6
 SPANS = 31
 """Spans of doubt that are remembered."""
 
-HALF = LANES // 2
 WAITING = 40
-"""Arcs that are halved at once, and that can wait for it."""
+"""Arcs that can wait to be halved."""
 
 KEY, MIDDLE, LOW, HIGH, UNCERTAIN, ROOT, AT, SIZE, FACTS = range(9)
 """What is found of an arc: its place among the others, centre, tangents of the ends, whether in
@@ -61,31 +59,32 @@ FOUND = 64
 def _note(arm, k, doubt, root, x, slope):
     """Remember what is found of arc k, sorted by places."""
     facts, order, arcs = arm["facts"], arm["order"], arm["arcs"]
-    n = order[FOUND]
-    if n == FOUND:
+    most, terms = len(facts), len(arcs) - ROWS
+    n = order[most]
+    if n == most:
         arm["fresh"][1, 0] = 1.0
         return
-    centre, left = arcs[CENTRE, k], arcs[LEFT, k]
+    centre, left = arcs[terms + CENTRE, k], arcs[terms + LEFT, k]
     facts[n, KEY], facts[n, MIDDLE] = 2.0 * centre + left, centre
-    facts[n, LOW], facts[n, HIGH], facts[n, UNCERTAIN] = left, arcs[RIGHT, k], doubt
+    facts[n, LOW], facts[n, HIGH], facts[n, UNCERTAIN] = left, arcs[terms + RIGHT, k], doubt
     facts[n, ROOT], facts[n, AT], facts[n, SIZE] = root, x, slope
     place = n
     while place > 0 and facts[order[place - 1], KEY] > facts[n, KEY]:
         order[place] = order[place - 1]
         place -= 1
     order[place] = n
-    order[FOUND] = n + 1
+    order[most] = n + 1
 
 
 def _pair(arm, k, roots, x, f, ddf):
     """Enclose the two roots of arc k beside an extremum that lies across the axis; their number."""
     arcs, scaled, brackets = arm["arcs"], arm["scaled"], arm["brackets"]
-    h, positive = math.sqrt(abs(2.0 * f / ddf)), arcs[0, k] > 0.0
-    fine = 1e-8 / (2.0 * (arcs[RIGHT, k] - arcs[LEFT, k]))
+    h, positive, terms = math.sqrt(abs(2.0 * f / ddf)), arcs[0, k] > 0.0, len(arcs) - ROWS
+    fine = 1e-8 / (2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k]))
     bounds = 0.0, max(x - h, 0.0), x
     place_bracket(arcs, k, bounds, not positive, fine, roots, scaled, brackets)
     _note(arm, k, arm["shapes"][DOUBT, k], float(roots), 0.0, 1.0)
-    if roots + 1 < LANES - 1:
+    if roots + 1 < brackets.shape[1] - 1:
         bounds = x, min(x + h, 1.0), 1.0
         place_bracket(arcs, k, bounds, positive, fine, roots + 1, scaled, brackets)
         _note(arm, k, 0.0, float(roots + 1), 0.0, 1.0)
@@ -99,10 +98,11 @@ def _at_extremum(arm, k, roots, noise):
     Their number, and whether this decides the arc.
     """
     arcs, shapes, row = arm["arcs"], arm["shapes"], arm["row"]
-    length, changes = 2.0 * (arcs[RIGHT, k] - arcs[LEFT, k]), shapes[CHANGES, k]
-    for i in range(TERMS):
+    terms, changes = len(row), shapes[CHANGES, k]
+    length = 2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k])
+    for i in range(terms):
         row[i] = arcs[i, k]
-    start = shapes[PLACE, k] / (TERMS - 1) if changes == 0.0 else 0.5
+    start = shapes[PLACE, k] / (terms - 1) if changes == 0.0 else 0.5
     x, f, df, ddf = extremum(row, start, arm["casteljau"])
     positive = row[0] > 0.0
     if not abs(df) < 1e-4 * abs(ddf) or positive != (ddf > 0.0):
@@ -121,11 +121,12 @@ def _at_extremum(arm, k, roots, noise):
 
 def _enclose(arm, k, roots):
     """Enclose the root of an arc with one."""
-    arcs, shapes = arm["arcs"], arm["shapes"]
+    arcs, shapes, terms = arm["arcs"], arm["shapes"], len(arm["row"])
     i = int(shapes[FIRST, k])
     a, b = arcs[i - 1, k], arcs[i, k]
-    guess = (i - 1 + a / (a - b)) / (TERMS - 1)
-    fine, rising = 1e-8 / (2.0 * (arcs[RIGHT, k] - arcs[LEFT, k])), arcs[0, k] <= 0.0
+    guess = (i - 1 + a / (a - b)) / (terms - 1)
+    length, rising = 2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k]), arcs[0, k] <= 0.0
+    fine = 1e-8 / length
     bounds = 0.0, guess, 1.0
     place_bracket(arcs, k, bounds, rising, fine, roots, arm["scaled"], arm["brackets"])
     _note(arm, k, shapes[DOUBT, k], float(roots), 0.0, 1.0)
@@ -133,9 +134,9 @@ def _enclose(arm, k, roots):
 
 def _decide(arm, k, roots, pairs, noise):
     """Enclose the roots of arc k, if it is plain where they are; their number, and whether so."""
-    arcs, shapes = arm["arcs"], arm["shapes"]
+    arcs, shapes, terms = arm["arcs"], arm["shapes"], len(arm["row"])
     changes, before, decided = shapes[CHANGES, k], roots, shapes[CHANGES, k] == 0.0
-    length = 2.0 * (arcs[RIGHT, k] - arcs[LEFT, k])
+    length = 2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k])
     if changes == 1.0:
         _enclose(arm, k, roots)
         return roots + 1, True
@@ -146,39 +147,40 @@ def _decide(arm, k, roots, pairs, noise):
     if not decided and length < 1e-12:
         _note(arm, k, 0.0, -1.0, 0.5, -2.0)
         decided = True
-    dips = changes == 2.0 and 0.0 < shapes[DIP, k] < TERMS - 1.0
-    arcs[CUT, k] = shapes[DIP, k] / (TERMS - 1) if dips and pairs[2] > 0.0 else 0.5
+    dips = changes == 2.0 and 0.0 < shapes[DIP, k] < terms - 1.0
+    arcs[terms + CUT, k] = shapes[DIP, k] / (terms - 1) if dips and pairs[2] > 0.0 else 0.5
     return roots, decided
 
 
 def _isolate(n, noise, pairs, arm):
     """Enclose the roots on n arcs; their number."""
     arcs, parts, waiting, shapes = arm["arcs"], arm["parts"], arm["waiting"], arm["shapes"]
-    roots, waits = 0, 0
+    roots, waits, rows, half = 0, 0, len(arcs), arcs.shape[1] // 2
+    most = arm["brackets"].shape[1] - 1
     while n > 0:
         shape(arcs, n, noise, pairs[1], shapes)
         m = 0
         for k in range(n):
-            if shapes[OPEN, k] == 0.0 or roots >= LANES - 1:
+            if shapes[OPEN, k] == 0.0 or roots >= most:
                 continue
             roots, decided = _decide(arm, k, roots, pairs, noise)
             if decided:
                 continue
-            if m < HALF:
-                for i in range(ROWS):
+            if m < half:
+                for i in range(rows):
                     parts[i, m] = arcs[i, k]
                 m += 1
-            elif waits < WAITING:
-                for i in range(ROWS):
+            elif waits < len(waiting):
+                for i in range(rows):
                     waiting[waits, i] = arcs[i, k]
                 waits += 1
             else:
                 arm["fresh"][1, 0] = 1.0
         if m == 0 and waits > 0:
-            m = min(waits, HALF)
+            m = min(waits, half)
             waits -= m
             for k in range(m):
-                for i in range(ROWS):
+                for i in range(rows):
                     parts[i, k] = waiting[waits + k, i]
         cut(parts, m, arcs)
         n = 2 * m
@@ -216,9 +218,9 @@ def roots_on_arcs(n, noise, pairs, count, arm):
     """
     facts, order, brackets, spans = arm["facts"], arm["order"], arm["brackets"], arm["fresh"]
     roots, slopes = arm["roots"], arm["slopes"]
-    order[FOUND] = 0
+    order[len(facts)] = 0
     narrow_brackets(arm["scaled"], _isolate(n, noise, pairs, arm), brackets)
-    for place in range(order[FOUND]):
+    for place in range(order[len(facts)]):
         i = order[place]
         centre, left, right = facts[i, MIDDLE], facts[i, LOW], facts[i, HIGH]
         x, slope, doubt = facts[i, AT], facts[i, SIZE], facts[i, UNCERTAIN] > 0.0
@@ -227,7 +229,7 @@ def roots_on_arcs(n, noise, pairs, count, arm):
             x, slope = brackets[X, bracket], abs(brackets[SLOPE, bracket]) / (2.0 * (right - left))
             slope += 1e-300
             doubt = doubt or slope * UNSURE < noise
-        if (facts[i, ROOT] >= 0.0 or slope <= 0.0) and count < LANES - 1:
+        if (facts[i, ROOT] >= 0.0 or slope <= 0.0) and count < len(roots) - 1:
             roots[count], slopes[count] = _angle(centre, left, right, x), slope
             count += 1
         if doubt:

@@ -1,9 +1,10 @@
-"""Bernstein coefficients of a trigonometric polynomial of degree 8 that is known by samples.
+"""Bernstein coefficients of a trigonometric polynomial that is known by samples.
 
-On an arc around q_0, ``(1 + t^2)^8 f`` with ``t = tan((q - q_0) / 2)`` is a polynomial of degree
-16. Its coefficients come from 24 samples: all around the circle, for 24 arcs at once, or on one
-window, for roots that lie where f is small against its largest value. Degree 8 needs only 17
-samples; what the other seven contradict is the samples' own rounding noise, measured.
+On an arc around q_0, ``(1 + t^2)^d f`` with ``t = tan((q - q_0) / 2)`` is a polynomial of degree
+2 d where f has degree d. Its coefficients come from 2 d + 8 samples: all around the circle, for as
+many arcs at once, or on one window, for roots that lie where f is small against its largest value.
+Degree d needs only 2 d + 1; what the other seven contradict is the samples' own rounding noise,
+measured. Which degree is seen from the arrays' lengths, when kernels are translated.
 """
 
 import math
@@ -13,42 +14,69 @@ import numpy as np
 from dh2urdf.kernels.numbers import LANES, atan2, side_by_side, sincos
 
 DEGREE = 8
+"""Degree of the polynomial of six turning joints; those of joints with followers are higher."""
+
+DEGREES = 8, 16, 32, 48
+"""Those that there are tables for: of ``2 degree + 8`` samples, seven more than it has unknowns."""
+
 TERMS = 2 * DEGREE + 1
-HARMONICS = 23
 ARC = 2.0 * math.pi / LANES
-ARC_TAN = sincos(0.25 * ARC)[0] / sincos(0.25 * ARC)[1]
-
-BINOMIAL = np.array([float(math.comb(2 * DEGREE, i)) for i in range(TERMS)])
-
-CIRCLE_ANGLE = 2.0 * np.pi * np.arange(LANES) / LANES
-CIRCLE_SIN, CIRCLE_COS = np.array([sincos(x) for x in CIRCLE_ANGLE.tolist()]).T.copy()
-_TURNS = np.outer(np.arange(1, DEGREE + 1), np.arange(LANES)) % LANES
-COSINES, SINES = CIRCLE_COS[_TURNS], CIRCLE_SIN[_TURNS]
-NODE = np.array([sincos(math.pi * (k + 0.5) / LANES)[1] for k in range(LANES)])
+"""Length [rad] of an arc of degree 8."""
 
 
-def _circle_table():
-    """Weights of the 24 samples in a_0, a_1, b_1, ... b_11."""
-    rows = [np.full(LANES, 0.5)]
-    for m in range(1, 12):
-        turns = m * np.arange(LANES) % LANES
-        rows += [CIRCLE_COS[turns], CIRCLE_SIN[turns]]
-    return np.ascontiguousarray(np.array(rows).T * (2.0 / LANES))
+def lanes_of(degree):
+    """Samples on the circle, and arcs, of a polynomial of a degree."""
+    return 2 * degree + 8
 
 
-def _arc_table():
-    """Bernstein coefficients (17, 17) on one arc of 1, cos q, sin q, cos 2q, ...
+def _arc_tan(lanes):
+    """Tangent of a quarter of the length of an arc."""
+    sine, cosine = sincos(0.25 * (2.0 * math.pi / lanes))
+    return sine / cosine
 
-    From ``(1 + t^2)^8 exp(i m q) = (1 + i t)^(8 + m) (1 - i t)^(8 - m)``, each factor linear.
+
+def _binomial(degree):
+    return np.array([float(math.comb(2 * degree, i)) for i in range(2 * degree + 1)])
+
+
+def _circle(lanes):
+    """Cosines and sines of the samples' places, (2, lanes)."""
+    angles = 2.0 * np.pi * np.arange(lanes) / lanes
+    sine, cosine = np.array([sincos(x) for x in angles.tolist()]).T.copy()
+    return np.stack([cosine, sine])
+
+
+def _turns(degree):
+    """Cosines and sines of multiples of the arcs' centres, (2, degree, lanes)."""
+    lanes = lanes_of(degree)
+    return _circle(lanes)[:, np.outer(np.arange(1, degree + 1), np.arange(lanes)) % lanes]
+
+
+def _nodes(lanes):
+    return np.array([sincos(math.pi * (k + 0.5) / lanes)[1] for k in range(lanes)])
+
+
+def _circle_table(lanes):
+    """Weights of the samples in a_0, a_1, b_1, ... up to half as many harmonics."""
+    rows = [np.full(lanes, 0.5)]
+    for m in range(1, lanes // 2):
+        rows += list(_circle(lanes)[:, m * np.arange(lanes) % lanes])
+    return np.ascontiguousarray(np.array(rows).T * (2.0 / lanes))
+
+
+def _arc_table(degree):
+    """Bernstein coefficients on one arc of 1, cos q, sin q, cos 2q, ..., square.
+
+    From ``(1 + t^2)^d exp(i m q) = (1 + i t)^(d + m) (1 - i t)^(d - m)``, each factor linear.
     """
-    columns = []
-    for m in range(DEGREE + 1):
+    columns, binomial, half_tan = [], _binomial(degree), _arc_tan(lanes_of(degree))
+    for m in range(degree + 1):
         real, imaginary = np.ones(1), np.zeros(1)
-        for factor in range(2 * DEGREE):
-            t = ARC_TAN if factor < DEGREE + m else -ARC_TAN
+        for factor in range(2 * degree):
+            t = half_tan if factor < degree + m else -half_tan
             (a, b), (c, d) = _beside(real), _beside(imaginary)
             real, imaginary = a + b + t * (c - d), c + d - t * (a - b)
-        columns += [real / BINOMIAL] if m == 0 else [real / BINOMIAL, imaginary / BINOMIAL]
+        columns += [real / binomial] if m == 0 else [real / binomial, imaginary / binomial]
     return np.ascontiguousarray(np.array(columns).T)
 
 
@@ -61,27 +89,38 @@ def _beside(rows):
     return np.concatenate([rows, nothing]), np.concatenate([nothing, rows])
 
 
-def _window_table():
-    """Weights (24, 24) of samples at the nodes: 17 Bernstein coefficients, 7 contradictions."""
-    x, basis = 0.5 * (1.0 + NODE), np.ones((1, LANES))
-    for _ in range(2 * DEGREE):
+def _window_table(degree):
+    """Weights of samples at the nodes, square: Bernstein coefficients, then 7 contradictions."""
+    lanes, terms = lanes_of(degree), 2 * degree + 1
+    x, basis = 0.5 * (1.0 + _nodes(lanes)), np.ones((1, lanes))
+    for _ in range(2 * degree):
         low, high = _beside(basis)
         basis = (1.0 - x) * low + x * high
     # Q R by reflections, beside Q' itself; then R^-1 times its first rows
-    both = np.hstack([basis.T, np.eye(LANES)])
-    for k in range(TERMS):
-        v = np.where(np.arange(LANES) < k, 0.0, both[:, k])[:, None]
+    both = np.hstack([basis.T, np.eye(lanes)])
+    for k in range(terms):
+        v = np.where(np.arange(lanes) < k, 0.0, both[:, k])[:, None]
         v[k] += math.copysign(math.sqrt(float((v * v).sum(axis=0)[0])), v[k, 0])
         both -= v * ((v * both).sum(axis=0) * (2.0 / (v * v).sum(axis=0)))
-    for k in reversed(range(TERMS)):
+    for k in reversed(range(terms)):
         both[k] /= both[k, k]
         both[:k] -= both[:k, k, None] * both[k]
-    return np.ascontiguousarray(both[:, TERMS:].T)
+    return np.ascontiguousarray(both[:, terms:].T)
 
 
-CIRCLE_TABLE = _circle_table()
-ARC_TABLE = _arc_table()
-WINDOW_TABLE = _window_table()
+CIRCLE_8, CIRCLE_16, CIRCLE_32, CIRCLE_48 = (_circle_table(lanes_of(d)) for d in DEGREES)
+TURNS_8, TURNS_16, TURNS_32, TURNS_48 = (_turns(d) for d in DEGREES)
+ARC_8, ARC_16, ARC_32, ARC_48 = (_arc_table(d) for d in DEGREES)
+WINDOW_8, WINDOW_16, WINDOW_32, WINDOW_48 = (_window_table(d) for d in DEGREES)
+NODES_8, NODES_16, NODES_32, NODES_48 = (_nodes(lanes_of(d)) for d in DEGREES)
+PLACES_8, PLACES_16, PLACES_32, PLACES_48 = (_circle(lanes_of(d)) for d in DEGREES)
+TAN_8, TAN_16, TAN_32, TAN_48 = (_arc_tan(lanes_of(d)) for d in DEGREES)
+BINOMIAL_8, BINOMIAL_16, BINOMIAL_32, BINOMIAL_48 = (_binomial(d) for d in DEGREES)
+
+
+def arc_tan(lanes):
+    """Tangent of a quarter of the length of each of so many arcs."""
+    return TAN_8 if lanes == 24 else TAN_16 if lanes == 40 else TAN_32 if lanes == 72 else TAN_48
 
 
 def _transform(samples, table, series):
@@ -103,49 +142,107 @@ def _largest(series, first, last):
 
 
 def circle_arcs(samples, series, turned, arcs):
-    """Bernstein coefficients of f on 24 arcs from samples (24,) around the circle.
+    """Bernstein coefficients of f on arcs from as many samples around the circle.
 
-    Column k of ``arcs``, its first 17 rows: those on the arc centred at ``k * ARC``. Returns the
-    largest Fourier coefficient that should vanish (the noise) and the largest of all. ``series``
-    (24,) and ``turned`` (17, 24) are scratch.
+    Column k of ``arcs``, its first rows: those on the arc centred at that of sample k. Returns the
+    largest Fourier coefficient that should vanish (the noise) and the largest of all. ``series``,
+    as long, and ``turned``, a row a coefficient, are scratch.
     """
-    _transform(samples, CIRCLE_TABLE, series)
+    if len(turned) == 17:
+        _circle_arcs(samples, CIRCLE_8, TURNS_8, ARC_8, series, turned, arcs)
+    elif len(turned) == 33:
+        _circle_arcs(samples, CIRCLE_16, TURNS_16, ARC_16, series, turned, arcs)
+    elif len(turned) == 65:
+        _circle_arcs(samples, CIRCLE_32, TURNS_32, ARC_32, series, turned, arcs)
+    else:
+        _circle_arcs(samples, CIRCLE_48, TURNS_48, ARC_48, series, turned, arcs)
+    terms = len(turned)
+    return _largest(series, terms, len(series) - 1), _largest(series, 0, terms)
+
+
+def _circle_arcs(samples, circle, turns, table, series, turned, arcs):
+    """The same by the tables of a degree."""
+    terms, lanes = len(turned), turned.shape[1]
+    _transform(samples, circle, series)
     turned[0] = series[0]
-    for m in range(1, DEGREE + 1):
+    for m in range(1, terms // 2 + 1):
         a, b = series[2 * m - 1], series[2 * m]
-        for k in side_by_side(LANES):
-            c, s = COSINES[m - 1, k], SINES[m - 1, k]
+        for k in side_by_side(lanes):
+            c, s = turns[0, m - 1, k], turns[1, m - 1, k]
             turned[2 * m - 1, k] = a * c + b * s
             turned[2 * m, k] = b * c - a * s
-    for i in range(TERMS):
-        for k in side_by_side(LANES):
+    for i in range(terms):
+        for k in side_by_side(lanes):
             total = 0.0
-            for m in range(TERMS):
-                total += ARC_TABLE[i, m] * turned[m, k]
+            for m in range(terms):
+                total += table[i, m] * turned[m, k]
             arcs[i, k] = total
-    for k in side_by_side(LANES):
-        arcs[0, k] = arcs[TERMS - 1, (k + LANES - 1) % LANES]
-    return _largest(series, TERMS, HARMONICS), _largest(series, 0, TERMS)
+    for k in side_by_side(lanes):
+        arcs[0, k] = arcs[terms - 1, (k + lanes - 1) % lanes]
+
+
+def circle_places(start, hidden):
+    """Cosines and sines, (2, lanes), of the places at which the circle is sampled from a start."""
+    if hidden.shape[1] == 24:
+        _circle_places(start, PLACES_8, hidden)
+    elif hidden.shape[1] == 40:
+        _circle_places(start, PLACES_16, hidden)
+    elif hidden.shape[1] == 72:
+        _circle_places(start, PLACES_32, hidden)
+    else:
+        _circle_places(start, PLACES_48, hidden)
+
+
+def _circle_places(start, places, hidden):
+    sine, cosine = sincos(start)
+    for i in side_by_side(hidden.shape[1]):
+        hidden[0, i] = places[0, i] * cosine - places[1, i] * sine
+        hidden[1, i] = places[1, i] * cosine + places[0, i] * sine
 
 
 def window_nodes(centre, half_tan, hidden):
-    """Cosines and sines, (2, 24), of the places at which a window is sampled."""
-    for k in side_by_side(LANES):
-        q = centre + 2.0 * atan2(half_tan * NODE[k], 1.0)
+    """Cosines and sines, (2, lanes), of the places at which a window is sampled."""
+    if hidden.shape[1] == 24:
+        _window_nodes(centre, half_tan, NODES_8, hidden)
+    elif hidden.shape[1] == 40:
+        _window_nodes(centre, half_tan, NODES_16, hidden)
+    elif hidden.shape[1] == 72:
+        _window_nodes(centre, half_tan, NODES_32, hidden)
+    else:
+        _window_nodes(centre, half_tan, NODES_48, hidden)
+
+
+def _window_nodes(centre, half_tan, nodes, hidden):
+    for k in side_by_side(hidden.shape[1]):
+        q = centre + 2.0 * atan2(half_tan * nodes[k], 1.0)
         hidden[0, k], hidden[1, k] = sincos(q)[1], sincos(q)[0]
 
 
-def window_arc(samples, half_tan, series, arcs):
-    """Bernstein coefficients of f on one window from its 24 samples, to the first column of arcs.
+def window_arc(samples, half_tan, series, turned, arcs):
+    """Bernstein coefficients of f on one window from its samples, to the first column of arcs.
 
     Returns the largest contradiction among the samples: the noise. ``samples`` is overwritten,
-    ``series`` (24,) scratch.
+    ``series`` scratch; ``turned`` says the degree.
     """
-    for k in side_by_side(LANES):
-        t = half_tan * NODE[k]
+    if len(turned) == 17:
+        _window_arc(samples, half_tan, NODES_8, WINDOW_8, series, turned, arcs)
+    elif len(turned) == 33:
+        _window_arc(samples, half_tan, NODES_16, WINDOW_16, series, turned, arcs)
+    elif len(turned) == 65:
+        _window_arc(samples, half_tan, NODES_32, WINDOW_32, series, turned, arcs)
+    else:
+        _window_arc(samples, half_tan, NODES_48, WINDOW_48, series, turned, arcs)
+    return _largest(series, len(turned), len(series))
+
+
+def _window_arc(samples, half_tan, nodes, table, series, turned, arcs):
+    """The same by the tables of a degree."""
+    for k in side_by_side(len(samples)):
+        t = half_tan * nodes[k]
         square = (1.0 + t * t) * (1.0 + t * t)
-        samples[k] *= square * square * (square * square)
-    _transform(samples, WINDOW_TABLE, series)
-    for i in range(TERMS):
+        eighth = square * square * (square * square)
+        for _ in range(len(turned) // 16):
+            samples[k] *= eighth
+    _transform(samples, table, series)
+    for i in range(len(turned)):
         arcs[i, 0] = series[i]
-    return _largest(series, TERMS, LANES)

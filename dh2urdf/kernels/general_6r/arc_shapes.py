@@ -1,15 +1,14 @@
 """Arcs side by side: what the Bernstein coefficients of f on each say, how to cut them, extrema.
 
-An arc is a column: its seventeen coefficients, then the tangents of half the angles of its ends,
-seen from a centre [rad].
+An arc is a column: its coefficients, seventeen for degree 8, then the tangents of half the angles
+of its ends, seen from a centre [rad].
 """
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import TERMS
 from dh2urdf.kernels.numbers import side_by_side
 
-LEFT, RIGHT, CENTRE, CUT, ROWS = TERMS, TERMS + 1, TERMS + 2, TERMS + 3, TERMS + 4
+LEFT, RIGHT, CENTRE, CUT, ROWS = range(5)
 """Rows of an arc below its coefficients, the last one where to cut it, and how many rows."""
 
 CHANGES, FIRST, PLACE, SMALLEST, LARGEST, DIP, DEPTH, DOUBT, PAIR, OPEN, SHAPES = range(11)
@@ -32,18 +31,19 @@ BLIND = 30.0
 
 
 def shape(arcs, n, noise, shallow, shapes):
-    """Look at n arcs (21, 24), to shapes (10, 24).
+    """Look at n arcs, a column each, to as many columns of shapes.
 
     ``noise`` is the size of f that may be zero; an arc whose smallest coefficient is below the part
     ``shallow`` of its largest may hold a pair, unless it is sure that f falls towards an end, for
     then its roots are beyond.
     """
-    lanes, last = (n + 7) // 8 * 8, TERMS - 1
+    lanes, terms = (n + 7) // 8 * 8, len(arcs) - ROWS
+    last = terms - 1
     for k in side_by_side(lanes):
         shapes[CHANGES, k], shapes[FIRST, k], shapes[PLACE, k] = 0.0, 0.0, 0.0
         shapes[SMALLEST, k], shapes[LARGEST, k] = abs(arcs[0, k]), abs(arcs[0, k])
         shapes[DIP, k], shapes[DEPTH, k] = 0.0, abs(arcs[0, k])
-    for i in range(1, TERMS):
+    for i in range(1, terms):
         at = float(i)
         for k in side_by_side(lanes):
             size, least, changes = abs(arcs[i, k]), shapes[SMALLEST, k], shapes[CHANGES, k]
@@ -70,39 +70,42 @@ def shape(arcs, n, noise, shallow, shapes):
 
 
 def cut(parts, m, arcs):
-    """Cut m arcs (21, 24), twelve or fewer, by de Casteljau's scheme: 2 m arcs, left ones first.
+    """Cut m arcs, half as many as fit, by de Casteljau's scheme: 2 m arcs, left ones first.
 
     Where to cut is the last row of ``parts``, in [0, 1]; they are overwritten.
     """
-    lanes = (m + 7) // 8 * 8
-    for i in range(TERMS):
+    lanes, terms = (m + 7) // 8 * 8, len(arcs) - ROWS
+    for i in range(terms):
         for k in side_by_side(lanes):
             arcs[i, k] = parts[0, k]
-        for j in range(TERMS - 1 - i):
+        for j in range(terms - 1 - i):
             for k in side_by_side(lanes):
-                x = parts[CUT, k]
+                x = parts[terms + CUT, k]
                 parts[j, k] = (1.0 - x) * parts[j, k] + x * parts[j + 1, k]
     for k in side_by_side(lanes):
-        x = parts[CUT, k]
-        middle = (1.0 - x) * parts[LEFT, k] + x * parts[RIGHT, k]
-        arcs[LEFT, k], arcs[RIGHT, k], arcs[CENTRE, k] = parts[LEFT, k], middle, parts[CENTRE, k]
-        parts[LEFT, k] = middle
-    for i in range(CUT):
+        x = parts[terms + CUT, k]
+        middle = (1.0 - x) * parts[terms + LEFT, k] + x * parts[terms + RIGHT, k]
+        arcs[terms + LEFT, k], arcs[terms + RIGHT, k] = parts[terms + LEFT, k], middle
+        arcs[terms + CENTRE, k] = parts[terms + CENTRE, k]
+        parts[terms + LEFT, k] = middle
+    for i in range(terms + CUT):
         for k in side_by_side(m):
             arcs[i, m + k] = parts[i, k]
 
 
 def _evaluate(row, x, scratch):
     """f, f' and f'' at x in [0, 1] of a row of Bernstein coefficients (de Casteljau)."""
-    y = 1.0 - x
-    for i in range(TERMS - 1):
+    y, terms = 1.0 - x, len(row)
+    for i in range(terms - 1):
         scratch[i] = y * row[i] + x * row[i + 1]
-    for n in range(TERMS - 2, 2, -1):
+    for n in range(terms - 2, 2, -1):
         for i in range(n):
             scratch[i] = y * scratch[i] + x * scratch[i + 1]
     a, b, c = scratch[0], scratch[1], scratch[2]
     p, q = y * a + x * b, y * b + x * c
-    return y * p + x * q, 16.0 * (q - p), 240.0 * (a - 2.0 * b + c)
+    degree = terms - 1
+    second = float(degree * (degree - 1))
+    return y * p + x * q, float(degree) * (q - p), second * (a - 2.0 * b + c)
 
 
 def extremum(row, x, scratch):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_roots import FACTS, FOUND, SPANS, WAITING
-from dh2urdf.kernels.general_6r.arc_samples import TERMS
+from dh2urdf.kernels.general_6r.arc_samples import DEGREE, lanes_of
 from dh2urdf.kernels.general_6r.arc_shapes import ROWS, SHAPES
 from dh2urdf.kernels.general_6r.brackets import BRACKETS
 from dh2urdf.kernels.numbers import COLUMN, LANES
@@ -20,7 +20,6 @@ _INTEGERS = {
     "ready": (),  # whether their left sides are known
     "slides": 6,  # whether each joint slides
     "loop_slides": 6,  # the same of the closed loop
-    "order": FOUND + 1,  # of facts by place, their number last
 }
 
 _ARM = {
@@ -47,26 +46,9 @@ _WORK = {
     "W": 9 * COLUMN,  # lanes of 6 x 6 matrices
     "V": COLUMN,  # reflector
     "beta": LANES,  # its factor
-    "determinant": LANES,
-    "series": LANES,
-    "turned": (TERMS, LANES),  # series turned to each arc
-    "arcs": (ROWS, LANES),  # Bernstein coefficients of the arcs, and where they are
-    "parts": (ROWS, LANES),  # arcs to be cut
-    "waiting": (WAITING, ROWS),  # and more of them
-    "shapes": (SHAPES, LANES),  # what arcs say
-    "facts": (FOUND, FACTS),  # what is found of them
-    "row": TERMS,  # coefficients of one
-    "casteljau": LANES,
-    "brackets": (BRACKETS, LANES),  # roots that are enclosed
-    "scaled": (TERMS, LANES),  # coefficients of their arcs times binomials
-    "roots": LANES,
-    "slopes": LANES,  # at the roots
     "doubles": LANES,  # roots to be tried again as double ones
-    "spans": (2, SPANS + 1),  # spans of doubt, their number first
-    "fresh": (2, SPANS + 1),  # those in a window
     "null": COLUMN,  # null vectors
     "second": COLUMN,  # second null vectors
-    "hidden": (2, LANES),  # cosine and sine of joint 3 of the loop
     "loop_cosines": COLUMN,  # of all six
     "loop_sines": COLUMN,
     "cosines": COLUMN,  # of the arm's joints
@@ -85,9 +67,44 @@ _WORK = {
     "first": 2,  # error of the seeds, spans of doubt in the first trial
 }
 
-ARM_6R = np.dtype(
-    [(name, np.int64, shape) for name, shape in _INTEGERS.items()]
-    + [(name, np.float64, shape) for name, shape in {**_ARM, **_WORK}.items()],
-    align=True,
-)
+
+def root_work(degree):
+    """What the roots of a polynomial of a degree are found in, by names: `DEGREES`."""
+    lanes, terms = lanes_of(degree), 2 * degree + 1
+    return {
+        "hidden": (2, lanes),  # cosine and sine of the hidden joint where it is sampled
+        "determinant": lanes,
+        "series": lanes,
+        "turned": (terms, lanes),  # series turned to each arc
+        "arcs": (terms + ROWS, lanes),  # Bernstein coefficients of the arcs, and where they are
+        "parts": (terms + ROWS, lanes),  # arcs to be cut
+        "waiting": (WAITING, terms + ROWS),  # and more of them
+        "shapes": (SHAPES, lanes),  # what arcs say
+        "facts": (FOUND * degree // 8, FACTS),  # what is found of them
+        "row": terms,  # coefficients of one
+        "casteljau": lanes,
+        "brackets": (BRACKETS, lanes),  # roots that are enclosed
+        "scaled": (terms, lanes),  # coefficients of their arcs times binomials
+        "roots": lanes,
+        "slopes": lanes,  # at the roots
+        "spans": (2, SPANS + 1),  # spans of doubt, their number first
+        "fresh": (2, SPANS + 1),  # those in a window
+    }
+
+
+def root_order(degree):
+    """The same of whole numbers: the order of facts by place, their number last."""
+    return {"order": FOUND * degree // 8 + 1}
+
+
+def record(integers, floats):
+    """One record of some fields, by names and shapes."""
+    return np.dtype(
+        [(name, np.int64, shape) for name, shape in integers.items()]
+        + [(name, np.float64, shape) for name, shape in floats.items()],
+        align=True,
+    )
+
+
+ARM_6R = record({**_INTEGERS, **root_order(DEGREE)}, {**_ARM, **_WORK, **root_work(DEGREE)})
 """The record; while one is in use, another thread needs a copy."""

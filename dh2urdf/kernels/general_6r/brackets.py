@@ -2,7 +2,7 @@
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL, TERMS
+from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL_8, BINOMIAL_16, BINOMIAL_32, BINOMIAL_48
 from dh2urdf.kernels.numbers import side_by_side
 
 X, LOW, HIGH, RISING, FINE, SLOPE, GOING, BRACKETS = range(8)
@@ -14,8 +14,15 @@ MOST_STEPS = 60
 
 def place_bracket(arcs, k, bounds, rising, fine, at, scaled, brackets):
     """Enclose a root of arc k: ``bounds`` are low, first guess, high; as column ``at``."""
-    for i in range(TERMS):
-        scaled[i, at] = BINOMIAL[i] * arcs[i, k]
+    for i in range(len(scaled)):
+        if len(scaled) == 17:
+            scaled[i, at] = BINOMIAL_8[i] * arcs[i, k]
+        elif len(scaled) == 33:
+            scaled[i, at] = BINOMIAL_16[i] * arcs[i, k]
+        elif len(scaled) == 65:
+            scaled[i, at] = BINOMIAL_32[i] * arcs[i, k]
+        else:
+            scaled[i, at] = BINOMIAL_48[i] * arcs[i, k]
     brackets[LOW, at], brackets[X, at], brackets[HIGH, at] = bounds
     brackets[RISING, at], brackets[FINE, at] = (1.0 if rising else 0.0), fine
     brackets[SLOPE, at], brackets[GOING, at] = 0.0, 1.0
@@ -24,10 +31,10 @@ def place_bracket(arcs, k, bounds, rising, fine, at, scaled, brackets):
 def narrow_brackets(scaled, n, brackets):
     """Improve n places until each is precise, and leave f' there.
 
-    By Horner's rule in ``t = x / (1 - x)``, or its inverse in the other half: ``f = (1 - x)^16
-    p(t)``, ``scaled`` (17, 24) the coefficients of p.
+    By Horner's rule in ``t = x / (1 - x)``, or its inverse in the other half: ``f = (1 - x)^2d
+    p(t)``, ``scaled`` (2 d + 1, lanes) the coefficients of p.
     """
-    lanes = (n + 7) // 8 * 8
+    lanes, terms = (n + 7) // 8 * 8, len(scaled)
     for k in range(n, lanes):
         brackets[GOING, k] = 0.0
     for _ in range(MOST_STEPS):
@@ -36,15 +43,17 @@ def narrow_brackets(scaled, n, brackets):
             left = x <= 0.5
             y = 1.0 - x if left else x
             t = (1.0 - y) / y
-            value, slope = scaled[TERMS - 1, k] if left else scaled[0, k], 0.0
-            for i in range(1, TERMS):
+            value, slope = scaled[terms - 1, k] if left else scaled[0, k], 0.0
+            for i in range(1, terms):
                 slope = slope * t + value
-                value = value * t + (scaled[TERMS - 1 - i, k] if left else scaled[i, k])
+                value = value * t + (scaled[terms - 1 - i, k] if left else scaled[i, k])
             y2 = y * y
             y4 = y2 * y2
-            y14 = y4 * y4 * y4 * y2
-            slope = y14 * (slope - 16.0 * y * value)
-            f, df = y14 * y2 * value, slope if left else -slope
+            power = y4 * y4 * y4 * y2
+            for _ in range(terms // 16 - 1):
+                power *= y4 * y4 * (y4 * y4)
+            slope = power * (slope - float(terms - 1) * y * value)
+            f, df = power * y2 * value, slope if left else -slope
             above = (f > 0.0) == (brackets[RISING, k] > 0.0)
             low, high = low if above else x, x if above else high
             step = -f / df if df != 0.0 else math.inf

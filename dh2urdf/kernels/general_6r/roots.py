@@ -1,18 +1,18 @@
 """The hidden joint's values at one pose: place the target, find the roots."""
 
+from dh2urdf.kernels.certificate import TWO_PI
 from dh2urdf.kernels.general_6r.arc_roots import SPANS, roots_on_arcs
 from dh2urdf.kernels.general_6r.arc_samples import (
     ARC,
-    ARC_TAN,
-    CIRCLE_COS,
-    CIRCLE_SIN,
+    arc_tan,
     circle_arcs,
+    circle_places,
     window_arc,
     window_nodes,
 )
 from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
 from dh2urdf.kernels.general_6r.resultant import sample_resultants
-from dh2urdf.kernels.numbers import LANES, side_by_side, sincos
+from dh2urdf.kernels.numbers import sincos
 from dh2urdf.kernels.rigid import dot, load_pose, times_link, turned, turned_back
 
 HOPELESS = 1e-2
@@ -104,11 +104,8 @@ def place_samples(k, start, arm):
     spans, hidden = arm["spans"], arm["hidden"]
     if k == 0:
         spans[0, 0], spans[1, 0] = 0.0, 0.0
-        sine, cosine = sincos(start)
-        for i in side_by_side(LANES):
-            hidden[0, i] = CIRCLE_COS[i] * cosine - CIRCLE_SIN[i] * sine
-            hidden[1, i] = CIRCLE_SIN[i] * cosine + CIRCLE_COS[i] * sine
-        return start, ARC_TAN
+        circle_places(start, hidden)
+        return start, arc_tan(hidden.shape[1])
     middle = 0.5 * (spans[0, k] + spans[1, k])
     sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
     window_nodes(middle, sine / cosine, hidden)
@@ -123,7 +120,7 @@ def _arcs(k, half_tan, least, arm):
     """
     determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
     if k > 0:
-        return window_arc(determinant, half_tan, series, arcs)
+        return window_arc(determinant, half_tan, series, arm["turned"], arcs)
     noise, largest = circle_arcs(determinant, series, arm["turned"], arcs)
     arm["spans"][1, 0] = 1.0 if noise > QUIET * largest else 0.0
     return max(noise, least * largest) if noise < HOPELESS * largest else -1.0
@@ -152,14 +149,12 @@ def add_roots(k, middle, half_tan, pairs, count, arm):
     noise = _arcs(k, half_tan, pairs[3], arm)
     if noise < 0.0:
         return -1
-    first, number = count, LANES if k == 0 else 1
+    lanes, terms = arm["hidden"].shape[1], len(arm["turned"])
+    first, number, step = count, lanes if k == 0 else 1, TWO_PI / lanes
     fresh[0, 0], fresh[1, 0] = 0.0, 0.0
     for arc in range(number):
-        arcs[LEFT, arc], arcs[RIGHT, arc], arcs[CENTRE, arc] = (
-            -half_tan,
-            half_tan,
-            middle + arc * ARC,
-        )
+        arcs[terms + LEFT, arc], arcs[terms + RIGHT, arc] = -half_tan, half_tan
+        arcs[terms + CENTRE, arc] = middle + arc * step
     count = roots_on_arcs(number, noise, pairs, count, arm)
     if fresh[1, 0] > 0.0:
         spans[1, 0] = 1.0

@@ -7,8 +7,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.chain import jacobian_rows
-from dh2urdf.kernels.rigid import joint_times_link, load_pose
+from dh2urdf.kernels.chain import chain_pose, jacobian_rows
 
 POLISH = 1e-13
 """Residual [m and rad] below which a candidate is left as it is; some 100 roundings."""
@@ -77,11 +76,7 @@ def turn_between(r, T):
 
 def pose_residual(chain, T, q):
     """Residual of one configuration q (n,) on the exact chain against T."""
-    links, joints = chain
-    r = load_pose(links[0])
-    for i in range(q.shape[0]):
-        r = joint_times_link(r, joints[i, 0] != 0.0, q[i], links[i + 1])
-    return residual_of(r, T)
+    return residual_of(chain_pose(chain, q), T)
 
 
 def normal_equations(chain, T, q, work):

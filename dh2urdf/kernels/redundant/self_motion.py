@@ -24,7 +24,7 @@ from dh2urdf.kernels.newton import (
     substitute,
 )
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Configuration, Floats, Goal, Integers, Sizes, Some
+from dh2urdf.kernels.shapes import AnyChain, Configuration, Floats, Goal, Integers, Sizes, Some
 
 MOST_STEPS = 60
 """Steps along a self-motion; five to fifteen are usual."""
@@ -177,7 +177,7 @@ def go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
 
 @entry()
 def nearest_members(
-    chain: Chain, goal: Goal, within_limits: bool, q: Some, seed: Configuration, residual: Sizes
+    chain: AnyChain, goal: Goal, within_limits: bool, q: Some, seed: Configuration, residual: Sizes
 ):
     """Move solutions q (k, n) of one pose along their self-motions towards a seed (n,).
 
@@ -252,7 +252,7 @@ def enter_limits(chain, goal, q, entered):
 
 @entry()
 def walk_family(
-    chain: Chain,
+    chain: AnyChain,
     goal: Goal,
     length: float,
     q: Configuration,

@@ -8,15 +8,16 @@ from margins import assert_margin
 
 from dh2urdf.kernels.general_6r.arc_roots import roots_on_arcs
 from dh2urdf.kernels.general_6r.arc_samples import (
-    ARC,
-    ARC_TAN,
+    DEGREES,
     TERMS,
+    arc_tan,
     circle_arcs,
+    lanes_of,
     window_arc,
     window_nodes,
 )
 from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
-from dh2urdf.kernels.general_6r.arm import ARM_6R
+from dh2urdf.kernels.general_6r.arm import ARM_6R, record, root_order, root_work
 from dh2urdf.kernels.general_6r.roots import PAIRS
 from dh2urdf.kernels.two_parallel.poses import APART
 
@@ -30,13 +31,14 @@ def product(q, roots):
     return np.real(values)
 
 
-def roots_around(samples, pairs):
+def roots_around(samples, pairs, dtype=ARM_6R):
     """Roots and slopes of all arcs of the circle, the noise, the largest coefficient."""
-    arm = np.zeros(1, ARM_6R)[0]
+    arm = np.zeros(1, dtype)[0]
     noise, largest = circle_arcs(samples, arm["series"], arm["turned"], arm["arcs"])
-    arm["arcs"][LEFT], arm["arcs"][RIGHT] = -ARC_TAN, ARC_TAN
-    arm["arcs"][CENTRE] = ARC * np.arange(24)
-    count = roots_on_arcs(24, noise, pairs, 0, arm)
+    lanes, terms = len(samples), len(arm["turned"])
+    arm["arcs"][terms + LEFT], arm["arcs"][terms + RIGHT] = -arc_tan(lanes), arc_tan(lanes)
+    arm["arcs"][terms + CENTRE] = 2 * math.pi / lanes * np.arange(lanes)
+    count = roots_on_arcs(lanes, noise, pairs, 0, arm)
     return arm["roots"][:count], arm["slopes"][:count], noise, largest
 
 
@@ -56,6 +58,23 @@ def test_arcs_are_read_from_no_negative_index():
     assert arrays[2][0, 0] == arrays[2][TERMS - 1, 23] != 0.0
 
 
+@pytest.mark.parametrize("degree", DEGREES)
+def test_a_polynomial_of_a_higher_degree_has_all_its_roots(degree):
+    rng = np.random.default_rng(degree)
+    dtype, lanes = record(root_order(degree), root_work(degree)), lanes_of(degree)
+    for _ in range(4):
+        roots = np.sort(rng.uniform(-math.pi, math.pi, degree))
+        others = rng.uniform(-math.pi, math.pi, degree // 2) + 0.3j
+        samples = product(2 * math.pi * np.arange(lanes) / lanes, [*roots, *others, *others.conj()])
+        q, slopes, noise, largest = roots_around(samples / np.abs(samples).max(), PAIRS, dtype)
+        found = np.remainder(q[slopes > 0] + math.pi, 2 * math.pi) - math.pi
+        gap = np.abs(found[:, None] - roots)
+        apart = np.diff([*roots, roots[0] + 2 * math.pi]).min()
+        if apart > 1e-3 and noise < 1e-12 * largest:
+            assert len(found) == degree
+            assert_margin(np.minimum(gap, 2 * math.pi - gap).min(axis=1), 1e-4)
+
+
 def nodes_of(middle, half_tan):
     """Cosines and sines of a window's nodes."""
     nodes = np.zeros((2, 24))
@@ -66,7 +85,7 @@ def nodes_of(middle, half_tan):
 def arc_of(samples, half_tan):
     """Bernstein coefficients on a window, and their noise."""
     arcs = np.zeros((TERMS, 24))
-    noise = window_arc(samples, half_tan, np.zeros(24), arcs)
+    noise = window_arc(samples, half_tan, np.zeros(24), np.zeros((TERMS, 24)), arcs)
     return arcs, noise
 
 
