@@ -84,6 +84,11 @@ class RobotConfigurations:
             return np.eye(self.n), np.zeros(self.n), self.slides
         return self._coupling.matrix, self._coupling.offset, self.slides
 
+    @property
+    def is_coupled(self) -> bool:
+        """True where joints follow others, or are at other angles than q."""
+        return self._coupling is not None
+
     def followed_joints(self) -> tuple[Mimic | None, ...]:
         """What each joint of the chain follows of the others; empty where none does."""
         coupling, names = self._coupling, self.chain.names

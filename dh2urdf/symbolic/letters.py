@@ -102,6 +102,8 @@ def letters_of(table: DHTable) -> Letters:
         A fixed step between two joints, for which the four parameters have no letters.
     """
     joints = table.joints
+    if table.joint_map is not None:
+        raise NoSolverError("formulas need joints that neither follow others nor are coupled")
     if table.has_steps_between:
         raise NoSolverError(
             "formulas need a table without fixed steps between its joints; "

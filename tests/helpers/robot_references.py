@@ -51,6 +51,11 @@ CHAINS = {
     "abb_gofa5": _straight(
         "0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x", ABB_TOOL
     ),
+    # the arm of ros-industrial/abb_experimental on a track of robotkinematicscatalogue
+    "abb_irb4600_track": _straight(
+        ".6455 0 .3705 xP; 0 0 .495 z; .175 0 0 y; 0 0 1.095 y; 0 0 .175 x; 1.27 0 0 y; .135 0 0 x",
+        ABB_TOOL,
+    ),
     # ros-industrial/fanuc
     "fanuc_lrmate200id": _straight(
         "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x", FANUC_TOOL

@@ -1,11 +1,15 @@
 """The page from disk in a real headless Chromium without a network; pictures in artifacts/."""
 
+from functools import partial
+
 import numpy as np
 import pinocchio as pin
 import pytest
 from browser import ARTIFACTS, chromium
+from coupled_arms import COUPLED, driven_palletiser
 
 from dh2urdf import DHRow, DHTable, JointType, Robot
+from dh2urdf.drawing.arm import drawn_arm
 from dh2urdf.page import save_page
 from dh2urdf.transforms import matrix_to_rpy
 
@@ -71,10 +75,13 @@ def mixed_table(convention):
     return DHTable(rows, convention, "mixed")
 
 
-@pytest.mark.parametrize("name", ["ur5e", "franka_fer", "stanford", "standard", "modified"])
+MADE = {name: partial(mixed_table, name) for name in ("standard", "modified")} | COUPLED
+
+
+@pytest.mark.parametrize("name", ["ur5e", "franka_fer", "stanford", *MADE])
 def test_kinematics_of_the_page_are_the_robots(opened, name):
     """FK, frames, rpy and quaternions of the script against the robot and Pinocchio, to 1e-9."""
-    robot = Robot.from_dh(mixed_table(name) if name in ("standard", "modified") else name)
+    robot = Robot.from_dh(MADE[name]() if name in MADE else name)
     page = opened(robot)
     Q = np.stack([robot.random_configuration(k) for k in range(40)])
     T = np.array(page.evaluate("Q => Q.map(fk)", Q.tolist())).reshape(-1, 4, 4)
@@ -88,6 +95,24 @@ def test_kinematics_of_the_page_are_the_robots(opened, name):
     for quaternion, one in zip(page.evaluate("Ts => Ts.map(quaternion)", flat), T, strict=True):
         R = pin.Quaternion(np.array(quaternion)).toRotationMatrix()
         np.testing.assert_allclose(R, one[:3, :3], atol=1e-9)
+
+
+def test_bars_of_the_page_stand_where_those_of_pictures_do(opened):
+    """Each bar of a parallelogram begins at the same point; a slider a value, a row a joint."""
+    robot = Robot.from_dh(driven_palletiser())
+    page = opened(robot, [0.2, 0.4, 0.3, 0.1])
+    picture(page, "page-palletiser")
+    assert page.locator(".joint").count() == 4
+    assert page.locator(".joint-row").count() == 6
+    arm = drawn_arm(robot.table)
+    for seed in range(5):
+        q = robot.random_configuration(seed)
+        poses = page.evaluate(
+            "q => arm.nodes.filter(n => n.bar).map(n => barPose(n.bar, frames(q)))", q.tolist()
+        )
+        places = robot.table.frames(robot.chain_configuration(q))
+        expected = [bar.pose(places) for bar in arm.bars]
+        np.testing.assert_allclose(np.reshape(poses, (-1, 4, 4)), expected, atol=1e-12)
 
 
 def test_sliders_move_the_arm_within_its_limits(opened):

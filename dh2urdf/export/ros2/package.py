@@ -81,6 +81,8 @@ def ros2_package(table: TableLike, name: str, *, plugin: bool = False) -> Ros2Pa
     arm = re.sub(r"[^A-Za-z0-9_]+", "_", table.name).strip("_") or "arm"
     urdf, max_error, warnings = verified_urdf(table, UrdfOptions(collision=True))
     home = home_of(table)
+    pairs = zip(table.joint_names, table.joints, strict=True)
+    passive = [joint for joint, row in pairs if row.mimic is not None]
     disabled = disabled_collisions(urdf, np.array(list(home.values())))
     blanks, solver, own = _blanks(table, name, arm, disabled), KDL, dict[str, str]()
     if flag(plugin, "plugin"):
@@ -92,7 +94,7 @@ def ros2_package(table: TableLike, name: str, *, plugin: bool = False) -> Ros2Pa
         **{place: filled(__package__, Path(place).name, blanks) for place in SAME},
         "config/joint_limits.yaml": joint_limits_yaml(table),
         "config/kinematics.yaml": kinematics_yaml(table, solver),
-        f"srdf/{arm}.srdf": srdf_text(table.name, f"link_{table.n}", home, disabled),
+        f"srdf/{arm}.srdf": srdf_text(table.name, f"link_{table.n}", home, disabled, passive),
         f"urdf/{arm}.urdf": urdf,
         **own,
     }
@@ -150,11 +152,18 @@ def write_ros2_package(
 
 
 def home_of(table: DHTable) -> dict[str, float]:
-    """Each joint's value [rad, m] at home: zero where its limits allow, else their middle."""
+    """Each joint's value [rad, m] at home: zero where its limits allow, else their middle.
+
+    Those that follow others are where these put them.
+    """
     values = {}
     for i, name in enumerate(table.joint_names):
         lower, upper = default_limits(table, i)
         values[name] = 0.0 if lower <= 0.0 <= upper else 0.5 * (lower + upper)
+    for _ in table.joints:  # leaders may follow others
+        for name, row in zip(table.joint_names, table.joints, strict=True):
+            if row.mimic is not None:
+                values[name] = row.mimic.multiplier * values[row.mimic.joint] + row.mimic.offset
     return values
 
 

@@ -17,11 +17,16 @@ TOOL = "tool"
 
 
 def srdf_text(
-    name: str, last_link: str, home: Mapping[str, float], disabled: Sequence[Disabled]
+    name: str,
+    last_link: str,
+    home: Mapping[str, float],
+    disabled: Sequence[Disabled],
+    passive: Sequence[str] = (),
 ) -> str:
     """The SRDF of a chain from ``base_link`` to ``tool0``.
 
-    ``last_link`` carries the tool; ``home`` gives each joint's value [rad, m].
+    ``last_link`` carries the tool; ``home`` gives each joint's value [rad, m]; ``passive`` joints
+    follow others, and nobody publishes them.
     """
     robot = etree.Element("robot", name=name)
     arm = etree.SubElement(robot, "group", name=GROUP)
@@ -31,6 +36,8 @@ def srdf_text(
     state = etree.SubElement(robot, "group_state", name="home", group=GROUP)
     for joint, value in home.items():
         etree.SubElement(state, "joint", name=joint, value=repr(value))
+    for joint in passive:
+        etree.SubElement(robot, "passive_joint", name=joint)
     places = {"parent_link": last_link, "group": TOOL, "parent_group": GROUP}
     etree.SubElement(robot, "end_effector", name=TOOL, **places)
     robot.append(

@@ -132,6 +132,11 @@ def exported(
     instance(robot, "robot", Robot)
     spoken = _language(language, path)
     name = _prefix(robot, prefix, path)
+    if robot.is_coupled:
+        raise NoSolverError(
+            "joints that follow others or are coupled cannot be exported; of a controller's angles "
+            "export the table without couplings, and add them where its solver is called"
+        )
     solver: Solver | HeldSolver = robot.solver
     if held is not None:
         joint = _joint(robot, held)

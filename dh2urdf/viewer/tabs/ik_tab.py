@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.dh_io import Units
-from dh2urdf.drawing.surfaces import Drawing
+from dh2urdf.drawing.surfaces import Drawing, TableDrawing
 from dh2urdf.exceptions import Dh2UrdfError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, pose, quaternion_to_matrix
@@ -124,6 +124,8 @@ class IKTab:
         assert self.ghosts is not None
         rows = found.q[:MOST_GHOSTS] if found is not None else np.empty((0, self.robot.n))
         shown = rows if self.show_ghosts.value else rows[:0]
+        if isinstance(self.ghosts.drawing, TableDrawing):
+            shown = self.robot.chain_configuration(shown)  # of all joints of the table
         self.ghosts.show(list(shown), skip=found.current if found is not None else -1)
         self.go.visible = len(rows) > 0
         if found is None:
