@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dh2urdf.chain import CoupledChain
 from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.lazily import is_lazy, lazy_ik
 from dh2urdf.transforms import Array
@@ -310,7 +311,10 @@ class RobotIK(RobotConfigurations):
     def _ik(self) -> InverseKinematics:
         from dh2urdf.ik.solve import InverseKinematics
 
-        return InverseKinematics(self.chain, self._coupling, self._placements)
+        chain, coupling = self.chain, self._coupling
+        if coupling is not None and coupling.n < chain.n:
+            chain, coupling = CoupledChain.of(chain, coupling), None
+        return InverseKinematics(chain, coupling, self._placements)
 
     def _placements(self, q: Array) -> Array:
         """Poses of the tip in the base by Pinocchio, for configurations (k, n)."""

@@ -52,7 +52,9 @@ def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
     shape = np.broadcast_shapes(q.shape, reference.shape)
     out = np.array(np.broadcast_to(q, shape), order="C")
     goal = np.ascontiguousarray(np.broadcast_to(reference, shape))
-    turn_to(chain.tables[1], LIMIT_SLACK, goal.reshape(-1, chain.n), out.reshape(-1, chain.n))
+    turn_to(
+        chain.tables[1][: chain.n], LIMIT_SLACK, goal.reshape(-1, chain.n), out.reshape(-1, chain.n)
+    )
     return out
 
 

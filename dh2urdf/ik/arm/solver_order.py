@@ -1,6 +1,6 @@
 """The table of solvers, best first, and the choice of one for a chain."""
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm.solver import Others, Solver, SolverBase, imported
 from dh2urdf.ik.arm.task import Task, hardly_moves
@@ -24,6 +24,12 @@ SOLVERS = (
 """Modules and classes of the families, best first, imported when wanted; each class says what it
 needs, and a chain gets the first that has no obstacle."""
 
+FOLLOWED = (
+    "dh2urdf.ik.families.straightened:Straightened",
+    "dh2urdf.ik.families.followers:Followers",
+)
+"""The same for chains whose joints follow fewer values."""
+
 SEARCHED = "dh2urdf.ik.redundant.searched:SearchedSolver"
 """What helps the solver of an arm that hardly moves in some direction."""
 
@@ -38,7 +44,7 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
     """
     task, listing = Task(task), ""
     others: Others = ()
-    for where in SOLVERS:
+    for where in FOLLOWED if isinstance(chain, CoupledChain) else SOLVERS:
         family: type[SolverBase] = imported(where)
         obstacle = family.obstacle(chain, task)
         if obstacle is None:

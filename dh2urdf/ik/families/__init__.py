@@ -5,6 +5,7 @@ that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `n
 `two_parallel`, `general_6r`; and `numeric`, for any chain and some solutions.
 """
 
+from dh2urdf.ik.families.followers import Followers
 from dh2urdf.ik.families.general_6r import General6R
 from dh2urdf.ik.families.near_family import NearFamily
 from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions

@@ -163,35 +163,36 @@ def _shift(way: Array) -> Array:
     return out
 
 
-def _short_links(links: Array, slides: Array) -> tuple[Array, Array]:
+def short_links(links: Array, slides: Array, turns: Array) -> tuple[Array, Array]:
     """The same chain with each joint's origin slid along its axis, so that the links are short.
 
     Minimises ``sum |t_i - b_i + R_i a_(i+1)|^2`` over ``a_i = b_i = s_i e3`` of joints that turn;
-    a joint that slides may be anywhere: only along its axis do a_i and b_i differ. Returns the
-    links and these differences, the slides' zeros [m].
+    a joint that slides may be anywhere: only along its axis do a_i and b_i differ. Joints that
+    turn have their zeros at ``turns`` [rad]. Returns the links and the differences, the slides'
+    zeros [m].
     """
     # of each joint: which unknowns, along which axes, before it and after it
     places: list[tuple[IntArray, IntArray, Array]] = []
-    free = 0
+    free, n = 0, len(slides)
     for joint_slides in slides.tolist():
         first, last = ([0, 1, 2], [0, 1, 3]) if joint_slides else ([0], [0])
         axes = np.eye(3) if joint_slides else np.eye(3)[2:]
         places.append((free + np.array(first), free + np.array(last), axes.T))
         free += 4 if joint_slides else 1
-    matrix, rhs = np.zeros((15, free)), np.zeros(15)
-    for i in range(1, 6):
+    matrix, rhs = np.zeros((3 * n - 3, free)), np.zeros(3 * n - 3)
+    for i in range(1, n):
         rows = slice(3 * i - 3, 3 * i)
         matrix[rows, places[i - 1][1]] = -places[i - 1][2]
         matrix[rows, places[i][0]] = product(links[i, :3, :3], places[i][2])
         rhs[rows] = -links[i, :3, 3]
     grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
     ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
-    short, zeros = links.copy(), np.zeros(6)
+    short, zeros = links.copy(), np.zeros(n)
     for i, (before, after, axes) in enumerate(places):
         a, b = (product(axes, ways[some][:, None])[:, 0] for some in (before, after))
         zeros[i] = a[2] - b[2]
         short[i] = product(short[i], _shift(a))
-        turn = 0.0 if slides[i] else TURN[i]
+        turn = 0.0 if slides[i] else turns[i]
         short[i + 1] = product(_z(turn, 0.0), _shift(-b), short[i + 1])
     return short, zeros
 
@@ -261,7 +262,7 @@ def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
 
 def _place(arm: Arm, links: Array) -> None:
     """Set the links (7, 4, 4) of an arm."""
-    short, arm["middles"][0] = _short_links(links, arm["slides"][0])
+    short, arm["middles"][0] = short_links(links, arm["slides"][0], TURN)
     lengths = np.linalg.norm(short[1:6, :3, 3], axis=1)
     size = float(lengths.max()) or 1.0
     arm["links"], arm["size"], arm["ends"] = links[:, :3], size, inverse(short[[0, 6]])

@@ -167,7 +167,7 @@ class Problem:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
-        turn_to(self.chain.tables[1], LIMIT_SLACK, seed[None], q)
+        turn_to(self.chain.tables[1][: self.chain.n], LIMIT_SLACK, seed[None], q)
         families = {
             k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k].copy())
             for k, mask in enumerate(free.tolist())

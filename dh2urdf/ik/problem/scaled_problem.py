@@ -6,7 +6,9 @@ Inside, lengths are in the chain's unit, see :mod:`dh2urdf.ik.arm.chains`; what 
 
 from dataclasses import replace
 
-from dh2urdf.chain import SerialChain
+import numpy as np
+
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.ik.arm import HeldSolver, Outputs, lengths_in
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.path import IKPath, PathFinder
@@ -59,7 +61,10 @@ class ScaledProblem(Problem):
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """As :meth:`Problem.arranged`; a slide counts in the chain's unit."""
         near = self.inner.arranged(self._inside(found), seed / self.scale, within_limits)
-        return self._outside(near, found.T)
+        near = self._outside(near, found.T)
+        if not isinstance(self.chain, CoupledChain):
+            return near
+        return near.select(np.argsort(np.linalg.norm(near.q - seed, axis=1), kind="stable"))
 
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
         """As :meth:`Problem.with_all_turns`."""

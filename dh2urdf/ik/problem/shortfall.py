@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part
 from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
@@ -25,7 +25,8 @@ def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     away = math.dist(T[:3, 3], chain.links[0, :3, 3])
     if away > FAR * chain.size:
         return f"the point lies {_metres(away * chain.unit)} outside the reach of the tool"
-    if chain.n == 6 and task is Task.POSE and AxisLines(chain).spherical(3):
+    free = not isinstance(chain, CoupledChain)
+    if free and chain.n == 6 and task is Task.POSE and AxisLines(chain).spherical(3):
         centre = AxisLines(chain).points[4]
         point = T[:3, :3] @ (inverse(chain.tool)[:3] @ np.append(centre, 1.0)) + T[:3, 3]
         gap, _ = closest(_arm_to(chain, 3, centre), _at(point), Task.POSITION)

@@ -15,7 +15,7 @@ from dh2urdf.kernels.certificate.certify import is_known, principal, same
 from dh2urdf.kernels.certificate.directions import add_step, look
 from dh2urdf.kernels.newton import POSE, make_damped, pose_residual
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses, Solutions
+from dh2urdf.kernels.shapes import AnyChain, Counts, Floats, Poses, Solutions
 
 WEAK = 1e-4
 """Singular value, relative to the largest, of a valley's direction."""
@@ -160,7 +160,7 @@ def _walk(chain, goal, start, side, room, trail, passed, found, count):
 
 @entry()
 def search_valleys(
-    chain: Chain,
+    chain: AnyChain,
     unit: float,
     Ts: Poses,
     seeds: Annotated[Floats, "poses", "seeds", "n"],

@@ -5,8 +5,45 @@
 by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions.
 """
 
-from dh2urdf.kernels.general_6r.arc_samples import ARC
-from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST
-from dh2urdf.kernels.general_6r.follow import SINGULAR, how_many_below, keep_lane, polish_lanes
-from dh2urdf.kernels.general_6r.poses import Arms, finish_general_6r, solve_general_6r
+from dh2urdf.kernels.general_6r.arc_samples import ARC, tables_of
+from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST, record, root_order, root_work
+from dh2urdf.kernels.general_6r.elimination import (
+    HALF_SQRT3,
+    INV_SQRT3,
+    SQRT2,
+    invert,
+    line_functions,
+    reduce_right,
+    right_coefficients,
+)
+from dh2urdf.kernels.general_6r.follow import (
+    AT_ROOT,
+    MEMBERS,
+    SAME,
+    SHARP,
+    SINGULAR,
+    VALLEY,
+    how_many_below,
+    keep_lane,
+    polish_lanes,
+)
+from dh2urdf.kernels.general_6r.poses import (
+    ATTEMPTS,
+    COARSE,
+    CROWDED,
+    CROWDED_ATTEMPTS,
+    DEEP,
+    NUDGE,
+    Arms,
+    finish_general_6r,
+    solve_general_6r,
+)
+from dh2urdf.kernels.general_6r.resultant import (
+    LEFT,
+    finish_reduction,
+    outer_joints,
+    reduce_half,
+    split_pairs,
+    two_joints,
+)
 from dh2urdf.kernels.general_6r.roots import PAIRS, add_roots, nudge, place_samples

@@ -78,15 +78,15 @@ def _note(arm, k, doubt, root, x, slope):
 
 def _pair(arm, k, roots, x, f, ddf):
     """Enclose the two roots of arc k beside an extremum that lies across the axis; their number."""
-    arcs, scaled, brackets = arm["arcs"], arm["scaled"], arm["brackets"]
+    arcs, most = arm["arcs"], arm["brackets"].shape[1] - 1
     h, positive, terms = math.sqrt(abs(2.0 * f / ddf)), arcs[0, k] > 0.0, len(arcs) - ROWS
     fine = 1e-8 / (2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k]))
     bounds = 0.0, max(x - h, 0.0), x
-    place_bracket(arcs, k, bounds, not positive, fine, roots, scaled, brackets)
+    place_bracket(arm, k, bounds, not positive, fine, roots)
     _note(arm, k, arm["shapes"][DOUBT, k], float(roots), 0.0, 1.0)
-    if roots + 1 < brackets.shape[1] - 1:
+    if roots + 1 < most:
         bounds = x, min(x + h, 1.0), 1.0
-        place_bracket(arcs, k, bounds, positive, fine, roots + 1, scaled, brackets)
+        place_bracket(arm, k, bounds, positive, fine, roots + 1)
         _note(arm, k, 0.0, float(roots + 1), 0.0, 1.0)
         return roots + 2
     return roots + 1
@@ -128,7 +128,7 @@ def _enclose(arm, k, roots):
     length, rising = 2.0 * (arcs[terms + RIGHT, k] - arcs[terms + LEFT, k]), arcs[0, k] <= 0.0
     fine = 1e-8 / length
     bounds = 0.0, guess, 1.0
-    place_bracket(arcs, k, bounds, rising, fine, roots, arm["scaled"], arm["brackets"])
+    place_bracket(arm, k, bounds, rising, fine, roots)
     _note(arm, k, shapes[DOUBT, k], float(roots), 0.0, 1.0)
 
 

@@ -12,12 +12,10 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.numbers import LANES, atan2, side_by_side, sincos
+from dh2urdf.kernels.shapes import Floats
 
 DEGREE = 8
 """Degree of the polynomial of six turning joints; those of joints with followers are higher."""
-
-DEGREES = 8, 16, 32, 48
-"""Those that there are tables for: of ``2 degree + 8`` samples, seven more than it has unknowns."""
 
 TERMS = 2 * DEGREE + 1
 ARC = 2.0 * math.pi / LANES
@@ -108,19 +106,30 @@ def _window_table(degree):
     return np.ascontiguousarray(both[:, terms:].T)
 
 
-CIRCLE_8, CIRCLE_16, CIRCLE_32, CIRCLE_48 = (_circle_table(lanes_of(d)) for d in DEGREES)
-TURNS_8, TURNS_16, TURNS_32, TURNS_48 = (_turns(d) for d in DEGREES)
-ARC_8, ARC_16, ARC_32, ARC_48 = (_arc_table(d) for d in DEGREES)
-WINDOW_8, WINDOW_16, WINDOW_32, WINDOW_48 = (_window_table(d) for d in DEGREES)
-NODES_8, NODES_16, NODES_32, NODES_48 = (_nodes(lanes_of(d)) for d in DEGREES)
-PLACES_8, PLACES_16, PLACES_32, PLACES_48 = (_circle(lanes_of(d)) for d in DEGREES)
-TAN_8, TAN_16, TAN_32, TAN_48 = (_arc_tan(lanes_of(d)) for d in DEGREES)
-BINOMIAL_8, BINOMIAL_16, BINOMIAL_32, BINOMIAL_48 = (_binomial(d) for d in DEGREES)
+CIRCLE_8, TURNS_8 = _circle_table(LANES), _turns(DEGREE)
+ARC_8, WINDOW_8 = _arc_table(DEGREE), _window_table(DEGREE)
+NODES_8, PLACES_8 = _nodes(LANES), _circle(LANES)
+TAN_8, BINOMIAL_8 = _arc_tan(LANES), _binomial(DEGREE)
 
 
-def arc_tan(lanes):
-    """Tangent of a quarter of the length of each of so many arcs."""
-    return TAN_8 if lanes == 24 else TAN_16 if lanes == 40 else TAN_32 if lanes == 72 else TAN_48
+def tables_of(degree: int) -> dict[str, Floats]:
+    """What a record of another degree has in place of these tables, by names."""
+    lanes = lanes_of(degree)
+    return {
+        "circle": _circle_table(lanes),
+        "turning": _turns(degree),
+        "arc_table": _arc_table(degree),
+        "window": _window_table(degree),
+        "nodes": _nodes(lanes),
+        "places": _circle(lanes),
+        "binomial": _binomial(degree),
+        "half_tan": np.array(_arc_tan(lanes)),
+    }
+
+
+def arc_tan(arm):
+    """Tangent of a quarter of the length of an arc."""
+    return TAN_8 if len(arm["turned"]) == TERMS else arm["half_tan"]
 
 
 def _transform(samples, table, series):
@@ -141,21 +150,19 @@ def _largest(series, first, last):
     return largest
 
 
-def circle_arcs(samples, series, turned, arcs):
+def circle_arcs(arm):
     """Bernstein coefficients of f on arcs from as many samples around the circle.
 
     Column k of ``arcs``, its first rows: those on the arc centred at that of sample k. Returns the
     largest Fourier coefficient that should vanish (the noise) and the largest of all. ``series``,
-    as long, and ``turned``, a row a coefficient, are scratch.
+    as long as the samples, ``determinant``, and ``turned``, a row a coefficient, are scratch.
     """
-    if len(turned) == 17:
-        _circle_arcs(samples, CIRCLE_8, TURNS_8, ARC_8, series, turned, arcs)
-    elif len(turned) == 33:
-        _circle_arcs(samples, CIRCLE_16, TURNS_16, ARC_16, series, turned, arcs)
-    elif len(turned) == 65:
-        _circle_arcs(samples, CIRCLE_32, TURNS_32, ARC_32, series, turned, arcs)
+    samples, series, turned = arm["determinant"], arm["series"], arm["turned"]
+    if len(turned) == TERMS:
+        _circle_arcs(samples, CIRCLE_8, TURNS_8, ARC_8, series, turned, arm["arcs"])
     else:
-        _circle_arcs(samples, CIRCLE_48, TURNS_48, ARC_48, series, turned, arcs)
+        turning, table = arm["turning"], arm["arc_table"]
+        _circle_arcs(samples, arm["circle"], turning, table, series, turned, arm["arcs"])
     terms = len(turned)
     return _largest(series, terms, len(series) - 1), _largest(series, 0, terms)
 
@@ -181,16 +188,12 @@ def _circle_arcs(samples, circle, turns, table, series, turned, arcs):
         arcs[0, k] = arcs[terms - 1, (k + lanes - 1) % lanes]
 
 
-def circle_places(start, hidden):
-    """Cosines and sines, (2, lanes), of the places at which the circle is sampled from a start."""
-    if hidden.shape[1] == 24:
-        _circle_places(start, PLACES_8, hidden)
-    elif hidden.shape[1] == 40:
-        _circle_places(start, PLACES_16, hidden)
-    elif hidden.shape[1] == 72:
-        _circle_places(start, PLACES_32, hidden)
+def circle_places(start, arm):
+    """Cosines and sines of the circle's samples, from a start [rad] on, to ``hidden``."""
+    if len(arm["turned"]) == TERMS:
+        _circle_places(start, PLACES_8, arm["hidden"])
     else:
-        _circle_places(start, PLACES_48, hidden)
+        _circle_places(start, arm["places"], arm["hidden"])
 
 
 def _circle_places(start, places, hidden):
@@ -200,16 +203,12 @@ def _circle_places(start, places, hidden):
         hidden[1, i] = places[1, i] * cosine + places[0, i] * sine
 
 
-def window_nodes(centre, half_tan, hidden):
-    """Cosines and sines, (2, lanes), of the places at which a window is sampled."""
-    if hidden.shape[1] == 24:
-        _window_nodes(centre, half_tan, NODES_8, hidden)
-    elif hidden.shape[1] == 40:
-        _window_nodes(centre, half_tan, NODES_16, hidden)
-    elif hidden.shape[1] == 72:
-        _window_nodes(centre, half_tan, NODES_32, hidden)
+def window_nodes(centre, half_tan, arm):
+    """Cosines and sines of the places at which a window is sampled, to ``hidden``."""
+    if len(arm["turned"]) == TERMS:
+        _window_nodes(centre, half_tan, NODES_8, arm["hidden"])
     else:
-        _window_nodes(centre, half_tan, NODES_48, hidden)
+        _window_nodes(centre, half_tan, arm["nodes"], arm["hidden"])
 
 
 def _window_nodes(centre, half_tan, nodes, hidden):
@@ -218,20 +217,18 @@ def _window_nodes(centre, half_tan, nodes, hidden):
         hidden[0, k], hidden[1, k] = sincos(q)[1], sincos(q)[0]
 
 
-def window_arc(samples, half_tan, series, turned, arcs):
+def window_arc(half_tan, arm):
     """Bernstein coefficients of f on one window from its samples, to the first column of arcs.
 
-    Returns the largest contradiction among the samples: the noise. ``samples`` is overwritten,
-    ``series`` scratch; ``turned`` says the degree.
+    Returns the largest contradiction among the samples, ``determinant``: the noise. They are
+    overwritten, ``series`` is scratch.
     """
-    if len(turned) == 17:
-        _window_arc(samples, half_tan, NODES_8, WINDOW_8, series, turned, arcs)
-    elif len(turned) == 33:
-        _window_arc(samples, half_tan, NODES_16, WINDOW_16, series, turned, arcs)
-    elif len(turned) == 65:
-        _window_arc(samples, half_tan, NODES_32, WINDOW_32, series, turned, arcs)
+    samples, series, turned = arm["determinant"], arm["series"], arm["turned"]
+    if len(turned) == TERMS:
+        _window_arc(samples, half_tan, NODES_8, WINDOW_8, series, turned, arm["arcs"])
     else:
-        _window_arc(samples, half_tan, NODES_48, WINDOW_48, series, turned, arcs)
+        nodes = arm["nodes"]
+        _window_arc(samples, half_tan, nodes, arm["window"], series, turned, arm["arcs"])
     return _largest(series, len(turned), len(series))
 
 

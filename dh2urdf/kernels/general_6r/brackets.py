@@ -2,7 +2,7 @@
 
 import math
 
-from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL_8, BINOMIAL_16, BINOMIAL_32, BINOMIAL_48
+from dh2urdf.kernels.general_6r.arc_samples import BINOMIAL_8
 from dh2urdf.kernels.numbers import side_by_side
 
 X, LOW, HIGH, RISING, FINE, SLOPE, GOING, BRACKETS = range(8)
@@ -12,17 +12,12 @@ whether the place is to be improved."""
 MOST_STEPS = 60
 
 
-def place_bracket(arcs, k, bounds, rising, fine, at, scaled, brackets):
+def place_bracket(arm, k, bounds, rising, fine, at):
     """Enclose a root of arc k: ``bounds`` are low, first guess, high; as column ``at``."""
+    arcs, scaled, brackets = arm["arcs"], arm["scaled"], arm["brackets"]
     for i in range(len(scaled)):
-        if len(scaled) == 17:
-            scaled[i, at] = BINOMIAL_8[i] * arcs[i, k]
-        elif len(scaled) == 33:
-            scaled[i, at] = BINOMIAL_16[i] * arcs[i, k]
-        elif len(scaled) == 65:
-            scaled[i, at] = BINOMIAL_32[i] * arcs[i, k]
-        else:
-            scaled[i, at] = BINOMIAL_48[i] * arcs[i, k]
+        binomial = BINOMIAL_8[i] if len(scaled) == len(BINOMIAL_8) else arm["binomial"][i]
+        scaled[i, at] = binomial * arcs[i, k]
     brackets[LOW, at], brackets[X, at], brackets[HIGH, at] = bounds
     brackets[RISING, at], brackets[FINE, at] = (1.0 if rising else 0.0), fine
     brackets[SLOPE, at], brackets[GOING, at] = 0.0, 1.0

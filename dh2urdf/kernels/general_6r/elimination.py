@@ -39,12 +39,12 @@ def _close_loop(chain, shift, reverse, loop):
     for i in range(6):
         joint = (shift + i) % 6 if reverse == 0 else (10 - shift - i) % 6
         if (joint == 5) == (reverse == 0):
-            _invert(chain[joint], loop[i])
+            invert(chain[joint], loop[i])
         else:
             loop[i] = chain[joint]
 
 
-def _invert(A, out):
+def invert(A, out):
     """Inverse of a rigid transform (3, 4)."""
     for i in range(3):
         for j in range(3):
@@ -148,7 +148,7 @@ def _powers_of_samples(slide, row, i, stride, scale):
         row[i + 2 * stride] = (2.0 * (y1 + y2) - y0) / 3.0
 
 
-def _right_coefficients(loop, slides, reach, samples, right):
+def right_coefficients(loop, slides, reach, samples, right):
     """Coefficients of the right side's fourteen functions of joints 1 and 2, to right (9, 14)."""
     start = moved_back(loop[5], ((0.0, 0.0, 1.0), (0.0, 0.0, 0.0)))
     for a in range(3):
@@ -165,7 +165,7 @@ def _right_coefficients(loop, slides, reach, samples, right):
             right[r, f] = samples[f, RIGHT_ORDER[r]]
 
 
-def _reduce_right(right, beta, basis):
+def reduce_right(right, beta, basis):
     """Householder QR of the eight non-constant columns of the right side, its rows (9, 14).
 
     Row j of ``right`` becomes reflector j from its diagonal entry on, and R before it; ``beta``
@@ -250,8 +250,8 @@ def eliminate(e, arm):
     right, basis, slides, reach = arm["right"], arm["basis"], arm["loop_slides"], arm["reach"]
     _close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
     _name_slides(e, arm)
-    _right_coefficients(loop, slides, reach, samples, right)
-    _reduce_right(right, arm["factors"], basis)
+    right_coefficients(loop, slides, reach, samples, right)
+    reduce_right(right, arm["factors"], basis)
     left = e
     if 2 <= (5 - choices[e, 0]) % 6 <= 4:
         left = OWN

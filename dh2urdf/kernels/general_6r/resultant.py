@@ -61,12 +61,22 @@ def resultants(equations, hidden, n, A, W, determinant, V, beta):
             block, j = term // 3, term % 3
             column = term if half == 0 else 3 * (2 - block) + j
             _fill(equations, term, hidden, n, A, column)
-        reduce_columns(A, 3, 9, n, determinant, V, beta)
-        for source in range(3, 9):
-            target = source - 3 if half == 0 else (source if source < 6 else source - 6)
-            a, w = source * COLUMN + HALF, target * COLUMN + half * HALF
-            for k in range(HALF):
-                W[w + k] = A[a + k]
+        reduce_half(half, n, A, W, determinant, V, beta)
+    finish_reduction(n, W, determinant, V, beta)
+
+
+def reduce_half(half, n, A, W, determinant, V, beta):
+    """Reduce the equations, in A, or those times x4: what is left of them is half of W."""
+    reduce_columns(A, 3, 9, n, determinant, V, beta)
+    for source in range(3, 9):
+        target = source - 3 if half == 0 else (source if source < 6 else source - 6)
+        a, w = source * COLUMN + HALF, target * COLUMN + half * HALF
+        for k in range(HALF):
+            W[w + k] = A[a + k]
+
+
+def finish_reduction(n, W, determinant, V, beta):
+    """Reduce W, of two halves, and multiply the determinants by what stands on its diagonal."""
     reduce_columns(W, 5, 6, n, determinant, V, beta)
     last = 5 * COLUMN + 5 * LANES
     for k in side_by_side(n):
@@ -196,6 +206,11 @@ def other_joints(loop, slides, reach, right, beta, basis, frames, n, cosines, si
     (14, 24) and y (96,) scratch.
     """
     chain_frames(loop[1:5], slides[2:], cosines[2 * LANES :], sines[2 * LANES :], n, frames)
+    outer_joints(loop, slides, reach, right, beta, basis, frames, n, cosines, sines, functions, y)
+
+
+def outer_joints(loop, slides, reach, right, beta, basis, frames, n, cosines, sines, functions, y):
+    """The same where what is between joints 2 and 6 is known, at ``LEFT`` of the frames."""
     _functions(loop, frames, n, functions)
     for row in range(4, 8):
         _project(basis, row, right[8], functions, n, y)

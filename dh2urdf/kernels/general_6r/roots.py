@@ -101,14 +101,14 @@ def place_samples(k, start, arm):
     On the whole circle from ``start`` [rad] on if k is 0, else on span of doubt k. Returns the
     middle of the first arc [rad] and the tangent of a quarter of its length.
     """
-    spans, hidden = arm["spans"], arm["hidden"]
+    spans = arm["spans"]
     if k == 0:
         spans[0, 0], spans[1, 0] = 0.0, 0.0
-        circle_places(start, hidden)
-        return start, arc_tan(hidden.shape[1])
+        circle_places(start, arm)
+        return start, arc_tan(arm)
     middle = 0.5 * (spans[0, k] + spans[1, k])
     sine, cosine = sincos(0.25 * min(MARGIN * (spans[1, k] - spans[0, k]), 2.0))
-    window_nodes(middle, sine / cosine, hidden)
+    window_nodes(middle, sine / cosine, arm)
     return middle, sine / cosine
 
 
@@ -118,10 +118,9 @@ def _arcs(k, half_tan, least, arm):
     Returns the noise, at least the part ``least`` of the largest coefficient; negative where the
     polynomial says nothing.
     """
-    determinant, series, arcs = arm["determinant"], arm["series"], arm["arcs"]
     if k > 0:
-        return window_arc(determinant, half_tan, series, arm["turned"], arcs)
-    noise, largest = circle_arcs(determinant, series, arm["turned"], arcs)
+        return window_arc(half_tan, arm)
+    noise, largest = circle_arcs(arm)
     arm["spans"][1, 0] = 1.0 if noise > QUIET * largest else 0.0
     return max(noise, least * largest) if noise < HOPELESS * largest else -1.0
 

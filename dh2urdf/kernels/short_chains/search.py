@@ -17,7 +17,7 @@ from dh2urdf.kernels.newton import (
     solve_damped,
 )
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses
+from dh2urdf.kernels.shapes import AnyChain, Counts, Floats, Poses
 
 STEPS, STUCK, SETTLED = 50, 8, 2
 """Steps from a start, and how many without a better residual end them; near a solution, too."""
@@ -70,7 +70,7 @@ def approach(chain, goal, q, best, dq, damped):
 
 @entry()
 def search_starts(
-    chain: Chain,
+    chain: AnyChain,
     starts: Annotated[Floats, "starts", "n"],
     unit: float,
     Ts: Poses,

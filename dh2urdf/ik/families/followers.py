@@ -1,0 +1,262 @@
+"""Six values, of which one moves two turning joints or more: a hollow wrist, and any other.
+
+Which eliminations suit an arm, and how high the degree of its polynomial is, is found by trying all
+that fit on random poses.
+"""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import lru_cache
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dh2urdf.chain import CoupledChain, SerialChain
+from dh2urdf.engine import Step
+from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
+from dh2urdf.ik.families.closed_form import STUCK
+from dh2urdf.ik.families.general_6r import DEAREST, TURN, WORTH, short_links
+from dh2urdf.kernels.followers import (
+    FOLLOWERS_16,
+    FOLLOWERS_48,
+    MOTIONS,
+    finish_followers_16,
+    finish_followers_48,
+    sample_followers,
+    try_followers_16,
+    try_followers_48,
+)
+from dh2urdf.kernels.general_6r import MOST, tables_of
+from dh2urdf.transforms import Array, inverse, product
+
+Arm: TypeAlias = NDArray[np.void]
+
+FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
+"""Rotation by which a joint turns the other way."""
+
+POSES = 8
+"""Random poses on which each elimination is tried."""
+
+VANISHING = 1e-12
+"""Part of the polynomial's largest coefficient below which others are rounding."""
+
+NO_DEGREE = 1000
+"""Of an elimination that does not do."""
+
+USABLE = 0.9
+"""Part of the best elimination's solutions that another must find to be kept."""
+
+
+class Kernel(NamedTuple):
+    """The kernels of a degree."""
+
+    degree: int
+    record: np.dtype[Any]
+    tried: Any
+    finished: Any
+
+
+KERNELS = (
+    Kernel(16, FOLLOWERS_16, try_followers_16, finish_followers_16),
+    Kernel(48, FOLLOWERS_48, try_followers_48, finish_followers_48),
+)
+"""By degree, the lowest first."""
+
+
+class Followers(SolverBase):
+    """Elimination of five free joints; the leader's turn from a polynomial."""
+
+    name = "followers"
+    needs = "six values that turn, one of which moves two joints or more"
+    if_spare = STUCK
+
+    def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
+        super().__init__(chain, task, others)
+        assert isinstance(chain, CoupledChain)
+        self.arm = chain
+        plan = plan_followers(chain)
+        assert plan is not None
+        self.kernels, self.plan, self.degree = plan
+        self.kmax = 2 * self.kernels.degree
+        self._idle: list[Arm] = []
+
+    @classmethod
+    def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
+        """Say what keeps the elimination from covering the chain; None if nothing does."""
+        if not isinstance(chain, CoupledChain):
+            return "no joint follows another"
+        if chain.n != 6:
+            return f"{chain.n} values move it"
+        if chain.prismatic.any() or chain.sliding.any():
+            return "a joint slides"
+        if len(led := leaders_of(chain)) != 1:
+            names = " and ".join(chain.names[v] for v in led) or "none"
+            return (
+                f"of the values {names} move more than one joint each, and it needs one that does"
+            )
+        if len(chain.leaders) > MOTIONS:
+            return f"it has {len(chain.leaders)} joints, more than {MOTIONS}"
+        if not eliminations_of(chain):
+            return "followers stand on both sides of every two neighbours among the free joints"
+        if plan_followers(chain) is None:
+            return f"its polynomial has a degree above {KERNELS[-1].degree}, or vanishes"
+        return None
+
+    @contextmanager
+    def _record(self) -> Iterator[Arm]:
+        """A copy of the plan that no other thread has meanwhile."""
+        try:
+            arm = self._idle.pop()
+        except IndexError:
+            arm = self.plan.copy()
+        yield arm
+        self._idle.append(arm)
+
+    def details(self) -> str:
+        """Name the leader, what follows it, and the method."""
+        leader = leaders_of(self.arm)[0]
+        moved = [
+            f"joint {i + 1} by {factor / self.arm.turns[leader]:g}"
+            for i, (v, factor) in enumerate(zip(self.arm.leaders, self.arm.factors, strict=True))
+            if v == leader
+        ]
+        return (
+            f"{self.arm.names[leader]} moves {', '.join(moved)}; the five others are eliminated "
+            "(Raghavan and Roth 1993), its turn is a root of a trigonometric polynomial of degree "
+            f"{self.degree}; then Newton's method on the exact chain"
+        )
+
+    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts (m, 4, 4); those in doubt are searched, too."""
+        doubt = self.solve_sure(Ts, within_limits, out)
+        if len(doubt):
+            found, deep = out.rows(doubt), np.arange(len(doubt))
+            found.counts[:] = -1 - found.counts
+            out.put(doubt, search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits))
+
+    def solve_sure(self, Ts: Array, within_limits: bool, out: Outputs) -> IntArray:
+        """Solve poses Ts (m, 4, 4) but those in doubt, whose counts are -1 minus their candidates.
+
+        Returned are their indices.
+        """
+        with self._record() as arm:
+            doubts = self.kernels.finished(self.chain.tables, arm, Ts, within_limits, out)
+        return np.flatnonzero(out.counts < 0) if doubts else np.empty(0, np.int64)
+
+    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernel alone, where it has no doubt."""
+        arguments = self.chain.tables, self.plan.copy(), Ts, within_limits, out
+        return ((self.kernels.finished, arguments, False),)
+
+
+def leaders_of(chain: CoupledChain) -> list[int]:
+    """Values that move more than one joint."""
+    return [v for v in range(chain.n) if chain.leaders.count(v) > 1]
+
+
+def eliminations_of(chain: CoupledChain) -> list[tuple[int, int]]:
+    """Where the loop may be cut, and in which direction.
+
+    Its first two joints and the last are free, and there are two free ones in between.
+    """
+    leader, n = leaders_of(chain)[0], len(chain.leaders)
+    found = []
+    for reverse in range(2):
+        for shift in range(n):
+            order = [
+                (shift + i) % n if not reverse else (2 * n - 1 - shift - i) % n for i in range(n)
+            ]
+            free = [chain.leaders[j] != leader for j in order]
+            if free[0] and free[1] and free[-1]:
+                found.append((shift, reverse))
+    return found
+
+
+class Plan(NamedTuple):
+    """How an arm is solved: by which kernels and which record, of which degrees."""
+
+    kernel: Kernel
+    record: Arm
+    degree: int
+
+
+@lru_cache(maxsize=8)
+def plan_followers(chain: CoupledChain) -> Plan | None:
+    """The eliminations of the lowest degree that suit an arm, best first; None if none do."""
+    largest, poses = blank_followers(chain, KERNELS[-1]), _random_poses(chain)
+    degrees = {e: _degree(largest, e, poses) for e in eliminations_of(chain)}
+    least = min(degrees.values(), default=NO_DEGREE)
+    if least == NO_DEGREE:
+        return None
+    kernel = next(k for k in KERNELS if k.degree >= least)
+    record = blank_followers(chain, kernel)
+    some = [e for e, degree in degrees.items() if degree <= kernel.degree]
+    best = _rank(chain, kernel, record, {e: degrees[e] for e in some}, poses)
+    _choose(record, best)
+    return Plan(kernel, record, degrees[best[0]])
+
+
+def _degree(arm: Arm, elimination: tuple[int, int], poses: Array) -> int:
+    """Degree of an elimination's polynomial; ``NO_DEGREE`` where it is higher, or vanishes."""
+    values = np.empty((len(poses), arm["hidden"].shape[2]))
+    _choose(arm, [elimination])
+    sample_followers(arm, poses, values)
+    series = np.abs(np.fft.rfft(values, axis=1))
+    largest = series.max(axis=1, keepdims=True)
+    if not (largest > 0.0).all():
+        return NO_DEGREE
+    parts = np.median(series / largest, axis=0)
+    degree = int(np.flatnonzero(parts > VANISHING)[-1])
+    return degree if degree <= KERNELS[-1].degree else NO_DEGREE
+
+
+def _rank(
+    chain: CoupledChain, kernel: Kernel, arm: Arm, degrees: dict[tuple[int, int], int], poses: Array
+) -> list[tuple[int, int]]:
+    """The eliminations to keep, of the lowest degree first, then by solutions and precision."""
+    some = list(degrees)
+    out = Outputs.of(1, 2 * kernel.degree, 6)
+    found, digits = np.zeros(len(some)), np.zeros(len(some))
+    for k, elimination in enumerate(some):
+        _choose(arm, [elimination])
+        for T in poses:
+            kernel.tried(chain.tables, arm, T[None], out)
+            seeded, spans = arm["first"][0]
+            found[k] += out.counts[0] / len(poses)
+            digits[k] -= min(math.log10(max(seeded, 1e-16)) + min(spans, DEAREST), 0.0) / len(poses)
+    order = np.argsort(-found - digits * WORTH, kind="stable")
+    good = [some[k] for k in order if found[k] >= USABLE * found.max()]
+    return sorted(good, key=lambda e: degrees[e])[:MOST]
+
+
+def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
+    """Set the eliminations of a record."""
+    arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
+
+
+def _random_poses(chain: CoupledChain) -> Array:
+    """Reachable poses (POSES, 4, 4), the same ones each time."""
+    rng = np.random.default_rng(0)
+    return np.stack([chain.fk(q) for q in rng.uniform(-np.pi, np.pi, (POSES, 6))])
+
+
+def blank_followers(chain: CoupledChain, kernel: Kernel) -> Arm:
+    """The record (1,) of an arm, no eliminations chosen."""
+    arm, n = np.zeros(1, kernel.record), len(chain.leaders)
+    values, leader = np.array(chain.leaders), leaders_of(chain)[0]
+    links, factors = chain.links.copy(), np.where(values == leader, chain.factors, 0.0)
+    for i in np.flatnonzero((factors == 0.0) & (chain.factors < 0.0)):
+        links[i], links[i + 1] = product(links[i], FLIP), product(FLIP, links[i + 1])
+    by = np.where(factors == 0.0, 1.0, factors)
+    short, _ = short_links(links, np.zeros(n, np.bool_), by * TURN[values])
+    size = float(np.linalg.norm(short[1:n, :3, 3], axis=1).max()) or 1.0
+    for name, table in tables_of(kernel.degree).items():
+        arm[name] = table
+    arm["motions"], arm["leader"], arm["size"] = n, leader, size
+    arm["factors"][0, :n], arm["values"][0, :n] = factors, values
+    arm["ends"], arm["zeros"] = inverse(short[[0, n]]), TURN
+    arm["chain"][0, : n - 1] = short[1:n, :3]
+    arm["chain"][0, : n - 1, :, 3] /= size
+    return arm
