@@ -103,8 +103,9 @@ def calls(robot, locked, seed):
 
 
 @pytest.mark.usefixtures("_restless")
+@pytest.mark.parametrize("seconds", [2.0, pytest.param(120.0, marks=pytest.mark.exhaustive)])
 @pytest.mark.parametrize("name", LOCKED)
-def test_every_method_answers_in_many_threads_as_it_does_alone(name):
+def test_every_method_answers_in_many_threads_as_it_does_alone(name, seconds):
     """One fresh robot, all its methods at once in eight threads: to the bit the answers of one."""
     alone = Robot.from_dh(name)
     jobs = [
@@ -119,7 +120,7 @@ def test_every_method_answers_in_many_threads_as_it_does_alone(name):
             what, call, expected = jobs[k]
             assert flat(call(shared)) == expected, what
 
-    crowd(work, seconds=2.0)
+    crowd(work, seconds)
 
 
 @pytest.mark.usefixtures("_restless")
