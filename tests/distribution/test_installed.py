@@ -43,6 +43,7 @@ USES = {
 
 DEVELOPERS = {
     "test": "rm -r dh2urdf && python -m pytest -q tests/dh",
+    "fuzz": "rm -r dh2urdf && python -m tests.fuzz cells --guided 5",
     "lint": "ruff check . && ruff format --check . && mypy && lint-imports --no-cache",
     "consumers": "python -c 'import ikpy, pybullet, pydrake' && dh2urdf check urdf/planar_rr.urdf",
     "bench": "rm -r dh2urdf && python -m benchmarks --quick --only building --out quick.json",

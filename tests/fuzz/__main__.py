@@ -1,0 +1,115 @@
+"""Try the doors: ``python -m tests.fuzz [DOOR...] [--inputs N] [--seed S] [--guided SECONDS]``.
+
+By properties, or guided by coverage for so long; what breaks a door goes to its corpus. With
+``--record`` the run is added to ``runs.csv``, from which the table in ``README.md`` is written.
+"""
+
+import argparse
+import csv
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+from collections import defaultdict
+from pathlib import Path
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE.parent / "helpers"))
+
+from tests.fuzz.doors import DOORS  # noqa: E402
+from tests.fuzz.drive import attempt, keep, properties  # noqa: E402
+
+RUNS, PAGE = HERE / "runs.csv", HERE / "README.md"
+MARK = "<!-- runs -->\n"
+
+
+def by_properties(name: str, inputs: int, seed: int) -> tuple[int, str]:
+    """Inputs tried and how the first broke."""
+    door = DOORS[name]
+    try:
+        for data in door.starts:
+            attempt(door, data)
+        return properties(door, inputs, seed), ""
+    except Exception as error:
+        traceback.print_exc()
+        found = getattr(error, "smallest", b"")
+        return 0, f"{keep(name, found).name}: {type(error).__name__}: {error!s:.200}"
+
+
+def by_coverage(name: str, seconds: int, seed: int) -> tuple[int, str]:
+    """Inputs that libFuzzer tried, and what it says of those that broke."""
+    with tempfile.TemporaryDirectory() as place:
+        for k, data in enumerate(DOORS[name].starts):
+            (Path(place) / f"start-{k}").write_bytes(data)
+        options = ["-timeout=0", "-rss_limit_mb=3000", "-max_len=20000"]
+        options += [f"-max_total_time={seconds}", f"-seed={seed + 1}"]
+        command = [sys.executable, "-m", "tests.fuzz.guided", name, place, *options]
+        run = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = re.search(r"Done (\d+) runs", run.stderr)
+    broken = "; ".join(line for line in run.stdout.splitlines() if line.startswith("BROKEN"))
+    return (int(done[1]), broken) if done else (0, f"{broken} {run.stderr[-2000:]}")
+
+
+def record(row: tuple[object, ...]) -> None:
+    """Add a run, and write the table anew."""
+    with RUNS.open("a", newline="") as file:
+        csv.writer(file).writerow(row)
+    page = PAGE.read_text().partition(MARK)[0]
+    PAGE.write_text(page + MARK + table())
+
+
+def table() -> str:
+    """Inputs, seeds and times of each door."""
+    inputs, seconds = defaultdict[tuple[str, str], int](int), defaultdict[str, float](float)
+    seeds = defaultdict[str, set[int]](set)
+    for name, way, count, seed, took in csv.reader(RUNS.open()):
+        inputs[name, way] += int(count)
+        seconds[name] += float(took)
+        if way == "properties":
+            seeds[name].add(int(seed))
+    lines = [
+        "| door | by properties | seeds | by coverage | minutes | corpus |",
+        "| - | -: | - | -: | -: | -: |",
+    ]
+    for name, door in DOORS.items():
+        used = ", ".join(map(str, sorted(seeds[name])))
+        lines.append(
+            f"| {name} | {inputs[name, 'properties']:,} | {used} | {inputs[name, 'coverage']:,} | "
+            f"{seconds[name] / 60:.1f} | {len(door.starts)} |"
+        )
+    total = sum(inputs.values())
+    return (
+        "\n".join([*lines, "", f"{total:,} inputs in {sum(seconds.values()) / 60:.0f} minutes."])
+        + "\n"
+    )
+
+
+def main() -> int:
+    """Run the doors; 1 where one broke."""
+    parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
+    parser.add_argument("doors", nargs="*", choices=[*DOORS, []], metavar="DOOR")
+    parser.add_argument("--inputs", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--guided", type=int, metavar="SECONDS")
+    parser.add_argument("--record", action="store_true")
+    asked = parser.parse_args()
+    broke = False
+    for name in asked.doors or DOORS:
+        start = time.monotonic()
+        if asked.guided:
+            count, fault = by_coverage(name, asked.guided, asked.seed)
+        else:
+            count, fault = by_properties(name, asked.inputs, asked.seed)
+        took = time.monotonic() - start
+        print(f"{name}: {count:,} inputs in {took:.0f} s{fault and ': ' + fault}", flush=True)
+        broke = broke or bool(fault)
+        if asked.record and count:
+            way = "coverage" if asked.guided else "properties"
+            record((name, way, count, asked.seed, round(took, 1)))
+    return int(broke)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,55 @@
+"""Zarr stores of a map: one of its files holds anything."""
+
+import shutil
+import tempfile
+from functools import cache
+from pathlib import Path
+
+from hostile import outcome
+
+from dh2urdf import Robot
+from dh2urdf.workspace import reach_map
+from dh2urdf.workspace.stored_map import VARIABLES, map_cut, open_map
+from tests.fuzz.door import Door
+from tests.fuzz.guard import unwatched
+
+
+@cache
+def _store() -> tuple[Robot, Path]:
+    """An arm of one joint with a finished map."""
+    with unwatched():
+        robot = Robot.from_dh("planar_rr")
+        path = Path(tempfile.mkdtemp(prefix="fuzz-")) / "map.zarr"
+        reach_map(robot, step=1.0, store=path).close()
+    return robot, path
+
+
+@cache
+def _files() -> list[str]:
+    _, path = _store()
+    return sorted(str(p.relative_to(path)) for p in path.rglob("*") if p.is_file())
+
+
+def read(data: bytes, folder: Path) -> None:
+    """A map is opened or refused, and gone on with or refused, whatever one of its files holds."""
+    robot, path = _store()
+    which, _, content = data.partition(b"\n")
+    name = (
+        _files()[sum(which) % len(_files())]
+        if which.decode("latin1") not in _files()
+        else which.decode()
+    )
+    with unwatched():
+        shutil.copytree(path, folder / "map.zarr")
+        (folder / "map.zarr" / name).write_bytes(content)
+    found = outcome(open_map, folder / "map.zarr")
+    if not isinstance(found, Exception):
+        for variable in VARIABLES[:2]:
+            outcome(map_cut, found, variable)
+        found.close()
+    outcome(lambda: reach_map(robot, step=1.0, store=folder / "map.zarr").close())
+    with unwatched():
+        shutil.rmtree(folder / "map.zarr")
+
+
+DOORS = [Door("stores", read, ("stores",), usual=200)]
