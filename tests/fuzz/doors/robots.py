@@ -37,7 +37,7 @@ def extract(suffix: str):
     def enter(data: bytes, folder: Path) -> None:
         path = folder / f"arm{suffix}"
         path.write_bytes(data)
-        with patch.object(apart.subprocess, "run", forked), patch.object(apart, "APART_SECONDS", 1):
+        with patch.object(apart.subprocess, "run", forked), patch.object(apart, "APART_SECONDS", 0.4):
             found = outcome(extract_dh, path)
         path.unlink()
         if not isinstance(found, Dh2UrdfError):
