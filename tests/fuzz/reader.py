@@ -4,6 +4,7 @@ Started by :func:`forked`; a line of JSON on stdin asks, a line on stdout answer
 """
 
 import atexit
+import contextlib
 import json
 import os
 import signal
@@ -49,7 +50,11 @@ def _serve(answers) -> None:
     import pinocchio  # noqa: F401
     import xacro  # noqa: F401
 
-    signal.signal(signal.SIGALRM, lambda *_: os.kill(child, signal.SIGKILL))
+    def late(*_: object) -> None:
+        with contextlib.suppress(ProcessLookupError):  # which has ended just now
+            os.kill(child, signal.SIGKILL)
+
+    signal.signal(signal.SIGALRM, late)
     for line in sys.stdin:
         reader, source, folder, cwd, timeout = json.loads(line)
         child = os.fork()
