@@ -15,6 +15,10 @@ from tests.fuzz.reader import forked
 from tests.fuzz.shapes import AXES, URDFS, XACROS
 
 
+SECONDS = 0.4
+"""Time of a reader, of which most files need a hundredth."""
+
+
 def read_urdf(data: bytes, folder: Path) -> None:
     """A file is built, extracted and checked or refused; what is built agrees with itself."""
     path = folder / "arm.urdf"
@@ -37,7 +41,8 @@ def extract(suffix: str):
     def enter(data: bytes, folder: Path) -> None:
         path = folder / f"arm{suffix}"
         path.write_bytes(data)
-        with patch.object(apart.subprocess, "run", forked), patch.object(apart, "APART_SECONDS", 0.4):
+        quick = patch.object(apart, "APART_SECONDS", SECONDS)
+        with patch.object(apart.subprocess, "run", forked), quick:
             found = outcome(extract_dh, path)
         path.unlink()
         if not isinstance(found, Dh2UrdfError):
