@@ -14,7 +14,6 @@ from tests.fuzz.door import Door
 from tests.fuzz.reader import forked
 from tests.fuzz.shapes import AXES, URDFS, XACROS
 
-
 SECONDS = 0.4
 """Time of a reader, of which most files need a hundredth."""
 
