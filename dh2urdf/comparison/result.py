@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from dh2urdf.comparison.cells import Difference
 from dh2urdf.comparison.mistakes import Mistake
 from dh2urdf.dh import Origin
-from dh2urdf.dh.print import plus, step
+from dh2urdf.dh.print import step
+from dh2urdf.dh.variables import plus
 from dh2urdf.grids import number
 
 DIGITS = 9

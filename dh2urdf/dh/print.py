@@ -13,7 +13,7 @@ from dh2urdf.dh.coupling import JointMap
 from dh2urdf.dh.motions import DHConvention
 from dh2urdf.dh.quoting import latex, one_line
 from dh2urdf.dh.row import DHRow, Origin
-from dh2urdf.dh.variables import MINUS, moved_by
+from dh2urdf.dh.variables import MINUS, moved_by, plus
 from dh2urdf.grids import number
 
 ROUNDING = 4e-16
@@ -104,15 +104,6 @@ class Look(NamedTuple):
 
 
 LOOK = Look()
-
-
-def plus(variable: str, offset: str) -> str:
-    """``variable + offset`` with zero left out and a minus sign folded in."""
-    if offset == "0":
-        return variable
-    if offset.startswith(MINUS):
-        return f"{variable} {MINUS} {offset.removeprefix(MINUS)}"
-    return f"{variable} + {offset}"
 
 
 def heads(table: _Table, look: Look = LOOK) -> dict[str, tuple[str, str]]:

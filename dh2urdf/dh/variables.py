@@ -4,7 +4,7 @@ q1, q2 ... are the values that a robot takes; where joints follow others there a
 than joints.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from dh2urdf.dh.coupling import JointMap
 from dh2urdf.dh.mimic import Mimic
@@ -30,6 +30,27 @@ def terms(joints: JointMap | None, i: int) -> tuple[list[tuple[float, int]], flo
     first = joints.own.index(i) if i in joints.own else -1
     order = sorted((k for k, factor in enumerate(row) if factor), key=lambda k: k != first)
     return [(row[k], k + 1) for k in order], float(joints.offset[i])
+
+
+def coupled_words(names: Sequence[str], joints: JointMap) -> str:
+    """Where the joints stand that are not at a value of their own: ``joint_3 is at q3 + q2``."""
+    told = []
+    for i, name in enumerate(names):
+        parts, constant = terms(joints, i)
+        if len(parts) == 1 and parts[0][0] == 1 and i in joints.own and not constant:
+            continue
+        text, _ = moved_by(joints, i)
+        told.append(f"{name} is at {plus(text, number(constant))}")
+    return ", ".join(told)
+
+
+def plus(variable: str, offset: str) -> str:
+    """``variable + offset`` with zero left out and a minus sign folded in."""
+    if offset == "0":
+        return variable
+    if offset.startswith(MINUS):
+        return f"{variable} {MINUS} {offset.removeprefix(MINUS)}"
+    return f"{variable} + {offset}"
 
 
 def moved_by(

@@ -117,9 +117,8 @@ def _kept(
     still = moved & (np.abs(turned) <= PARALLEL)
     places = _places(axes, run)
     for number, place in enumerate(places):
-        k = max(
-            range(run.index(place.first), run.index(place.last) + 1), key=lambda k: still[k].sum()
-        )
+        on_it = range(run.index(place.first), run.index(place.last) + 1)
+        k = max(on_it, key=lambda k: (still[k].sum(), k))
         values = np.flatnonzero(still[k])
         if not len(values):
             continue

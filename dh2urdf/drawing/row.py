@@ -13,8 +13,7 @@ import numpy as np
 
 from dh2urdf.conversions.assign import AxisCase, classify
 from dh2urdf.dh import DHConvention, DHRow, DHTable
-from dh2urdf.dh.print import plus
-from dh2urdf.dh.variables import moved_by
+from dh2urdf.dh.variables import moved_by, plus
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.arm import DrawnArm
 from dh2urdf.drawing.readings import TINY, UNITS, measured

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
-from dh2urdf.dh.print import degrees, plus, step
-from dh2urdf.dh.variables import moved_by
+from dh2urdf.dh.print import degrees, step
+from dh2urdf.dh.variables import moved_by, plus
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.figures.canvas import Canvas, text_size
 from dh2urdf.figures.style import FAINT, INK, MUTED, plain

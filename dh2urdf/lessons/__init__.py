@@ -6,12 +6,22 @@ kernels. `notation` writes formulas, `equation`, `steps`, `wording` what is said
 `planar` with `planar_elbows`; `spherical_wrist` with `position*`, `seen` and `wrist`;
 `three_parallel` with `parallel_*`; `few_joints`, `one_joint`, `three_slides`; for any one
 to five joints `closed_loop` with `short_loop`; without a closed form `two_parallel` and
-`elimination`. `case` picks one, `worked` is the entry.
+`elimination`. `case` picks one, `controller` turns joints into what a controller shows, `worked` is
+the entry.
 """
 
-from dh2urdf.lessons.case import Question
+from dh2urdf.lessons.case import Question, Values
 from dh2urdf.lessons.curve import Curve
 from dh2urdf.lessons.steps import Equation, IKExplanation, Mark, Step
 from dh2urdf.lessons.worked import explain_pose
 
-__all__ = ["Curve", "Equation", "IKExplanation", "Mark", "Question", "Step", "explain_pose"]
+__all__ = [
+    "Curve",
+    "Equation",
+    "IKExplanation",
+    "Mark",
+    "Question",
+    "Step",
+    "Values",
+    "explain_pose",
+]

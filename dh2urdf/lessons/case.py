@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import Coupling, SerialChain
 from dh2urdf.dh import DHConvention, DHTable
 from dh2urdf.ik.arm import Task, hold, select_solver
 from dh2urdf.ik.families import with_tool_joint
@@ -69,6 +69,21 @@ REVERSED = {
 
 
 @dataclass(frozen=True, eq=False)
+class Values:
+    """What ``ik`` gives, where that is not the joints: ``joints = coupling.joints(q)``.
+
+    Parameters
+    ----------
+    coupling : Coupling
+    q : array, shape (k, values)
+        The solutions, as those of the question.
+    """
+
+    coupling: Coupling
+    q: Array
+
+
+@dataclass(frozen=True, eq=False)
 class Question:
     """What is explained: a pose of an arm, the solutions that ``ik`` gave, and which of them.
 
@@ -93,6 +108,8 @@ class Question:
     task : Task
     details : str
         What the solver says of itself, for families without a derivation here.
+    values : Values or None
+        What ``ik`` gives, where it is not the joints.
     held : mapping of int to float
         Joints that are held, and where.
     """
@@ -109,6 +126,7 @@ class Question:
     task: Task = Task.POSE
     details: str = ""
     held: Mapping[int, float] = field(default_factory=dict)
+    values: Values | None = None
 
 
 def lesson_of(arm: Arm, solver: str, task: Task) -> Lesson | None:

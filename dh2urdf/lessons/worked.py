@@ -7,6 +7,7 @@ import numpy as np
 
 from dh2urdf.ik.arm import Task
 from dh2urdf.lessons.case import Case, Question
+from dh2urdf.lessons.controller import controllers_values
 from dh2urdf.lessons.ends import taken_off
 from dh2urdf.lessons.marks import elbow_side, joint_mark
 from dh2urdf.lessons.notation import measured, vector_shown
@@ -35,6 +36,9 @@ def explain_pose(question: Question) -> IKExplanation:
         if not way.stopped:
             q, check = _placed(case, way)
             steps.append(check)
+            if question.values is not None:
+                q, step = controllers_values(question, q)
+                steps.append(step)
     if len(question.q):
         steps.append(_branches(question, led=case.lesson is not None))
     return IKExplanation(question.name, question.solver, question.T, tuple(steps), q, index, branch)
@@ -128,14 +132,17 @@ def _branches(question: Question, *, led: bool) -> Step:
     """All solutions, their names, which are outside the limits; ``led``: steps lead to one."""
     chain, count, lines = question.chain, len(question.q), []
     excess = np.maximum(chain.lower - question.q, question.q - chain.upper)
-    outside = excess.max(axis=1) > LIMIT
-    for k, (q, branch) in enumerate(zip(question.q, question.branches, strict=True)):
+    outside, given = excess.max(axis=1) > LIMIT, question.q
+    if question.values is not None:
+        given, own = question.values.q, question.values.coupling
+        outside |= np.maximum(own.lower - given, given - own.upper).max(axis=1) > LIMIT
+    for k, (q, branch) in enumerate(zip(given, question.branches, strict=True)):
         named = [branch] if branch else []
         named += ["outside the limits"] if outside[k] else []
         mark = "  <- this one" if k == question.index and count > 1 and led else ""
         numbered = f"{question.numbers[k] + 1}: {vector_shown(q)}  {', '.join(named)}"
         lines.append(f"{numbered.rstrip()}{mark}")
-    apart = question.q - question.q[question.index]
+    apart = given - given[question.index]
     turned = int((np.abs(apart - math.tau * np.round(apart / math.tau)).max(axis=1) < LIMIT).sum())
     ways = "other choices on the way" + (", or whole turns," if turned > 1 else "")
     held = " with what is held" if question.held else ""

@@ -84,30 +84,47 @@ def question_of(
 ) -> Question:
     """What :mod:`dh2urdf.lessons` is asked: solutions of a robot, which, joints held and task."""
     from dh2urdf.ik.arm import Task
-    from dh2urdf.ik.problem import held_values
     from dh2urdf.ik.redundant import RedundantChain, SweptJoint
-    from dh2urdf.lessons import Question
+    from dh2urdf.lessons import Question, Values
 
     index = 0 if solution is None else integer(solution, "solution", 0, max(len(found) - 1, 0))
-    solver = robot.solver_for(locked=locked, task=task)
-    joints, values = held_values(robot.chain, locked, False)
-    held = dict(zip(joints, values[0].tolist(), strict=True))
+    solver, coupling = robot.solver_for(locked=locked, task=task), robot._coupling
+    moved = found.q if coupling is None else robot.chain_configuration(found.q)
+    held = _held(robot, locked)
     rows = np.arange(len(found))
     if found and isinstance(solver, (SweptJoint, RedundantChain)):
         spare = solver.held if isinstance(solver, RedundantChain) else (solver.joint,)
-        held |= {i: float(found.q[index, i]) for i in spare}
-        rows = np.flatnonzero((found.q[:, spare] == found.q[index, spare]).all(axis=1))
+        held |= {i: float(moved[index, i]) for i in spare}
+        rows = np.flatnonzero((moved[:, spare] == moved[index, spare]).all(axis=1))
     return Question(
         name=robot.table.name if robot.table else robot.model.name,
         chain=robot.chain,
         table=robot.table,
         solver=str(solver),
         T=np.array(found.T),
-        q=found.q[rows],
+        q=moved[rows],
         branches=tuple(found.branch[i] for i in rows),
         numbers=tuple(rows.tolist()),
         index=int(np.searchsorted(rows, index)),
         task=Task(task),
         details=solver.explain(),
         held=held,
+        values=None if coupling is None else Values(coupling, found.q[rows]),
     )
+
+
+def _held(robot: RobotExplained, locked: Locked | None) -> dict[int, float]:
+    """Where joints of the chain stand that are held, by their place from 0."""
+    from dh2urdf.ik.problem import held_values
+
+    coupling = robot._coupling
+    if coupling is None or not locked:
+        places, values = held_values(robot.chain, locked, False)
+        return dict(zip(places, values[0].tolist(), strict=True))
+    q, moving = np.zeros(robot.n), np.ones(robot.n, bool)
+    for name, value in locked.items():
+        place = robot.joint_names.index(name) if isinstance(name, str) else name
+        q[place], moving[place] = value, False
+    still = ~coupling.matrix[:, moving].any(axis=1)
+    joints = robot.chain_configuration(q)
+    return {int(i): float(joints[i]) for i in np.flatnonzero(still)}

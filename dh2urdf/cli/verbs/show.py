@@ -19,6 +19,7 @@ from dh2urdf.cli.reading import AS_READ, Writing
 from dh2urdf.conversions.assign import in_convention
 from dh2urdf.dh import DHTable
 from dh2urdf.dh.quoting import one_line
+from dh2urdf.dh.variables import coupled_words
 from dh2urdf.dh_io import table_to_text
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.grids import number
@@ -71,6 +72,8 @@ def show_(
         name, why = str(arm.solver), arm.solver.explain()
     except NoSolverError as error:
         name, why = "none", str(error)
+    if dh.joint_map is not None:
+        why = f"{coupled_words(dh.joint_names, dh.joint_map)}\n{why}"
     if json:
         solver = {"joint_names": arm.joint_names, "solver": name, "solver_explained": why}
         told = {"text": text} if format != "text" else {}

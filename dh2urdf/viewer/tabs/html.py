@@ -8,9 +8,8 @@ from html import escape
 import numpy as np
 
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
-from dh2urdf.dh.print import plus
 from dh2urdf.dh.row import Origin
-from dh2urdf.dh.variables import moved_by
+from dh2urdf.dh.variables import moved_by, plus
 from dh2urdf.dh_io import Kind, Units
 from dh2urdf.drawing.colours import QUANTITY
 from dh2urdf.drawing.lesson import Motion
