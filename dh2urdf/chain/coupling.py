@@ -6,14 +6,14 @@ the level: ``q_chain = matrix @ q + offset``.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain.serial_chain import SerialChain, settled_state
-from dh2urdf.dh import DHTable, Mimic
+from dh2urdf.dh import DHTable, JointType, Mimic
 from dh2urdf.transforms import Array
 
 
@@ -55,6 +55,12 @@ class Coupling:
         """The matrix (n, chain.n) back to the values, None where it is not square."""
         square = self.matrix.shape[0] == self.matrix.shape[1]
         return np.asarray(np.linalg.inv(self.matrix), float) if square else None
+
+    def chain_of(self, chain: SerialChain) -> SerialChain:
+        """A chain of as many joints with names, kinds and limits of the values instead."""
+        kinds = tuple(JointType.PRISMATIC if s else JointType.REVOLUTE for s in self.prismatic)
+        chain = replace(chain, joint_types=kinds, names=self.names)
+        return replace(chain, lower=self.lower, upper=self.upper)
 
     def joints(self, q: Array) -> Array:
         """Joints of the chain (..., chain.n) at values q (..., n)."""

@@ -26,10 +26,10 @@ from dh2urdf.ik.arm import (
     in_own_unit,
     many_poses,
     one_pose,
-    seed_gaps,
     select_solver,
 )
 from dh2urdf.ik.problem import (
+    CoupledProblem,
     ForwardKinematics,
     HeldCalls,
     IKBatch,
@@ -42,6 +42,7 @@ from dh2urdf.ik.problem import (
     SweptProblem,
     call_of,
     find_path,
+    held_joints,
     held_values,
     seeded_call_of,
 )
@@ -61,15 +62,25 @@ Asked = tuple[Task | str, Locked | None, bool, int | None, bool]
 
 
 class InverseKinematics:
-    """Inverse kinematics of one chain; its methods are documented at :class:`dh2urdf.Robot`."""
+    """Inverse kinematics of one chain; its methods are documented at :class:`dh2urdf.Robot`.
+
+    Parameters
+    ----------
+    chain : SerialChain
+    coupling : Coupling or None
+        By which values q, as many as the chain's, move its joints; None where they are the joints.
+    referee : callable
+        Forward kinematics of values q that is independent of the kernels.
+    """
 
     def __init__(
         self, chain: SerialChain, coupling: Coupling | None, referee: ForwardKinematics
     ) -> None:
-        if coupling is not None:
+        if coupling is not None and coupling.inverse is None:
             refuse_coupling(chain, coupling)
         self.chain, self.coupling, self.referee = chain, coupling, referee
         self.own = in_own_unit(chain)
+        self.values = chain if coupling is None else coupling.chain_of(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
         self._plain: Problem | None = None
         self._at_once: list[AtOnce] = [nothing_at_once] * 4
@@ -106,7 +117,7 @@ class InverseKinematics:
         problem = self.problem(task, locked, inside, samples)
         if usual:
             self._learn(problem, locked, 2 * (seed is not None) + inside)
-        goal = None if seed is None else as_configuration(seed, self.chain.prismatic, "seed")
+        goal = None if seed is None else as_configuration(seed, self.values.prismatic, "seed")
         most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
         if most is not None and goal is None:
             raise ArgumentError("seed_tolerance: there is no seed from which to measure it")
@@ -121,7 +132,7 @@ class InverseKinematics:
         if every:
             found = problem.with_all_turns(found, goal)
         if goal is not None and most is not None:
-            found = found.select(np.all(seed_gaps(self.chain, found.q, goal) <= most, axis=1))
+            found = found.select(np.all(problem.gaps(found.q, goal) <= most, axis=1))
         if change:
             found.pose_change = change
         return found
@@ -198,7 +209,7 @@ class InverseKinematics:
         if poses.ndim != 3:
             raise PoseError(f"poses: expected shape (m, 4, 4), got {poses.shape}")
         _check_held(problem, len(poses))
-        origin = None if start is None else as_configuration(start, self.chain.prismatic, "start")
+        origin = None if start is None else as_configuration(start, self.values.prismatic, "start")
         if tell is not None:
             instance(tell, "progress", Callable)
         found = find_path(problem, poses, origin, inside, max_jump, tell)
@@ -219,7 +230,7 @@ class InverseKinematics:
         problem = self.problem(Task.POSE, None, inside)
         if not isinstance(problem.solver, SweptJoint):
             raise ConfigurationError(_no_sweep("intervals", problem.solver))
-        assert isinstance(problem, (SweptProblem, ScaledProblem))
+        assert isinstance(problem, (SweptProblem, ScaledProblem, CoupledProblem))
         pose, _ = one_pose(T, problem.task, nearest)
         return problem.intervals(pose, inside)
 
@@ -232,7 +243,7 @@ class InverseKinematics:
     ) -> Problem:
         """The problem of a task and held joints; its solver is built when first asked for."""
         wanted = Task(choice(task, "task", TASKS))
-        joints, values = held_values(self.chain, locked, within_limits)
+        joints, values = held_values(self.values, locked, within_limits)
         if joints and samples is not None:
             raise ConfigurationError("samples: a joint is swept or locked, not both")
         if samples is not None:
@@ -249,9 +260,10 @@ class InverseKinematics:
         """A problem with a solver of its own, of the chain in its unit; outside are metres."""
         if len(joints) == self.chain.n:
             raise ConfigurationError("locked: all joints are held, none is left to move")
+        held = joints if self.coupling is None else held_joints(self.coupling, joints)
         solver: Solver | HeldSolver
         if joints:
-            solver = at_any_value(select_held(self.own, joints, task), task)
+            solver = at_any_value(select_held(self.own, held, task), task)
         else:
             solver = self.problem(task).solver if samples else select_solver(self.own, task)
         if isinstance(solver, SweptJoint):
@@ -259,7 +271,11 @@ class InverseKinematics:
             problem: Problem = SweptProblem(self.own, swept, task, self.referee)
         else:
             problem = Problem(self.own, solver, task, self.referee)
-        return problem if self.own is self.chain else ScaledProblem(self.chain, problem)
+        if self.own is not self.chain:
+            problem = ScaledProblem(self.chain, problem)
+        if self.coupling is None:
+            return problem
+        return CoupledProblem(self.values, self.coupling, problem, joints)
 
 
 def refuse_coupling(chain: SerialChain, coupling: Coupling) -> None:

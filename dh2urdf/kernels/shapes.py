@@ -33,6 +33,12 @@ Configurations: TypeAlias = Annotated[Floats, "poses", "n"]
 Some: TypeAlias = Annotated[Floats, "solutions", "n"]
 """Configurations, one a row."""
 
+References: TypeAlias = Annotated[Floats, "references", "n"]
+Flagged: TypeAlias = Annotated[Flags, "solutions"]
+Square: TypeAlias = Annotated[Floats, "n", "n"]
+Lattice: TypeAlias = Annotated[Floats, "points", "n"]
+Bounds: TypeAlias = Annotated[Floats, "n", 7]
+
 Sizes: TypeAlias = Annotated[Floats, "solutions"]
 Masks: TypeAlias = Annotated[Integers, "solutions"]
 
@@ -92,6 +98,31 @@ class ClosedForm(NamedTuple):
     form: Rows
     ends: Ends
     slack: float
+
+
+class Together(NamedTuple):
+    """Values q that move joints x together, ``x = matrix @ q + offset``, as many as these.
+
+    Attributes
+    ----------
+    matrix, inverse : array, shape (n, n)
+    offset : array, shape (n,)
+    loose : array, shape (n, 3)
+        Kinds and limits of the values that move one joint alone; the others as slides without.
+    ends : array, shape (n, 7)
+        Of the others: 1.0, bounds of the value, bounds of the joint, whether the joint turns,
+        whether the value is held.
+    turns, ways : array, shape (points, n)
+        Turns of the joints, and what the values do then.
+    """
+
+    matrix: Square
+    inverse: Square
+    offset: Configuration
+    loose: Joints
+    ends: Bounds
+    turns: Lattice
+    ways: Lattice
 
 
 class Outputs(NamedTuple):

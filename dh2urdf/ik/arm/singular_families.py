@@ -95,6 +95,13 @@ class Family:
                 failed += not found[k]
         return found
 
+    def members(self) -> Array:
+        """Members (k, n) on a walk both ways from the representative, and itself."""
+        walked = np.concatenate([self.q[None, self.free], self._walk(self.q)])
+        out = np.repeat(self.q[None], len(walked), axis=0)
+        out[:, self.free] = walked
+        return out
+
     def _dimensions(self) -> int:
         """In how many directions the family leaves the representative."""
         J = scaled_jacobian(self.moving, self.task, self.q[None, self.free])[0]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dh2urdf.exceptions import ArgumentError
-from dh2urdf.ik.arm import IntArray, Outputs, as_configuration, turned_to
+from dh2urdf.ik.arm import IntArray, Outputs, as_configuration
 from dh2urdf.ik.problem.solutions import Answering, IKSolutions
 from dh2urdf.kernels.numbers import pad_solutions
 
@@ -85,7 +85,7 @@ class IKBatch:
                 rows = found.q, found.residual, *found.codes
                 k, best = len(found), 0
             elif k:
-                near = turned_to(problem.chain, self.q[i, :k], goal)
+                near = problem.turned(self.q[i, :k], goal)
                 rows = near, self.residual[i], self.branch_code[i], self.free_mask[i]
                 best = int(np.square(near - goal).sum(axis=1).argmin())
             out.counts[i] = min(k, 1)

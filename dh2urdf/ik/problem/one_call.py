@@ -12,11 +12,12 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import ANGLE, LENGTH
 from dh2urdf.engine import AtOnce, Step, at_once, nothing_at_once
 from dh2urdf.ik.arm import LIMIT_SLACK, HeldSolver, Outputs, Room, SolverBase
+from dh2urdf.ik.problem.coupled_problem import CoupledProblem
 from dh2urdf.ik.problem.locked import Locked
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.ik.redundant import MOST_MEMBERS, RedundantChain, SweptJoint, towards_seed
-from dh2urdf.kernels.certificate import arrange_plain
+from dh2urdf.kernels.certificate import arrange_plain, arrange_together, values_of_batch
 from dh2urdf.kernels.numbers import any_family, is_pose
 from dh2urdf.transforms import Array
 
@@ -56,9 +57,12 @@ def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) ->
 def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
     """Turn and sort what has been found towards a seed (n,)."""
     chain, distance = problem.chain, np.empty(problem.solver.kmax)
-    largest = np.where(chain.prismatic, LENGTH, ANGLE)
-    arguments = chain.tables, largest, LIMIT_SLACK, problem.task.number
-    return arrange_plain, (*arguments, room.Ts, seed, room.out, distance), True
+    largest, task = np.where(chain.prismatic, LENGTH, ANGLE), problem.task.number
+    given = room.Ts, seed, room.out, distance
+    if isinstance(problem, CoupledProblem):
+        tables = problem.inner.chain.tables, problem.turns.anywhere
+        return arrange_together, (*tables, largest, LIMIT_SLACK, task, *given), True
+    return arrange_plain, (chain.tables, largest, LIMIT_SLACK, task, *given), True
 
 
 class HeldCall(NamedTuple):
@@ -126,6 +130,11 @@ def _room(problem: Problem) -> Room:
 
 def _steps(problem: Problem, room: Room, within_limits: bool) -> tuple[Step, ...]:
     """The kernels that solve; none where Python helps."""
+    if isinstance(problem, CoupledProblem):
+        inner = _steps(problem.inner, room, within_limits)
+        families: Step = any_family, (room.out.counts, room.out.free), False
+        put: Step = values_of_batch, (*problem.kernel(within_limits), room.Ts, room.out), True
+        return (*inner, families, put) if inner else ()
     if type(problem) not in (Problem, SweptProblem) or not isinstance(problem.solver, SolverBase):
         return ()
     return problem.solver.steps(room.Ts, within_limits, room.out)

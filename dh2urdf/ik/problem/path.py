@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.doors import number
-from dh2urdf.ik.arm import PATH_JUMP, TWO_PI, Family, middle, turn_counts, turned_to
+from dh2urdf.ik.arm import PATH_JUMP, middle
 from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.transforms import Array
 
@@ -174,7 +174,7 @@ class PathFinder:
         if self.origin is not None:
             q = self.problem.arranged(found, self.origin, self.within_limits).q
             return Stage(pose, q, np.linalg.norm(q - self.origin, axis=1), np.zeros(len(q), int))
-        few = 0 < turn_counts(self.chain, found.q).sum() <= MOST_STATES
+        few = 0 < self.problem.turn_counts(found.q).sum() <= MOST_STATES
         q = self.problem.with_all_turns(found).q if few else found.q
         wound = np.linalg.norm(q - middle(self.chain), axis=1)
         return Stage(pose, q, UNWOUND * wound, np.zeros(len(q), int))
@@ -182,10 +182,11 @@ class PathFinder:
     def next(self, last: Stage, pose: int) -> Stage:
         """Every way on from the last stage; for each configuration the cheapest."""
         targets = self.targets(last, pose)
-        q = turned_to(self.chain, targets[None], last.q[:, None])
+        q = self.problem.turned(targets[None], last.q[:, None])
         cost = last.cost[:, None] + self.step_costs(q - last.q[:, None])
         order = np.argsort(cost, axis=None, kind="stable")
-        _, first = np.unique(_turn_keys(q, targets).ravel()[order], return_index=True)
+        keys = _turn_keys(self.problem.turn_numbers(q, targets))
+        _, first = np.unique(keys.ravel()[order], return_index=True)
         keep = order[np.sort(first)[:MOST_STATES]]
         source, target = np.unravel_index(keep, cost.shape)
         return Stage(pose, q[source, target], cost[source, target], source.astype(np.int64))
@@ -200,14 +201,11 @@ class PathFinder:
         """Solutions (k, n), singular families by members nearest to where the path is or goes."""
         found = self.batch.solutions(pose)
         rows = [found.q]
-        for q, free in zip(found.q, found.free_joints, strict=True):
-            if not free:
-                continue
-            family = Family(self.chain, self.problem.task, found.T, free, q)
+        for k in np.flatnonzero(found.codes[1]).tolist():
             ahead = self.batch.solutions(pose + 1).q if pose + 1 < len(self.batch) else ()
             goals = [*last.q[last.cheapest()[:8]], *ahead]
-            members = (family.nearest(goal, self.within_limits) for goal in goals)
-            rows += [member[None] for member in members if member is not None]
+            members = self.problem.members_near(found, k, goals, self.within_limits)
+            rows += [member[None] for member in members]
         return np.concatenate(rows)
 
     def best(self, stages: list[Stage]) -> Array:
@@ -224,10 +222,8 @@ def trace(stages: list[Stage], state: int) -> Array:
     return q
 
 
-def _turn_keys(q: Array, targets: Array) -> Array:
-    """One number for each target and its turns, of configurations q (f, k, n), shape (f, k)."""
-    turns = np.round((q - targets) / TWO_PI)
-    keys: Array = np.arange(float(len(targets))) + turns @ (
-        len(targets) * 64.0 ** np.arange(q.shape[2])
-    )
+def _turn_keys(turns: Array) -> Array:
+    """One number for each of k targets and its turns (f, k, n), shape (f, k)."""
+    k, n = turns.shape[1:]
+    keys: Array = np.arange(float(k)) + turns @ (k * 64.0 ** np.arange(n))
     return keys

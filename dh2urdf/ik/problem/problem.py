@@ -11,6 +11,7 @@ from dh2urdf.exceptions import ArgumentError
 from dh2urdf.ik.arm import (
     ACCEPT,
     LIMIT_SLACK,
+    TWO_PI,
     Family,
     HeldSolver,
     Outputs,
@@ -22,9 +23,11 @@ from dh2urdf.ik.arm import (
     hold,
     inside,
     middle,
+    seed_gaps,
     slide_to_seed,
     task_error,
     turn_counts,
+    turned_to,
 )
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.chunks import in_chunks
@@ -163,6 +166,46 @@ class Problem:
             q[k] = q[k] if member is None else member
         return self._at(found, q).select(keep)
 
+    def joints_at(self, q: Array) -> tuple[SerialChain, Array]:
+        """The chain in metres, and its joints at values q (..., n)."""
+        return self.chain, q
+
+    def turned(self, q: Array, reference: Array) -> Array:
+        """Configurations q (..., n) in the turns nearest to a reference, see :func:`turned_to`."""
+        return turned_to(self.chain, q, reference)
+
+    def gaps(self, q: Array, seed: Array) -> Array:
+        """How far each value of q (k, n) is from a seed (n,), see :func:`seed_gaps`."""
+        return seed_gaps(self.chain, q, seed)
+
+    def turn_counts(self, q: Array) -> Array:
+        """How many turns of configurations q (k, n) are inside the limits, shape (k,)."""
+        return turn_counts(self.chain, q)
+
+    def all_turns(self, q: Array) -> Array:
+        """Every turn of one configuration q (n,) inside the limits, shape (k, n)."""
+        return all_turns(self.chain, q)
+
+    def turn_numbers(self, q: Array, reference: Array) -> Array:
+        """How many turns q (..., n) is from the same configuration as a reference has it."""
+        turns: Array = np.round((q - reference) / TWO_PI)
+        return turns
+
+    def walked(self, found: IKSolutions, k: int) -> Array:
+        """Members (m, n) of the singular family of solution k, on a walk both ways."""
+        return self._family(found, k).members()
+
+    def members_near(
+        self, found: IKSolutions, k: int, goals: list[Array], within_limits: bool
+    ) -> list[Array]:
+        """Members (n,) of the singular family of solution k that are nearest to goals (n,)."""
+        family = self._family(found, k)
+        members = (family.nearest(goal, within_limits) for goal in goals)
+        return [member for member in members if member is not None]
+
+    def _family(self, found: IKSolutions, k: int) -> Family:
+        return Family(self.chain, self.task, found.T, found.free_joints[k], found.q[k])
+
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         q, residual = found.q.copy(), found.residual.copy()
@@ -207,7 +250,7 @@ class Problem:
         ArgumentError
             There are more than ``bounds.TURNS``.
         """
-        counts = turn_counts(self.chain, found.q)
+        counts = self.turn_counts(found.q)
         total = int(counts.sum())
         if total > TURNS:
             raise ArgumentError(
@@ -216,7 +259,7 @@ class Problem:
             )
         if not total:
             return found
-        turns = [all_turns(self.chain, q) for q in found.q]
+        turns = [self.all_turns(q) for q in found.q]
         rows = np.repeat(np.arange(len(found)), [len(t) for t in turns])
         all_of_them = self._accepted(self._at(found.select(rows), np.concatenate(turns)))
         if seed is None:

@@ -9,8 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from dh2urdf.chain import CoupledChain, SerialChain
+from dh2urdf.exceptions import ConfigurationError
 from dh2urdf.ik.arm import HeldSolver, Outputs, lengths_in
 from dh2urdf.ik.problem.batch_solutions import IKBatch
+from dh2urdf.ik.problem.coupled_problem import CoupledProblem
 from dh2urdf.ik.problem.path import IKPath, PathFinder
 from dh2urdf.ik.problem.problem import Problem, Progress
 from dh2urdf.ik.problem.solutions import IKSolutions
@@ -66,6 +68,19 @@ class ScaledProblem(Problem):
             return near
         return near.select(np.argsort(np.linalg.norm(near.q - seed, axis=1), kind="stable"))
 
+    def walked(self, found: IKSolutions, k: int) -> Array:
+        """As :meth:`Problem.walked`."""
+        out: Array = self.inner.walked(self._inside(found), k) * self.scale
+        return out
+
+    def members_near(
+        self, found: IKSolutions, k: int, goals: list[Array], within_limits: bool
+    ) -> list[Array]:
+        """As :meth:`Problem.members_near`."""
+        near = [goal / self.scale for goal in goals]
+        members = self.inner.members_near(self._inside(found), k, near, within_limits)
+        return [member * self.scale for member in members]
+
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
         """As :meth:`Problem.with_all_turns`."""
         goal = None if seed is None else seed / self.scale
@@ -107,6 +122,11 @@ def find_path(
         poses = lengths_in(Ts, problem.unit)
         found = find_path(problem.inner, poses, origin, within_limits, max_jump, tell)
         return replace(found, q=found.q * problem.scale)
+    if isinstance(problem, CoupledProblem) and problem.sampled:
+        raise ConfigurationError(
+            "path: not of an arm with a joint to spare of which values move joints together; "
+            "hold a joint (locked)"
+        )
     if isinstance(problem, SweptProblem):
         return SweptPath(problem, Ts, start, within_limits, max_jump, tell).find()
     return PathFinder(problem, Ts, start, within_limits, max_jump, tell).find()

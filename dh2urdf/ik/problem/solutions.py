@@ -45,6 +45,12 @@ class Answering(Protocol):
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The solutions towards a seed, nearest first."""
 
+    def turned(self, q: Array, reference: Array) -> Array:
+        """Configurations (..., n) in the turns nearest to a reference."""
+
+    def joints_at(self, q: Array) -> tuple[SerialChain, Array]:
+        """The chain, and its joints at configurations (..., n)."""
+
     def measure(self, q: Array, T: Array) -> Array:
         """Residuals of configurations (k, n) at a pose, by another forward kinematics."""
 
@@ -159,7 +165,7 @@ class IKSolutions:
         NotOrthoParallelError
             An arm of another geometry; the message has every condition that fails.
         """
-        return controller_words(self._problem.chain, self.q, maker)
+        return controller_words(*self._problem.joints_at(self.q), maker)
 
     def verify(self) -> Array:
         """Residuals measured again by Pinocchio, shape (k,) [m and rad]."""

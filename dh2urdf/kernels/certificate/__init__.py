@@ -4,7 +4,8 @@
 that the residual cannot tell apart (``FLAT``), finds the joints that move freely, for a pose, for
 a batch and for what a solver of the reversed chain found, by the `walk` that families are named
 for; `arrange` turns solutions to a seed; `numeric` searches from any start, `valley` along what
-hardly moves the tool, in the singular vectors of `directions`.
+hardly moves the tool, in the singular vectors of `directions`; `together` turns joints that move
+by values together.
 """
 
 from dh2urdf.kernels.certificate.arrange import (
@@ -46,4 +47,5 @@ from dh2urdf.kernels.certificate.finish import (
     turn_back,
 )
 from dh2urdf.kernels.certificate.numeric import Coupled, find_solutions
+from dh2urdf.kernels.certificate.together import arrange_together, turn_together, values_of_batch
 from dh2urdf.kernels.certificate.valley import search_valleys

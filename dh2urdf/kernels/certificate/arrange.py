@@ -60,7 +60,7 @@ def turn_one(joints, slack, reference, q):
             q[i] = lower
 
 
-def _swap(rows, distance, a, b):
+def swap(rows, distance, a, b):
     """Exchange two rows."""
     q, residual, branch, free = rows
     for i in range(q.shape[1]):
@@ -71,7 +71,7 @@ def _swap(rows, distance, a, b):
     distance[a], distance[b] = distance[b], distance[a]
 
 
-def _measure(chain, task, T, q, damped):
+def measure(chain, task, T, q, damped):
     """Residual of a configuration q (n,) on the exact chain, of what a task asks for."""
     if task == POSE:
         return pose_residual(chain, T, q)
@@ -86,7 +86,7 @@ def measure_all(
     damped = make_damped(q.shape[2])
     for i in range(q.shape[0]):
         for k in range(count[i]):
-            residual[i, k] = _measure(chain, task, Ts[i], q[i, k], damped)
+            residual[i, k] = measure(chain, task, Ts[i], q[i, k], damped)
 
 
 def distance2(q, seed):
@@ -113,10 +113,10 @@ def measure_and_sort(
 def _sort_in(chain, task, T, seed, found, distance, k, damped):
     """Measure row k and move it to its place among the rows before it."""
     q, residual, _, _ = found
-    residual[k] = _measure(chain, task, T, q[k], damped)
+    residual[k] = measure(chain, task, T, q[k], damped)
     distance[k] = math.sqrt(distance2(q[k], seed))
     while k > 0 and distance[k] < distance[k - 1]:
-        _swap(found, distance, k, k - 1)
+        swap(found, distance, k, k - 1)
         k -= 1
 
 
@@ -138,7 +138,7 @@ def keep_inside(chain: AnyChain, slack: float, task: int, Ts: Poses, outputs: Ou
         if inside or free[0, k] == 0:
             q[0, kept] = q[0, k]
             branch[0, kept], free[0, kept] = branch[0, k], free[0, k]
-            residual[0, kept] = _measure(chain, task, Ts[0], q[0, kept], damped)
+            residual[0, kept] = measure(chain, task, Ts[0], q[0, kept], damped)
             kept += 1
     dropped = counts[0] - kept
     counts[0] = kept
