@@ -166,6 +166,7 @@ def numbers() -> Iterator[tuple[str, Answer]]:
     yield "roots", roots
     planar = [dh2urdf.planar_rr_ik(1.0, 0.5, k / 8, 0.625) for k in range(12)]
     yield "planar", planar
+    yield "coupled", _coupled()
     yield "towards a seed", [x for k in range(4) for x in _towards_seed(robot_of("puma560"), k)]
 
 
@@ -181,6 +182,26 @@ def _towards_seed(robot: dh2urdf.Robot, k: int) -> Answer:
     largest, distance = np.full(6, 1e5), np.zeros(len(found))
     done = arrange_plain(robot.chain.tables, largest, 1e-12, 0, T[None], seed, out, distance)
     return [np.array([done]), *out, distance]
+
+
+def _coupled() -> Answer:
+    """An arm whose third joint adds half of the second: a batch, one pose with and without seed."""
+    from dh2urdf.kernels.certificate import arrange_together, turn_together
+
+    table = dh2urdf.load_table("puma560")
+    second, third = table.joint_names[1:3]
+    robot = dh2urdf.Robot.from_dh(replace(table, couplings={third: {second: 0.5}}))
+    q = configurations(robot, 8, "coupled")
+    T = robot.fk(q)
+    batch = robot.ik_batch(T, threads=1)
+    turns, found = robot._ik.problem().turns, robot.ik(T[5])
+    joints, inside = robot.chain_configuration(found.q), np.zeros(len(found), np.bool_)
+    turn_together(turns.anywhere, 1e-12, q[6:7], joints, inside)
+    out = found.q[None].copy(), found.residual[None].copy(), np.array([len(found)])
+    out += tuple(code[None].copy() for code in found.codes)
+    given = robot.chain.tables, turns.anywhere, np.full(6, 1e5), 1e-12, 0, T[5:6], q[6]
+    done = arrange_together(*given, out, np.zeros(len(found)))
+    return [batch.q, batch.count, joints, inside, np.array([done]), *out]
 
 
 def answers(arm: str, count: int) -> Iterator[tuple[str, Answer]]:
