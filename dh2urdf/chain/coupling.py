@@ -73,25 +73,48 @@ class Coupling:
         return out
 
 
+ROUNDING = 1e-12
+"""Part of a multiplier that is rounding of an inverse."""
+
+
+def parted(chain: SerialChain, coupling: Coupling) -> tuple[Coupling, Coupling | None]:
+    """A coupling of fewer values than joints, as followers of these, and as values of those.
+
+    The first says how joints follow those that have a value of their own, the second, None where
+    that changes nothing, how the values move them.
+    """
+    if any(name not in chain.names for name in coupling.names):
+        return coupling, None
+    own = [chain.names.index(name) for name in coupling.names]
+    square = coupling.matrix[own]
+    if np.array_equal(square, np.eye(coupling.n)):
+        return coupling, None
+    matrix = coupling.matrix @ np.linalg.inv(square)
+    matrix[np.abs(matrix) < ROUNDING * np.abs(matrix).max()] = 0.0
+    bounds = chain.lower[own], chain.upper[own]
+    lead = Coupling(matrix, coupling.offset, coupling.names, *bounds, coupling.prismatic)
+    return _bounded(chain, lead), replace(coupling, matrix=square, offset=coupling.offset[own])
+
+
 def follow(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
     """The coupling of a chain of which joints follow others; None where none does.
 
-    A leader that is not on the chain itself is still a value of q, since it moves the tip.
+    A leader that is not on the chain itself is still a value of q, since it moves the tip; it has
+    the place of the first joint that follows it.
     """
     if not any(name in mimics for name in chain.names):
         return None
     terms = [_resolve(name, mimics) for name in chain.names]
-    names = tuple(dict.fromkeys(leader for leader, _, _ in terms))
+    leaders = [leader for leader, _, _ in terms]
+    places = {v: chain.names.index(v) if v in chain.names else leaders.index(v) for v in leaders}
+    names = tuple(sorted(places, key=lambda v: places[v]))
     matrix = np.zeros((chain.n, len(names)))
     offset = np.array([constant for _, _, constant in terms])
     for k, (leader, factor, _) in enumerate(terms):
         matrix[k, names.index(leader)] = factor
-    first = [int(np.flatnonzero([t[0] == name for t in terms])[0]) for name in names]
-    own = [
-        chain.names.index(v) if v in chain.names else k for v, k in zip(names, first, strict=True)
-    ]
     bounds = np.full(len(names), -np.inf), np.full(len(names), np.inf)
-    return _bounded(chain, Coupling(matrix, offset, names, *bounds, chain.prismatic[own]))
+    slides = chain.prismatic[[places[v] for v in names]]
+    return _bounded(chain, Coupling(matrix, offset, names, *bounds, slides))
 
 
 def coupling_of(table: DHTable, chain: SerialChain) -> Coupling | None:

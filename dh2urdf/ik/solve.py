@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import SAMPLES, THREADS
-from dh2urdf.chain import Coupling, SerialChain
+from dh2urdf.chain import CoupledChain, Coupling, SerialChain
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.engine import AtOnce, nothing_at_once
 from dh2urdf.exceptions import ArgumentError, ConfigurationError, NoSolverError, PoseError
@@ -76,8 +76,15 @@ class InverseKinematics:
     def __init__(
         self, chain: SerialChain, coupling: Coupling | None, referee: ForwardKinematics
     ) -> None:
-        if coupling is not None and coupling.inverse is None:
-            refuse_coupling(chain, coupling)
+        if (
+            coupling is not None
+            and isinstance(chain, CoupledChain)
+            and any(turn != 1.0 for turn in chain.in_turns.turns)
+        ):
+            raise NoSolverError(
+                "coupled joints, and followers of which a turn is no turn: ik needs one or the "
+                "other; ik_numeric finds solutions one at a time"
+            )
         self.chain, self.coupling, self.referee = chain, coupling, referee
         self.own = in_own_unit(chain)
         self.values = chain if coupling is None else coupling.chain_of(chain)
@@ -276,14 +283,6 @@ class InverseKinematics:
         if self.coupling is None:
             return problem
         return CoupledProblem(self.values, self.coupling, problem, joints)
-
-
-def refuse_coupling(chain: SerialChain, coupling: Coupling) -> None:
-    """Refuse an arm of which joints follow others."""
-    raise NoSolverError(
-        f"{chain.n} joints move by {coupling.n} values (mimic joints); "
-        "ik needs joints that move independently; ik_numeric finds solutions one at a time"
-    )
 
 
 def _no_sweep(what: str, solver: Solver | HeldSolver) -> str:

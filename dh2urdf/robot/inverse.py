@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dh2urdf.chain import CoupledChain
+from dh2urdf.chain import CoupledChain, parted
 from dh2urdf.robot.configurations import RobotConfigurations
 from dh2urdf.robot.lazily import is_lazy, lazy_ik
 from dh2urdf.transforms import Array
@@ -313,7 +313,8 @@ class RobotIK(RobotConfigurations):
 
         chain, coupling = self.chain, self._coupling
         if coupling is not None and coupling.n < chain.n:
-            chain, coupling = CoupledChain.of(chain, coupling), None
+            lead, coupling = parted(chain, coupling)
+            chain = CoupledChain.of(chain, lead)
         return InverseKinematics(chain, coupling, self._placements)
 
     def _placements(self, q: Array) -> Array:

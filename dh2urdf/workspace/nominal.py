@@ -29,7 +29,7 @@ def mapped_robot(robot: Robot) -> Mapped:
 
     Axes that nearly meet or are nearly parallel are made so, as many as the tip allows.
     """
-    if robot.n != 6 or not isinstance(robot.solver, NearFamily):
+    if robot.n != 6 or robot.is_coupled or not isinstance(robot.solver, NearFamily):
         return Mapped(robot, 0.0)
     near = dh_to_chain(chain_to_dh(robot.chain).table)
     Q = np.random.default_rng(0).uniform(-3.0, 3.0, (64, robot.n))

@@ -72,7 +72,7 @@ class PlanarArm:
 def planar_arm(robot: Robot) -> PlanarArm | None:
     """The robot as a planar RR arm; None where it is another."""
     chain = instance(robot, "robot", Robot).chain
-    if chain.n != 2 or robot.n != 2 or chain.prismatic.any():
+    if chain.n != 2 or robot.is_coupled or chain.prismatic.any():
         return None
     z = chain.axes
     if abs(float(z[0] @ z[1])) < 1.0 - PARALLEL:

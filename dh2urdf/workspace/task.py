@@ -8,6 +8,7 @@ import numpy as np
 from dh2urdf.bounds import ORIENTATIONS
 from dh2urdf.conversions.write import frame_along
 from dh2urdf.doors import instance, integer
+from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z
 
@@ -49,6 +50,20 @@ def _rolls_about_tool(robot: Robot) -> bool:
     T_joint_tool = robot.chain.links[-1]
     off = np.abs([*T_joint_tool[:2, 3] / robot.chain.size, *T_joint_tool[:2, 2]])
     return bool((off < 1e-9).all()) and not robot.chain.prismatic[-1]
+
+
+def refuse_coupled(robot: Robot) -> None:
+    """Refuse an arm of which values move joints together, whose limits are no box of the joints'.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if robot.is_coupled:
+        raise ArgumentError(
+            f"{robot.model.name} has joints that move together; this is worked out of joints that "
+            "move by themselves"
+        )
 
 
 def common_axis(robot: Robot) -> tuple[int | None, bool]:

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from dh2urdf import DHTable, Robot, load_table
-from dh2urdf.exceptions import ConfigurationError
+from dh2urdf import DHRow, DHTable, Mimic, Robot, load_table
+from dh2urdf.exceptions import ConfigurationError, NoSolverError
 
 TURN = 2.0 * np.pi
 SEEDS = st.integers(0, 2**32 - 1)
@@ -296,3 +296,33 @@ def test_a_leader_off_the_chain_moves_its_follower_alone(written):
     found = robot.ik(robot.fk(q), seed=q)
     assert np.abs(found.q[0] - q).max() < 1e-7
     assert np.abs(robot.fk(found.q) - robot.fk(q)).max() < 1e-9
+
+
+def test_followers_and_couplings_go_together():
+    """A hollow wrist, joint 5b at minus joint 5, of an arm whose J3 counts from the level."""
+    names = [f"joint_{i}" for i in range(1, 8)]
+    cells = [(0.3, 0.1, 1.5708), (0, 0.5, 0.2), (0.1, 0.1, 1.5708), (0.6, 0, 0.6), (0.1, 0, -1.2)]
+    rows = [DHRow(0.1, d, a, alpha, lower=-2.5, upper=2.5) for d, a, alpha in cells]
+    rows += [DHRow(0.2, 0.1, 0.05, 0.6, mimic=Mimic("joint_5", -1.0)), DHRow(d=0.1)]
+    rows = [replace(row, name=name) for row, name in zip(rows, names, strict=True)]
+    rows[6] = replace(rows[6], lower=-3.0, upper=3.0)
+    robot = Robot.from_dh(DHTable(tuple(rows), "standard", couplings={"joint_3": {"joint_2": 1.0}}))
+    assert robot.n == 6
+    rng = np.random.default_rng(4)
+    for _ in range(10):
+        q = robot.random_configuration(rng)
+        found = robot.ik(robot.fk(q), seed=q)
+        assert np.abs(found.q[0] - q).max() < 1e-6
+        assert (found.q >= robot.lower - 1e-9).all()
+        assert (found.q <= robot.upper + 1e-9).all()
+        assert found.verify().max() < 1e-9
+
+
+def test_followers_by_half_turns_are_refused_beside_couplings():
+    """A turn of the leader would be half a one of its follower."""
+    rows = [DHRow(0.1, 0.1, 0.2, 1.0) for _ in range(6)] + [
+        DHRow(a=0.1, mimic=Mimic("joint_5", 0.5))
+    ]
+    robot = Robot.from_dh(DHTable(tuple(rows), "standard", couplings={"joint_3": {"joint_2": 1.0}}))
+    with pytest.raises(NoSolverError, match="coupled joints, and followers"):
+        robot.ik(np.eye(4))

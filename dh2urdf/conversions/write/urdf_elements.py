@@ -1,6 +1,7 @@
 """From a DH table to the text of a URDF; every rule here has a consumer that breaks without it."""
 
 import math
+import re
 
 import numpy as np
 from lxml import etree
@@ -74,7 +75,12 @@ def coupling_remarks(table: DHTable) -> list[str]:
         f"{name} is at its value plus {terms}, which no <mimic> can say: the file moves the joint "
         "itself, and its limits are the range that results"
         for name in table.couplings
-        if (terms := " plus ".join(f"{v:g} {other}" for other, v in table.couplings[name].items()))
+        if (
+            terms := " plus ".join(
+                other if v == 1.0 else f"{v:g} {other}"
+                for other, v in table.couplings[name].items()
+            )
+        )
     ]
 
 
@@ -131,7 +137,7 @@ class _Writer:
             estimate = f"estimated from the drawn bodies at {self.options.density:g} kg/m^3"
             self.robot.append(etree.Comment(f" links without a mass in the table: {estimate} "))
         for remark in coupling_remarks(self.table):
-            self.robot.append(etree.Comment(f" {remark.replace('--', '- -')} "))
+            self.robot.append(etree.Comment(f" {re.sub('-(?=-)', '- ', remark)} "))
         for name, rgba in MATERIALS.items():
             if any(b.material == name for bodies in self.bodies for b in bodies):
                 material = etree.SubElement(self.robot, "material", name=name)

@@ -87,7 +87,8 @@ class TurnsTogether:
         """What kernels take, with all turns that limits allow from references between two."""
         given = self.coupling.matrix, self.coupling.inverse, self.coupling.offset
         points = self._points(self._window(first, last))
-        arrays = (*given, self.loose.tables[1], self._ends, *points)
+        loose = np.column_stack([self.loose.prismatic, self.loose.lower, self.loose.upper])
+        arrays = (*given, loose, self._ends, *points)
         return Together._make(np.ascontiguousarray(array, float) for array in arrays)
 
     def _window(self, first: Array, last: Array) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ from dh2urdf.kernels.certificate.certify import ACCEPT, TWO_PI, move
 from dh2urdf.kernels.newton import make_damped
 from dh2urdf.kernels.numbers import any_family, entry
 from dh2urdf.kernels.shapes import (
-    Chain,
+    AnyChain,
     Configuration,
     Flagged,
     Outputs,
@@ -111,7 +111,7 @@ def turn_together(
 
 @entry()
 def values_of_batch(
-    chain: Chain,
+    chain: AnyChain,
     together: Together,
     slack: float,
     task: int,
@@ -148,7 +148,7 @@ def values_of_batch(
 
 @entry()
 def arrange_together(
-    chain: Chain,
+    chain: AnyChain,
     together: Together,
     largest: Configuration,
     slack: float,

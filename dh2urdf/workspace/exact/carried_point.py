@@ -12,6 +12,7 @@ from dh2urdf.ik.arm import part, pose_along
 from dh2urdf.kernels.chain import chain_fk_batch, chain_jacobian_batch
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, inverse, product, trans
+from dh2urdf.workspace.task import refuse_coupled
 
 POINTS = ("tip", "wrist")
 """Points whose reach is asked for."""
@@ -57,8 +58,7 @@ def carried_point(robot: Robot, point: str) -> CarriedPoint:
     """
     chain = instance(robot, "robot", Robot).chain
     choice(point, "point", POINTS)
-    if len(robot.joint_names) != chain.n:
-        raise ArgumentError(f"{robot.model.name} has joints that move together")
+    refuse_coupled(robot)
     if point == "tip":
         return _from_axis(chain, "tip")
     tip_in_last = chain.links[-1][:3, 3]

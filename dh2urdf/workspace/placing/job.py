@@ -12,6 +12,7 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import reach_ball
+from dh2urdf.workspace.task import refuse_coupled
 
 PIECE = 8_192
 """Poses solved at a time."""
@@ -124,6 +125,7 @@ class Job:
 
     def _singular(self, q: Array) -> Array:
         """Smallest singular value of the task's Jacobian, lengths in sizes of the arm, (k,)."""
+        refuse_coupled(self.robot)
         best = np.empty((3, len(q)))
         scaled = np.where(self.robot.chain.prismatic, q / self.robot.chain.size, q)[:, None]
         ones = np.ones(len(q), np.int64)

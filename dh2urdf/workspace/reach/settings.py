@@ -15,7 +15,7 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.reach.orientations import tried
 from dh2urdf.workspace.section import reach_ball
-from dh2urdf.workspace.task import common_axis
+from dh2urdf.workspace.task import common_axis, refuse_coupled
 
 BLOCK_POSES = 500_000
 """Poses of a block, about: a tenth of a second's work for each core, and what is lost of it."""
@@ -112,6 +112,7 @@ def settings_of(
 ) -> MapSettings:
     """Settings of arguments that are checked here."""
     task, turns = tried(instance(robot, "robot", Robot), orientations)
+    refuse_coupled(robot)
     inside = flag(within_limits, "within_limits")
     grid = _grid(robot, number(step, "step", 1e-6, LENGTH, unit="m"), region, inside)
     even = (BLOCK_POSES / (turns.shape[0] * turns.shape[1])) ** (1 / 3)
