@@ -5,15 +5,18 @@ Started by :func:`forked`; a line of JSON on stdin asks, a line on stdout answer
 
 import atexit
 import contextlib
+import gc
 import json
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+XACRO = "xmlns:xacro='http://ros.org/wiki/xacro'"
 
 
 @cache
@@ -46,9 +49,7 @@ def forked(command, *, timeout, cwd, **_):
 
 
 def _serve(answers) -> None:
-    import mujoco  # noqa: F401
-    import pinocchio  # noqa: F401
-    import xacro  # noqa: F401
+    _warm()
 
     def late(*_: object) -> None:
         with contextlib.suppress(ProcessLookupError):  # which has ended just now
@@ -65,6 +66,24 @@ def _serve(answers) -> None:
         left = signal.setitimer(signal.ITIMER_REAL, 0)[0]
         late = status == -signal.SIGKILL and left == 0.0
         print(json.dumps(None if late else status), file=answers, flush=True)
+
+
+def _warm() -> None:
+    """Read a file of each kind here, so that all that this imports is there when one is forked."""
+    from dh2urdf.conversions.read import apart
+
+    given = Path("given")
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        given.write_text(json.dumps(apart.NOTHING))
+        text = (
+            f"<robot name='r' {XACRO}><xacro:if value='${{1}}'/><link name='${{1 + 1}}'/></robot>"
+        )
+        Path("arm.xacro").write_text(text)
+        apart._xacro("arm.xacro", Path())
+        Path("arm.xml").write_text("<mujoco><worldbody/></mujoco>")
+        with contextlib.suppress(Exception):  # an arm without joints is none
+            apart._mjcf("arm.xml", Path())
+    gc.freeze()
 
 
 def _read(reader: str, source: str, folder: str, cwd: str) -> None:

@@ -1,0 +1,36 @@
+"""Kernels keep to their arrays, where these refuse what C would follow."""
+
+import numpy as np
+import pytest
+
+from tests.translate import strict, workload
+
+
+def first(values, k):
+    return values[k]
+
+
+def stretch(values, k):
+    return values[0:k].sum()
+
+
+@pytest.mark.parametrize("kernel", [first, stretch])
+def test_an_index_outside_is_refused_in_kernels_alone(kernel, monkeypatch):
+    """Negative ones and those beyond the end, of entries and of views."""
+    values = np.arange(3.0).view(strict.Strict)
+    assert values[-1] == 2.0
+    monkeypatch.setattr(strict, "is_kernel", lambda _: True)
+    assert kernel(values, 2) >= 1.0
+    for k in (-1, 4):
+        with pytest.raises(strict.OutsideError):
+            kernel(values, k)
+
+
+ARMS = [workload.NUMBERS, "three slides", "planar_rr"]
+
+
+@pytest.mark.parametrize("arm", [*ARMS, pytest.param("puma560", marks=pytest.mark.exhaustive)])
+def test_kernels_stay_inside_their_arrays(arm):
+    """What they are asked for their golden answers never leads outside; scratch begins as NaN."""
+    with np.errstate(all="ignore"), strict.strict_kernels():
+        assert sum(1 for _ in workload.answers(arm, 5)) > 0
