@@ -178,3 +178,23 @@ def test_a_multiplier_that_is_no_ratio_is_refused_by_name():
     robot = Robot.from_urdf(urdf(joints))
     with pytest.raises(NoSolverError, match=r"j5: 0\.718281828 times.*ik_numeric"):
         robot.ik(robot.fk(Q))
+
+
+@pytest.mark.parametrize("joint", ["j1", "j3", "j5", "j7"])
+def test_a_value_of_a_hollow_wrist_is_held(painter, joint):
+    k = painter.joint_names.index(joint)
+    found = painter.ik(painter.fk(Q), locked={joint: Q[k]})
+    assert np.abs(found.q - Q).max(axis=1).min() < 1e-7
+    assert np.allclose(found.q[:, k], Q[k], atol=0)
+
+
+def test_a_value_of_a_palletiser_is_held(palletiser):
+    q = np.array((0.3, 0.5, 0.2, 0.4))
+    found = palletiser.ik(palletiser.fk(q), locked={0: 0.3})
+    assert np.abs(found.q - q).max(axis=1).min() < 1e-7
+
+
+def test_positions_alone_are_refused_by_name(painter, palletiser):
+    for robot in (painter, palletiser):
+        with pytest.raises(NoSolverError, match="can move while the tool stays"):
+            robot.ik(np.eye(4), task="position")

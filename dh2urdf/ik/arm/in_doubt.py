@@ -52,7 +52,12 @@ def starts_of(chain: SerialChain) -> Array:
 
 
 def search_in_doubt(
-    chain: SerialChain, Ts: Array, found: Outputs, deep: IntArray, within_limits: bool
+    chain: SerialChain,
+    Ts: Array,
+    found: Outputs,
+    deep: IntArray,
+    within_limits: bool,
+    starts: int = STARTS,
 ) -> Outputs:
     """Solve poses Ts (d, 4, 4) from candidates, q and counts of ``found``: wider outputs.
 

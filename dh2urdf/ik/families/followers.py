@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.engine import Step
-from dh2urdf.ik.arm import IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
+from dh2urdf.ik.arm import TWO_PI, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK
 from dh2urdf.ik.families.general_6r import DEAREST, TURN, WORTH, short_links
 from dh2urdf.kernels.followers import (
+    ALWAYS,
     FOLLOWERS_16,
     FOLLOWERS_48,
     MOTIONS,
@@ -29,6 +30,7 @@ from dh2urdf.kernels.followers import (
     try_followers_48,
 )
 from dh2urdf.kernels.general_6r import MOST, tables_of
+from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
 
 Arm: TypeAlias = NDArray[np.void]
@@ -36,11 +38,24 @@ Arm: TypeAlias = NDArray[np.void]
 FLIP = np.diag([1.0, -1.0, -1.0, 1.0])
 """Rotation by which a joint turns the other way."""
 
+Always: TypeAlias = list[tuple[float, int]]
+"""Roots that a polynomial has at every pose [rad], and half of how many there are."""
+
+BUILT = np.arange(-11, 13) * (np.pi / 12.0)
+"""Turns of a leader at which neighbours' axes fall into one in arms as they are built [rad]."""
+
+ABOUT, EXACTLY = 0.03, 1e-6
+"""How far apart roots are found that are one, and the middle of them from where it is [rad]."""
+
 POSES = 8
 """Random poses on which each elimination is tried."""
 
 VANISHING = 1e-12
 """Part of the polynomial's largest coefficient below which others are rounding."""
+
+STARTS = 192
+"""Starts of the search at poses in doubt; where there is one elimination only, it is the second
+opinion."""
 
 NO_DEGREE = 1000
 """Of an elimination that does not do."""
@@ -134,7 +149,8 @@ class Followers(SolverBase):
         if len(doubt):
             found, deep = out.rows(doubt), np.arange(len(doubt))
             found.counts[:] = -1 - found.counts
-            out.put(doubt, search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits))
+            wide = search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits, STARTS)
+            out.put(doubt, wide)
 
     def solve_sure(self, Ts: Array, within_limits: bool, out: Outputs) -> IntArray:
         """Solve poses Ts (m, 4, 4) but those in doubt, whose counts are -1 minus their candidates.
@@ -186,41 +202,81 @@ class Plan(NamedTuple):
 def plan_followers(chain: CoupledChain) -> Plan | None:
     """The eliminations of the lowest degree that suit an arm, best first; None if none do."""
     largest, poses = blank_followers(chain, KERNELS[-1]), _random_poses(chain)
-    degrees = {e: _degree(largest, e, poses) for e in eliminations_of(chain)}
+    looked = {e: _look(largest, e, poses) for e in eliminations_of(chain)}
+    degrees = {e: degree for e, (degree, _) in looked.items()}
+    always = {e: roots for e, (_, roots) in looked.items()}
     least = min(degrees.values(), default=NO_DEGREE)
     if least == NO_DEGREE:
         return None
     kernel = next(k for k in KERNELS if k.degree >= least)
     record = blank_followers(chain, kernel)
     some = [e for e, degree in degrees.items() if degree <= kernel.degree]
-    best = _rank(chain, kernel, record, {e: degrees[e] for e in some}, poses)
-    _choose(record, best)
+    best = _rank(chain, kernel, record, {e: degrees[e] for e in some}, always, poses)
+    _choose(record, best, always)
     return Plan(kernel, record, degrees[best[0]])
 
 
-def _degree(arm: Arm, elimination: tuple[int, int], poses: Array) -> int:
-    """Degree of an elimination's polynomial; ``NO_DEGREE`` where it is higher, or vanishes."""
+def _look(arm: Arm, elimination: tuple[int, int], poses: Array) -> tuple[int, Always]:
+    """Degree of an elimination's polynomial without the roots that it has at every pose; those.
+
+    ``NO_DEGREE`` where it is higher than can be, or vanishes.
+    """
     values = np.empty((len(poses), arm["hidden"].shape[2]))
-    _choose(arm, [elimination])
+    _choose(arm, [elimination], {})
     sample_followers(arm, poses, values)
-    series = np.abs(np.fft.rfft(values, axis=1))
-    largest = series.max(axis=1, keepdims=True)
+    series = np.fft.fft(values, axis=1) / values.shape[1]
+    sizes = np.abs(series[:, : values.shape[1] // 2 + 1])
+    largest = sizes.max(axis=1, keepdims=True)
     if not (largest > 0.0).all():
-        return NO_DEGREE
-    parts = np.median(series / largest, axis=0)
+        return NO_DEGREE, []
+    parts = np.median(sizes / largest, axis=0)
     degree = int(np.flatnonzero(parts > VANISHING)[-1])
-    return degree if degree <= KERNELS[-1].degree else NO_DEGREE
+    if degree > KERNELS[-1].degree:
+        return NO_DEGREE, []
+    zero = float(arm["zeros"][0, arm["leader"][0]]) * (1.0 if elimination[1] == 0 else -1.0)
+    always = _always([_real_roots(row, degree) + zero for row in series], zero)
+    return degree - sum(half for _, half in always), always
+
+
+def _real_roots(series: Array, degree: int) -> Array:
+    """Roots of a polynomial on the circle or next to it [rad], by its Fourier coefficients."""
+    if degree == 0:
+        return np.zeros(0)
+    z = np.roots(np.concatenate([series[: degree + 1][::-1], series[-degree:][::-1]]))
+    angles: Array = np.angle(z[np.abs(np.abs(z) - 1.0) < ABOUT])
+    return angles
+
+
+def _always(roots: list[Array], zero: float) -> Always:
+    """Which of the turns that arms are built with are roots at every pose, two or more at once.
+
+    Where the axes next to leader and followers fall into one, whatever the pose. Other roots
+    that are there at every pose are found each time, which takes longer.
+    """
+    found: Always = []
+    for place in BUILT:
+        near = [np.remainder(r - place + np.pi, TWO_PI) - np.pi for r in roots]
+        some = [gap[np.abs(gap) < ABOUT] for gap in near]
+        half = min(len(gap) for gap in some) // 2
+        if half and np.median([abs(gap.mean()) for gap in some]) < EXACTLY:
+            found.append((place - zero, half))
+    return found[:ALWAYS]
 
 
 def _rank(
-    chain: CoupledChain, kernel: Kernel, arm: Arm, degrees: dict[tuple[int, int], int], poses: Array
+    chain: CoupledChain,
+    kernel: Kernel,
+    arm: Arm,
+    degrees: dict[tuple[int, int], int],
+    always: dict[tuple[int, int], Always],
+    poses: Array,
 ) -> list[tuple[int, int]]:
     """The eliminations to keep, of the lowest degree first, then by solutions and precision."""
     some = list(degrees)
     out = Outputs.of(1, 2 * kernel.degree, 6)
     found, digits = np.zeros(len(some)), np.zeros(len(some))
     for k, elimination in enumerate(some):
-        _choose(arm, [elimination])
+        _choose(arm, [elimination], always)
         for T in poses:
             kernel.tried(chain.tables, arm, T[None], out)
             seeded, spans = arm["first"][0]
@@ -231,9 +287,16 @@ def _rank(
     return sorted(good, key=lambda e: degrees[e])[:MOST]
 
 
-def _choose(arm: Arm, eliminations: list[tuple[int, int]]) -> None:
-    """Set the eliminations of a record."""
+def _choose(
+    arm: Arm, eliminations: list[tuple[int, int]], always: dict[tuple[int, int], Always]
+) -> None:
+    """Set the eliminations of a record, and the roots that they have at every pose."""
     arm["trials"], arm["choices"][0, : len(eliminations)] = len(eliminations), eliminations
+    arm["always"] = 0.0
+    for k, elimination in enumerate(eliminations):
+        for i, (place, half) in enumerate(always.get(elimination, [])):
+            sine, cosine = sincos(place)
+            arm["always"][0, k, i] = cosine, sine, half
 
 
 def _random_poses(chain: CoupledChain) -> Array:

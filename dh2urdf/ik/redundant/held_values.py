@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.exceptions import ConfigurationError, NoSolverError
 from dh2urdf.ik.arm import (
@@ -185,7 +185,7 @@ def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSo
     ------
     NoSolverError, ConfigurationError
     """
-    if len(held) == 1 and task is Task.POSE:
+    if len(held) == 1 and task is Task.POSE and not isinstance(chain, CoupledChain):
         joint = held[0]
         wrist = HeldWrist.of(chain, joint)
         if wrist is not None and wrist.one_by_one:

@@ -5,7 +5,7 @@ for each value of the leader, `roots` the polynomial's values and its real roots
 from those to solutions.
 """
 
-from dh2urdf.kernels.followers.arm import FOLLOWERS_16, FOLLOWERS_48, MOTIONS
+from dh2urdf.kernels.followers.arm import ALWAYS, FOLLOWERS_16, FOLLOWERS_48, MOTIONS
 from dh2urdf.kernels.followers.poses import (
     finish_followers_16,
     finish_followers_48,

@@ -6,6 +6,9 @@ from dh2urdf.kernels.numbers import COLUMN, LANES
 MOTIONS = 10
 """Most joints: five free ones, a leader and four followers."""
 
+ALWAYS = 2
+"""Most places where an elimination's polynomial has roots at every pose."""
+
 _INTEGERS = {
     "trials": (),  # number of eliminations
     "choices": (MOST, 2),  # where each cuts the loop, and in which direction
@@ -21,6 +24,7 @@ _FLOATS = {
     "size": (),  # longest of the short links [m]
     "ends": (2, 4, 4),  # inverses of the first and the last of the short links
     "zeros": 6,  # of the values inside the solver [rad]
+    "always": (MOST, ALWAYS, 3),  # roots at every pose: cosine, sine, half of how many they are
     "chain": (MOTIONS, 3, 4),  # short links in between, in parts of the size; then the target
     "target": (3, 4),
     "loop": (MOTIONS, 3, 4),  # closed loop

@@ -146,12 +146,13 @@ def _project(term, n, arm):
         point = lines[p + k], lines[p + LANES + k], lines[p + 2 * LANES + k]
         line_functions((way, point), functions, k)
     for r in range(6):
-        e = (TERMS * r + term) * LANES
+        e, w0 = (TERMS * r + term) * LANES, basis[8 + r, 0]
         for k in side_by_side(n):
-            total = 0.0
-            for f in range(14):
-                total += basis[8 + r, f] * functions[f, k]
-            equations[e + k] = total
+            equations[e + k] = w0 * functions[0, k]
+        for f in range(1, 14):
+            w = basis[8 + r, f]
+            for k in side_by_side(n):
+                equations[e + k] += w * functions[f, k]
 
 
 def _powers(equations, e, stride, scale, n):

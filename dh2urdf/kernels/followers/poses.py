@@ -51,7 +51,7 @@ def _solve_pose(chain, T, q, residual, arm, work):
             nudge(arm["chain"][arm["motions"] - 1], NUDGE if trial == trials else -1.7 * NUDGE)
         eliminate(e, arm)
         before, retried, seeded = found, 0, 0.0
-        count = find_roots(arm)
+        count = find_roots(e, arm)
         if count < 0:
             continue
         meeting = meeting or how_many_below(arm["slopes"], count, -1.0) > 0

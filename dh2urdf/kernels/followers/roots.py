@@ -2,7 +2,8 @@
 
 from typing import Annotated, Any
 
-from dh2urdf.kernels.followers.arm import FOLLOWERS_48
+from dh2urdf.kernels.certificate import TWO_PI
+from dh2urdf.kernels.followers.arm import ALWAYS, FOLLOWERS_48
 from dh2urdf.kernels.followers.elimination import TERMS, eliminate, six_equations
 from dh2urdf.kernels.general_6r import (
     PAIRS,
@@ -11,9 +12,12 @@ from dh2urdf.kernels.general_6r import (
     place_samples,
     reduce_half,
 )
-from dh2urdf.kernels.numbers import COLUMN, LANES, entry, side_by_side
+from dh2urdf.kernels.numbers import COLUMN, LANES, atan2, entry, side_by_side
 from dh2urdf.kernels.rigid import load_pose, times_link
 from dh2urdf.kernels.shapes import Floats, Poses
+
+TINY = 1e-30
+"""Keeps a sample at such a root finite."""
 
 
 def place_target(T, arm):
@@ -44,8 +48,19 @@ def block_resultants(n, arm):
     finish_reduction(n, W, values, V, beta)
 
 
-def sample_resultants(arm):
-    """Determinants at all values of the leader in ``hidden``."""
+def _divide(e, n, arm):
+    """Divide n determinants by the roots that elimination e has at every pose."""
+    values, block = arm["determinants"], arm["block"]
+    for i in range(ALWAYS):
+        cosine, sine = arm["always"][e, i, 0], arm["always"][e, i, 1]
+        for _ in range(int(arm["always"][e, i, 2])):
+            for k in side_by_side(n):
+                x, y = block[0, k] - cosine, block[1, k] - sine
+                values[k] /= x * x + y * y + TINY
+
+
+def sample_resultants(e, arm):
+    """The polynomial at all values of the leader in ``hidden``."""
     hidden, determinant = arm["hidden"], arm["determinant"]
     lanes = hidden.shape[1]
     for first in range(0, lanes, LANES):
@@ -53,16 +68,20 @@ def sample_resultants(arm):
         for k in side_by_side(n):
             arm["block"][0, k], arm["block"][1, k] = hidden[0, first + k], hidden[1, first + k]
         block_resultants(n, arm)
+        _divide(e, n, arm)
         for k in side_by_side(n):
             determinant[first + k] = arm["determinants"][k]
 
 
-def find_roots(arm):
-    """Roots of the polynomial, as by `add_roots`."""
-    count, k = 0, 0
+def find_roots(e, arm):
+    """Roots of the polynomial of elimination e, as by `add_roots`."""
+    always = arm["always"][e, 0]
+    count, k, start = 0, 0, 0.0
+    if always[2] > 0.0:  # as far as may be from where it is divided by next to nothing
+        start = atan2(always[1], always[0]) + 0.5 * TWO_PI / arm["hidden"].shape[1]
     while count >= 0 and (k == 0 or k <= arm["spans"][0, 0]):
-        middle, half_tan = place_samples(k, 0.0, arm)
-        sample_resultants(arm)
+        middle, half_tan = place_samples(k, start, arm)
+        sample_resultants(e, arm)
         count = add_roots(k, middle, half_tan, PAIRS, count, arm)
         k += 1
     return count
@@ -80,5 +99,5 @@ def sample_followers(
         place_target(Ts[m], arm)
         eliminate(0, arm)
         place_samples(0, 0.0, arm)
-        sample_resultants(arm)
+        sample_resultants(0, arm)
         values[m] = arm["determinant"]

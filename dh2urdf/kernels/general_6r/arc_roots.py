@@ -14,12 +14,14 @@ from dh2urdf.kernels.general_6r.arc_shapes import (
     DIP,
     DOUBT,
     FIRST,
+    LARGEST,
     LEFT,
     OPEN,
     PAIR,
     PLACE,
     RIGHT,
     ROWS,
+    SMALLEST,
     cut,
     extremum,
     shape,
@@ -41,6 +43,13 @@ CURVED = 1e4
 
 UNSURE = 1e-6
 """A root whose place is uncertain by more than this [rad] is in doubt."""
+
+DEEPEST = 1e-6
+"""Part of its largest coefficient to which f falls on an arc, without a sign change or a bend that
+Newton's method finds, where four roots or more may have run together."""
+
+SIXTEEN = 17
+"""Terms of degree 8, whose sixteen roots are as many as solutions and seldom so close."""
 
 SPANS = 31
 """Spans of doubt that are remembered."""
@@ -106,6 +115,9 @@ def _at_extremum(arm, k, roots, noise):
     x, f, df, ddf = extremum(row, start, arm["casteljau"])
     positive = row[0] > 0.0
     if not abs(df) < 1e-4 * abs(ddf) or positive != (ddf > 0.0):
+        deep = shapes[SMALLEST, k] < DEEPEST * shapes[LARGEST, k]
+        if terms > SIXTEEN and changes == 0.0 and deep:
+            _note(arm, k, 0.0, -1.0, start, -2.0)
         return roots, changes == 0.0
     if (f > 0.0) != positive:
         return _pair(arm, k, roots, x, f, ddf), True
