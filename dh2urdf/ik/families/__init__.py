@@ -2,7 +2,8 @@
 
 `spherical_wrist`, `closed_form` (three parallel axes), `reversed_chain` (these two, turned round so
 that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
-`two_parallel`, `general_6r`; and `numeric`, for any chain and some solutions.
+`two_parallel`, `general_6r`; `straightened` and `followers`, where fewer values move the joints;
+and `numeric`, for any chain and some solutions.
 """
 
 from dh2urdf.ik.families.followers import Followers

@@ -39,7 +39,12 @@ def solve(chain, q):
 
 
 def check(chain, q):
-    """Solutions reach their poses, are different, and the configurations are among them."""
+    """Solutions reach their poses, are different, and the configurations are among them.
+
+    Returned is how many are not that are nearly singular: closer than ``REGULAR`` to where others
+    meet them. Regular ones all are.
+    """
+    lost = 0
     Ts, out = solve(chain, q)
     sigma = smallest(chain, q)
     for i, T in enumerate(Ts):
@@ -51,38 +56,43 @@ def check(chain, q):
             assert residual.max() < 1e-10
             assert apart(found, q[i]).min() < 1e-12 / sigma[i] + 1e-8, q[i]
         elif not out.free[i, : len(found)].any():
-            assert apart(found, q[i]).min() < 1e-3, q[i]
+            lost += apart(found, q[i]).min() > 1e-3
         gaps = apart(found[:, None], found[None]) + 9.0 * np.eye(len(found))
         assert gaps.min(initial=9.0) > 1e-6
-    return Ts, out
+    return lost
 
 
 @pytest.mark.parametrize(("away", "multiplier"), CLASSES)
 @pytest.mark.parametrize("square", [False])
 def test_the_configuration_of_a_pose_is_found(away, multiplier, square):
     """Random and right-angled chains, one pose in three near a singularity."""
-    checked = 0
+    checked, lost = 0, 0
     for seed in range(4):
         chain = follower_chain(seed, multiplier, away, square).in_turns
         try:
-            check(chain, configurations(chain, 15, seed))
+            lost += check(chain, configurations(chain, 15, seed))
             checked += 1
         except NoSolverError:
             assert square  # joints to spare
     assert checked >= (1 if square else 4)
+    assert lost <= square
 
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize(("away", "multiplier"), CLASSES)
 @pytest.mark.parametrize("square", [False, True])
 def test_the_configuration_of_20_000_poses_is_found(away, multiplier, square):
-    """The same of forty chains a class."""
+    """The same of forty chains a class; of the nearly singular one in a hundred may be lost."""
+    lost, poses = 0, 0
     for seed in range(100, 140):
         chain = follower_chain(seed, multiplier, away, square).in_turns
         try:
-            check(chain, configurations(chain, 250, seed))
+            lost += check(chain, configurations(chain, 250, seed))
+            poses += 250
         except NoSolverError:
             assert square
+    print(f"{lost} nearly singular lost of {poses} poses")
+    assert lost <= 0.01 * poses / 3
 
 
 def check_counts(chain, count, seed):
