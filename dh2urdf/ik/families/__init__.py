@@ -2,8 +2,9 @@
 
 `spherical_wrist`, `closed_form` (three parallel axes), `reversed_chain` (these two, turned round so
 that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
-`two_parallel`, `general_6r`; `straightened` and `followers`, where fewer values move the joints;
-and `numeric`, for any chain and some solutions.
+`two_parallel`, `general_6r`; `straightened` and `followers` (its eliminations in
+`follower_plan`), where fewer values move the joints; and `numeric`, for any chain and some
+solutions.
 """
 
 from dh2urdf.ik.families.followers import Followers
