@@ -1,9 +1,12 @@
 """``python -m benchmarks.exported``: what a pose takes in the C files that `export` writes.
 
 Each arm's file is compiled (-O2 without options for the processor) and solves random poses within
-the limits one after the other in a loop in C; the same poses go through the batch calls, on one
-thread, of the peers that are installed, whose cores are compiled code too. Medians of interleaved
-rounds, microseconds a pose; beside them how long writing the file took, and its size.
+the limits one after the other in a loop in C. So does what robotics-toolbox-python writes as C,
+with the same options, and the core of EAIK, if ``--eaik`` tells where its source distribution is.
+The extension modules of EAIK (C++) and ik-geo (Rust) have no other way in than Python: EAIK's
+batch call on one thread, and ik-geo's call of one pose, of which the way through Python is a part.
+Medians of interleaved rounds, microseconds a pose; beside them how long writing the file took, and
+its size.
 """
 
 import argparse
@@ -11,9 +14,11 @@ import ctypes
 import subprocess
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +27,8 @@ from benchmarks.arms import ARMS, Arm
 from benchmarks.clock import Block, interleaved
 from benchmarks.compare import table
 from benchmarks.contestant import BatchContestant
-from benchmarks.peers import IK_PEERS, contestants
+from benchmarks.peers import contestants
+from benchmarks.peers.eaik_core import eaik_core, loop_of
 from benchmarks.results import Results
 from dh2urdf import Robot
 from dh2urdf.export.source import exported
@@ -30,8 +36,12 @@ from dh2urdf.export.source import exported
 NAMES = ("puma560", "stanford", "ur5", "planar_rr", "omron_cobra600", "rpr_new_frame", "xarm6")
 NAMES += ("franka_fer:6", "kuka_iiwa7:2")
 
-PEERS = ("EAIK", "ik-geo", "roboticstoolbox C")
-"""Those whose cores are compiled code."""
+PEERS = {
+    "EAIK": "batch call of Python",
+    "ik-geo": "calls of Python",
+    "roboticstoolbox C": "the same loop in C",
+}
+"""Those whose cores are compiled code, and how these are called."""
 
 POSES = 2000
 
@@ -87,16 +97,25 @@ def looped(many: Callable[..., int], Ts: NDArray[np.float64], values: NDArray[np
 
 
 def peers(arm: Arm, Ts: NDArray[np.float64]) -> dict[str, Block]:
-    """Batch calls of the peers that are installed and cover an arm."""
+    """Calls of the peers that are installed and cover an arm, through the thinnest way in."""
+    with suppress(ImportError):
+        from benchmarks.peers.toolbox_analytic import ToolboxC
+
+        ToolboxC.flags = FLAGS[1:]
     found: dict[str, Block] = {}
-    for entry in IK_PEERS:
-        if entry.name not in PEERS:
-            continue
-        for solver in contestants(arm, Results(), only=entry.name):
+    for name, way in PEERS.items():
+        for solver in contestants(arm, Results(), only=name):
             if isinstance(solver, BatchContestant):
-                call = partial(solver.solve_batch, solver.encode_batch(Ts), solver.threads[0])
-                found[entry.name] = partial(_called, call, len(Ts))
+                call = partial(solver.solve_batch, solver.encode_batch(Ts), 1)
+            else:
+                call = partial(_one_by_one, solver.solve, solver.encode(Ts))
+            found[f"{name} ({way})"] = partial(_called, call, len(Ts))
     return found
+
+
+def _one_by_one(solve: Callable[[Any], Any], poses: Sequence[Any]) -> None:
+    for pose in poses:
+        solve(pose)
 
 
 def _called(call: Callable[[], object], units: int) -> int:
@@ -109,9 +128,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.exported", description=__doc__)
     parser.add_argument("arms", nargs="*", default=NAMES)
     parser.add_argument("--seconds", type=float, default=20.0)
+    parser.add_argument("--eaik", type=Path, help="folder of its unpacked source distribution")
+    parser.add_argument("--eigen", type=Path, default=Path("/usr/include/eigen3"))
     given, known = parser.parse_args(), {arm.key: arm for arm in ARMS}
     blocks: dict[str, Block] = {}
     with tempfile.TemporaryDirectory() as folder:
+        core = None
+        if given.eaik:
+            core = eaik_core(given.eaik, given.eigen, Path(folder, "eaik.so"))
         for name in given.arms:
             key, _, joint = name.partition(":")
             robot, rng = Robot.from_dh(key), np.random.default_rng(0)
@@ -127,6 +151,9 @@ def main() -> None:
             print(f"{name}: written in {seconds:.2f} s, {lines} lines", flush=True)
             if key in known:
                 blocks |= {f"{name}: {peer}": b for peer, b in peers(known[key], Ts).items()}
+                if core and held is None:
+                    many = loop_of(core, known[key], Ts)
+                    blocks[f"{name}: EAIK's core, a loop in C++"] = partial(_called, many, POSES)
         found = interleaved(blocks, given.seconds, most=200)
     rows = [[name, f"{1e6 * timing.median:.2f}"] for name, timing in found.items()]
     print(table(["solver", "us a pose"], rows))

@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,8 +37,6 @@ ACCURACY = 1e-6
 
 MOST = 64
 """Rows that the generated C may write for a pose."""
-
-FLAGS = ("-O3", "-march=native", "-shared", "-fPIC", "-w")
 
 MANY = """
 void many(const double *T, long m, double *q, int *count) {
@@ -126,6 +124,7 @@ class ToolboxC(BatchContestant):
 
     name = "roboticstoolbox C"
     distribution = "roboticstoolbox-python"
+    flags: ClassVar[tuple[str, ...]] = ("-O3", "-march=native", "-shared", "-fPIC")
 
     def __init__(self, arm: Arm) -> None:
         compiler = shutil.which("gcc") or shutil.which("cc")
@@ -136,7 +135,8 @@ class ToolboxC(BatchContestant):
         with TemporaryDirectory() as folder:
             source, library = Path(folder, "arm.c"), Path(folder, "arm.so")
             source.write_text(solver.generate("c") + MANY % (ACCURACY, MOST))
-            subprocess.run([compiler, *FLAGS, str(source), "-o", str(library), "-lm"], check=True)
+            command = [compiler, *self.flags, "-w", str(source), "-o", str(library), "-lm"]
+            subprocess.run(command, check=True)
             self.many = ctypes.CDLL(str(library)).many
         self.seconds_to_build = seconds + time.perf_counter() - start
         self.many.argtypes = [ctypes.c_void_p, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]

@@ -101,18 +101,22 @@ def test_notebooks_use_what_is_public(path):
 
 
 @pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake: apt-get install cmake")
-def test_the_cmake_project_builds_and_its_tests_pass(tmp_path):
-    """The header is written by the build, the test that comes with it passes, and solve solves."""
+@pytest.mark.parametrize(("arm", "solutions"), [("puma560", 8), ("xarm6", 10)])
+def test_the_cmake_project_builds_and_its_tests_pass(arm, solutions, tmp_path):
+    """The header is written by the build, the test that comes with it passes, and solve solves.
+
+    Of an arm with and of one without a workspace.
+    """
     command = tmp_path / "dh2urdf"
     command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m dh2urdf "$@"\n')
     command.chmod(0o755)
     build = tmp_path / "build"
-    words = ["-S", FOLDER / "cmake_solver", "-B", build, f"-DDH2URDF={command}", "-DARM=puma560"]
+    words = ["-S", FOLDER / "cmake_solver", "-B", build, f"-DDH2URDF={command}", f"-DARM={arm}"]
     words.append("-DCMAKE_BUILD_TYPE=Debug")
     for line in (["cmake", *words], ["cmake", "--build", build], ["ctest", "--test-dir", build]):
         done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
         assert done.returncode == 0, done.stdout + done.stderr
     assert "100% tests passed, 0 tests failed out of 2" in done.stdout
     solved = subprocess.run([build / "solve"], capture_output=True, text=True, check=True)
-    assert solved.stdout.count("residual") == 8
+    assert solved.stdout.count("residual") == solutions
     assert solved.stdout.split()[:6] == [f"{0.2 + 0.1 * i:.5f}" for i in range(6)]

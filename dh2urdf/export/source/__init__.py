@@ -156,11 +156,11 @@ def exported(
 
 def _language(language: str | None, path: Path | None) -> str:
     """The language, by its name or by a file's suffix."""
-    if language == "rust":
+    suffix = path.suffix.lower() if path is not None else ""
+    if language == "rust" or (language is None and suffix == ".rs"):
         raise ArgumentError("language: Rust is not written; a C file can be built by the crate cc")
     if language is not None:
         return choice(language, "language", LANGUAGES)
-    suffix = path.suffix.lower() if path is not None else ""
     if suffix not in SUFFIXES:
         known = ", ".join(SUFFIXES)
         raise ArgumentError(

@@ -6,6 +6,7 @@ import numpy as np
 
 from dh2urdf.export.source.c_kernels import ArmFile
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
+from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.export.source.stack import stack_bytes
 from dh2urdf.ik.arm import LIMIT_SLACK
@@ -56,6 +57,7 @@ SOLUTIONS = """\
 #define {P}_JOINTS {n}
 #define {P}_SOLUTIONS {kmax}
 #define {P}_STACK {stack}
+#define {P}_HAS_WORKSPACE {workspace}
 
 /* Limits of the joints [rad] or [m]. */
 static const double {P}_LOWER[{P}_JOINTS] = {lower};
@@ -135,7 +137,7 @@ class CProgram:
         """The whole file."""
         p, functions = self.prefix, self._functions()
         kernels = self.file.text()
-        body = f"{kernels}\n\n{functions}"
+        body = hidden(f"{kernels}\n\n{functions}", p)
         self.stack = -(-stack_bytes(self._solutions(0) + body, f"{p}_ik_near") // 256) * 256
         guard = f"{p.upper()}_H"
         includes = [f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")]
@@ -175,6 +177,7 @@ class CProgram:
             n=self.n,
             kmax=self.program.solver.kmax,
             stack=stack,
+            workspace=len(self.program.records),
             lower=number(self.robot.lower),
             upper=number(self.robot.upper),
         )

@@ -55,7 +55,9 @@ def _changed(home: ModuleType, name: str) -> int | None:
     return int(eval(ast.unparse(found), {**vars(home), **known}))
 
 
-TAKEN = "fk jacobian ik ik_near solutions prepare H JOINTS SOLUTIONS STACK LOWER UPPER"
+TAKEN = """
+fk jacobian ik ik_near solutions prepare H JOINTS SOLUTIONS STACK HAS_WORKSPACE LOWER UPPER
+"""
 """Names of what the file offers."""
 
 

@@ -19,15 +19,18 @@ from dh2urdf.export.source.head import LICENCE
 from dh2urdf.robots import list_tables
 from tests.export.source.compiled import COMPILERS, Arm, configurations
 
-FAMILIES = "puma560 ur5 planar_rr omron_cobra600 rpr_new_frame xarm5 stanford xarm6"
+FAMILIES = "puma560 ur5 planar_rr omron_cobra600 px100 rpr_new_frame xarm5 stanford xarm6"
 """An arm of each kind of kernels."""
 
 EVERY_DAY = 300
 
-MOSTLY = {"spherical wrist": 0.9, "spherical shoulder": 0.9, "three parallel axes": 0.9}
-"""By solver the share of poses, two in three singular or beside such, whose solutions are all; of
-others 0.7. Of a thousand it is 0.96 for the myCobot 280, the least of these, and 0.79 for the Niryo
-Ned 2, whose solver is a polynomial."""
+LEAST = 0.7
+"""Share of poses, two in three singular or beside such, whose solutions are all, of arms of which
+this is not said of every pose. Of 3000 it is 0.78 for the Niryo Ned 2, the least of these, as
+``python -m tests.export.source.complete`` prints."""
+
+WHOLE = ["puma560", "ur5", "planar_rr", "omron_cobra600", "px100", "franka_fer", "kuka_iiwa14"]
+"""Arms that say so of every pose."""
 
 HELD = {"franka_fer": 6, "kuka_iiwa14": 2}
 """Joints that are held of arms with one to spare."""
@@ -53,7 +56,7 @@ def assert_same(found, batch):
 
 
 def compare(arm, m, seed):
-    """Compare a compiled arm with its robot at configurations of a seed."""
+    """Compare a compiled arm with its robot at configurations of a seed; the share of all."""
     robot, held = arm.robot, arm.held
     q = configurations(robot, np.random.default_rng(seed), m)
     Ts, found = robot.fk(q), arm.run(q)
@@ -62,7 +65,8 @@ def compare(arm, m, seed):
     locked = {} if held is None else {"locked": {held: q[:, held]}}
     for key, limits in (("inside", True), ("any", False)):
         assert_same(found[key], robot.ik_batch(Ts, within_limits=limits, **locked))
-        assert np.mean(found[key]["complete"]) > MOSTLY.get(arm.made.solver, 0.7)
+        assert np.mean(found[key]["complete"]) > LEAST
+    return min(found[key]["complete"].mean() for key in ("inside", "any"))
 
 
 @pytest.mark.parametrize("name", [*FAMILIES.split(), *HELD])
@@ -83,10 +87,13 @@ def other_arms():
         for r, (x, y, z) in zip(rows, noise, strict=True)
     ]
     none = rng.uniform((-1, 0.1, -0.4, -1.4), (1, 0.4, 0.4, 1.4), (6, 4))
+    general = DHTable.from_array(none, convention="standard")
+    slide = replace(general.rows[2], joint_type="prismatic", lower=-0.5, upper=0.5)
     turned = [(0.0, r.d, r.a, r.alpha) for r in Robot.from_dh("puma560").table.rows[::-1]]
     return {
         "nearly three parallel axes": DHTable(tuple(off), "standard"),
-        "general 6R": DHTable.from_array(none, convention="standard"),
+        "general 6R": general,
+        "general RRPRRR": DHTable((*general.rows[:2], slide, *general.rows[3:]), "standard"),
         "spherical shoulder": DHTable.from_array(turned, convention="modified"),
     }
 
@@ -100,7 +107,7 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
     q = np.random.default_rng(6).uniform(-3.0, 3.0, (80, 6))
     found = arm.run(q)["any"]
     assert_same(found, arm.robot.ik_batch(arm.robot.fk(q), within_limits=False))
-    assert found["complete"].mean() > MOSTLY.get(solver, 0.7)
+    assert found["complete"].mean() > LEAST
 
 
 STACKS = dict.fromkeys([*FAMILIES.split(), *HELD]) | {"general 6R": other_arms()["general 6R"]}
@@ -111,10 +118,17 @@ STACKS = dict.fromkeys([*FAMILIES.split(), *HELD]) | {"general 6R": other_arms()
 @pytest.mark.parametrize("name", list_tables())
 def test_all_arms_that_ship_answer_as_the_robot_does(name, tmp_path):
     """The same on 10,000 poses of every arm that ships."""
-    robot = Robot.from_dh(name)
-    arm = Arm(robot, tmp_path, robot.solver.joint if robot.n == 7 else None)
+    arm = whole_arm(name, tmp_path)
     arm.compile(*SAME)
     compare(arm, 10_000, 2)
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("compiler", ["g++", "clang", "clang++"])
+@pytest.mark.parametrize("name", list_tables())
+def test_compilers_have_nothing_to_say_of_any_arm(name, compiler, tmp_path):
+    """C99 and C++17, as gcc in the test above."""
+    whole_arm(name, tmp_path).compile("-O1", compiler=compiler)
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)
@@ -127,9 +141,15 @@ def test_compilers_have_nothing_to_say(name, compiler, tmp_path):
     arm.compile("-O2", compiler=compiler)
 
 
+def whole_arm(name, folder):
+    """The file of an arm that ships, the joint held that it has to spare."""
+    robot = Robot.from_dh(name)
+    return Arm(robot, folder, robot.solver.joint if robot.n == 7 else None)
+
+
 def sanitize(name, folder, m):
     """Run an arm at m configurations, watched by the sanitizers."""
-    arm = Arm(Robot.from_dh(name), folder)
+    arm = whole_arm(name, folder)
     arm.compile("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     arm.run(configurations(arm.robot, np.random.default_rng(3), m))
 
@@ -140,9 +160,9 @@ def test_sanitizers_find_nothing(tmp_path):
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("name", FAMILIES.split())
+@pytest.mark.parametrize("name", list_tables())
 def test_sanitizers_find_nothing_on_ten_thousand_poses(name, tmp_path):
-    """The same on 10,000 poses of an arm of each family."""
+    """The same on 10,000 poses of every arm that ships."""
     sanitize(name, tmp_path, 10_000)
 
 
@@ -197,24 +217,23 @@ def test_the_stack_that_is_stated_suffices(name, tmp_path):
     assert most("arm_ik_near") <= arm.made.stack <= SMALL
 
 
+@pytest.fixture(scope="module")
+def everything_imported():
+    """What the first file that a process writes waits for."""
+    exported(Robot.from_dh("planar_rr"), language="c")
+
+
+@pytest.mark.usefixtures("everything_imported")
 @pytest.mark.parametrize("name", list_tables())
 def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name):
     """Writing takes less than two seconds of the processor, what is written 16 KB of stack."""
-    robot = Robot.from_dh(name)
-    start = time.process_time()
-    made = exported(robot, language="c", held=robot.solver.joint if robot.n == 7 else None)
-    assert time.process_time() - start < 2.0
+    robot, seconds = Robot.from_dh(name), []
+    while len(seconds) < 2 and min(seconds, default=9.0) >= 2.0:  # on a busy core twice
+        start = time.process_time()
+        made = exported(robot, language="c", held=robot.solver.joint if robot.n == 7 else None)
+        seconds.append(time.process_time() - start)
+    assert min(seconds) < 2.0
     assert made.stack <= SMALL
-
-
-def test_names_begin_with_the_arms(tmp_path):
-    """Two arms stand beside one another in one program."""
-    for name in ("puma560", "ur5"):
-        export_solver(Robot.from_dh(name), tmp_path / f"{name}.h")
-    text = '#include "puma560.h"\n#include "ur5.h"\nint main(void) { return 0; }\n'
-    (tmp_path / "both.c").write_text(text)
-    command = ["gcc", "-std=c99", "-Wall", "-Wextra", "-Werror", "-c", "both.c"]
-    subprocess.run(command, cwd=tmp_path, check=True)
 
 
 def test_the_head_says_what_it_is():
@@ -229,6 +248,7 @@ def test_the_head_says_what_it_is():
 REFUSED = {
     "suffix": ({"path": "arm.txt"}, ArgumentError, "the suffix tells"),
     "rust": ({"language": "rust"}, ArgumentError, "Rust is not written"),
+    "suffix of Rust": ({"path": "arm.rs"}, ArgumentError, "Rust is not written; a C file can"),
     "language": ({"language": "ada"}, ArgumentError, "expected 'c' or 'c\\+\\+' or 'python'"),
     "prefix": ({"prefix": "1x"}, ArgumentError, "a name of C"),
     "joint": ({"held": "nothing"}, NameNotFoundError, "no joint named"),
