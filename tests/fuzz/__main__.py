@@ -60,11 +60,18 @@ def record(row: tuple[object, ...]) -> None:
     PAGE.write_text(page + MARK + table())
 
 
+def kept() -> list[list[str]]:
+    """The runs that were recorded."""
+    with RUNS.open(newline="") as file:
+        return list(csv.reader(file))
+
+
 def table() -> str:
     """Inputs, seeds and times of each door."""
     inputs, seconds = defaultdict[tuple[str, str], int](int), defaultdict[str, float](float)
     seeds = defaultdict[str, set[int]](set)
-    for name, way, count, seed, took in csv.reader(RUNS.open()):
+    runs = {(name, way, seed): (count, took) for name, way, count, seed, took in kept()}
+    for (name, way, seed), (count, took) in runs.items():  # the last of those that are the same
         inputs[name, way] += int(count)
         seconds[name] += float(took)
         if way == "properties":
