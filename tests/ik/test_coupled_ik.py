@@ -326,3 +326,36 @@ def test_followers_by_half_turns_are_refused_beside_couplings():
     robot = Robot.from_dh(DHTable(tuple(rows), "standard", couplings={"joint_3": {"joint_2": 1.0}}))
     with pytest.raises(NoSolverError, match="coupled joints, and followers"):
         robot.ik(np.eye(4))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize(
+    "given_couplings",
+    [
+        UNIT,
+        {"joint_3": {"joint_2": -0.5}},
+        {"joint_5": {"joint_4": 1.0}, "joint_6": {"joint_4": 0.5, "joint_5": -1.0}},
+        {"joint_2": {"joint_3": 0.3}, "joint_3": {"joint_2": 1.7}},
+    ],
+)
+def test_twenty_thousand_poses_of_each_arm(name, given_couplings):
+    """Each generating configuration is found up to turns of the joints, all inside their limits."""
+    limits = list(np.c_[np.full(6, -3.3), [2.9, 3.4, 3.0, 4.0, 3.1, 5.0]])
+    robot = Robot.from_dh(named(name, given_couplings, limits))
+    rng = np.random.default_rng(5)
+    q = rng.uniform(robot.lower, robot.upper, (20_000, 6))
+    T = robot.fk(q)
+    batch = robot.ik_batch(T)
+    there = np.arange(batch.q.shape[1]) < batch.count[:, None]
+    C = matrix_of(given_couplings)
+    gap = np.where(there[..., None], batch.q - q[:, None], 1.0) @ C.T
+    away = np.abs(np.remainder(gap + np.pi, TURN) - np.pi).max(axis=2)
+    near = np.where(there, away, 9.0).min(axis=1)
+    regular = np.linalg.svd(robot.jacobian(q), compute_uv=False)[:, -1] > 1e-5
+    assert near[regular].max() < 1e-5
+    found = batch.q[there]
+    assert (found >= robot.lower).all()
+    assert (found <= robot.upper).all()
+    assert np.nanmax(batch.residual) < 1e-10
+    assert np.abs(robot.fk(found) - T[there.nonzero()[0]]).max() < 1e-9
