@@ -168,7 +168,8 @@ def _same_axis(table: DHTable) -> list[NearMiss]:
     pairs = zip(table.rows, table.rows[1:], strict=False)
     for number, (first, second) in enumerate(pairs, 1):
         row = first if standard else second
-        alike = first.joint_type is second.joint_type and first.is_joint and not second.mimic
+        alike = first.joint_type is second.joint_type and first.is_joint
+        alike = alike and not (first.mimic or second.mimic)
         if alike and not any((row.theta, row.d, row.a, row.alpha)):
             path = f"joints[{number if standard else number + 1}]"
             text = f"all zero: the joints of rows {number} and {number + 1} move on one axis"

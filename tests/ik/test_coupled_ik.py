@@ -153,6 +153,19 @@ def test_without_limits_every_solution_is_near_zero():
     assert np.abs(found.q).max() <= np.pi + 1e-12
 
 
+def test_solutions_without_a_turn_inside_add_none_to_all_turns():
+    """With all turns those within the limits are left, also where solutions outside are allowed."""
+    robot = Robot.from_dh(named("puma560", UNIT))
+    outside = 0
+    for seed in range(10):
+        T = robot.fk(robot.random_configuration(seed))
+        anywhere = robot.ik(T, within_limits=False, turns="all")
+        inside = robot.ik(T, turns="all")
+        assert np.abs(rows(anywhere.q) - rows(inside.q)).max() < 1e-9
+        outside += len(robot.ik(T, within_limits=False)) - len(robot.ik(T))
+    assert outside > 0
+
+
 def test_serial_limits_leave_solutions_out():
     """What the joint itself may not do, whatever the controller shows."""
     free = Robot.from_dh(named("puma560", UNIT))

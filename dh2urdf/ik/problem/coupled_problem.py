@@ -107,7 +107,8 @@ class CoupledProblem(Problem):
     def all_turns(self, q: Array) -> Array:
         """As :meth:`Problem.all_turns`."""
         options = self.turns.options(q)
-        return np.concatenate([all_turns(self.turns.loose, option) for option in options])
+        turns = [all_turns(self.turns.loose, option) for option in options]
+        return np.concatenate([np.empty((0, len(q))), *turns])
 
     def turn_numbers(self, q: Array, reference: Array) -> Array:
         """As :meth:`Problem.turn_numbers`: of the joints."""
