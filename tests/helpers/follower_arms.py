@@ -55,16 +55,22 @@ def follower_chain(seed, multiplier, away, square=False):
     return coupled(random_links(rng, 8, square), leaders, factors)
 
 
-def poses_at(chain, q):
-    """Poses (k, 4, 4) at values q (k, n), by products."""
-    T = np.repeat(chain.links[:1], len(q), axis=0)
+def _joints_at(chain, q):
+    """Before each joint moves its pose, (k, 4, 4) each, and the tip's, by products."""
+    T, joints = np.repeat(chain.links[:1], len(q), axis=0), []
     for link, v, factor in zip(chain.links[1:], chain.leaders, chain.factors, strict=True):
+        joints.append(T)
         angle = factor * q[:, v]
         Z = np.repeat(np.eye(4)[None], len(q), axis=0)
         Z[:, 0, 0], Z[:, 1, 1] = np.cos(angle), np.cos(angle)
         Z[:, 1, 0], Z[:, 0, 1] = np.sin(angle), -np.sin(angle)
         T = T @ Z @ link
-    return T
+    return joints, T
+
+
+def poses_at(chain, q):
+    """Poses (k, 4, 4) at values q (k, n)."""
+    return _joints_at(chain, q)[1]
 
 
 def error(T_found, T):
@@ -76,13 +82,15 @@ def error(T_found, T):
     return np.concatenate([T[:, :3, 3] - T_found[:, :3, 3], turn], axis=1)
 
 
-def jacobians(chain, q, h=1e-6):
-    """Jacobians (k, 6, n) by central differences."""
-    columns = []
-    for step in h * np.eye(chain.n):
-        there, here = poses_at(chain, q + step), poses_at(chain, q - step)
-        columns.append(error(here, there) / (2.0 * h))
-    return np.stack(columns, axis=2)
+def jacobians(chain, q):
+    """Jacobians (k, 6, n) of values: sums over the joints that they move."""
+    joints, tip = _joints_at(chain, q)
+    J = np.zeros((len(q), 6, chain.n))
+    for T, v, factor in zip(joints, chain.leaders, chain.factors, strict=True):
+        z = factor * T[:, :3, 2]
+        J[:, :3, v] += np.cross(z, tip[:, :3, 3] - T[:, :3, 3])
+        J[:, 3:, v] += z
+    return J
 
 
 def smallest(chain, q):

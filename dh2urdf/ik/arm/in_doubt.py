@@ -33,18 +33,18 @@ ALIKE = 1e-14
 
 
 @cache
-def _angles(joints: int) -> Array:
-    """Angles of every joint (``STARTS``, joints)."""
+def _angles(joints: int, count: int) -> Array:
+    """Angles of every joint (count, joints)."""
     rng = np.random.default_rng(4)
-    starts: Array = rng.uniform(-np.pi, np.pi, (STARTS, joints))
-    grid, few = np.pi / 4.0, (STARTS // 2, joints)
+    starts: Array = rng.uniform(-np.pi, np.pi, (count, joints))
+    grid, few = np.pi / 4.0, (count // 2, joints)
     starts[::2] = grid * np.round(starts[::2] / grid) + 0.02 * rng.standard_normal(few)
     return starts
 
 
-def starts_of(chain: SerialChain) -> Array:
-    """Configurations (``STARTS``, n); slides up to the arm's size."""
-    starts = _angles(chain.n)
+def starts_of(chain: SerialChain, count: int = STARTS) -> Array:
+    """Configurations (count, n); slides up to the arm's size."""
+    starts = _angles(chain.n, count)
     if chain.prismatic.any():
         starts = starts.copy()
         starts[:, chain.prismatic] *= chain.size / np.pi
@@ -68,7 +68,7 @@ def search_in_doubt(
         return wide
     wide.q[:, : found.q.shape[1]], wide.counts[:] = found.q, found.counts
     some = wide.rows(deep)
-    search_from(chain.tables, starts_of(chain), chain.size, Ts[deep], some)
+    search_from(chain.tables, starts_of(chain, starts), chain.size, Ts[deep], some)
     wide.put(deep, some)
     finish_batch(chain.tables, Ts, False, wide)
     search_beside(chain.tables, Ts, wide)

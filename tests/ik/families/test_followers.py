@@ -63,7 +63,7 @@ def check(chain, q):
 
 
 @pytest.mark.parametrize(("away", "multiplier"), CLASSES)
-@pytest.mark.parametrize("square", [False])
+@pytest.mark.parametrize("square", [False, True])
 def test_the_configuration_of_a_pose_is_found(away, multiplier, square):
     """Random and right-angled chains, one pose in three near a singularity."""
     checked, lost = 0, 0
