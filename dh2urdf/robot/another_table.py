@@ -11,6 +11,7 @@ class RobotOfAnotherTable:
     """How :class:`dh2urdf.Robot` is made like another one."""
 
     chain: SerialChain
+    joint_names: tuple[str, ...]
 
     @classmethod
     def from_dh(cls, table: TableLike) -> Self:
@@ -49,6 +50,9 @@ class RobotOfAnotherTable:
         found, own = _kinds(other.chain), _kinds(self.chain)
         if found != own:
             raise ArgumentError(f"table: its joints are {found}; those of this robot are {own}")
+        if other.joint_names != self.joint_names:
+            found, own = ", ".join(other.joint_names), ", ".join(self.joint_names)
+            raise ArgumentError(f"table: q is ({found}); that of this robot is ({own})")
         return other
 
 

@@ -48,3 +48,12 @@ def test_other_joints_are_refused():
     """The message has the joints that were found and those that are allowed."""
     with pytest.raises(dh2urdf.exceptions.ArgumentError, match=r"joint_2 \(revolute\); those of"):
         Robot.from_dh("puma560").with_table("planar_rr")
+
+
+def test_joints_that_follow_others_are_other_joints():
+    """A joint that moves by itself in one table and follows in the other is no small difference."""
+    first = dh2urdf.load_table("planar_rrr")
+    *others, last = first.rows
+    follows = replace(last, mimic=dh2urdf.Mimic(others[-1].name or "joint_2", -1.0))
+    with pytest.raises(dh2urdf.exceptions.ArgumentError, match="q is .*that of this robot is"):
+        Robot.from_dh(first).with_table(replace(first, rows=(*others, follows)))
