@@ -55,5 +55,5 @@ def test_joints_that_follow_others_are_other_joints():
     first = dh2urdf.load_table("planar_rrr")
     *others, last = first.rows
     follows = replace(last, mimic=dh2urdf.Mimic(others[-1].name or "joint_2", -1.0))
-    with pytest.raises(dh2urdf.exceptions.ArgumentError, match="q is .*that of this robot is"):
+    with pytest.raises(dh2urdf.exceptions.ArgumentError, match=r"q is .*that of this robot is"):
         Robot.from_dh(first).with_table(replace(first, rows=(*others, follows)))
