@@ -95,6 +95,11 @@ def dot(v, w):
     return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]
 
 
+def cross(v, w):
+    """Vector product."""
+    return v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]
+
+
 def minus(v, w):
     """Difference."""
     return v[0] - w[0], v[1] - w[1], v[2] - w[2]

@@ -1,6 +1,7 @@
 """Poses that people type, by class of arm: nothing is lost, nothing is wrong.
 
-Each class prints a line of figures; ``SWEEP=10`` in the environment takes ten times as many poses.
+Each class prints a line of figures; ``SWEEP=10`` in the environment takes ten times as many poses,
+and what is lost or wrong is added to the file that ``SWEEP_NOTES`` names: so two commits compare.
 """
 
 import os
@@ -24,6 +25,8 @@ from dh2urdf.exceptions import NoSolverError
 
 SIZE = float(os.environ.get("SWEEP", "1"))
 """Poses of a class, as a multiple of what follows."""
+
+NOTES = os.environ.get("SWEEP_NOTES")
 
 POSES, TABLES = int(120 * SIZE), int(60 * SIZE)
 """Poses a table that ships, and tables of other classes, each with a third as many poses."""
@@ -57,6 +60,9 @@ def sweep(name, tables, poses, decimals=None, seed=0):
 def report(tally):
     """Print the figures, and fail with what may not be."""
     print("\n" + tally.line())
+    if NOTES:
+        with open(NOTES, "a") as file:
+            file.writelines(f"{tally.name}; {note}\n" for note in tally.notes)
     assert tally.failures() == []
 
 

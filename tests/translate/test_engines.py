@@ -46,6 +46,7 @@ SLOW = {
     "enter_all": 2,
     "nearest_of": 2,
     "walk_family": 2,
+    "on_one_family": 2,
     "nearest_members": 9,
 }
 """Entries that take seconds interpreted, and how many calls of them the daily suite has."""

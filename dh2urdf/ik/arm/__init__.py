@@ -9,7 +9,17 @@ turns; `in_doubt` searches poses that a solver is not sure of; `given` checks wh
 from dh2urdf.ik.arm.chains import hold, in_own_unit, lengths_in, part, without_end
 from dh2urdf.ik.arm.geometry import AxisLines, DHForm, form_of, lines_of, pose_along, row_motion
 from dh2urdf.ik.arm.given import as_configuration, as_tolerance, many_poses, one_pose
-from dh2urdf.ik.arm.in_doubt import keep_sharp, search_in_doubt, starts_of, unite_families
+from dh2urdf.ik.arm.in_doubt import (
+    WIDTH,
+    drop_dull_members,
+    far,
+    from_starts,
+    keep_known,
+    keep_sharp,
+    search_in_doubt,
+    starts_of,
+    unite_families,
+)
 from dh2urdf.ik.arm.limits import (
     TWO_PI,
     all_turns,
@@ -42,6 +52,7 @@ from dh2urdf.ik.arm.shared_tolerances import (
 from dh2urdf.ik.arm.singular_families import Family, beside_seed, coupled, slide_to_seed
 from dh2urdf.ik.arm.solver import (
     BRANCH_WORDS,
+    NONE,
     BatchKernel,
     BranchWords,
     HeldSolver,

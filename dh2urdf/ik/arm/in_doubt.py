@@ -5,10 +5,11 @@ from functools import cache
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.ik.arm.limits import TWO_PI
 from dh2urdf.ik.arm.singular_families import Family
 from dh2urdf.ik.arm.solver import IntArray, Outputs
 from dh2urdf.ik.arm.task import Task
-from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.kernels.certificate import finish_batch, name_batch
 from dh2urdf.kernels.in_doubt import search_beside, search_from
 from dh2urdf.transforms import Array
 
@@ -27,6 +28,10 @@ SAME = 1e-6
 
 FAMILIES = 4
 """Families of a pose whose members are looked for at any distance: a few milliseconds each."""
+
+WELL = 1e-10
+"""Residual [m and rad] on the way between solutions of one family: walked in another way, it is
+accepted, too. Between two that are side by side along a valley it is more."""
 
 ALIKE = 1e-14
 """Residuals [m and rad] below which one member of a family is as good as another."""
@@ -77,6 +82,60 @@ def search_in_doubt(
     return wide
 
 
+def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) -> Outputs:
+    """What many starts find of a pose (1, 4, 4); of each family what is known, or a member.
+
+    Candidates are ``found``. Solutions that are known keep their branch.
+    """
+    wide = search_in_doubt(chain, T, found, np.zeros(1, np.int64), False)
+    name_batch(chain.tables, T, wide)
+    keep_sharp(wide, known.q[0, : known.counts[0]])
+    unite_families(chain, T, False, wide)
+    for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
+        away = far(chain, wide.q[0, : wide.counts[0]], p)
+        wide.branch[0, : len(away)][away <= SAME] = branch
+    return wide
+
+
+def keep_known(chain: SerialChain, T: Array, known: Outputs, wide: Outputs) -> None:
+    """Add known sharp solutions of a pose (1, 4, 4) that others, or their families, leave out.
+
+    In place, at the end, with the joints that they are free in; the sharp ones come first, then.
+    Where all that are known are sharp, the others that are not go.
+    """
+    name_batch(chain.tables, T, known)
+    sharp = known.residual[0, : known.counts[0]] <= SHARP
+    if len(sharp) and sharp.all():
+        _keep(wide, np.flatnonzero(wide.residual[0, : wide.counts[0]] <= SHARP))
+    for k in np.flatnonzero(sharp):
+        p, count = known.q[0, k], int(wide.counts[0])
+        if (far(chain, wide.q[0, :count], p) <= SAME).any() or count == wide.q.shape[1]:
+            continue
+        families = np.flatnonzero(wide.free[0, :count]).tolist()
+        if not any(_on_family(chain, T[0], wide, f, p) for f in families):
+            for array, source in zip(wide, known, strict=True):
+                if array.ndim > 1:
+                    array[0, count] = source[0, k]
+            wide.counts[0] += 1
+    count = wide.counts[0]
+    _keep(wide, np.argsort(wide.residual[0, :count] > SHARP, kind="stable"))
+
+
+def _on_family(chain: SerialChain, T: Array, out: Outputs, k: int, p: Array) -> bool:
+    """Whether the family of solution k of a pose T (4, 4) contains a configuration p (n,)."""
+    joints = tuple(np.flatnonzero(out.free[0, k] >> np.arange(chain.n) & 1).tolist())
+    family = Family(chain, Task.POSE, T, joints, out.q[0, k].copy())
+    return bool(family.contains(p[None], held=WELL)[0])
+
+
+def far(chain: SerialChain, q: Array, p: Array) -> Array:
+    """Largest difference of a joint from p (n,) of configurations q (k, n)."""
+    gaps = q - p
+    turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
+    largest: Array = np.where(chain.prismatic, np.abs(gaps), turns).max(axis=1)
+    return largest
+
+
 def keep_sharp(out: Outputs, known: Array) -> None:
     """Of one pose with a solution, drop what is accepted beside it along a valley, in place.
 
@@ -87,6 +146,14 @@ def keep_sharp(out: Outputs, known: Array) -> None:
     kept = np.flatnonzero((residual <= SHARP) | (free[: len(q)] != 0) | is_known)
     if len(kept):
         _keep(out, kept)
+
+
+def drop_dull_members(out: Outputs) -> None:
+    """Of one pose with a sharp solution, drop members of families that are none, in place."""
+    count = out.counts[0]
+    sharp = out.residual[0, :count] <= SHARP
+    if sharp.any():
+        _keep(out, np.flatnonzero(sharp | (out.free[0, :count] == 0)))
 
 
 def _keep(out: Outputs, rows: IntArray | list[int]) -> None:

@@ -16,17 +16,11 @@ from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.shared_tolerances import ACCEPT, FAMILY_STEP
 from dh2urdf.ik.arm.task import Task, scaled_jacobian, task_error
 from dh2urdf.kernels.certificate import find_solutions
-from dh2urdf.kernels.redundant import nearest_members, walk_family
+from dh2urdf.kernels.redundant import nearest_members, on_one_family, walk_family
 from dh2urdf.transforms import Array, length
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two members are one, as two solutions are."""
-
-ARRIVED = 1e-5
-"""Joint distance [rad or m] at which a walk has arrived: its points are on the family to 1e-9."""
-
-BESIDE = 2.0 * FAMILY_STEP
-"""Distance [rad or m] of a member from the points of a walk along its family."""
 
 FLAT = 1e-5
 """Singular value, relative to the largest, of a direction in which a family goes on."""
@@ -70,29 +64,25 @@ class Family:
         error = task_error(self.chain.fk(seed)[None], self.T, self.task)[0]
         if max(np.linalg.norm(error[:3]), np.linalg.norm(error[3:])) > ACCEPT:
             return False
-        return self._apart(self.q, seed) <= SAME
+        return bool(self._apart(seed[None])[0] <= SAME)
 
-    def contains(self, others: Array, trials: int = 2) -> NDArray[np.bool_]:
+    def contains(
+        self, others: Array, trials: int = 2, held: float = 0.9 * ACCEPT
+    ) -> NDArray[np.bool_]:
         """Which configurations (k, n) of the same free joints a walk along the family arrives at.
 
-        From the point of a walk both ways that is nearest; where a family has more than one
-        dimension straight towards each of them, too, until this has failed in so many ``trials``.
+        Straight towards each of them, where a family has more than one dimension, until this has
+        failed in so many ``trials``, and from the point of a walk both ways that is nearest; the
+        residual is ``held`` at most, a little less than that of a solution.
         """
-        found = np.zeros(len(others), np.bool_)
-        failed = 0 if self._dimensions() > 1 else trials
-        walked = np.empty((0, len(self.free)))
-        for k, other in enumerate(others):
-            if self._apart(self.q, other) > SAME:
-                continue
-            if not len(walked):
-                walked = np.concatenate([self.q[None, self.free], self._walk(self.q)])
-            way = np.abs(_principal(self.moving, other[self.free] - walked)).max(axis=1)
-            start = self.q.copy()
-            start[self.free] = walked[int(way.argmin())]
-            found[k] = way.min() <= BESIDE and self._arrives(start, other)
-            if not found[k] and failed < trials:
-                found[k] = self._arrives(self.q, other)
-                failed += not found[k]
+        found = self._apart(others) <= SAME
+        some = np.ascontiguousarray(others[found][:, self.free])
+        on = np.empty(len(some), np.bool_)
+        if len(some):
+            walk, straight = np.empty((2, MOST_STEPS, len(self.free))), self._dimensions() > 1
+            steps = self._goal, FAMILY_STEP, held, self.q[self.free]
+            on_one_family(self.moving.tables, *steps, some, trials * straight, on, walk)
+        found[found] = on
         return found
 
     def members(self) -> Array:
@@ -108,21 +98,12 @@ class Family:
         sigma = np.linalg.svd(J, compute_uv=False)
         return len(self.free) - int((sigma > FLAT * sigma[0]).sum())
 
-    def _arrives(self, start: Array, goal: Array) -> bool:
-        """Whether going nearer to a goal (n,) along the family, from a member, ends there."""
-        if self._apart(start, goal) > SAME:
-            return False
-        seed = start.copy()
-        way = _principal(self.moving, goal[self.free] - start[self.free])
-        seed[self.free] += way
-        ended = self._slide(start[self.free][None], seed, within_limits=False)[0]
-        return bool(np.abs(ended - seed[self.free]).max() <= ARRIVED)
-
-    def _apart(self, q: Array, other: Array) -> float:
-        """Largest difference of joints that are not free."""
-        gap = np.abs(_principal(self.chain, other - q))
-        gap[self.free] = 0.0
-        return float(gap.max())
+    def _apart(self, others: Array) -> Array:
+        """Largest differences (k,) of joints that are not free from configurations (k, n)."""
+        gaps = np.abs(_principal(self.chain, others - self.q))
+        gaps[:, self.free] = 0.0
+        apart: Array = gaps.max(axis=1)
+        return apart
 
     def _walk(self, start: Array) -> Array:
         """Members (k, f) on a walk both ways from a member (n,)."""

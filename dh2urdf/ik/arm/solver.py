@@ -103,6 +103,10 @@ class Solver(Protocol):
         """
 
 
+NONE: IntArray = np.empty(0, np.int64)
+"""No rows of a batch."""
+
+
 class SolverBase:
     """What all families share: the exact chain as kernel arrays, and the explanation.
 
@@ -201,6 +205,13 @@ class HeldSolver:
         Outputs as in :class:`Solver`, with all joints of the chain.
         """
         raise NotImplementedError
+
+    def solve_plainly(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> IntArray:
+        """The same; of which poses, by index, a solver made for the value says more."""
+        self.solve_held(Ts, values, within_limits, out)
+        return NONE
 
     def steps(
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs

@@ -13,21 +13,19 @@ from dh2urdf.ik.arm import (
     NOMINAL,
     SLACK,
     SLACK_OF_NOISE,
-    TWO_PI,
     BatchKernel,
     IntArray,
     Others,
     Outputs,
     SolverBase,
     Task,
+    far,
     form_of,
-    keep_sharp,
+    from_starts,
     lines_of,
     plain_ranges,
-    search_in_doubt,
-    unite_families,
 )
-from dh2urdf.kernels.certificate import DEEP, finish_batch, name_batch, search_valleys
+from dh2urdf.kernels.certificate import DEEP, finish_batch, search_valleys
 from dh2urdf.kernels.nearly import parallel_seeds
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 from dh2urdf.transforms import Array
@@ -92,7 +90,7 @@ class ClosedForm(SolverBase):
         for i, row in enumerate(rows):
             mine = slice(i, i + 1)
             if deep[i]:
-                wide = self._from_starts(poses[mine], found.rows(mine), known.rows(mine))
+                wide = from_starts(self.chain, poses[mine], found.rows(mine), known.rows(mine))
                 if within_limits:
                     finish_batch(self.chain.tables, poses[mine], True, wide)
                 out.put(np.array([row]), wide)
@@ -117,27 +115,6 @@ class ClosedForm(SolverBase):
         search_valleys(chain.tables, chain.size, poses, seeds, many, found.q, found.counts)
         return found
 
-    def _from_starts(self, pose: Array, found: Outputs, known: Outputs) -> Outputs:
-        """What many starts find of one pose (1, 4, 4); of each family what is known, or a member.
-
-        Solutions that are known keep their branch.
-        """
-        wide = search_in_doubt(self.chain, pose, found, np.zeros(1, np.int64), False)
-        name_batch(self.chain.tables, pose, wide)
-        keep_sharp(wide, known.q[0, : known.counts[0]])
-        unite_families(self.chain, pose, False, wide)
-        for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
-            far = self._far(wide.q[0, : wide.counts[0]], p)
-            wide.branch[0, : len(far)][far <= SAME] = branch
-        return wide
-
-    def _far(self, q: Array, p: Array) -> Array:
-        """Largest difference of a joint from p (n,) of configurations q (k, n)."""
-        gaps = q - p
-        turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
-        far: Array = np.where(self.chain.prismatic, np.abs(gaps), turns).max(axis=1)
-        return far
-
     def _add_new(self, found: Outputs, known: Array, out: Outputs) -> None:
         """Add solutions of one pose that are not known (k, 6) yet.
 
@@ -146,10 +123,10 @@ class ClosedForm(SolverBase):
         q = found.q[0, : found.counts[0]]
         for k, p in enumerate(q):
             count = out.counts[0]
-            if found.residual[0, k] > SHARP or (self._far(known, p) <= SAME).any():
+            if found.residual[0, k] > SHARP or (far(self.chain, known, p) <= SAME).any():
                 continue
-            near = np.flatnonzero(self._far(out.q[0, :count], p) <= NEAR)
-            gone = [j for j in near if not (self._far(q, out.q[0, j]) <= SAME).any()]
+            near = np.flatnonzero(far(self.chain, out.q[0, :count], p) <= NEAR)
+            gone = [j for j in near if not (far(self.chain, q, out.q[0, j]) <= SAME).any()]
             if not gone and count == self.kmax:
                 continue
             row = gone[0] if gone else count

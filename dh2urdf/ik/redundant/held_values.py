@@ -60,7 +60,11 @@ class HeldJoints:
         """
         found = Outputs.of(len(Ts), self.kmax, len(self.moving))
         self.inner.solve_batch(Ts, within_limits, found)
-        k = min(self.kmax, out.q.shape[1])
+        self.insert(found, out)
+
+    def insert(self, found: Outputs, out: Outputs) -> None:
+        """Write solutions of the moving joints, and the held values between them."""
+        k = min(found.q.shape[1], out.q.shape[1])
         out.counts[:] = np.minimum(found.counts, k)
         out.q[:, :k, self.moving], out.residual[:, :k] = found.q[:, :k], found.residual[:, :k]
         for i, value in self.held.items():
@@ -68,6 +72,14 @@ class HeldJoints:
         out.branch[:, :k], out.free[:] = found.branch[:, :k], 0
         for bit, i in enumerate(self.moving):
             out.free[:, :k] |= (found.free[:, :k] >> bit & 1) << int(i)
+
+    def moved(self, out: Outputs) -> Outputs:
+        """Copies of solutions of all joints, those of the moving ones."""
+        free = np.zeros_like(out.free)
+        for bit, i in enumerate(self.moving):
+            free |= (out.free >> int(i) & 1) << bit
+        q = np.ascontiguousarray(out.q[:, :, self.moving])
+        return out.rows(np.arange(len(free)))._replace(q=q, free=free)
 
     def __str__(self) -> str:
         return self.name
@@ -117,7 +129,7 @@ class HeldOneByOne(HeldSolver):
     ) -> None:
         super().__init__(chain, held)
         self.task = task
-        self._kept: dict[tuple[float, ...], Solver] = {}
+        self._kept: dict[tuple[float, ...], HeldJoints] = {}
         trial = np.clip(TRIAL_VALUE, chain.lower, chain.upper)[list(held)]
         self._first = self.at(first or tuple(trial.tolist()))
         self.name, self.kmax = self._first.name, self._first.kmax
@@ -126,12 +138,12 @@ class HeldOneByOne(HeldSolver):
         """Say how the joints that move are solved for."""
         return f"a solver is made for each value, such as this one\n{self._first.explain()}"
 
-    def make(self, values: tuple[float, ...]) -> Solver:
+    def make(self, values: tuple[float, ...]) -> HeldJoints:
         """The solver for some held values."""
         held = dict(zip(self.held, values, strict=True))
         return HeldJoints(self.chain, held, self.task)
 
-    def at(self, values: tuple[float, ...]) -> Solver:
+    def at(self, values: tuple[float, ...]) -> HeldJoints:
         """The solver for some held values, made or kept."""
         solver = self._kept.pop(values, None) or self.make(values)
         self._kept[values] = solver
@@ -139,7 +151,7 @@ class HeldOneByOne(HeldSolver):
             self._kept.pop(oldest, None)
         return solver
 
-    def _in_batch(self, values: tuple[float, ...], alone: bool) -> Solver:
+    def in_batch(self, values: tuple[float, ...], alone: bool) -> HeldJoints:
         """The solver for some held values; where there is none, a search, unless all are these."""
         try:
             return self.at(values)
@@ -158,7 +170,7 @@ class HeldOneByOne(HeldSolver):
         for rows in np.split(order, breaks):
             if not len(rows):
                 continue
-            solver = self._in_batch(tuple(values[rows[0]].tolist()), alone=not len(breaks))
+            solver = self.in_batch(tuple(values[rows[0]].tolist()), alone=not len(breaks))
             found = Outputs.of(len(rows), out.q.shape[1], self.chain.n)
             solver.solve_batch(np.ascontiguousarray(Ts[rows]), within_limits, found)
             for whole, part in zip(out, found, strict=True):
@@ -172,7 +184,7 @@ class HeldGeneral(HeldOneByOne):
         self.model = model
         super().__init__(chain, (joint,), Task.POSE)
 
-    def make(self, values: tuple[float, ...]) -> Solver:
+    def make(self, values: tuple[float, ...]) -> HeldJoints:
         """The solver for one value; eliminations chosen anew where those of the model fail."""
         held = {self.held[0]: values[0]}
         return HeldJoints(self.chain, held, self.task, self.model.like(hold(self.chain, held)))

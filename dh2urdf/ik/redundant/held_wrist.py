@@ -9,11 +9,13 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
+    NONE,
     SLACK,
     SNAP,
     AxisLines,
     DHForm,
     HeldSolver,
+    IntArray,
     Outputs,
     hold,
     plain_ranges,
@@ -138,13 +140,13 @@ class HeldWrist(HeldSolver):
         return bool(meet and self.which[4] != 0)
 
     @cached_property
-    def kernel(self) -> Callable[..., None]:
+    def kernel(self) -> Callable[..., int]:
         """The fastest kernel that covers the geometry."""
         rows, varies = self.form.rows, self.which[4]
         orthogonal = rows[3, 1] == rows[4, 1] == 0.0
         blocks = self.one_by_one and orthogonal and varies in (-1, 1) and rows[0, 3] == 0.0
         blocks = blocks and plain_ranges(self.chain)
-        fastest: Callable[..., None] = solve_held_blocks if blocks else solve_held_wrist
+        fastest: Callable[..., int] = solve_held_blocks if blocks else solve_held_wrist
         return fastest
 
     def details(self) -> str:
@@ -154,7 +156,17 @@ class HeldWrist(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1), in one call."""
-        self.kernel(self.constants, values.ravel(), Ts, within_limits, out)
+        self.solve_plainly(Ts, values, within_limits, out)
+
+    def solve_plainly(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> IntArray:
+        """The same; which poses are in doubt: near a singular one equations leave some out."""
+        if not self.kernel(self.constants, values.ravel(), Ts, within_limits, out):
+            return NONE
+        doubt = np.flatnonzero(out.counts < 0)
+        out.counts[doubt] = -1 - out.counts[doubt]
+        return doubt
 
     def steps(
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs

@@ -2,8 +2,7 @@
 
 The solver of a held joint is chosen for any of its values. At a special one, as 0 of a shoulder
 whose axes 1 and 3 then are one line, the other joints move along families, and a solver is made
-for that value alone. And where an elbow is folded so that the wrist's centre is on the shoulder's,
-the equations for the elbow say nothing at any value: such poses are searched.
+for that value alone. So is one for poses in doubt, and many starts are followed, too.
 """
 
 from functools import cached_property
@@ -13,7 +12,6 @@ from numpy.typing import NDArray
 
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
-    ACCEPT,
     SNAP,
     SPARE_RANK,
     TRIALS,
@@ -22,17 +20,15 @@ from dh2urdf.ik.arm import (
     HeldSolver,
     IntArray,
     Outputs,
-    SolverBase,
     Task,
-    hold,
+    keep_known,
     near_ranges,
     random_configurations,
     scaled_jacobian,
-    search_in_doubt,
 )
-from dh2urdf.ik.redundant.held_values import HeldEnd, HeldJoints, HeldOneByOne
+from dh2urdf.ik.redundant.held_in_doubt import HeldInDoubt, InDoubt
+from dh2urdf.ik.redundant.held_values import HeldEnd, HeldOneByOne
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE
-from dh2urdf.ik.redundant.searched import STARTS, nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
 GRID = 48
@@ -56,24 +52,6 @@ FOLDED = 1e-5
 """Distance [m] between the centres of shoulder and wrist within which an elbow is folded."""
 
 
-class InDoubt(SolverBase):
-    """Six turning joints by a search alone, for poses of which equations say nothing."""
-
-    name = "search"
-    kmax = 16
-    known: Array
-    """Solutions that others found, (k, 6)."""
-
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4) from many starts, in valleys too."""
-        every, found = np.arange(len(Ts)), Outputs.of(len(Ts), 2 * STARTS, self.chain.n)
-        for i, T in enumerate(Ts):
-            q, error = nearly_reaching(self.chain, T, self.task)
-            q = np.concatenate([self.known, q[np.abs(error).max(axis=1) <= ACCEPT]])
-            found.q[i, : len(q)], found.counts[i] = q, len(q)
-        out.put(every, search_in_doubt(self.chain, Ts, found, every, within_limits))
-
-
 class HeldAtAnyValue(HeldSolver):
     """A solver of one held joint, and another at the values at which the rest has one to spare."""
 
@@ -88,20 +66,33 @@ class HeldAtAnyValue(HeldSolver):
 
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1)."""
-        self.inner.solve_held(Ts, values, within_limits, out)
-        rows = self._special(values[:, 0])
-        if len(rows):
-            found = Outputs.of(len(rows), self.kmax, self.chain.n)
-            poses = np.ascontiguousarray(Ts[rows])
-            self.one_by_one.solve_held(poses, values[rows], within_limits, found)
-            for whole, part in zip(out, found, strict=True):
-                whole[rows] = part
-        for i in np.flatnonzero(self._folded(Ts)):
-            held = {self.held[0]: float(values[i, 0])}
-            search = InDoubt(hold(self.chain, held))
-            search.known = np.delete(out.q[i, : out.counts[i]], self.held[0], axis=1)
-            solver = HeldJoints(self.chain, held, self.task, search)
-            solver.solve_batch(Ts[i : i + 1], within_limits, out.rows(slice(i, i + 1)))
+        doubt = self.inner.solve_plainly(Ts, values, within_limits, out)
+        special, folded = self._special(values[:, 0]), np.flatnonzero(self._folded(Ts)).tolist()
+        if len(special):
+            found = Outputs.of(len(special), self.kmax, self.chain.n)
+            poses = np.ascontiguousarray(Ts[special])
+            self.one_by_one.solve_held(poses, values[special], within_limits, found)
+            out.put(special, found)
+        for i in np.setdiff1d(doubt, special).tolist() if len(doubt) else ():
+            if i not in folded:
+                self._look_wider(Ts, values, within_limits, out, i, void=False)
+        for i in folded:
+            self._look_wider(Ts, values, within_limits, out, i, void=True)
+
+    def _look_wider(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs, i: int, void: bool
+    ) -> None:
+        """Add to the solutions of pose i, in doubt, what a solver for its value finds."""
+        T, mine = np.ascontiguousarray(Ts[i : i + 1]), out.rows(slice(i, i + 1))
+        solver = self.in_doubt.in_batch((float(values[i, 0]),), alone=False)
+        inner, known = solver.inner, solver.moved(mine)
+        if isinstance(inner, InDoubt):
+            found = inner.solve(T, within_limits, void or known.counts[0] == 0)
+        else:
+            found = Outputs.of(1, solver.kmax, self.chain.n - 1)
+            inner.solve_batch(T, within_limits, found)
+        keep_known(inner.chain, T, known, found)
+        solver.insert(found, mine)
 
     def _folded(self, Ts: Array) -> NDArray[np.bool_]:
         """Which poses (m, 4, 4) put the centre of the wrist onto that of the shoulder."""
@@ -156,8 +147,13 @@ class HeldAtAnyValue(HeldSolver):
 
     @cached_property
     def one_by_one(self) -> HeldOneByOne:
-        """The solver made anew for each special value."""
-        return HeldOneByOne(self.chain, self.held, self.task, (float(self.values[0]),))
+        """The solver made anew for each value at which it is asked."""
+        return HeldOneByOne(self.chain, self.held, self.task)
+
+    @cached_property
+    def in_doubt(self) -> HeldOneByOne:
+        """The same for poses in doubt."""
+        return HeldInDoubt(self.chain, self.held, self.task)
 
     def _jacobians(self, values: Array) -> Array:
         """The rest's Jacobian at values (m,) and in generic configurations, (m, trials, 6, k)."""

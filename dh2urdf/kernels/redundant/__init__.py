@@ -3,7 +3,7 @@
 `held_wrist` solves with a joint held, and gathers the solutions of many values; `held_wrist_blocks`
 solves many poses side by side, from what `held_wrist_load` makes of them, `sweeps` one pose at many
 values; `self_motion` walks along solutions, `starts` says from where and `nearest` where to,
-`curves` finds all curves of them, `paths` shortens a path.
+`one_family` which of them are on one, `curves` finds all curves of them, `paths` shortens a path.
 """
 
 from dh2urdf.kernels.redundant.curves import DULL, add_curves
@@ -19,6 +19,7 @@ from dh2urdf.kernels.redundant.nearest import (
     spread,
     start_beside,
 )
+from dh2urdf.kernels.redundant.one_family import on_one_family
 from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
 from dh2urdf.kernels.redundant.starts import MOST_STARTS, find_starts

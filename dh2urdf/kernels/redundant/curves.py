@@ -9,10 +9,10 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, add_step, look, principal
+from dh2urdf.kernels.certificate import ACCEPT, add_step, look
 from dh2urdf.kernels.newton import error_and_jacobian, make_damped, restore
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.redundant.self_motion import HELD, dot, first_guess, tangent_near
+from dh2urdf.kernels.redundant.self_motion import HELD, dot, first_guess, tangent_near, way_to
 from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses, Solutions
 from dh2urdf.kernels.short_chains import approach
 
@@ -45,18 +45,11 @@ AWAY = 8.0
 """How far a slide is followed, in sizes of the arm."""
 
 
-def _gap(joints, q, p, way):
-    """``way = p - q`` (n,), angles in a half turn; its length."""
-    for i in range(q.shape[0]):
-        way[i] = p[i] - q[i] if joints[i, 0] != 0.0 else principal(p[i] - q[i])
-    return math.sqrt(dot(way, way))
-
-
 def _is_on(chain, goal, trail, passed, q, scratch, damped):
     """Whether q (n,) is on a curve of which points are known."""
     joints, way, tangent, at, work = chain[1], scratch[0], scratch[1], scratch[2], scratch[3]
     for k in range(passed):
-        far = _gap(joints, trail[k], q, way)
+        far = way_to(joints, trail[k], q, way)
         if far > STEP:
             continue
         at[:] = trail[k]
@@ -69,7 +62,7 @@ def _is_on(chain, goal, trail, passed, q, scratch, damped):
             if not restore(chain, goal, at, work, damped) <= ACCEPT:
                 break
             before = far
-            far = _gap(joints, at, q, way)
+            far = way_to(joints, at, q, way)
             if far > 0.5 * before:
                 break
     return False
@@ -134,7 +127,7 @@ def _walk_by(chain, goal, start, step, trail, passed, scratch, damped):
                 break
             trail[passed] = at
             passed += 1
-            away = _gap(joints, start, at, work)
+            away = way_to(joints, start, at, work)
             closed = k > 3 and away <= 0.6 * step
             if closed or away > AWAY * max(goal[2], 1.0):
                 break

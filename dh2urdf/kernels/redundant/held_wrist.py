@@ -19,15 +19,22 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
+import math
 from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, finish_pose, reverse_joints
+from dh2urdf.kernels.certificate import (
+    ACCEPT,
+    certify_pose,
+    null_direction,
+    reverse_joints,
+    turn_inside,
+)
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
-from dh2urdf.kernels.newton import restore
-from dh2urdf.kernels.numbers import atan2, circle_pair, entry, sincos
-from dh2urdf.kernels.rigid import applied, applied_inverse, invert_pose, turned_back
+from dh2urdf.kernels.newton import POLISH, normal_equations, pose_residual, restore
+from dh2urdf.kernels.numbers import atan2, circle_pair, entry, hypot, sincos
+from dh2urdf.kernels.rigid import applied, applied_inverse, cross, dot, invert_pose, turned_back
 from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import (
     FREE,
@@ -37,6 +44,20 @@ from dh2urdf.kernels.spherical_wrist import (
     elbow_on_axis,
     tool_to_wrist,
 )
+
+VAGUE = 1e-10
+"""Volume that the motions of joints 1, 2, 3 span, in sizes of the arm, times the sine of joint 5,
+below which a pose may be in doubt."""
+
+FLAT = 1e-13
+"""Smallest eigenvalue of J^T J, relative to the trace, of a solution by which it is: along its way
+of a twentieth the tool stays."""
+
+NOTHING, SOME, ALL, EVERYTHING = range(4)
+"""What of a pose is vague: some of its candidates or all; equations are void."""
+
+VOID = 1e-4
+"""Size of an equation, in sizes of the arm, that says too little for a pose to be out of reach."""
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, AROUND, ENDS, SIDES, FACTORS = 8, 16, 19, 21, 24, 26
@@ -50,7 +71,7 @@ def make_scratch():
     """
     return (
         *(np.empty((2, 4, 4)), np.empty((4, 4)), np.empty((3, 4, 4)), np.empty((3, 3))),
-        *(np.empty((8, 5)), np.empty((6, 14)), np.empty((7, 4, 4)), np.empty((8, 6))),
+        *(np.empty((8, 6)), np.empty((6, 14)), np.empty((7, 4, 4)), np.empty((8, 6))),
         (np.empty((3, 2, 2)), np.empty((3, 5)), np.empty((4, 4))),
     )
 
@@ -79,7 +100,8 @@ def _place_wrist(form, D, S, slack, scratch):
 
     Seen from axis 2, ``y(q1) = S0^-1 Z1^-1 p`` and ``u(q3) = S1 Z3 w`` have one height and one
     length: a subproblem 6 in q1 and q3. Subproblem 1 gives q2. The rows are as in
-    :mod:`dh2urdf.kernels.spherical_wrist.position_arm`, without names of branches.
+    :mod:`dh2urdf.kernels.spherical_wrist.position_arm`, without names of branches, then the volume
+    that the three motions of the centre span. -1 where there are none for equations are void.
     """
     arm, (two, series, pairs) = scratch[4], scratch[8]
     M, N, d = two[0], two[1], two[2, 0]
@@ -95,6 +117,8 @@ def _place_wrist(form, D, S, slack, scratch):
     M[1, 0], M[1, 1] = -2.0 * (tx * px + ty * py), -2.0 * (tx * py - ty * px)
     N[1, 0], N[1, 1] = -2.0 * (nx * wx + ny * wy), -2.0 * (ny * wx - nx * wy)
     square = px * px + py * py
+    size = square + pz * pz + tx * tx + ty * ty + tz * tz
+    size = math.sqrt(size + wx * wx + wy * wy + wz * wz + ux * ux + uy * uy + uz * uz)
     d[1] = wx * wx + wy * wy + wz * wz + ux * ux + uy * uy + uz * uz + 2.0 * nz * wz
     d[1] -= square + pz * pz + tx * tx + ty * ty + tz * tz - 2.0 * tz * pz
     free = square <= FREE * FREE
@@ -102,15 +126,37 @@ def _place_wrist(form, D, S, slack, scratch):
         count = elbow_on_axis(N, d, 0.0, slack, pairs)
     else:
         count = circle_pair(M, N, d, slack, series, pairs)
+    if count <= 0:
+        first = hypot(M[0, 0], M[0, 1]) + hypot(M[1, 0], M[1, 1]) / size
+        last = hypot(N[0, 0], N[0, 1]) + hypot(N[1, 0], N[1, 1]) / size
+        return -1 if min(first, last) <= VOID * size else 0
     for k in range(count):
         c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
-        yx, yy, _ = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
-        vx, vy, _ = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
+        y = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
+        v = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
+        (yx, yy, _), (vx, vy, _) = y, v
         upper_free = vx * vx + vy * vy <= FREE * FREE
         arm[k, 0], arm[k, 2], arm[k, 3] = atan2(s1, c1), atan2(s3, c3), -1.0
         arm[k, 1] = 0.0 if upper_free else atan2(vx * yy - vy * yx, vx * yx + vy * yy)
         arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
-    return max(count, 0)
+        arm[k, 5] = _volume(S0, S1, y, v) / (size * size * size)
+    return count
+
+
+def _volume(S0, S1, y, v):
+    """What the motions of the wrist centre by joints 1, 2 and 3 span.
+
+    y is the centre seen from axis 2, v the same behind joint 2.
+    """
+    square = max(v[0] * v[0] + v[1] * v[1], 1e-300)
+    c, s = (v[0] * y[0] + v[1] * y[1]) / square, (v[0] * y[1] - v[1] * y[0]) / square
+    px, py, _ = applied(S0, y)
+    first, second = turned_back(S0, (-py, px, 0.0)), (-y[1], y[0], 0.0)
+    third = cross(
+        (S1[0, 2], S1[1, 2], S1[2, 2]), (v[0] - S1[0, 3], v[1] - S1[1, 3], v[2] - S1[2, 3])
+    )
+    third = c * third[0] - s * third[1], s * third[0] + c * third[1], third[2]
+    return abs(dot(first, cross(second, third)))
 
 
 def _orientation_left(D, S, values, R):
@@ -124,40 +170,80 @@ def _orientation_left(D, S, values, R):
 
 
 def held_candidates(arm, value, T, rows, scratch):
-    """Candidates of one pose, in the chain's order without the held joint; how many."""
+    """Candidates of one pose, in the chain's order without the held joint; how many.
+
+    Then how much of it is vague, that is, singular and of no family that is known.
+    """
     (frames, which, form, _, slack), (q, _, _, free) = arm, rows
     oriented_pose(frames, which, value, T, scratch)
     D, S, R, place = scratch[1], scratch[2], scratch[3], scratch[4]
-    found = 0
-    for k in range(_place_wrist(form, D, S, slack, scratch)):
+    found, places, seen, vague = 0, _place_wrist(form, D, S, slack, scratch), 0, 0
+    for k in range(places):
         _orientation_left(D, S, place[k], R)
+        before = found
         found = append_wrist(form, place[k], R, slack, *rows, found)
+        if found > before and free[before] == 0:
+            bent, _ = sincos(form[4, 6] * q[before, 4] + form[4, 4])
+            seen, vague = seen + 1, vague + (1 if place[k, 5] * abs(bent) <= VAGUE else 0)
     if which[REVERSED] != 0:
         for k in range(found):
             free[k] = reverse_joints(q[k], free[k])
-    return found
+    if places < 0:
+        return found, EVERYTHING
+    return found, NOTHING if vague == 0 else ALL if vague == seen else SOME
+
+
+def _beside_a_family(chain, T, q, free, found):
+    """Whether a candidate of a family that is known misses the pose: it is beside one."""
+    for k in range(found):
+        if free[k] != 0 and not pose_residual(chain, T, q[k]) <= POLISH:
+            return True
+    return False
+
+
+def _is_flat(chain, T, q, free, found, work):
+    """Whether a solution of no family that is known hardly moves the tool in some direction."""
+    for k in range(found):
+        if free[k] == 0:
+            normal_equations(chain, T, q[k], work)
+            if null_direction(work) <= FLAT:
+                return True
+    return False
 
 
 def solve_held_pose(arm, value, T, within_limits, out, scratch):
-    """All solutions of one pose at one held value, to the rows ``out``; returns the count."""
+    """All solutions of one pose at one held value, to the rows ``out``; returns the count.
+
+    It is -1 minus that of a pose in doubt: equations are void, or singularities meet, or nearly.
+    """
     (frames, which, _, joints, _), (q, residual, branch, free) = arm, out
     work, links, rest = scratch[5], scratch[6], (scratch[7], residual, branch, free)
-    found = held_candidates(arm, value, T, rest, scratch)
+    found, vague = held_candidates(arm, value, T, rest, scratch)
     residual[:found] = -1.0
     held_links(frames[:8], which[SLIDES] != 0, which[HELD], value, links)
-    found = finish_pose((links, joints), T, within_limits, *rest, found, work)
-    insert_held(which[HELD], value, scratch[7], q, free, found)
-    return found
+    chain = links, joints
+    doubt = vague == EVERYTHING or _beside_a_family(chain, T, scratch[7], free, found)
+    left = certify_pose(chain, T, *rest, found, work)
+    doubt = doubt or (vague == ALL and left < found)
+    doubt = doubt or (vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work))
+    left = turn_inside(chain, T, within_limits, *rest, left)
+    insert_held(which[HELD], value, scratch[7], q, free, left)
+    return -1 - left if doubt else left
 
 
 def solve_rough(arm, values, Ts, within_limits, first, last, outputs):
-    """Solve those of the poses ``first`` to ``last - 1`` whose count is negative."""
+    """Solve those of the poses ``first`` to ``last - 1`` whose count is negative.
+
+    How many of them are in doubt.
+    """
     q, residual, count, branch, free = outputs
-    scratch = make_scratch()
+    scratch, doubts = make_scratch(), 0
     for i in range(first, last):
         if count[i] < 0:
             out = q[i], residual[i], branch[i], free[i]
             count[i] = solve_held_pose(arm, values[i], Ts[i], within_limits, out, scratch)
+            doubts += 1 if count[i] < 0 else 0
+    return doubts
 
 
 class HeldForm(NamedTuple):
@@ -172,10 +258,13 @@ class HeldForm(NamedTuple):
 
 @entry(n=7, solutions=8)
 def solve_held_wrist(arm: HeldForm, values: Held, Ts: Poses, within_limits: bool, outputs: Outputs):
-    """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7)."""
+    """All solutions of poses Ts (m, 4, 4), each at its held value (m,); q (m, 8, 7).
+
+    The count of a pose in doubt is -1 minus that of its solutions; returned is how many are.
+    """
     count = outputs[2]
     count[:] = -1
-    solve_rough(arm, values, Ts, within_limits, 0, Ts.shape[0], outputs)
+    return solve_rough(arm, values, Ts, within_limits, 0, Ts.shape[0], outputs)
 
 
 def points_at(arm, chain, goal, value, out, scratch, damped, dq):
@@ -185,7 +274,8 @@ def points_at(arm, chain, goal, value, out, scratch, damped, dq):
     the chain take part in putting it on the curve, so that a loop between two values is found.
     """
     q, residual, branch, free = out
-    found = held_candidates(arm, value, goal[1], (scratch[7], residual, branch, free), scratch)
+    rows = scratch[7], residual, branch, free
+    found, _ = held_candidates(arm, value, goal[1], rows, scratch)
     insert_held(arm[1][HELD], value, scratch[7], q, free, found)
     kept = 0
     for k in range(found):

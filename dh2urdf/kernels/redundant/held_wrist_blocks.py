@@ -288,8 +288,9 @@ def solve_held_blocks(
 ):
     """:func:`dh2urdf.kernels.redundant.held_wrist.solve_held_wrist` for axes 1 and 2 that meet."""
     q, S, m, held = outputs[0], np.empty(ROWS * BLOCK), Ts.shape[0], arm[1][HELD]
+    doubts = 0
     if m == 0:
-        return
+        return doubts
     oriented, place = np.empty((6, 3)), np.empty(6, np.int64)
     same = prepare(arm, values, oriented, place, S)
     for first in range(0, m, LANES):
@@ -300,4 +301,5 @@ def solve_held_blocks(
             for k in range(8):
                 q[i, k, held] = values[i]
         if clean < n:
-            solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)
+            doubts += solve_rough(arm, values, Ts, within_limits, first, first + n, outputs)
+    return doubts

@@ -8,7 +8,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import ACCEPT, Coupled, distance2, find_solutions, turn_one
 from dh2urdf.kernels.newton import make_damped, pose_residual
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.redundant.self_motion import enter, go_nearer
+from dh2urdf.kernels.redundant.self_motion import HELD, enter, go_nearer
 from dh2urdf.kernels.shapes import Chain, Configuration, Floats, Goal, Integers, Outputs, Some
 
 ALIKE = 1e-4
@@ -113,7 +113,7 @@ def nearest_of(
             q[:] = inner[k]
         else:
             q[:] = beside[k - counts[INNER]]
-        go_nearer(chain, goal, within_limits, q, seed, scratch, damped)
+        go_nearer(chain, goal, within_limits, 0.0, HELD, q, seed, scratch, damped)
         known = False
         for i in range(found):
             known = known or is_alike(members[i], q, SAME)

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, distance2
+from dh2urdf.kernels.certificate import ACCEPT, distance2, principal
 from dh2urdf.kernels.newton import (
     add_transposed,
     error_and_jacobian,
@@ -74,6 +74,13 @@ def dot(v, w):
     for i in range(v.shape[0]):
         total += v[i] * w[i]
     return total
+
+
+def way_to(joints, q, p, way):
+    """``way = p - q`` (n,), angles in a half turn; its length."""
+    for i in range(q.shape[0]):
+        way[i] = p[i] - q[i] if joints[i, 0] != 0.0 else principal(p[i] - q[i])
+    return math.sqrt(dot(way, way))
 
 
 def largest(v):
@@ -143,15 +150,20 @@ def is_outside(joints, q):
     return False
 
 
-def go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
-    """Move one solution q (n,) along its self-motion to where it is nearest to the seed."""
+def go_nearer(chain, goal, within_limits, least, held, q, seed, scratch, damped):
+    """Move one solution q (n,) along its self-motion to where it is nearest to the seed.
+
+    It stays where no step brings a part ``least`` of the distance. Residuals on the way are
+    ``held`` at most; ``scratch`` (5, n).
+    """
     step, trial, before, work = scratch[0], scratch[1], scratch[2], scratch[3]
     _, joints = chain
     gap2 = distance2(q, seed)
     length = 1.0
     for move in range(MOST_STEPS):
         size = _project(chain, goal, q, seed, step, damped)
-        if not size > ARRIVED:  # NaN where nothing can move
+        enough = least * math.sqrt(gap2)
+        if not size > max(ARRIVED, enough):  # NaN where nothing can move
             break
         if move > 0:
             before -= step
@@ -162,9 +174,9 @@ def go_nearer(chain, goal, within_limits, q, seed, scratch, damped):
         if within_limits:
             length = part_inside(joints, q, step, length)
         good = False
-        while length * size > SHORTEST and not good:
+        while length * size > max(SHORTEST, enough) and not good:
             trial[:] = q + length * step
-            good = restore(chain, goal, trial, work, damped) <= HELD
+            good = restore(chain, goal, trial, work, damped) <= held
             good = good and distance2(trial, seed) < gap2
             good = good and not (within_limits and is_outside(joints, trial))
             length *= 0.5
@@ -187,7 +199,7 @@ def nearest_members(
     n = q.shape[1]
     damped, scratch = make_damped(n), np.empty((5, n))
     for k in range(q.shape[0]):
-        go_nearer(chain, goal, within_limits, q[k], seed, scratch, damped)
+        go_nearer(chain, goal, within_limits, 0.0, HELD, q[k], seed, scratch, damped)
         residual[k] = error_and_jacobian(chain, goal, q[k], damped)
 
 

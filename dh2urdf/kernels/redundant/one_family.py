@@ -1,0 +1,75 @@
+"""Which solutions are on one family: a walk along it arrives at them.
+
+Straight towards a solution, for a family may have more than one dimension, or from the point that
+is nearest of a walk both ways.
+"""
+
+from typing import Annotated
+
+import numpy as np
+
+from dh2urdf.kernels.newton import make_damped
+from dh2urdf.kernels.numbers import entry
+from dh2urdf.kernels.redundant.self_motion import go_nearer, largest, walk_family, way_to
+from dh2urdf.kernels.shapes import Chain, Configuration, Flags, Floats, Goal, Some
+
+ARRIVED = 1e-5
+"""Joint distance [rad or m] at which a walk has arrived: its points are on the family to 1e-9."""
+
+STUCK = 1e-3
+"""Part of the distance that is left: with steps that bring less a walk does not arrive."""
+
+BESIDE = 2.0
+"""Distance of a solution from the points of a walk along its family, in steps of it."""
+
+
+def _arrives(chain, goal, held, start, other, rows, damped):
+    """Whether going nearer to a configuration (n,), along the family from a member, ends there."""
+    scratch, at, way, seed = rows[:5], rows[5], rows[6], rows[7]
+    way_to(chain[1], start, other, way)
+    at[:] = start
+    seed[:] = start + way
+    go_nearer(chain, goal, False, STUCK, held, at, seed, scratch, damped)
+    way[:] = seed - at
+    return largest(way) <= ARRIVED
+
+
+@entry()
+def on_one_family(
+    chain: Chain,
+    goal: Goal,
+    length: float,
+    held: float,
+    q: Configuration,
+    others: Some,
+    trials: int,
+    found: Annotated[Flags, "solutions"],
+    walk: Annotated[Floats, 2, "members", "n"],
+):
+    """Which solutions (k, n) are on the family of a member q (n,), to ``found`` (k,).
+
+    Ways straight from q are tried until so many ``trials`` have failed; then come those from a
+    walk, which has steps of a ``length`` [rad or m], at most as many each way as there is room for.
+    Towards a solution residuals are ``held`` at most.
+    """
+    n, failed, walked = q.shape[0], 0, False
+    damped, rows, counts = make_damped(n), np.empty((8, n)), np.zeros(2, np.int64)
+    for k in range(others.shape[0]):
+        found[k] = failed < trials and _arrives(chain, goal, held, q, others[k], rows, damped)
+        if found[k]:
+            continue
+        failed += 1
+        if not walked:
+            walk_family(chain, goal, length, q, walk, counts)
+            walked = True
+        way_to(chain[1], q, others[k], rows[6])
+        side, nearest, best = 0, -1, min(largest(rows[6]), BESIDE * length)
+        for way in range(2):
+            for i in range(counts[way]):
+                way_to(chain[1], walk[way, i], others[k], rows[6])
+                far = largest(rows[6])
+                if far < best:
+                    side, nearest, best = way, i, far
+        if best < BESIDE * length:
+            start = q if nearest < 0 else walk[side, nearest]
+            found[k] = _arrives(chain, goal, held, start, others[k], rows, damped)

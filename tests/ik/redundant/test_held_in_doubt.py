@@ -1,0 +1,101 @@
+"""A joint held where singularities nearly meet: closed forms leave solutions out, or families."""
+
+import numpy as np
+import pytest
+from dh_arm import arm_of
+from ik_referee import forward
+from sweep import Tally, judge
+
+import dh2urdf
+
+TINY = np.array([1.77e-9, -2.7e-9, 3.09e-9, -4.4e-9, 1.62e-9, -7.5e-11, 2.72e-9])
+"""What the joints [rad] are off round angles."""
+
+SMALL = np.array([-1.88e-8, -4.52e-9, 9.51e-9, -9.12e-9, -4.77e-9, -3.51e-9, 6.61e-9])
+
+FOLDED = np.array([2.541e-6, -2.393e-5, -8.029e-6, 1.745e-5, 1.62e-5, 3.037e-6, -1.651e-5])
+
+NEAR = np.array([4.36e-10, -1.12e-9, 3.13e-10, -2.07e-10, 8.86e-10, 6.05e-10, -4.4e-10])
+
+SPECIAL = pytest.mark.xfail(
+    strict=True, reason="the value held is nearly one at which another joint is to spare"
+)
+
+LARGER = pytest.mark.xfail(
+    strict=True,
+    reason="a member of a family of more joints stands for it, from which few walks come",
+)
+
+POSES = [
+    ("franka_fer", 3, (-45, 0, -30, 30, 90, 165, -75), TINY),
+    ("franka_fr3", 3, (-45, 0, -30, 30, 90, 165, -75), TINY),
+    ("xarm7", 3, (-45, 0, -30, 30, 90, 165, -75), TINY),
+    ("franka_fer", 3, (-131.06, -180, 106.19, 165.3, 7.29, -41.93, 3.56), NEAR),
+    ("franka_fr3", 3, (-131.06, -180, 106.19, 165.3, 7.29, -41.93, 3.56), NEAR),
+    ("xarm7", 3, (-131.06, -180, 106.19, 165.3, 7.29, -41.93, 3.56), NEAR),
+    ("kuka_iiwa14", 5, (-45, -180, -45, 45, 135, 135, -45), np.zeros(7)),
+    ("kuka_iiwa14", 5, (-45, -180, -45, 45, 135, 135, -45), TINY),
+    ("kuka_iiwa7", 2, (135, 135, -45, 180, 45, 90, -45), SMALL),
+    ("kuka_iiwa14", 1, (-60, -60, 30, 180, 90, 90, 90), SMALL),
+    ("kuka_iiwa14", 2, (-45, 180, 45, 180, -180, 135, 0), SMALL),
+    ("kuka_iiwa14", 6, (90, 180, 90, -180, 90, 90, 90), SMALL),
+    pytest.param("kuka_iiwa7", 4, (0, 0, 180, 180, 0, -90, 90), FOLDED, marks=LARGER),
+    ("kinova_gen3", 3, (-180, 0, 180, 0, 90, 180, 90), SMALL),
+    pytest.param("kinova_gen3", 3, (-180, 0, 180, 0, 90, 180, 90), TINY, marks=SPECIAL),
+]
+
+
+@pytest.mark.parametrize(("name", "joint", "degrees", "off"), POSES)
+def test_a_configuration_where_singularities_nearly_meet_is_found(name, joint, degrees, off):
+    """It is among the solutions, or on a family that is named and that a walk confirms."""
+    table, q = dh2urdf.load_table(name), np.radians(degrees) + off
+    tally = Tally(f"{name}, joint {joint} held")
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={joint: q[joint]})
+
+    judge(tally, table, q[None], held, held=(joint,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
+
+
+@pytest.mark.xfail(strict=True, reason="one call into the kernels does not see a folded elbow")
+@pytest.mark.parametrize("joint", [0, 1, 2, 4, 6])
+def test_a_single_call_says_what_a_batch_says_of_a_folded_elbow(joint):
+    """Also after a pose of the usual kind, which one call into the kernels answers."""
+    robot = dh2urdf.Robot.from_dh("kuka_iiwa7")
+    arm = arm_of(dh2urdf.load_table("kuka_iiwa7"))
+    q = np.random.default_rng(2).uniform(-2, 2, (2, 7))
+    q[1, 3] = np.pi
+    Ts = forward(arm, q)
+    values = {joint: float(q[1, joint])}
+    robot.ik(Ts[0], within_limits=False, locked=values)
+    one = robot.ik(Ts[1], within_limits=False, locked=values)
+    batch = robot.ik_batch(Ts[1:], within_limits=False, locked=values)
+    assert len(one) == batch.count[0]
+    assert np.array_equal(one.q, batch.q[0, : len(one)])
+
+
+@pytest.mark.parametrize(("name", "joint"), [("xarm7", 3), ("kuka_iiwa14", 5)])
+def test_a_pose_in_doubt_keeps_sharp_solutions(name, joint):
+    """Of random poses, some with axes nearly lined up, each solution reaches its pose to 1e-11."""
+    robot = dh2urdf.Robot.from_dh(name)
+    q = np.random.default_rng(0).uniform(robot.lower, robot.upper, (8000, 7))
+    batch = robot.ik_batch(robot.fk(q), locked={joint: q[:, joint]})
+    assert np.nanmax(batch.residual) <= 1e-11
+    assert batch.count.min() > 0
+
+
+@pytest.mark.parametrize("name", ["franka_fer", "franka_fr3", "xarm7"])
+def test_of_two_solutions_side_by_side_along_a_valley_both_are_kept(name):
+    """The pose is missed between them by more than is accepted: they are not one family."""
+    table, tally = dh2urdf.load_table(name), Tally("side by side")
+    q = np.radians((-131.06, -180, 106.19, 165.3, 7.29, -41.93, 3.56))
+    q = q + 1e-9 * np.random.default_rng(0).standard_normal((12, 7))
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={3: q[:, 3]})
+
+    judge(tally, table, q, held, held=(3,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
