@@ -11,6 +11,7 @@ from dh2urdf.ik.arm.solver import IntArray, Outputs
 from dh2urdf.ik.arm.task import Task
 from dh2urdf.kernels.certificate import finish_batch, name_batch
 from dh2urdf.kernels.in_doubt import search_beside, search_from
+from dh2urdf.kernels.redundant import WELL
 from dh2urdf.transforms import Array
 
 STARTS = 64
@@ -28,10 +29,6 @@ SAME = 1e-6
 
 FAMILIES = 4
 """Families of a pose whose members are looked for at any distance: a few milliseconds each."""
-
-WELL = 1e-10
-"""Residual [m and rad] on the way between solutions of one family: walked in another way, it is
-accepted, too. Between two that are side by side along a valley it is more."""
 
 ALIKE = 1e-14
 """Residuals [m and rad] below which one member of a family is as good as another."""
@@ -98,34 +95,44 @@ def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) ->
 
 
 def keep_known(chain: SerialChain, T: Array, known: Outputs, wide: Outputs) -> None:
-    """Add known sharp solutions of a pose (1, 4, 4) that others, or their families, leave out.
+    """Add known sharp solutions of a pose (1, 4, 4) that others, or their curves, leave out.
 
     In place, at the end, with the joints that they are free in; the sharp ones come first, then.
-    Where all that are known are sharp, the others that are not go.
+    Where all that are known are sharp, the others that are not go. On surfaces walks go astray:
+    all that is known of them stays.
     """
     name_batch(chain.tables, T, known)
     sharp = known.residual[0, : known.counts[0]] <= SHARP
     if len(sharp) and sharp.all():
         _keep(wide, np.flatnonzero(wide.residual[0, : wide.counts[0]] <= SHARP))
-    for k in np.flatnonzero(sharp):
+    curves, surfaces = _curves(chain, T[0], wide)
+    for k in np.flatnonzero(sharp | surfaces):
         p, count = known.q[0, k], int(wide.counts[0])
         if (far(chain, wide.q[0, :count], p) <= SAME).any() or count == wide.q.shape[1]:
             continue
-        families = np.flatnonzero(wide.free[0, :count]).tolist()
-        if not any(_on_family(chain, T[0], wide, f, p) for f in families):
+        if not any(curve.contains(p[None], held=WELL)[0] for curve in curves):
             for array, source in zip(wide, known, strict=True):
                 if array.ndim > 1:
                     array[0, count] = source[0, k]
             wide.counts[0] += 1
+            curves += _curves(chain, T[0], wide, count)[0]
     count = wide.counts[0]
     _keep(wide, np.argsort(wide.residual[0, :count] > SHARP, kind="stable"))
 
 
-def _on_family(chain: SerialChain, T: Array, out: Outputs, k: int, p: Array) -> bool:
-    """Whether the family of solution k of a pose T (4, 4) contains a configuration p (n,)."""
-    joints = tuple(np.flatnonzero(out.free[0, k] >> np.arange(chain.n) & 1).tolist())
-    family = Family(chain, Task.POSE, T, joints, out.q[0, k].copy())
-    return bool(family.contains(p[None], held=WELL)[0])
+def _curves(
+    chain: SerialChain, T: Array, out: Outputs, first: int = 0
+) -> tuple[list[Family], bool]:
+    """Families of one dimension of a pose T (4, 4), and whether there are others.
+
+    Of its solutions from the ``first`` on.
+    """
+    rows, families = slice(first, int(out.counts[0])), []
+    for q, free in zip(out.q[0, rows], out.free[0, rows], strict=True):
+        joints = tuple(np.flatnonzero(free >> np.arange(chain.n) & 1).tolist())
+        families += [Family(chain, Task.POSE, T, joints, q.copy())] if joints else []
+    curves = [family for family in families if family.dimensions() == 1]
+    return curves, len(curves) < len(families)
 
 
 def far(chain: SerialChain, q: Array, p: Array) -> Array:

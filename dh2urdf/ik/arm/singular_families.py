@@ -79,7 +79,7 @@ class Family:
         some = np.ascontiguousarray(others[found][:, self.free])
         on = np.empty(len(some), np.bool_)
         if len(some):
-            walk, straight = np.empty((2, MOST_STEPS, len(self.free))), self._dimensions() > 1
+            walk, straight = np.empty((2, MOST_STEPS, len(self.free))), self.dimensions() > 1
             steps = self._goal, FAMILY_STEP, held, self.q[self.free]
             on_one_family(self.moving.tables, *steps, some, trials * straight, on, walk)
         found[found] = on
@@ -92,9 +92,9 @@ class Family:
         out[:, self.free] = walked
         return out
 
-    def _dimensions(self) -> int:
+    def dimensions(self) -> int:
         """In how many directions the family leaves the representative."""
-        J = scaled_jacobian(self.moving, self.task, self.q[None, self.free])[0]
+        J = scaled_jacobian(self.chain, self.task, self.q[None])[0][:, self.free]
         sigma = np.linalg.svd(J, compute_uv=False)
         return len(self.free) - int((sigma > FLAT * sigma[0]).sum())
 

@@ -19,7 +19,7 @@ from dh2urdf.kernels.redundant.nearest import (
     spread,
     start_beside,
 )
-from dh2urdf.kernels.redundant.one_family import on_one_family
+from dh2urdf.kernels.redundant.one_family import WELL, on_one_family
 from dh2urdf.kernels.redundant.paths import onward, shorten
 from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
 from dh2urdf.kernels.redundant.starts import MOST_STARTS, find_starts

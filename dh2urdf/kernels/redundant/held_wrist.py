@@ -27,13 +27,15 @@ import numpy as np
 from dh2urdf.kernels.certificate import (
     ACCEPT,
     certify_pose,
+    name_families,
     null_direction,
     reverse_joints,
     turn_inside,
 )
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
-from dh2urdf.kernels.newton import POLISH, normal_equations, pose_residual, restore
+from dh2urdf.kernels.newton import POLISH, POSE, normal_equations, pose_residual, restore
 from dh2urdf.kernels.numbers import atan2, circle_pair, entry, hypot, sincos
+from dh2urdf.kernels.redundant.one_family import keep_one_of_each
 from dh2urdf.kernels.rigid import applied, applied_inverse, cross, dot, invert_pose, turned_back
 from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import (
@@ -55,6 +57,9 @@ of a twentieth the tool stays."""
 
 NOTHING, SOME, ALL, EVERYTHING = range(4)
 """What of a pose is vague: some of its candidates or all; equations are void."""
+
+MOST = 8
+"""Solutions that such an arm has at most: if all are there, a search would find no other."""
 
 VOID = 1e-4
 """Size of an equation, in sizes of the arm, that says too little for a pose to be out of reach."""
@@ -225,7 +230,11 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
     doubt = vague == EVERYTHING or _beside_a_family(chain, T, scratch[7], free, found)
     left = certify_pose(chain, T, *rest, found, work)
     doubt = doubt or (vague == ALL and left < found)
-    doubt = doubt or (vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work))
+    if not doubt and vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work):
+        doubt = left < MOST
+        if not doubt:  # none is missing, but some may be on one family
+            name_families(chain, T, rest, left, True, work)
+            left = keep_one_of_each(chain, (POSE, T, 1.0), *rest, left)
     left = turn_inside(chain, T, within_limits, *rest, left)
     insert_held(which[HELD], value, scratch[7], q, free, left)
     return -1 - left if doubt else left

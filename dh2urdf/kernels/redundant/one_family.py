@@ -8,6 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
+from dh2urdf.kernels.certificate import move
 from dh2urdf.kernels.newton import make_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import go_nearer, largest, walk_family, way_to
@@ -21,6 +22,10 @@ STUCK = 1e-3
 
 BESIDE = 2.0
 """Distance of a solution from the points of a walk along its family, in steps of it."""
+
+WELL = 1e-10
+"""Residual [m and rad] on the way between solutions of one family: walked in another way, it is
+accepted, too. Between two that are side by side along a valley it is more."""
 
 
 def _arrives(chain, goal, held, start, other, rows, damped):
@@ -73,3 +78,21 @@ def on_one_family(
         if best < BESIDE * length:
             start = q if nearest < 0 else walk[side, nearest]
             found[k] = _arrives(chain, goal, held, start, others[k], rows, damped)
+
+
+def keep_one_of_each(chain, goal, q, residual, branch, free, count):
+    """Keep the first of solutions of a pose that go straight to one another; how many.
+
+    Of families by all joints: by some, two may be on either side of one that is missed between.
+    """
+    n, kept, every = q.shape[1], 0, (1 << q.shape[1]) - 1
+    damped, rows = make_damped(n), np.empty((8, n))
+    for k in range(count):
+        again = False
+        for j in range(kept):
+            if free[k] == every and free[j] == every and not again:
+                again = _arrives(chain, goal, WELL, q[j], q[k], rows, damped)
+        if not again:
+            move(q, residual, branch, free, k, kept)
+            kept += 1
+    return kept

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from dh_arm import arm_of
 from ik_referee import forward
+from structured import rounded
 from sweep import Tally, judge
 
 import dh2urdf
+from dh2urdf.ik.redundant.special_values import HeldAtAnyValue
 
 TINY = np.array([1.77e-9, -2.7e-9, 3.09e-9, -4.4e-9, 1.62e-9, -7.5e-11, 2.72e-9])
 """What the joints [rad] are off round angles."""
@@ -43,6 +45,21 @@ POSES = [
     ("kinova_gen3", 3, (-180, 0, 180, 0, 90, 180, 90), SMALL),
     pytest.param("kinova_gen3", 3, (-180, 0, 180, 0, 90, 180, 90), TINY, marks=SPECIAL),
 ]
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 1e-7])
+def test_with_rounded_twists_and_an_elbow_folded_what_was_found_before_stays(size):
+    """There solutions form surfaces, on which walks go astray."""
+    table, tally = rounded(dh2urdf.load_table("kuka_iiwa14"), 4), Tally("surfaces")
+    q = np.radians((90, 90, -90, 180, 90, -180, 90))
+    q = q + size * np.random.default_rng(0).standard_normal((3, 7))
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={5: q[:, 5]})
+
+    judge(tally, table, q, held, held=(5,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
 
 
 @pytest.mark.parametrize(("name", "joint", "degrees", "off"), POSES)
@@ -84,6 +101,22 @@ def test_a_pose_in_doubt_keeps_sharp_solutions(name, joint):
     batch = robot.ik_batch(robot.fk(q), locked={joint: q[:, joint]})
     assert np.nanmax(batch.residual) <= 1e-11
     assert batch.count.min() > 0
+
+
+def test_with_all_branches_found_a_flat_pose_is_named_and_not_searched(monkeypatch):
+    """An elbow 1e-4 off straight, joint 1 held: a batch stays fast."""
+    monkeypatch.setattr(HeldAtAnyValue, "_look_wider", None)  # a call of it would fail
+    robot, table = dh2urdf.Robot.from_dh("kuka_iiwa7"), dh2urdf.load_table("kuka_iiwa7")
+    q = np.random.default_rng(3).uniform(robot.lower, robot.upper, (40, 7))
+    q[:, 3] = 1e-4
+    tally = Tally("stretched")
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={0: q[:, 0]})
+
+    judge(tally, table, q, held, held=(0,))
+    for fault in ("singular lost", "no answer", "wrong", "twice", "no family"):
+        assert tally.count[fault] == 0, fault
 
 
 @pytest.mark.parametrize("name", ["franka_fer", "franka_fr3", "xarm7"])
