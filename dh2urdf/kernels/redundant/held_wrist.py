@@ -230,12 +230,12 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
     doubt = vague == EVERYTHING or _beside_a_family(chain, T, scratch[7], free, found)
     left = certify_pose(chain, T, *rest, found, work)
     doubt = doubt or (vague == ALL and left < found)
-    if not doubt and vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work):
-        doubt = left < MOST
-        if not doubt:  # none is missing, but some may be on one family
-            name_families(chain, T, rest, left, True, work)
-            left = keep_one_of_each(chain, (POSE, T, 1.0), *rest, left)
+    flat = not doubt and vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work)
+    doubt, named = doubt or (flat and left < MOST), flat and left == MOST
     left = turn_inside(chain, T, within_limits, *rest, left)
+    if named:  # no branch is missing; families are not led into the limits, which takes accuracy
+        name_families(chain, T, rest, left, True, work)
+        left = keep_one_of_each(chain, (POSE, T, 1.0), *rest, left)
     insert_held(which[HELD], value, scratch[7], q, free, left)
     return -1 - left if doubt else left
 
