@@ -24,13 +24,10 @@ FAMILIES = "puma560 ur5 planar_rr omron_cobra600 px100 rpr_new_frame xarm5 stanf
 
 EVERY_DAY = 300
 
-LEAST = 0.7
-"""Share of poses, two in three singular or beside such, whose solutions are all, of arms of which
-this is not said of every pose. Of 3000 it is 0.78 for the Niryo Ned 2, the least of these, as
-``python -m tests.export.source.complete`` prints."""
-
-WHOLE = ["puma560", "ur5", "planar_rr", "omron_cobra600", "px100", "franka_fer", "kuka_iiwa14"]
-"""Arms that say so of every pose."""
+MOSTLY = {"spherical wrist": 0.9, "spherical shoulder": 0.9, "three parallel axes": 0.9}
+"""By solver the share of poses, two in three singular or beside such, whose solutions are all; of
+others 0.7. Of a thousand it is 0.96 for the myCobot 280, the least of these, and 0.79 for the Niryo
+Ned 2, whose solver is a polynomial."""
 
 HELD = {"franka_fer": 6, "kuka_iiwa14": 2}
 """Joints that are held of arms with one to spare."""
@@ -65,7 +62,7 @@ def compare(arm, m, seed):
     locked = {} if held is None else {"locked": {held: q[:, held]}}
     for key, limits in (("inside", True), ("any", False)):
         assert_same(found[key], robot.ik_batch(Ts, within_limits=limits, **locked))
-        assert np.mean(found[key]["complete"]) > LEAST
+        assert np.mean(found[key]["complete"]) > MOSTLY.get(arm.made.solver, 0.7)
     return min(found[key]["complete"].mean() for key in ("inside", "any"))
 
 
@@ -107,7 +104,7 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
     q = np.random.default_rng(6).uniform(-3.0, 3.0, (80, 6))
     found = arm.run(q)["any"]
     assert_same(found, arm.robot.ik_batch(arm.robot.fk(q), within_limits=False))
-    assert found["complete"].mean() > LEAST
+    assert found["complete"].mean() > MOSTLY.get(solver, 0.7)
 
 
 STACKS = dict.fromkeys([*FAMILIES.split(), *HELD]) | {"general 6R": other_arms()["general 6R"]}
