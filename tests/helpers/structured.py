@@ -97,6 +97,19 @@ def random_tables(count, seed=0, joints=6):
     return tables
 
 
+def sliding_tables(count, seed=0):
+    """Such tables of six joints of which one, two or three slide, in any place."""
+    rng, tables = np.random.default_rng(seed + 1), []
+    for k, table in enumerate(random_tables(count, seed)):
+        slides = rng.permutation(6)[: 1 + k % 3]
+        rows = (
+            replace(row, joint_type="prismatic") if i in slides else row
+            for i, row in enumerate(table.rows)
+        )
+        tables.append(replace(table, rows=tuple(rows), name=f"sliding {seed}/{k}"))
+    return tables
+
+
 def table_line(table):
     """The rows of a table in one line, angles in degrees, for a report."""
     cells = []

@@ -1,4 +1,4 @@
-"""Any arm of six joints, at most one of them slides: elimination, then Newton on the exact chain.
+"""Any arm of six joints, at most two of them slides: elimination, then Newton on the exact chain.
 
 Which eliminations suit an arm is found by trying all twelve on random poses.
 """
@@ -29,8 +29,8 @@ TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 GRID = 2.0**-24
 """What shifts of frames are rounded to, in parts of the longest link: no library decides bits."""
 
-SLIDES = 1
-"""Most joints that slide."""
+SLIDES = 2
+"""Most joints that slide; with three the orientation alone gives the turns."""
 
 REACH = 0.3
 """What a slide is measured in, in parts of the summed lengths of the links."""
@@ -58,7 +58,7 @@ class General6R(SolverBase):
     """Raghavan and Roth's elimination of five joints; up to 16 solutions."""
 
     name = "general 6R"
-    needs = "six joints, any axes, at most one of them sliding"
+    needs = "six joints, any axes, at most two of them sliding"
     kmax = 16
     if_spare = STUCK
 
@@ -100,7 +100,7 @@ class General6R(SolverBase):
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
         """Say what keeps the elimination from covering the chain; None if nothing does."""
         if chain.n != 6 or chain.prismatic.sum() > SLIDES:
-            return "it needs six joints of which one slides at most"
+            return "it needs six joints of which two slide at most"
         return None
 
     def solve_unfinished(self, Ts: Array, out: Outputs) -> IntArray:
@@ -236,9 +236,11 @@ def _random_poses(arm: Arm) -> Array:
 def _rank(arm: Arm, poses: Array) -> list[tuple[int, int]]:
     """The eliminations to keep, best first: by solutions found, then by precision."""
     eliminations = [(shift, reverse) for reverse in (0, 1) for shift in range(6)]
+    # the hidden joint of the loop has to turn where two slide, else the last one
+    label = 2 if arm["two_slides"][0] else 5
     slides = arm["slides"][0]
-    # the last joint of the loop has to turn
-    eliminations = [(s, r) for s, r in eliminations if not slides[(6 - s if r else s + 5) % 6]]
+    last = [(11 - s - label) % 6 if r else (s + label) % 6 for s, r in eliminations]
+    eliminations = [cut for cut, joint in zip(eliminations, last, strict=True) if not slides[joint]]
     outputs = np.empty((1, 16, 6)), np.empty((1, 16)), *np.zeros((2, 1), np.int64)
     found, digits = np.zeros(len(eliminations)), np.zeros(len(eliminations))
     for k, elimination in enumerate(eliminations):
@@ -281,7 +283,7 @@ def blank_general_6r(links: Array, slides: NDArray[np.bool_] | None = None) -> A
     """
     arm = np.zeros(1, ARM_6R)
     if slides is not None:
-        arm["slides"] = slides
+        arm["slides"], arm["two_slides"] = slides, slides.sum() == SLIDES
     _place(arm, links)
     return arm
 

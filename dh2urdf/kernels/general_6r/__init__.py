@@ -1,8 +1,9 @@
-"""Any arm of six turning joints: elimination, roots on arcs of the circle, Newton, a count.
+"""Any arm of six joints, two slides at most: elimination, roots on arcs, Newton, a count.
 
 `poses` is the solver (after Raghavan and Roth 1993), `arm` the record on which everything works;
 `elimination` and `resultant` make a polynomial in the hidden joint, `roots` finds its real roots
-by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions.
+by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions. Where two joints slide
+`two_slides` is in place of both eliminations.
 """
 
 from dh2urdf.kernels.general_6r.arc_samples import ARC, tables_of

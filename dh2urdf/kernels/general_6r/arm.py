@@ -6,6 +6,7 @@ from dh2urdf.kernels.general_6r.arc_roots import FACTS, FOUND, SPANS, WAITING
 from dh2urdf.kernels.general_6r.arc_samples import DEGREE, lanes_of, tables_of
 from dh2urdf.kernels.general_6r.arc_shapes import ROWS, SHAPES
 from dh2urdf.kernels.general_6r.brackets import BRACKETS
+from dh2urdf.kernels.general_6r.two_slides import PAIRS
 from dh2urdf.kernels.numbers import COLUMN, LANES
 
 MOST = 3
@@ -20,6 +21,11 @@ _INTEGERS = {
     "ready": (),  # whether their left sides are known
     "slides": 6,  # whether each joint slides
     "loop_slides": 6,  # the same of the closed loop
+    "two_slides": (),  # whether two do: then the four turns come first
+    "turning": 4,  # of these the labels in the loop, from the hidden one on
+    "sliding": 2,  # and of the slides
+    "where": 2,  # after which turn each slide is
+    "normal": (),  # the turn that is at right angles to both of them, or -1
 }
 
 _ARM = {
@@ -42,6 +48,10 @@ _WORK = {
     "basis": (14, 14),  # its orthogonal basis
     "factors": 16,  # its reflectors' factors
     "equations": (6, 27),
+    "segments": (4, 3, 4),  # what lies between the four turns
+    "ways": (2, 3),  # directions of the slides
+    "scratch": (3, 4),
+    "pairs_of_slides": (PAIRS, LANES),
     "A": 9 * COLUMN,  # lanes of 6 x 9 matrices
     "W": 9 * COLUMN,  # lanes of 6 x 6 matrices
     "V": COLUMN,  # reflector

@@ -21,6 +21,7 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arm import OWN
+from dh2urdf.kernels.general_6r.two_slides import cut_at_turns
 from dh2urdf.kernels.rigid import applied, applied_inverse, dot, turned, turned_back
 
 HALF_SQRT3 = math.sqrt(0.75)
@@ -226,7 +227,7 @@ def _six_equations(right, basis, slides, lefts, e, equations):
 def prepare(arm):
     """The left sides of the eliminations, as far as they do not depend on the pose."""
     choices, slides = arm["choices"], arm["loop_slides"]
-    for e in range(arm["trials"]):
+    for e in range(arm["trials"] * (1 - arm["two_slides"])):
         _close_loop(arm["chain"], choices[e, 0], choices[e, 1], arm["loop"])
         _name_slides(e, arm)
         _left_coefficients(arm["loop"], slides, arm["reach"], arm["lefts"][e])
@@ -245,11 +246,14 @@ def joint_of(choices, e, i):
 
 
 def eliminate(e, arm):
-    """The six equations of elimination e."""
+    """The six equations of elimination e; of two slides what lies between the turns."""
     loop, samples, lefts, choices = arm["loop"], arm["samples"], arm["lefts"], arm["choices"]
     right, basis, slides, reach = arm["right"], arm["basis"], arm["loop_slides"], arm["reach"]
     _close_loop(arm["chain"], choices[e, 0], choices[e, 1], loop)
     _name_slides(e, arm)
+    if arm["two_slides"] != 0:
+        cut_at_turns(arm)
+        return
     right_coefficients(loop, slides, reach, samples, right)
     reduce_right(right, arm["factors"], basis)
     left = e

@@ -13,6 +13,7 @@ from dh2urdf.kernels.general_6r.resultant import (
     split_pairs,
     two_joints,
 )
+from dh2urdf.kernels.general_6r.two_slides import joints_of_two_slides, sample_two_slides
 from dh2urdf.kernels.newton import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
 
@@ -46,23 +47,11 @@ AT_ROOT = 1e-4
 known to 1e-8 at best, to the root of that where four solutions nearly meet."""
 
 
-def _seeds(e, roots, count, copies, arm):
-    """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
-
-    Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
-    """
+def _from_null_vectors(n, copies, arm):
+    """All six joints of the loop at each value of the hidden one, or every other one, in lanes."""
     loop, right, basis, factors = arm["loop"], arm["right"], arm["basis"], arm["factors"]
     W, b, second, frames = arm["W"], arm["null"], arm["second"], arm["frames"]
-    turns, hidden = arm["turns"], arm["hidden"]
-    c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
-    slides, reach = arm["loop_slides"], arm["reach"]
-    sign = 1.0 if arm["choices"][e, 1] == 0 else -1.0
-    lanes = count * copies
-    n = (lanes + 7) // 8 * 8
-    for k in side_by_side(n):
-        root = roots[min(k // copies, count - 1)]
-        hidden[0, k], hidden[1, k] = sincos(root)[1], sincos(root)[0]
-        c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
+    c, s, slides, reach = arm["loop_cosines"], arm["loop_sines"], arm["loop_slides"], arm["reach"]
     sample_resultants(n, arm)
     for copy in range(copies):
         null_vectors(W, b, second if copy > 0 else b, copy == 0, n)
@@ -74,6 +63,28 @@ def _seeds(e, roots, count, copies, arm):
             as_length(reach, i, n, c, s)
     functions, pairs = arm["functions"], arm["pairs"]
     other_joints(loop, slides, reach, right, factors, basis, frames, n, c, s, functions, pairs)
+
+
+def _seeds(e, roots, slopes, count, copies, arm):
+    """All six joints at each root, in lanes; two of each in neighbouring lanes if ``copies`` is 2.
+
+    Returns the number of lanes in use; the next ones are filled up to a multiple of eight.
+    """
+    turns, hidden = arm["turns"], arm["hidden"]
+    c, s, cosines, sines = arm["loop_cosines"], arm["loop_sines"], arm["cosines"], arm["sines"]
+    slides = arm["loop_slides"]
+    sign = 1.0 if arm["choices"][e, 1] == 0 else -1.0
+    lanes = count * copies
+    n = (lanes + 7) // 8 * 8
+    for k in side_by_side(n):
+        root = roots[min(k // copies, count - 1)]
+        hidden[0, k], hidden[1, k] = sincos(root)[1], sincos(root)[0]
+        c[2 * LANES + k], s[2 * LANES + k] = hidden[0, k], hidden[1, k]
+    if arm["two_slides"] == 0:
+        _from_null_vectors(n, copies, arm)
+    else:
+        sample_two_slides(n, arm)
+        joints_of_two_slides(n, copies, slopes, arm)
     for i in range(6):
         joint = joint_of(arm["choices"], e, i)
         p = i * LANES
@@ -194,7 +205,7 @@ def follow(e, count, found, out_q, out_residual, arm):
     roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
     again, worst = 0, 0.0
     for copies in range(1, 3):
-        lanes = _seeds(e, roots if copies == 1 else doubles, count, copies, arm)
+        lanes = _seeds(e, roots if copies == 1 else doubles, slopes, count, copies, arm)
         polish_lanes(lanes, copies - 1, CONVERGED, arm)
         seen[:] = 0.0
         for lane in range(lanes):

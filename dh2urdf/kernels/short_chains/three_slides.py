@@ -10,6 +10,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import finish_families, finish_pose
 from dh2urdf.kernels.newton import (
+    POLISH,
     POSE,
     add_transposed,
     error_and_jacobian,
@@ -23,7 +24,10 @@ from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
 DAMPING = 1e-10
 """Added to the normal equations of the slides, which may lie in a plane: then they move as little
-as possible. Newton removes what it leaves, 1e-10."""
+as possible."""
+
+STEPS = 4
+"""Most such steps; the damping leaves 1e-10 of the first, or much more where they nearly do."""
 
 SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
@@ -67,7 +71,7 @@ def _candidates(chain, T, q, turning, scratch, damped):
     """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
     ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch. The slides are linear: from
-    their zeros one step of Newton's method finds them.
+    their zeros one step of Newton's method finds them, or a few where they are nearly in a plane.
     """
     count = _turning_links(chain, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
@@ -91,11 +95,13 @@ def _candidates(chain, T, q, turning, scratch, damped):
             store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
-        error_and_jacobian(chain, (POSE, T, 1.0), q[k], damped)
-        for i in range(q.shape[1]):
-            damped[0][i] *= chain[1][i, 0]
-        solve_damped(damped, DAMPING)
-        add_transposed(damped, 1.0, q[k])
+        for _ in range(STEPS):
+            if error_and_jacobian(chain, (POSE, T, 1.0), q[k], damped) <= POLISH:
+                break
+            for i in range(q.shape[1]):
+                damped[0][i] *= chain[1][i, 0]
+            solve_damped(damped, DAMPING)
+            add_transposed(damped, 1.0, q[k])
     return max(found, 0)
 
 
