@@ -15,13 +15,16 @@ from structured import (
     random_tables,
     rounded,
     shipped_tables,
+    sliding_tables,
     structured_configurations,
     variant_tables,
 )
 from sweep import Tally, judge, smallest
 
 import dh2urdf
+from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.exceptions import NoSolverError
+from dh2urdf.ik.arm import Task, spare_joints
 
 SIZE = float(os.environ.get("SWEEP", "1"))
 """Poses of a class, as a multiple of what follows."""
@@ -44,6 +47,11 @@ def refused(table):
         return not dh2urdf.Robot.from_dh(table).solver
     except NoSolverError:
         return True
+
+
+def moves_freely(table):
+    """Whether an arm has no joint to spare."""
+    return not spare_joints(dh_to_chain(table), Task.POSE)
 
 
 def sweep(name, tables, poses, decimals=None, seed=0):
@@ -70,6 +78,7 @@ CLASSES = {
     "shipped": lambda: [table for table in shipped_tables() if len(table.rows) != 7],
     "variants": lambda: [t for t in variant_tables(TABLES) if len(t.rows) != 7],
     "random of 6": lambda: random_tables(TABLES),
+    "sliding of 6": lambda: [t for t in sliding_tables(5 * TABLES) if moves_freely(t)],
     "random of 5": lambda: random_tables(TABLES // 4, joints=5),
     "random of 4": lambda: random_tables(TABLES // 4, joints=4),
 }
@@ -99,7 +108,7 @@ def test_the_referee_misses_what_is_taken_away():
 
 def test_a_slice_of_structured_poses_loses_nothing_that_is_regular():
     """A few poses of each table that ships, and of random ones."""
-    for name, poses in (("shipped", 8), ("random of 6", 4)):
+    for name, poses in (("shipped", 8), ("random of 6", 4), ("sliding of 6", 2)):
         count = sweep(name, CLASSES[name](), poses, seed=1000).count
         for fault in ("regular lost", "wrong", "twice", "no answer"):
             assert count[fault] == 0, fault

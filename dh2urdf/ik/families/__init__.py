@@ -8,7 +8,7 @@ solutions.
 """
 
 from dh2urdf.ik.families.followers import Followers
-from dh2urdf.ik.families.general_6r import General6R
+from dh2urdf.ik.families.general_6r import SLIDES, General6R
 from dh2urdf.ik.families.near_family import NearFamily
 from dh2urdf.ik.families.numeric import NumericProblem, NumericSolutions
 from dh2urdf.ik.families.planar import planar_reach, planar_rr_ik, planar_rrr_ik, wrist_centre

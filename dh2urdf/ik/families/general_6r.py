@@ -122,10 +122,14 @@ class General6R(SolverBase):
 
     def details(self) -> str:
         """Name the axes and the method."""
-        return (
-            "five joints eliminated, the sixth from a polynomial of degree 16 (Raghavan and Roth "
-            f"1993), then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
+        how = (
+            "one turn from the roots of a trigonometric polynomial, the other three from the "
+            "orientation, the slides from linear equations"
+            if self.chain.prismatic.sum() == SLIDES
+            else "five joints eliminated, the sixth from a polynomial of degree 16 (Raghavan and "
+            "Roth 1993)"
         )
+        return f"{how}, then Newton's method on the exact chain; {AxisLines(self.chain).describe()}"
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4); those in doubt are searched, too."""

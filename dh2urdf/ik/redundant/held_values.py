@@ -18,7 +18,7 @@ from dh2urdf.ik.arm import (
     select_solver,
     without_end,
 )
-from dh2urdf.ik.families import General6R
+from dh2urdf.ik.families import SLIDES, General6R
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
 from dh2urdf.ik.redundant.searched import Search
 from dh2urdf.kernels.chain import held_poses, insert_held_batch
@@ -178,7 +178,7 @@ class HeldOneByOne(HeldSolver):
 
 
 class HeldGeneral(HeldOneByOne):
-    """Any 6R arm is left: its eliminations are chosen once, the rest of its plan for a value."""
+    """An arm without a closed form is left: eliminations are chosen once, the rest for a value."""
 
     def __init__(self, chain: SerialChain, joint: int, model: General6R) -> None:
         self.model = model
@@ -206,7 +206,7 @@ def select_held(chain: SerialChain, held: tuple[int, ...], task: Task) -> HeldSo
             return HeldEnd(chain, joint)
         if wrist is not None:
             return wrist
-        if chain.n == 7 and not np.delete(chain.prismatic, joint).any():
+        if chain.n == 7 and np.delete(chain.prismatic, joint).sum() <= SLIDES:
             model = select_solver(hold(chain, {joint: TRIAL_VALUE}))
             if isinstance(model, General6R):
                 return HeldGeneral(chain, joint, model)

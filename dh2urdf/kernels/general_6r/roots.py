@@ -12,7 +12,7 @@ from dh2urdf.kernels.general_6r.arc_samples import (
 )
 from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
 from dh2urdf.kernels.general_6r.resultant import sample_resultants
-from dh2urdf.kernels.general_6r.two_slides import sample_two_slides
+from dh2urdf.kernels.general_6r.two_slides import sample_two_slides, says_nothing
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.kernels.rigid import dot, load_pose, times_link, turned, turned_back
 
@@ -184,6 +184,8 @@ def find_roots(arm):
             sample_resultants(arm["hidden"].shape[1], arm)
         else:
             sample_two_slides(arm["hidden"].shape[1], arm)
+            if k == 0 and says_nothing(arm["hidden"].shape[1], arm):
+                return -1
         count = add_roots(k, middle, half_tan, PAIRS, count, arm)
         k += 1
     return count

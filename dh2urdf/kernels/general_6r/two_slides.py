@@ -29,8 +29,12 @@ from dh2urdf.kernels.rigid import dot
 
 COS_E, SIN_E, COS_B, SIN_B = 0, 2, 4, 6
 B_X, B_Y, B_Z, E_X, E_Y, E_Z, AXIS_C = 8, 14, 20, 26, 32, 38, 44
-WAY, FIRST, SECOND, NORMAL, F, SQUARE, TIMES, PAIRS = 50, 56, 62, 68, 74, 76, 77, 78
-"""Rows of the workspace: pairs of numbers, pairs of vectors, ``w^2``, ``k_x^2 + k_y^2``."""
+WAY, FIRST, SECOND, NORMAL, F, SQUARE, TIMES, SIZE, PAIRS = 50, 56, 62, 68, 74, 76, 77, 78, 79
+"""Rows of the workspace: pairs of numbers, pairs of vectors, ``w^2``, ``k_x^2 + k_y^2``, what F
+is as large as where its factors are not at right angles."""
+
+VANISHED = 1e-13
+"""F, in parts of that, which is rounding: if it is so all round, every a carries a solution."""
 
 TINY = 1e-300
 
@@ -268,7 +272,18 @@ def sample_two_slides(n, arm):
         p = dot(across, way) + square * dot(also, other)
         q = dot(across, other) + dot(also, way)
         pairs[F, k], pairs[F + 1, k] = p, q
-        determinant[k] = (p * p - square * q * q) * (1.0 if finite else pairs[TIMES, k])
+        factor, w2 = 1.0 if finite else pairs[TIMES, k], abs(square)
+        determinant[k] = (p * p - square * q * q) * factor
+        size = (dot(across, across) + w2 * dot(also, also)) * factor
+        pairs[SIZE, k] = size * (dot(way, way) + w2 * dot(other, other))
+
+
+def says_nothing(n, arm):
+    """Whether F vanishes but for rounding at n samples."""
+    for k in range(n):
+        if abs(arm["determinant"][k]) > VANISHED * arm["pairs_of_slides"][SIZE, k]:
+            return False
+    return True
 
 
 def _at(pairs, row, k, w):

@@ -14,6 +14,7 @@ from ik_referee import (
     forward,
     gaps,
     misses,
+    random_robot,
     regularity,
     residuals,
     rows_of,
@@ -21,6 +22,7 @@ from ik_referee import (
     solve,
 )
 from margins import assert_apart, assert_margin
+from structured import sliding_tables
 
 import dh2urdf
 from dh2urdf.dh import DHRow, DHTable, Origin
@@ -137,3 +139,47 @@ def test_both_known_configurations_of_a_machine_of_two_slides_are_found():
     other = np.array([0.567924, 0.06803, 2.855506, 0.4, -1.408326, 2.553873])
     for known, digits in ((q, 1e-9), (other, 1e-6)):
         assert_margin(gaps(robot.chain, found.q, known).min(), digits, 1)
+
+
+def test_where_every_value_of_the_hidden_joint_carries_a_solution_a_member_is_found():
+    """At a pose on a family that the polynomial says nothing of, the configuration is on one."""
+    table = sliding_tables(68, 1)[67]
+    robot = dh2urdf.Robot.from_dh(table)
+    q = np.array([-0.2232742608, 0.1981212257, 0.0, -0.9086078705, math.pi, -1.363111170])
+    found = robot.ik(robot.fk(q), within_limits=False)
+    assert str(robot.solver) == "general PPRRRR"
+    assert len(found)
+    assert any(found.free_joints)
+
+
+def test_limits_seeds_and_free_joints_are_as_of_other_arms():
+    """The seed is the first, what is outside the limits is left out, out of reach is said so."""
+    robot = random_robot(6, sliding=(1, 4), seed=3)
+    q = robot.random_configuration(np.random.default_rng(0))
+    T = robot.fk(q)
+    inside, anywhere = robot.ik(T, seed=q), robot.ik(T, within_limits=False)
+    assert_margin(np.abs(inside.q[0] - q).max(), GAP)
+    assert ((inside.q >= robot.lower) & (inside.q <= robot.upper)).all()
+    assert len(inside) <= len(anywhere)
+    batch = robot.ik_batch(np.array([T, T]), within_limits=False)
+    assert (batch.count == len(anywhere)).all()
+    assert "Raghavan" not in robot.solver.explain()
+    far = robot.fk(q)
+    far[:3, 3] += 100.0
+    assert "reach" in robot.why_unreachable(far)
+    axis = robot.ik(T, task="position+axis", within_limits=False)
+    assert len(axis)
+
+
+@pytest.mark.parametrize("sliding", [(0,), (2,), (0, 3)])
+@pytest.mark.parametrize("held", [0, 3, 6])
+def test_held_joints_of_seven_with_slides_leave_nothing_out(sliding, held):
+    """A rail and six joints: with any one held the configuration is found by the general solver."""
+    robot = random_robot(7, sliding=sliding, seed=5)
+    rng = np.random.default_rng(2)
+    for _ in range(3):
+        q = robot.random_configuration(rng)
+        T = robot.fk(q)
+        found = robot.ik(T, locked={held: q[held]}, within_limits=False)
+        assert_margin(gaps(robot.chain, found.q, q).min(), GAP)
+        assert_margin(residuals(robot.chain, found.q, T), RESIDUAL)
