@@ -38,7 +38,8 @@ def row(kinds: str, poses: int, budget: float) -> list[str]:
         q = np.random.default_rng(1).uniform(-np.pi, np.pi, (poses, 6))
         q[:, chain.prismatic] /= np.pi
         Ts = np.stack([chain.fk(one) for one in q])
-        solver, out = select_solver(chain), Outputs.of(poses, 16, 6)
+        solver = select_solver(chain)
+        out = Outputs.of(poses, solver.kmax, 6)
 
         def solving() -> int:
             solver.solve_batch(Ts, False, out)  # noqa: B023 - called before the next arm is made
