@@ -14,8 +14,10 @@ _MAKERS = re.compile(
 _ALSO = {
     "abb_gofa5": "gofa crb15000_5_95",
     "abb_irb120": "irb120_3_58",
+    "abb_irb460": "irb460_110_240",
     "ar4": "ar4_mk3 annin_ar4",
     "fanuc_lrmate200id": "lrmate",
+    "fanuc_r1000ia80f": "r1000ia",
     "franka_fer": "panda franka franka_panda franka_emika_panda",
     "franka_fr3": "franka_research_3",
     "kinova_jaco2": "jaco j2n6s300",

@@ -134,9 +134,16 @@ class RobotForms:
 
     def _own_chain(self) -> SerialChain:
         """The chain of an arm whose joints move independently."""
-        if len(self.joint_names) != self.chain.n:
-            raise UrdfError("joints that follow others (mimic) cannot be said in this form")
+        if self.is_coupled:
+            raise UrdfError(
+                "joints that follow others (mimic, couplings) cannot be said in this form"
+            )
         return self.chain
+
+    @property
+    def is_coupled(self) -> bool:
+        """True where joints follow others, or are at other angles than q."""
+        raise NotImplementedError
 
     def _called(self) -> str:
         """Name of the arm."""

@@ -215,6 +215,8 @@ def test_what_show_prints_reads_back(name):
     table = load_table(name)
     if any(row.origin for row in table.rows) or not (table.base.is_identity):
         return
+    if table.joint_map is not None:  # its rows are written with the controller's values
+        return
     plain = dataclasses.replace(table, tool=Origin(), rows=tuple(
         dataclasses.replace(row, sign=1) for row in table.rows))  # fmt: skip
     text = f"{plain}\n\nsource: a || b\n\nH_1^0 =\n  1  0  0  0\n  0  1  0  0\n"

@@ -51,7 +51,8 @@ def shipped(name):
 CLOSED_FORMS = [
     name
     for name in dh2urdf.list_tables()
-    if shipped(name).n == 6
+    if not dh2urdf.Robot.from_dh(name).is_coupled
+    and shipped(name).n == 6
     and not shipped(name).prismatic.any()
     and not isinstance(select_solver(shipped(name)), General6R)
 ]

@@ -51,12 +51,25 @@ CHAINS = {
     "abb_gofa5": _straight(
         "0 0 .265 z; 0 0 0 y; 0 0 .444 y; 0 0 .11 x; .47 0 0 y; .101 0 .08 x", ABB_TOOL
     ),
+    "abb_irb5400": (
+        "0 0 0 / 0 0 0 / z; .3 0 .66 / 0 0 0 / y; 0 0 1.2 / 0 0 0 / y; 1.339 0 .186 / 0 0 0 / x;"
+        ".0693 0 0 / 0 .6109 0 / x; .106246 0 .074394 / 0 -1.2217 0 / x;"
+        ".0672 0 -.0470 / 0 .6109 0 / x; 0 0 0 / 0 1.57079632679 0 / ."
+    ),
     # the arm of ros-industrial/abb_experimental on a track of robotkinematicscatalogue
     "abb_irb4600_track": _straight(
         ".6455 0 .3705 xP; 0 0 .495 z; .175 0 0 y; 0 0 1.095 y; 0 0 .175 x; 1.27 0 0 y; .135 0 0 x",
         ABB_TOOL,
     ),
+    # robotkinematicscatalogue, lengths of weigao95/yaik
+    "abb_irb460": _straight(
+        "0 0 0 z; .26 0 .7425 y; 0 0 .945 y; 0 0 0 y; 1.025 0 0 y; .22 0 0 -z",
+        f"0 0 -.2515 / 0 {PI} 0",
+    ),
     # ros-industrial/fanuc
+    "fanuc_r1000ia80f": _straight(
+        "0 0 .45 z; .32 0 0 y; 0 0 .87 -y; 0 0 .225 -x; 1.015 0 0 -y; .175 0 0 -x", FANUC_TOOL
+    ),
     "fanuc_lrmate200id": _straight(
         "0 0 .33 z; .05 0 0 y; 0 0 .33 -y; 0 0 .035 -x; .335 0 0 -y; .08 0 0 -x", FANUC_TOOL
     ),
@@ -214,8 +227,16 @@ ROUNDED = dict.fromkeys(("ur3e", "ur5e", "ur16e", "ur20", "ur30"), 1e-9)
 ROUNDED |= {"kuka_iiwa14": 1e-3, "yaskawa_gp7": 5e-7, "xarm5": 3e-5, "xarm6": 3e-5, "lite6": 1.5e-3}
 ROUNDED |= {"doosan_m1013": 1e-3, "techman_tm5_700": 2e-6, "kinova_gen3": 6e-4}
 ROUNDED |= {"kinova_jaco2": 1e-4, "mycobot_280": 3e-5, "so101": 3e-5}
+ROUNDED |= {"abb_irb5400": 5e-4}
 ROUNDED |= {"niryo_one": 1e-11, "piper": 1.5e-4, "ar4": 3e-5, "so100": 3e-5}
 """Largest FK difference allowed where the maker's numbers are rounded; elsewhere 1e-14."""
+
+MOVED = {
+    "abb_irb460": lambda q: (*q[:2], -q[1], q[2], -q[2], q[3]),
+    "abb_irb5400": lambda q: (*q[:5], -q[4], q[5]),
+    "fanuc_r1000ia80f": lambda q: (*q[:2], q[2] + q[1], *q[3:]),
+}
+"""Arms whose controller shows other values than the joints have -> the joints of these values."""
 
 PACKAGED = {
     "ur3": "ur_description/urdf/ur3_robot.urdf base tool0 0 0 0 1e-10",

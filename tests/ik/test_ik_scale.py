@@ -20,7 +20,7 @@ SCALES = [1e-6, 1e-3, 1e3, 1e6]
 POSES = 12
 
 RELATIVE = 1e-12
-"""Residual of a solution, position relative to the scale: a thousandth of what is promised."""
+"""Residual of a solution, position relative to the size: a thousandth of what is promised."""
 
 GAP = 1e-6
 """Joint distance [rad, or m at scale 1] at which a solution is the configuration itself."""
@@ -34,7 +34,7 @@ def case(name, factor, count=POSES):
     robot = dh2urdf.Robot.from_dh(scaled(table, factor))
     unit = np.where(robot.slides, factor, 1.0)
     q = np.stack([small.random_configuration(i) for i in range(count)]) * unit
-    return robot, unit, q, np.stack([robot.table.fk(row) for row in q])
+    return robot, unit, q, np.stack([robot.table.fk(robot.chain_configuration(row)) for row in q])
 
 
 def arm(kinds, numbers, twists):
@@ -78,10 +78,10 @@ def misses(robot, q, found, unit):
     return np.array(out)
 
 
-def relative(robot, factor, T, solutions):
-    """Residuals of configurations (k, n) by the table's own product, lengths relative."""
-    D = np.array([robot.table.fk(row) for row in solutions]) - T
-    D[:, :3, 3] /= factor
+def relative(robot, T, solutions):
+    """Residuals of configurations (k, n) by the table's own product, lengths in sizes."""
+    D = np.array([robot.table.fk(robot.chain_configuration(row)) for row in solutions]) - T
+    D[:, :3, 3] /= robot.chain.size
     return np.abs(D).max(axis=(1, 2))
 
 
@@ -100,7 +100,7 @@ def test_recall_and_relative_residual_do_not_depend_on_size(name):
         if not spare:
             assert np.array_equal(found.count, first.count)
             assert_margin(misses(robot, q, found, unit), GAP)
-        error = [relative(robot, factor, T[k], found[k].q[:4]) for k in range(POSES)]
+        error = [relative(robot, T[k], found[k].q[:4]) for k in range(POSES)]
         assert_margin(np.concatenate(error), RELATIVE)
         held = found.residual[exists(found)]
         assert_margin(held, 1e-9 * max(1.0, 2.0 * robot.chain.size))
@@ -194,7 +194,7 @@ def test_the_numeric_search_scales(name, factor):
     other = robot.ik_numeric(T[1], solutions=2)
     small, _, _, T1 = case(name, 1.0)
     assert len(other) == len(small.ik_numeric(T1[1], solutions=2))
-    assert_margin(relative(robot, factor, T[1], other), 1e-9)
+    assert_margin(relative(robot, T[1], other), 1e-9)
 
 
 @pytest.mark.parametrize("name", ["ur5", "puma560", "omron_cobra600"])

@@ -85,7 +85,7 @@ def configurations(robot: dh2urdf.Robot, count: int, seed: str) -> np.ndarray:
             q[k] = [e // 2 + 0.5 ** rng.randrange(8, 53) for e in eighths]
         else:
             q[k] = [4.0 * rng.random() - 2.0 for _ in range(n)]
-    q *= np.where(robot.chain.prismatic, 0.25, QUARTER)
+    q *= np.where(robot.slides, 0.25, QUARTER)
     return q
 
 
@@ -113,14 +113,16 @@ def questions(robot: dh2urdf.Robot, count: int, seed: str) -> Iterator[tuple[str
             except NoSolverError:
                 continue
             yield name, _batch(found)
-            best = np.empty((3, few))
-            measure(robot, task, found, best)
-            measured.append(best)
+            if not robot.is_coupled:
+                best = np.empty((3, few))
+                measure(robot, task, found, best)
+                measured.append(best)
             yield f"{name}, one by one", _singles(robot, q, T[: min(few, 4)], asked)
         found = robot.ik_numeric(T[3], task=task, seed=q[4], solutions=2, starts=6)
         yield f"{task}, searched", [found.q, found.residual, np.array(found.tried)]
-    yield "measures", measured
-    if robot.chain.n == 7:
+    if measured:
+        yield "measures", measured
+    if robot.chain.n == 7 and not robot.is_coupled:
         yield from _redundant(robot, q, T)
 
 
@@ -135,6 +137,8 @@ def _singles(robot, q, T, asked) -> Answer:
         found = robot.ik(pose, seed=q[k + 1], turns="all" if k % 2 else "nearest", **asked)
         out += [found.q, found.residual, *found.codes]
     way = np.linspace(0.0, 1.0, len(T))[:, None] * (0.25 * q[3]) + q[-1]
+    if robot.is_coupled and asked["task"] != "pose":
+        return out  # no path of a joint to spare where values move joints together
     return [*out, robot.ik_path(robot.fk(way), start=way[0], **asked).q]
 
 

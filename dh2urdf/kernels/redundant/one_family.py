@@ -12,7 +12,7 @@ from dh2urdf.kernels.certificate import move
 from dh2urdf.kernels.newton import make_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import go_nearer, largest, walk_family, way_to
-from dh2urdf.kernels.shapes import Chain, Configuration, Flags, Floats, Goal, Some
+from dh2urdf.kernels.shapes import AnyChain, Configuration, Flags, Floats, Goal, Some
 
 ARRIVED = 1e-5
 """Joint distance [rad or m] at which a walk has arrived: its points are on the family to 1e-9."""
@@ -41,7 +41,7 @@ def _arrives(chain, goal, held, start, other, rows, damped):
 
 @entry()
 def on_one_family(
-    chain: Chain,
+    chain: AnyChain,
     goal: Goal,
     length: float,
     held: float,
