@@ -66,6 +66,11 @@ CHAINS = {
         "0 0 0 z; .26 0 .7425 y; 0 0 .945 y; 0 0 0 y; 1.025 0 0 y; .22 0 0 -z",
         f"0 0 -.2515 / 0 {PI} 0",
     ),
+    # along x and y of the base, then a frame that is turned by 30 deg about x
+    "cross_slide_arm": (
+        "0 0 .4 / 0 0 0 / xP; 0 0 0 / 0 0 0 / yP; 0 0 0 / 0 0 0 / z; 0 0 .3 / 0 0 0 / -y;"
+        f".25 -.05 0 / .5235987755982988 0 0 / -y; 0 -.2 0 / 0 0 0 / -z; .05 0 -.1 / {PI} 0 0 / ."
+    ),
     # ros-industrial/fanuc
     "fanuc_r1000ia80f": _straight(
         "0 0 .45 z; .32 0 0 y; 0 0 .87 -y; 0 0 .225 -x; 1.015 0 0 -y; .175 0 0 -x", FANUC_TOOL

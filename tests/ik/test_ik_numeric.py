@@ -148,7 +148,7 @@ def test_many_poses_at_once_are_refused():
         random_robot(8).ik_numeric(np.stack([np.eye(4)] * 2))
 
 
-@pytest.mark.parametrize(("n", "sliding"), [(10, ()), (6, (1, 4)), (6, (5,))])
+@pytest.mark.parametrize(("n", "sliding"), [(10, ()), (10, (1, 4)), (10, (5,))])
 def test_ik_names_all_classes_and_offers_the_search(n, sliding):
     """Where no solver covers a chain the error lists every class and names ik_numeric."""
     with pytest.raises(NoSolverError) as error:

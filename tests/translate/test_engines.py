@@ -15,8 +15,8 @@ USUAL = ("gcc sanitized", "clang -O2", "zig -O3", "aarch64 -O3", "wasm32 -O2")
 """What the daily suite compiles, where the tools are there."""
 
 ARMS = """
-abb_irb120 abb_irb120~ cylindrical fanuc_crx10ia franka_fer gantry kinova_gen3 planar_rr stanford
-ur5 ur5~ ur10e~ xarm5 xarm7
+abb_irb120 abb_irb120~ abb_irb460 abb_irb4600_track abb_irb5400 cylindrical fanuc_crx10ia
+fanuc_r1000ia80f franka_fer gantry kinova_gen3 planar_rr stanford ur5 ur5~ ur10e~ xarm5 xarm7
 """
 """Arms that need all of the entries, with our own."""
 

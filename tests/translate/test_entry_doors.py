@@ -2,6 +2,7 @@
 
 import os
 import platform
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +16,7 @@ from dh2urdf.translate.types import Array, Tuple
 
 pytestmark = pytest.mark.skipif(not engine._COMPILED, reason="kernels are interpreted")
 
-SIZES = {"poses": 3, "solutions": 2, "n": 4, "n + 1": 5}
+SIZES = {"poses": 3, "solutions": 2, "n": 4, "n + 1": 5, "frames": 5, "moves": 4}
 KINDS = {"float": np.float64, "int": np.int64, "bool": np.bool_}
 ENTRIES = [solve_common_wrist, measure_all]
 
@@ -35,8 +36,18 @@ def good(t):
     return {"float": 1.0, "int": 0, "bool": True}[t]
 
 
-def others(name, t, value):
-    """Values that are not of the type: of which part, the error, what is handed instead."""
+def lengths(t):
+    """Names of the lengths of a type's arrays."""
+    if isinstance(t, Tuple):
+        return [name for item in t.items for name in lengths(item)]
+    return [str(d).partition(" ")[0] for d in t.shape] if isinstance(t, Array) else []
+
+
+def others(name, t, value, free):
+    """Values that are not of the type: of which part, the error, what is handed instead.
+
+    Lengths that are ``free`` belong to one argument alone.
+    """
     yield name, TypeError, "text" if t != "bool" else np.zeros(2)
     if t == "int":
         yield name, TypeError, 2**31
@@ -44,14 +55,14 @@ def others(name, t, value):
     if isinstance(t, Tuple):
         yield name, TypeError, value[:-1]
         for i, item in enumerate(t.items):
-            for part, error, other in others(f"{name}[{i}]", item, value[i]):
+            for part, error, other in others(f"{name}[{i}]", item, value[i], free):
                 yield part, error, (*value[:i], other, *value[i + 1 :])
     if isinstance(t, Array):
         yield name, TypeError, value.tolist()
         yield name, TypeError, value[None]
         yield name, TypeError, value.astype(np.float32)
         yield name, TypeError, np.repeat(value, 2, -1)[..., ::2]
-        for axis in range(value.ndim):
+        for axis in (k for k, length in enumerate(t.shape) if length not in free):
             yield "", ValueError, np.delete(value, 0, axis)
             yield "", ValueError, np.concatenate([value, value.take([0], axis)], axis)
 
@@ -66,8 +77,10 @@ def test_what_is_declared_is_taken(entry):
 def test_anything_else_is_refused_by_name(entry):
     """The message names the argument and what it has to be: every length, every kind."""
     arguments = [good(t) for t in types(entry).values()]
+    uses = Counter(length for t in types(entry).values() for length in lengths(t))
+    free = [length for length, count in uses.items() if count == 1 and not length.isdigit()]
     for i, (name, t) in enumerate(types(entry).items()):
-        for part, error, other in others(name, t, arguments[i]):
+        for part, error, other in others(name, t, arguments[i], free):
             given = [*arguments[:i], other, *arguments[i + 1 :]]
             with pytest.raises(error) as refusal:
                 entry(*given)

@@ -11,7 +11,7 @@ from random import Random
 import numpy as np
 
 import dh2urdf
-from dh2urdf.dh import DHRow, DHTable, JointType
+from dh2urdf.dh import DHRow, DHTable, JointType, Mimic
 from dh2urdf.exceptions import ConfigurationError, NoSolverError
 from dh2urdf.workspace.reach.measured import measure
 
@@ -32,9 +32,11 @@ OWN = {
     ),
     "square of five": ("RRRRR", "0 .1 2; 0 .5 0; 0 .1 1; 0 .2 1; .2 0 0"),
     "four in a plane": ("RRRR", "0 .3 0; 0 .2 0; 0 .25 0; 0 .1 0"),
+    "geared": ("RRRRRRR", ".3 .3 1; .1 .2 1; 0 .2 1; .2 0 1; .2 .1 1; .1 .2 1; .1 0 0", 3, 4, 2.0),
     "three slides": ("RPRPRP", ".1 0 1; 0 .1 .5; 0 .2 1; 0 .1 1; 0 .3 .75; 0 0 0"),
 }
-"""Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]."""
+"""Arms for kernels that no table needs: kinds of joints; rows of d, a [m], alpha [quarters]; which
+joint leads, which follows, and by how much."""
 
 NUMBERS = "numbers"
 """In place of an arm: entries that no robot needs."""
@@ -63,13 +65,17 @@ def robot_of(arm: str) -> dh2urdf.Robot:
     return dh2urdf.Robot.from_dh(table)
 
 
-def own_table(kinds: str, text: str) -> DHTable:
+def own_table(
+    kinds: str, text: str, leader: int = 0, follower: int = 0, by: float = 1.0
+) -> DHTable:
     """A table of rows d, a, alpha."""
     rows = []
     for kind, line in zip(kinds, text.split(";"), strict=True):
         d, a, quarters = map(float, line.split())
         joint = JointType.PRISMATIC if kind == "P" else JointType.REVOLUTE
-        rows.append(DHRow(0.5 if kind == "P" else 0.0, d, a, quarters * QUARTER, joint))
+        follows = Mimic(f"joint_{leader}", by) if len(rows) + 1 == follower else None
+        theta = 0.5 if kind == "P" else 0.0
+        rows.append(DHRow(theta, d, a, quarters * QUARTER, joint, mimic=follows))
     return DHTable(tuple(rows), "standard")
 
 

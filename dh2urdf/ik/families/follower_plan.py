@@ -60,14 +60,19 @@ class Kernel(NamedTuple):
 
     degree: int
     record: np.dtype[Any]
-    tried: Any
-    finished: Any
+
+    @property
+    def tried(self) -> Any:
+        """The kernel that gives candidates."""
+        return try_followers_16 if self.degree == 16 else try_followers_48
+
+    @property
+    def finished(self) -> Any:
+        """The kernel that gives solutions."""
+        return finish_followers_16 if self.degree == 16 else finish_followers_48
 
 
-KERNELS = (
-    Kernel(16, FOLLOWERS_16, try_followers_16, finish_followers_16),
-    Kernel(48, FOLLOWERS_48, try_followers_48, finish_followers_48),
-)
+KERNELS = Kernel(16, FOLLOWERS_16), Kernel(48, FOLLOWERS_48)
 """By degree, the lowest first."""
 
 
