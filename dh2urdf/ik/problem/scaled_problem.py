@@ -63,10 +63,12 @@ class ScaledProblem(Problem):
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """As :meth:`Problem.arranged`; a slide counts in the chain's unit."""
         near = self.inner.arranged(self._inside(found), seed / self.scale, within_limits)
-        near = self._outside(near, found.T)
-        if not isinstance(self.chain, CoupledChain):
-            return near
-        return near.select(np.argsort(np.linalg.norm(near.q - seed, axis=1), kind="stable"))
+        return self._sorted(self._outside(near, found.T), seed)
+
+    def gaps(self, q: Array, seed: Array) -> Array:
+        """As :meth:`Problem.gaps`; as many turns as bring all joints back are no distance."""
+        out: Array = self.inner.gaps(q / self.scale, seed / self.scale) * self.scale
+        return out
 
     def walked(self, found: IKSolutions, k: int) -> Array:
         """As :meth:`Problem.walked`."""
@@ -84,7 +86,14 @@ class ScaledProblem(Problem):
     def with_all_turns(self, found: IKSolutions, seed: Array | None = None) -> IKSolutions:
         """As :meth:`Problem.with_all_turns`."""
         goal = None if seed is None else seed / self.scale
-        return self._outside(self.inner.with_all_turns(self._inside(found), goal), found.T)
+        every = self._outside(self.inner.with_all_turns(self._inside(found), goal), found.T)
+        return every if seed is None else self._sorted(every, seed)
+
+    def _sorted(self, found: IKSolutions, seed: Array) -> IKSolutions:
+        """By distance from a seed in the values, where one of them may be several turns inside."""
+        if not isinstance(self.chain, CoupledChain):
+            return found
+        return found.select(np.argsort(np.linalg.norm(found.q - seed, axis=1), kind="stable"))
 
     def why_none(self, T: Array, within_limits: bool) -> str:
         """As :meth:`Problem.why_none`."""

@@ -61,6 +61,34 @@ def test_a_pose_in_doubt_is_searched_from_more_starts(third):
     assert off(robot(GEARED), q) < 1e-9
 
 
+def half_geared():
+    """Joint 4 turns half as far as joint 3, whose turns differ: two of them bring both back."""
+    rows = [dict(row) for row in GEARED]
+    rows[2]["a"], rows[3]["mimic"] = 0.1, Mimic("joint_3", 0.5)
+    for row in rows:
+        row |= {} if "mimic" in row else {"lower": -9.0, "upper": 9.0}
+    return robot(rows)
+
+
+def test_all_turns_are_sorted_in_the_values():
+    """By distance from the seed in q, not in what the solver counts in."""
+    arm, q = half_geared(), np.array([0.3, -0.5, 0.7, 0.4, -0.9, 1.1])
+    found = arm.ik(arm.fk(q), seed=q, turns="all").q
+    away = np.linalg.norm(found - q, axis=1)
+    assert len(found) > 100
+    assert (np.diff(away) >= 0.0).all()
+    assert away[0] < 1e-9
+
+
+@pytest.mark.parametrize(("turns", "count"), [(1, 0), (2, 1)])
+def test_a_seed_is_near_after_as_many_turns_as_bring_all_joints_back(turns, count):
+    """One turn of a value whose period is two is another pose."""
+    arm, q = half_geared(), np.array([0.3, -0.5, 0.7, 0.4, -0.9, 1.1])
+    seed = q + np.array([0.0, 0.0, 2.0 * pi * turns, 0.0, 0.0, 0.0])
+    found = arm.ik(arm.fk(q), seed=seed, seed_tolerance=0.01, within_limits=False)
+    assert len(found) == count
+
+
 def test_there_are_as_many_starts_as_are_asked_for():
     """Of every joint."""
     assert starts_of(robot(PAINTER).chain, 192).shape == (192, 7)
