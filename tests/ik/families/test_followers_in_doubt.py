@@ -63,10 +63,9 @@ def test_a_pose_in_doubt_is_searched_from_more_starts(third):
 
 def half_geared():
     """Joint 4 turns half as far as joint 3, whose turns differ: two of them bring both back."""
-    rows = [dict(row) for row in GEARED]
-    rows[2]["a"], rows[3]["mimic"] = 0.1, Mimic("joint_3", 0.5)
-    for row in rows:
-        row |= {} if "mimic" in row else {"lower": -9.0, "upper": 9.0}
+    wide = {"lower": -9.0, "upper": 9.0}
+    rows = [row if "mimic" in row else row | wide for row in GEARED]
+    rows[2], rows[3] = rows[2] | {"a": 0.1}, rows[3] | {"mimic": Mimic("joint_3", 0.5)}
     return robot(rows)
 
 
