@@ -14,12 +14,15 @@ from numpy.typing import ArrayLike
 
 from dh2urdf.bounds import SAMPLES, THREADS
 from dh2urdf.chain import CoupledChain, Coupling, SerialChain
+from dh2urdf.dh import JointMap
+from dh2urdf.dh.variables import coupled_words
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.engine import AtOnce, nothing_at_once
 from dh2urdf.exceptions import ArgumentError, ConfigurationError, NoSolverError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Solver,
+    SolverBase,
     Task,
     as_configuration,
     as_tolerance,
@@ -282,6 +285,10 @@ class InverseKinematics:
             problem = ScaledProblem(self.chain, problem)
         if self.coupling is None:
             return problem
+        if isinstance(solver, SolverBase) and set(self.coupling.names) == set(self.chain.names):
+            own = tuple(map(self.chain.names.index, self.coupling.names))
+            joints_of = JointMap(self.coupling.matrix, self.coupling.offset, own)
+            solver.moved = coupled_words(self.chain.names, joints_of)
         return CoupledProblem(self.values, self.coupling, problem, joints)
 
 

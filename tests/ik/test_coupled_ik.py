@@ -372,3 +372,9 @@ def test_twenty_thousand_poses_of_each_arm(name, given_couplings):
     assert (found <= robot.upper).all()
     assert np.nanmax(batch.residual) < 1e-10
     assert np.abs(robot.fk(found) - T[there.nonzero()[0]]).max() < 1e-9
+
+
+def test_the_solver_says_where_coupled_joints_are():
+    """Beside the axes and the subproblems."""
+    told = Robot.from_dh("fanuc_r1000ia80f").solver.explain()
+    assert "joint_3 is at q3 + q2" in told.splitlines()

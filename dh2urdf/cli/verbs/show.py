@@ -73,7 +73,8 @@ def show_(
     except NoSolverError as error:
         name, why = "none", str(error)
     if dh.joint_map is not None:
-        why = f"{coupled_words(dh.joint_names, dh.joint_map)}\n{why}"
+        words = coupled_words(dh.joint_names, dh.joint_map)
+        why = why if words in why else f"{words}\n{why}"
     if json:
         solver = {"joint_names": arm.joint_names, "solver": name, "solver_explained": why}
         told = {"text": text} if format != "text" else {}

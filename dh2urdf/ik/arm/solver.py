@@ -125,6 +125,8 @@ class SolverBase:
     if_spare: ClassVar[str] = "some joints can move while the tool stays"
     """Why joints to spare are in the way; empty where they are not."""
     kmax: int = 0
+    moved: str = ""
+    """Joints that are not at a value of their own, in words."""
     kernel: BatchKernel
     """The kernel that solves poses, where there is one."""
     __getstate__ = settled_state
@@ -177,7 +179,7 @@ class SolverBase:
 
     def explain(self) -> str:
         """Name the class, its axes and subproblems, and why better solvers did not apply."""
-        lines = [f"{self.name}: {self.details()}"]
+        lines = [f"{self.name}: {self.details()}", *([self.moved] if self.moved else [])]
         lines += [f"not {name}: {reason}" for name, reason in self.others]
         return "\n".join(lines)
 
