@@ -16,12 +16,13 @@ from dh2urdf.ik.families.follower_plan import (
     leaders_of,
     plan_followers,
 )
+from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.followers import MOTIONS
 from dh2urdf.transforms import Array
 
-STARTS = 192
-"""Starts of the search at poses in doubt; where there is one elimination only, it is the second
-opinion."""
+STARTS, MORE_STARTS = 192, 3072
+"""Starts of the search at poses in doubt, where there is one elimination only the second opinion;
+and where an odd number of solutions was found."""
 
 
 class Followers(SolverBase):
@@ -90,11 +91,23 @@ class Followers(SolverBase):
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4); those in doubt are searched, too."""
         doubt = self.solve_sure(Ts, within_limits, out)
-        if len(doubt):
-            found, deep = out.rows(doubt), np.arange(len(doubt))
-            found.counts[:] = -1 - found.counts
-            wide = search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits, STARTS)
-            out.put(doubt, wide)
+        if not len(doubt):
+            return
+        found, poses = out.rows(doubt), Ts[doubt]
+        found.counts[:] = -1 - found.counts
+        wide = self._searched(poses, found, STARTS)
+        listed = np.arange(wide.q.shape[1]) < wide.counts[:, None]
+        odd = np.flatnonzero((wide.counts % 2 == 1) & ~(listed & (wide.free != 0)).any(axis=1))
+        if len(odd):  # isolated solutions come in pairs
+            wide.put(odd, self._searched(poses[odd], wide.rows(odd), MORE_STARTS))
+        if within_limits:
+            finish_batch(self.chain.tables, poses, True, wide)
+        out.put(doubt, wide)
+
+    def _searched(self, Ts: Array, found: Outputs, starts: int) -> Outputs:
+        """What so many starts add to the candidates of poses Ts (m, 4, 4), limits or not."""
+        every = np.arange(len(Ts))
+        return search_in_doubt(self.chain, Ts, found, every, False, starts)
 
     def solve_sure(self, Ts: Array, within_limits: bool, out: Outputs) -> IntArray:
         """Solve poses Ts (m, 4, 4) but those in doubt, whose counts are -1 minus their candidates.

@@ -4,9 +4,10 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+from follower_arms import apart, follower_chain, poses_at
 
 from dh2urdf import DHRow, DHTable, Mimic, Robot
-from dh2urdf.ik.arm import starts_of
+from dh2urdf.ik.arm import Outputs, select_solver, starts_of
 
 H, BEND = pi / 2, radians(35)
 
@@ -59,6 +60,24 @@ def test_a_pose_in_doubt_is_searched_from_more_starts(third):
     """Regular, but the polynomial leads to an odd number; 64 starts missed the one at hand."""
     q = np.array([H, -H, third, 0.0, 0.0, 0.0])
     assert off(robot(GEARED), q) < 1e-9
+
+
+PAIRS = (
+    (122, 0.5, 0, (-1.74851516, 2.14083288, 0.70623296, 0.40997104, 0.46499794, 3.00363726)),
+    (136, -1.0, 1, (3.03791654, 1.07998759, 0.56197286, -1.59501351, 2.06899305, -2.76377487)),
+)
+"""Chains of `follower_chain`, and configurations with another one of the same pose beside them."""
+
+
+@pytest.mark.parametrize(("seed", "multiplier", "between", "q"), PAIRS)
+def test_an_odd_number_of_solutions_is_searched_further(seed, multiplier, between, q):
+    """Isolated solutions come in pairs; one of them was left out."""
+    chain = follower_chain(seed, multiplier, between, False).in_turns
+    solver, q = select_solver(chain), np.array(q)
+    out = Outputs.of(1, solver.kmax, 6)
+    solver.solve_batch(np.ascontiguousarray(poses_at(chain, q[None])), False, out)
+    assert apart(out.q[0, : out.counts[0]], q).min() < 1e-6
+    assert out.counts[0] % 2 == 0
 
 
 def half_geared():
