@@ -43,6 +43,8 @@ def mistake(table, kind, rng):
         "mm for m": lambda r: max(abs(r.a), abs(r.d)) > 1e-3,
     }[kind]
     possible = [i for i, row in enumerate(rows) if row.origin is None and fits(row)]
+    if kind == "order of rows":  # a step behind the last joint moves the tool alone
+        possible = [i for i in possible if rows[i + 1].origin is None]
     if not possible:
         return None
     i = int(rng.choice(possible))
