@@ -72,7 +72,8 @@ def test_the_solutions_are_those_of_the_robot(name, tmp_path):
     """Without contraction every number is that of ``Robot.ik``, edge poses included."""
     arm = Arm(Robot.from_dh(name), tmp_path, HELD.get(name))
     arm.compile(*SAME)
-    compare(arm, EVERY_DAY, 1)
+    whole = compare(arm, EVERY_DAY, 1)
+    assert whole == 1.0 or name not in WHOLE
 
 
 def other_arms():
