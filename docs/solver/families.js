@@ -66,7 +66,7 @@ function metreSolverOf(table) {
   return Object.assign(solver, {name: "general 6R", solve(T, within) {
     solver.pose.set(T);
     kernels.solve_general_6r(1, arm, solver.pose, out.q, out.residual, out.count, doubt);
-    kernels.finish_batch(n, 1, 16, ...tables, solver.pose, within, ...handed(out));
+    kernels.finish_batch(n + 1, n, n, 1, 16, ...tables, solver.pose, within, ...handed(out));
     return {found: solutionsOf(out), doubt: doubt[0] !== 0n};
   }});
 }
@@ -82,7 +82,7 @@ function closedSolver(solver, chain, form, kernel, name, back) {
     if (back) turned.set(inverse(T));
     kernels[kernel](1, ...arm, SLACK, back ? turned : pose, within && !back, ...handed(out));
     const doubt = settle(out);
-    if (back) kernels.turn_back(n, 1, 8, ...tables, pose, within, ...handed(out));
+    if (back) kernels.turn_back(n + 1, n, n, 1, 8, ...tables, pose, within, ...handed(out));
     return {found: solutionsOf(out), doubt};
   }});
 }
