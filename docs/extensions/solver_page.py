@@ -97,7 +97,8 @@ def _data() -> dict[str, Any]:
 
 
 def _is_solved(name: str) -> bool:
-    return dh2urdf.Robot.from_dh(name).solver.name in SOLVED
+    robot = dh2urdf.Robot.from_dh(name)
+    return not robot.is_coupled and robot.solver.name in SOLVED
 
 
 def preset(table: DHTable | str) -> dict[str, Any]:
