@@ -1,8 +1,5 @@
 """Six values, of which one moves two turning joints or more: a hollow wrist, and any other."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import numpy as np
 
 from dh2urdf.chain import CoupledChain, SerialChain
@@ -16,6 +13,7 @@ from dh2urdf.ik.families.follower_plan import (
     leaders_of,
     plan_followers,
 )
+from dh2urdf.ik.families.own_record import OwnRecord
 from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.kernels.followers import MOTIONS
 from dh2urdf.transforms import Array
@@ -25,7 +23,7 @@ STARTS, MORE_STARTS = 192, 3072
 and where an odd number of solutions was found."""
 
 
-class Followers(SolverBase):
+class Followers(OwnRecord, SolverBase):
     """Elimination of five free joints; the leader's turn from a polynomial."""
 
     name = "followers"
@@ -63,16 +61,6 @@ class Followers(SolverBase):
         if plan_followers(chain) is None:
             return f"its polynomial has a degree above {KERNELS[-1].degree}, or vanishes"
         return None
-
-    @contextmanager
-    def _record(self) -> Iterator[Arm]:
-        """A copy of the plan that no other thread has meanwhile."""
-        try:
-            arm = self._idle.pop()
-        except IndexError:
-            arm = self.plan.copy()
-        yield arm
-        self._idle.append(arm)
 
     def details(self) -> str:
         """Name the leader, what follows it, and the method."""

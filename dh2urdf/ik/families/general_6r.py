@@ -4,8 +4,6 @@ Which eliminations suit an arm is found by trying all twelve on random poses.
 """
 
 import math
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cached_property
 from typing import TypeAlias
 
@@ -16,6 +14,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK
+from dh2urdf.ik.families.own_record import OwnRecord
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
@@ -54,7 +53,7 @@ SAME = 1e-4
 """Joint distance [rad] at which a solution is the configuration that was asked for."""
 
 
-class General6R(SolverBase):
+class General6R(OwnRecord, SolverBase):
     """Raghavan and Roth's elimination of five joints; up to 16 solutions."""
 
     name = "general 6R"
@@ -109,16 +108,6 @@ class General6R(SolverBase):
         with self._record() as arm:
             solve_general_6r(arm, Ts, out.q, out.residual, out.counts, doubt)
         return np.flatnonzero(doubt)
-
-    @contextmanager
-    def _record(self) -> Iterator[Arm]:
-        """A copy of the plan that no other thread has meanwhile."""
-        try:
-            arm = self._idle.pop()
-        except IndexError:
-            arm = self.plan.copy()
-        yield arm
-        self._idle.append(arm)
 
     def details(self) -> str:
         """Name the axes and the method."""
