@@ -162,6 +162,15 @@ class SolverBase:
         """Solve poses Ts[rows], of which the kernel doubts that its solutions are all."""
         raise NotImplementedError
 
+    def before_search(self, Ts: Array) -> tuple[Outputs, Outputs]:
+        """Solutions of poses Ts (m, 4, 4), limits aside, that a search adds to; its candidates.
+
+        Where the solver would search by itself, these are what it has before.
+        """
+        known = Outputs.of(len(Ts), self.kmax, self.chain.n)
+        self.solve_batch(Ts, False, known)
+        return known, known
+
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """Kernels that solve poses, see :func:`dh2urdf.engine.at_once`; none where Python helps."""
         if type(self).solve_batch is not SolverBase.solve_batch:

@@ -82,10 +82,7 @@ class ClosedForm(SolverBase):
         coded = -1 - out.counts[rows]
         out.counts[rows] = coded % DEEP
         poses = np.ascontiguousarray(Ts[rows])
-        known = Outputs.of(len(rows), self.kmax, 6)  # those outside the limits, too
-        self.kernel(self.constants, poses, False, known)
-        known.counts[known.counts < 0] = (-1 - known.counts[known.counts < 0]) % DEEP
-        found = self._along_valleys(poses, known)
+        known, found = self.before_search(poses)
         deep = coded >= DEEP
         for i, row in enumerate(rows):
             mine = slice(i, i + 1)
@@ -98,6 +95,14 @@ class ClosedForm(SolverBase):
                 one = found.rows(mine)
                 finish_batch(self.chain.tables, poses[mine], within_limits, one)
                 self._add_new(one, known.q[i, : known.counts[i]], out.rows(slice(row, row + 1)))
+
+    def before_search(self, Ts: Array) -> tuple[Outputs, Outputs]:
+        """What the equations find; and, where it is in doubt, what lies along valleys, too."""
+        known = Outputs.of(len(Ts), self.kmax, 6)  # those outside the limits, too
+        self.kernel(self.constants, Ts, False, known)
+        doubt = known.counts < 0
+        known.counts[doubt] = (-1 - known.counts[doubt]) % DEEP
+        return known, self._along_valleys(Ts, known) if doubt.any() else known
 
     def _along_valleys(self, poses: Array, known: Outputs) -> Outputs:
         """What lies along valleys beside candidates of poses (d, 4, 4), after what is known."""

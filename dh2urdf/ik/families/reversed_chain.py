@@ -47,6 +47,15 @@ class ReversedSolver(SolverBase):
         self.inner.solve_batch(inverse_poses, False, out)
         turn_back(self.chain.tables, Ts, within_limits, out)
 
+    def before_search(self, Ts: Array) -> tuple[Outputs, Outputs]:
+        """The same of the inverse poses, turned back."""
+        inverse_poses = np.empty_like(Ts)
+        invert_poses(Ts, inverse_poses)
+        known, found = self.inner.before_search(inverse_poses)
+        for some in (known,) if found is known else (known, found):
+            turn_back(self.chain.tables, Ts, False, some)
+        return known, found
+
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """As :meth:`solve_batch`."""
         inverse_poses = np.empty_like(Ts)

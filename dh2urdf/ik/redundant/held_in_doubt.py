@@ -43,9 +43,8 @@ class InDoubt(SolverBase):
 
     def solve(self, T: Array, within_limits: bool, void: bool) -> Outputs:
         """Solve a pose (1, 4, 4); ``void``: equations say so little that others are searched."""
-        known = Outputs.of(1, self.inner.kmax, self.chain.n)
-        self.inner.solve_batch(T, False, known)
-        wide = from_starts(self.chain, T, self._candidates(T, known) if void else known, known)
+        known, found = self.inner.before_search(T)
+        wide = from_starts(self.chain, T, self._candidates(T, found) if void else found, known)
         drop_dull_members(known)
         sharp = known.residual[0, : known.counts[0]] <= SHARP
         for k in np.flatnonzero(sharp & (known.free[0, : known.counts[0]] != 0)).tolist():
@@ -56,13 +55,13 @@ class InDoubt(SolverBase):
         drop_dull_members(wide)
         return wide
 
-    def _candidates(self, T: Array, known: Outputs) -> Outputs:
-        """What is known of a pose (1, 4, 4), and what steps that heed valleys lead to."""
+    def _candidates(self, T: Array, found: Outputs) -> Outputs:
+        """What is found of a pose (1, 4, 4), and what steps that heed valleys lead to."""
         q, error = nearly_reaching(self.chain, T[0], self.task)
-        q = np.concatenate([known.q[0, : known.counts[0]], q[np.abs(error).max(axis=1) <= ACCEPT]])
-        found = Outputs.of(1, max(len(q), 1), self.chain.n)
-        found.q[0, : len(q)], found.counts[0] = q, len(q)
-        return found
+        q = np.concatenate([found.q[0, : found.counts[0]], q[np.abs(error).max(axis=1) <= ACCEPT]])
+        more = Outputs.of(1, max(len(q), 1), self.chain.n)
+        more.q[0, : len(q)], more.counts[0] = q, len(q)
+        return more
 
     def _enter_limits(self, wide: Outputs, T: Array) -> None:
         """Go along families into the limits: some are reached only where they are none."""
