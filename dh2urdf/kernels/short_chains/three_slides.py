@@ -19,15 +19,26 @@ from dh2urdf.kernels.newton import (
     work_array,
 )
 from dh2urdf.kernels.numbers import atan2, entry, linear_trig
-from dh2urdf.kernels.rigid import invert_pose, joint_times_link, load_pose, store_pose, times_link
+from dh2urdf.kernels.rigid import (
+    cross,
+    dot,
+    invert_pose,
+    joint_times_link,
+    load_pose,
+    store_pose,
+    times_link,
+)
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses
 
+IN_PLANE = 1e-12
+"""Volume spanned by the slides' directions below which they lie in a plane, but for rounding: then
+they move as little as possible."""
+
 DAMPING = 1e-10
-"""Added to the normal equations of the slides, which may lie in a plane: then they move as little
-as possible."""
+"""Added to their normal equations there."""
 
 STEPS = 4
-"""Most such steps; the damping leaves 1e-10 of the first, or much more where they nearly do."""
+"""Most steps of the slides; the second mends what rounding of the first left over."""
 
 SLACK = 1e-6
 """Relative excess over a rim that is clamped; the residual decides."""
@@ -70,8 +81,7 @@ def _outer(M, B):
 def _candidates(chain, T, q, turning, scratch, damped):
     """Candidate configurations of a pose, at most two, in the first rows of q; how many.
 
-    ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch. The slides are linear: from
-    their zeros one step of Newton's method finds them, or a few where they are nearly in a plane.
+    ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch.
     """
     count = _turning_links(chain, turning, scratch)
     B, M = scratch[16:20], scratch[12:16]
@@ -95,14 +105,44 @@ def _candidates(chain, T, q, turning, scratch, damped):
             store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
     for k in range(found):
-        for _ in range(STEPS):
-            if error_and_jacobian(chain, (POSE, T, 1.0), q[k], damped) <= POLISH:
-                break
-            for i in range(q.shape[1]):
-                damped[0][i] *= chain[1][i, 0]
-            solve_damped(damped, DAMPING)
-            add_transposed(damped, 1.0, q[k])
+        _place(chain, T, q[k], damped)
     return max(found, 0)
+
+
+def _slides(joints, J):
+    """The joints that slide, and their directions (3 rows of J)."""
+    i = 0
+    while joints[i, 0] == 0.0:
+        i += 1
+    j = i + 1
+    while joints[j, 0] == 0.0:
+        j += 1
+    k = j + 1
+    while joints[k, 0] == 0.0:
+        k += 1
+    x, y, z = J[i], J[j], J[k]
+    ways = (x[0], x[1], x[2]), (y[0], y[1], y[2]), (z[0], z[1], z[2])
+    return i, j, k, *ways
+
+
+def _place(chain, T, q, damped):
+    """Solve the three equations of the slides of q (n,) in place, the turns being known."""
+    joints, (J, work) = chain[1], damped
+    for _ in range(STEPS):
+        if error_and_jacobian(chain, (POSE, T, 1.0), q, damped) <= POLISH:
+            break
+        i, j, k, x, y, z = _slides(joints, J)
+        error, normal = (work[0, 6], work[1, 6], work[2, 6]), cross(y, z)
+        volume = dot(x, normal)
+        if abs(volume) > IN_PLANE:
+            q[i] += dot(error, normal) / volume
+            q[j] += dot(error, cross(z, x)) / volume
+            q[k] += dot(error, cross(x, y)) / volume
+        else:
+            for joint in range(q.shape[0]):
+                J[joint] *= joints[joint, 0]
+            solve_damped(damped, DAMPING)
+            add_transposed(damped, 1.0, q)
 
 
 class SlidingArm(NamedTuple):

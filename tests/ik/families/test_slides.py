@@ -70,9 +70,9 @@ FAR = 100.0
 def check(kinds, right_angled, m, seed):
     """All solutions reach their poses, none is there twice, one is what made the pose.
 
-    Regular solutions come in pairs, but where slides are nearly parallel, or three nearly in a
-    plane, in one of them: it may be a hundred kilometres out, and is left. Residuals are in parts
-    of how far out slides are, from ``FAR`` on.
+    Regular solutions come in pairs, however far out, but where two slides are nearly parallel in
+    one of them: it may be a hundred kilometres out, and is left. Residuals are in parts of how far
+    out slides are, from ``FAR`` on.
     """
     chain = slider(kinds, right_angled, seed)
     q = configurations(chain, m, seed)
@@ -87,7 +87,7 @@ def check(kinds, right_angled, m, seed):
     least = np.full(m, np.inf)
     np.minimum.at(least, owner, regularity(chain, solutions))
     odd = (found.count[least > 1e-3] % 2).sum()
-    assert odd <= (m // 1000 if kinds.count("P") > 1 else 0)
+    assert odd <= (m // 1000 if kinds.count("P") == 2 else 0)
 
 
 def check_by_search(kinds, right_angled, m, seed):
@@ -125,6 +125,16 @@ def test_no_configuration_is_lost_in_20_000_poses(kinds, right_angled):
     for seed in range(10):
         check(kinds, right_angled, 2000, seed)
         check_by_search(kinds, right_angled, 2, seed)
+
+
+def test_the_partner_of_a_pair_is_found_a_hundred_kilometres_out():
+    """Where three slides are nearly in a plane they are solved for as exactly, and kept."""
+    chain = slider("PPRRPR", right_angled=False, seed=3)
+    q = np.array([-0.81805769, 0.45199622, 0.19978133, -2.12546967, -0.50848269, -1.80348063])
+    found = solve(chain, forward(chain, q[None]))
+    assert found.count[0] == 2
+    assert np.abs(found.q[0, :2]).max() > 1e5
+    assert_margin(found.residual[0, :2], RESIDUAL)
 
 
 def crossed_slides():
