@@ -10,7 +10,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.ik.arm import limits
 from dh2urdf.ik.arm.chains import hold
 from dh2urdf.ik.arm.shared_tolerances import ACCEPT, FAMILY_STEP
@@ -158,10 +158,12 @@ def beside_seed(
 def coupled(
     chain: SerialChain, within_limits: bool
 ) -> tuple[tuple[Array, Array], Array, Array, Array]:
-    """A chain as a search takes it, with or without its limits: no joint follows another."""
+    """A chain as a search takes it, with or without its limits, and how joints follow values."""
     bounds = np.column_stack([chain.prismatic, chain.lower, chain.upper]).astype(float)
     if not within_limits:
         bounds[:, 1:] = -np.inf, np.inf
+    if isinstance(chain, CoupledChain):
+        return chain.serial.tables, chain.matrix, np.zeros(len(chain.leaders)), bounds
     return chain.tables, np.eye(chain.n), np.zeros(chain.n), bounds
 
 

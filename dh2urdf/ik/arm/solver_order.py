@@ -27,6 +27,8 @@ needs, and a chain gets the first that has no obstacle."""
 FOLLOWED = (
     "dh2urdf.ik.families.straightened:Straightened",
     "dh2urdf.ik.families.followers:Followers",
+    "dh2urdf.ik.families.tool_axis:ToolAxis",
+    "dh2urdf.ik.redundant.held_at_rest:RedundantChain",
 )
 """The same for chains whose joints follow fewer values."""
 

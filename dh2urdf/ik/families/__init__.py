@@ -2,7 +2,7 @@
 
 `spherical_wrist`, `closed_form` (three parallel axes), `reversed_chain` (these two, turned round so
 that the tool is the base), `planar`, `short`, `short_position`, `tool_axis`, `near_family`,
-`two_parallel`, `general_6r`; `straightened` and `followers` (its eliminations in
+`two_parallel`, `general_6r`; `straightened` (by its `straight_chain`) and `followers` (by its
 `follower_plan`), where fewer values move the joints; and `numeric`, for any chain and some
 solutions.
 """

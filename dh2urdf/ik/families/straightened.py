@@ -1,23 +1,17 @@
-"""Values that move more joints than there are, where that is a chain of joints that move freely.
+"""Values that move more joints than there are, by a chain of fewer joints that move freely.
 
-Turns about parallel axes are turns in a plane: neighbours with parallel axes do together a sum of
-ways, each turned by a sum of values, and a turn by another such sum. Ways that are turned by the
-same sum are one, those by none are fixed, and the order does not matter. So a palletiser's four
-parallel axes, two of which follow so that its tool stays level, are a planar arm of two links.
-
-What is left is solved as if all its joints moved freely, by the family that covers it, and of the
-solutions those stand whose joints are where some values put them.
+What is left of the chain (:mod:`~.straight_chain`) is solved as if all its joints moved freely, by
+the family that covers it, and of the solutions those stand whose joints are where some values put
+them.
 """
 
 import itertools
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import CoupledChain, SerialChain
-from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import (
     NOMINAL,
@@ -28,13 +22,19 @@ from dh2urdf.ik.arm import (
     Solver,
     SolverBase,
     Task,
+    coupled,
+    inside,
+    middle,
+    moving_joints,
     search_in_doubt,
     select_solver,
     spare_joints,
+    turned_to,
 )
 from dh2urdf.ik.families.short import search_short
-from dh2urdf.kernels.certificate import finish_batch
-from dh2urdf.transforms import Array, dot, inverse, length, product, trans
+from dh2urdf.ik.families.straight_chain import WHOLE, straighten
+from dh2urdf.kernels.certificate import find_solutions, finish_batch
+from dh2urdf.transforms import Array
 
 MOST_JOINTS = 6
 """Joints of the longest chain that all solutions are found of when it moves freely."""
@@ -42,20 +42,6 @@ MOST_JOINTS = 6
 TOGETHER = 1e-3
 """Angle [rad], or length in sizes of the arm, by which a joint may be off where its values put it:
 Newton's method brings it there, or the pose is not reached."""
-
-WHOLE = 1e-9
-"""Rounding of a whole number."""
-
-
-FLAT = np.array([1.0, 1.0, 0.0])
-"""What of a way counts in the plane."""
-
-
-class Straight(NamedTuple):
-    """A chain of joints that move freely, at ``matrix @ q`` of another chain's values q."""
-
-    chain: SerialChain
-    matrix: Array
 
 
 class Straightened(SolverBase):
@@ -67,7 +53,7 @@ class Straightened(SolverBase):
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         assert isinstance(chain, CoupledChain)
-        self.straight = straighten(chain)
+        self.straight = straighten(chain, task)
         self.inner = solver_of(chain, task)
         matrix, slides = self.straight.matrix, self.straight.chain.prismatic
         self.rows, self.back = _rows_that_tell(matrix)
@@ -81,9 +67,11 @@ class Straightened(SolverBase):
         """Say what keeps the family from covering the chain for the task; None: it covers it."""
         if not isinstance(chain, CoupledChain):
             return "no joint follows another"
+        if task is Task.POSITION_AXIS:
+            return f"it solves for the full pose or the position, not for {task.value}"
         if spare_joints(chain, task):
             return cls.if_spare
-        straight = straighten(chain)
+        straight = straighten(chain, task)
         if straight.chain.n > MOST_JOINTS:
             return f"{straight.chain.n} joints are left that have to move together"
         if spare_joints(straight.chain, task):
@@ -96,15 +84,13 @@ class Straightened(SolverBase):
 
     def details(self) -> str:
         """Name the sums, and the family."""
-        names, slides = self.chain.names, self.straight.chain.prismatic
-        sums = []
-        for row, slide in zip(self.straight.matrix, slides, strict=True):
-            terms = "".join(
-                f"{factor:+g} {name}" for factor, name in zip(row, names, strict=True) if factor
-            )
-            sums.append(("slide" if slide else "turn") + f" {terms.removeprefix('+')}")
+        slides = self.straight.chain.prismatic
+        sums = [
+            f"{'slide' if slide else 'turn'} by {_sum(row, self.chain.names)}"
+            for row, slide in zip(self.straight.matrix, slides, strict=True)
+        ]
         return (
-            f"its joints do the same as {len(sums)} that {', '.join(sums)}, which are solved as if "
+            f"its joints do the same as {len(sums)} that {', '.join(sums)}; these are solved as if "
             f"they moved freely: {self.inner.name}"
         )
 
@@ -113,6 +99,11 @@ class Straightened(SolverBase):
         found = Outputs.of(len(Ts), self.inner.kmax, self.straight.chain.n)
         self.inner.solve_batch(Ts, False, found)
         self._put_values(found, out)
+        if self.task is Task.POSITION:
+            for i in range(len(Ts)):
+                row = slice(i, i + 1)
+                self._finish_position(Ts[i], within_limits, found.rows(row), out.rows(row))
+            return
         families = (found.free != 0) & (np.arange(self.inner.kmax) < found.counts[:, None])
         rows = np.flatnonzero(families.any(axis=1))
         if len(rows) and len(self.straight.matrix) > self.chain.n:
@@ -140,6 +131,21 @@ class Straightened(SolverBase):
                 out.q[m, out.counts[m]] = q[i]
                 out.counts[m] += 1
 
+    def _finish_position(self, T: Array, within_limits: bool, found: Outputs, out: Outputs) -> None:
+        """Make solutions of the candidates of one pose T (4, 4), of which the origin counts."""
+        arm = coupled(self.chain, within_limits=False)
+        starts, goal = out.q[0, : out.counts[0]].copy(), (self.task.number, T, self.chain.size)
+        q, residual = np.empty_like(starts), np.empty(len(starts))
+        count, _ = find_solutions(arm, goal, starts, q, residual)
+        q = turned_to(self.chain, q[:count], middle(self.chain))
+        free = np.zeros(count, np.int64)
+        if found.free[0, : found.counts[0]].any():
+            free = moving_joints(self.chain, self.task, q)
+        kept = np.flatnonzero((free != 0) | inside(self.chain, q) | (not within_limits))
+        k = out.counts[0] = len(kept)
+        out.q[0, :k], out.residual[0, :k] = q[kept], residual[kept]
+        out.branch[0, :k], out.free[0, :k] = -1, free[kept]
+
     def _search(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
         """Search at poses with a family of the joints, in which the values may be anywhere."""
         found = out.rows(rows)
@@ -152,71 +158,6 @@ class Straightened(SolverBase):
 
 
 @lru_cache(maxsize=8)
-def straighten(chain: CoupledChain) -> Straight:
-    """The chain with fewer joints where neighbours have parallel axes, or with all of its own."""
-    frames: list[Array] = []
-    rows: list[Array] = []
-    kinds: list[JointType] = []
-    for run in _runs(chain):
-        own = [chain.joint_frames[i] for i in run], [chain.matrix[i] for i in run]
-        some = _in_plane(chain, run) if len(run) > 1 else own
-        some = some if len(some[0]) < len(run) else own
-        frames += some[0]
-        rows += some[1]
-        kinds += [chain.kinds[run[0]]] * len(some[0])
-    links = [frames[0], *(product(inverse(a), b) for a, b in itertools.pairwise(frames))]
-    links.append(product(inverse(frames[-1]), chain.tool))
-    far, names = np.full(len(rows), np.inf), tuple(str(i + 1) for i in range(len(rows)))
-    straight = SerialChain(np.stack(links), tuple(kinds), names, -far, far, chain.unit)
-    return Straight(straight, np.array(rows))
-
-
-def _runs(chain: CoupledChain) -> list[list[int]]:
-    """Neighbours that turn about parallel axes; others alone."""
-    runs: list[list[int]] = []
-    for i, axis in enumerate(chain.axes):
-        last = runs[-1][-1] if runs else -1
-        turning = not chain.sliding[i] and runs and not chain.sliding[last]
-        if turning and length(np.cross(axis, chain.axes[last])) <= NOMINAL:
-            runs[-1].append(i)
-        else:
-            runs.append([i])
-    return runs
-
-
-def _in_plane(chain: CoupledChain, run: list[int]) -> tuple[list[Array], list[Array]]:
-    """Frames and rows of fewer joints that do the same as a run of parallel ones."""
-    first, near = chain.joint_frames[run[0]], NOMINAL * max(chain.size, 1.0)
-    signs = [1.0 if dot(chain.axes[i], first[:3, 2]) > 0.0 else -1.0 for i in run]
-    turned = np.cumsum([s * chain.matrix[i] for s, i in zip(signs, run, strict=True)], axis=0)
-    ways: dict[tuple[float, ...], Array] = {}
-    along = np.zeros(3)
-    for angle, i, j in zip(turned, run, run[1:], strict=False):
-        way = product(inverse(first), chain.joint_frames[j])[:3, 3]
-        way = way - product(inverse(first), chain.joint_frames[i])[:3, 3]
-        along[2] += way[2]
-        key = tuple(np.round(angle, 9).tolist())
-        ways[key] = ways.get(key, np.zeros(3)) + way * FLAT
-    fixed, whole = tuple(np.zeros(chain.n).tolist()), tuple(np.round(turned[-1], 9).tolist())
-    at = along + ways.pop(fixed, np.zeros(3))
-    order = sorted((k for k in ways if length(ways[k]) > near), key=lambda k: k == whole)
-    frames, rows, before = [], [], np.zeros(chain.n)
-    for key in [*order, whole]:
-        row = np.array(key) - before
-        if np.abs(row).max() > WHOLE:
-            frames.append(_shifted(first, at))
-            rows.append(row)
-        before = np.array(key)
-        at = at + ways.get(key, np.zeros(3)) if key in order and key != whole else at
-    return frames, rows
-
-
-def _shifted(frame: Array, way: Array) -> Array:
-    """A frame moved along its own axes."""
-    return product(frame, trans(*way))
-
-
-@lru_cache(maxsize=8)
 def solver_of(chain: CoupledChain, task: Task) -> Solver:
     """The solver of the straightened chain.
 
@@ -224,7 +165,19 @@ def solver_of(chain: CoupledChain, task: Task) -> Solver:
     ------
     NoSolverError
     """
-    return select_solver(straighten(chain).chain, task)
+    return select_solver(straighten(chain, task).chain, task)
+
+
+def _sum(row: Array, names: tuple[str, ...]) -> str:
+    """Values times numbers in words: ``joint_3 - 0.5 joint_2``."""
+    terms = sorted(zip(row.tolist(), names, strict=True), key=lambda term: term[0] < 0.0)
+    text = ""
+    for factor, name in terms:
+        if factor:
+            size = "" if abs(factor) == 1.0 else f"{abs(factor):g} "
+            sign = ("-" if factor < 0.0 else "") if not text else " - " if factor < 0.0 else " + "
+            text += f"{sign}{size}{name}"
+    return text
 
 
 def _rows_that_tell(matrix: Array) -> tuple[list[int], Array]:

@@ -4,10 +4,11 @@ A virtual joint about the tool's z makes it a full pose of a chain with one join
 """
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.dh import JointType
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import (
@@ -25,14 +26,19 @@ from dh2urdf.transforms import Array
 
 def with_tool_joint(chain: SerialChain) -> SerialChain:
     """The chain with a joint about the tool's z at its end."""
-    return replace(
-        chain,
-        links=np.concatenate([chain.links, np.eye(4)[None]]),
-        joint_types=(*chain.joint_types, JointType.REVOLUTE),
-        names=(*chain.names, "about the tool"),
-        lower=np.append(chain.lower, -np.inf),
-        upper=np.append(chain.upper, np.inf),
-    )
+    longer: dict[str, Any] = {
+        "links": np.concatenate([chain.links, np.eye(4)[None]]),
+        "joint_types": (*chain.joint_types, JointType.REVOLUTE),
+        "names": (*chain.names, "about the tool"),
+        "lower": np.append(chain.lower, -np.inf),
+        "upper": np.append(chain.upper, np.inf),
+    }
+    if isinstance(chain, CoupledChain):
+        longer["leaders"] = (*chain.leaders, chain.n)
+        longer["factors"] = np.append(chain.factors, 1.0)
+        longer["kinds"] = (*chain.kinds, JointType.REVOLUTE)
+        longer["turns"] = (*chain.turns, 1.0)
+    return replace(chain, **longer)
 
 
 class ToolAxis(SolverBase):

@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from dh2urdf.chain import CoupledChain, SerialChain
-from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part
+from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part, tips_at
 from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
@@ -56,10 +56,23 @@ def closest(chain: SerialChain, T: Array, task: Task) -> tuple[float, float]:
 
     Levenberg's method from ``STARTS`` random configurations side by side.
     """
-    _, error = nearly_reaching(chain, T, task, STIFF)
-    weight = np.where(np.arange(error.shape[1]) < 3, STIFF / chain.size, 1.0)
-    best = error[((error * weight) ** 2).sum(axis=1).argmin()]
-    return float(np.linalg.norm(best[:3])), float(np.linalg.norm(best[3:]))
+    q, error = nearly_reaching(chain, T, task, STIFF)
+    away, turns = np.linalg.norm(error[:, :3], axis=1), _angles(tips_at(chain, q), T, task)
+    best = ((away * STIFF / chain.size) ** 2 + turns**2).argmin()
+    return float(away[best]), float(turns[best])
+
+
+def _angles(T_found: Array, T: Array, task: Task) -> Array:
+    """Angles [rad] of the orientations, or axes, of poses (k, 4, 4) to that of T (4, 4), (k,)."""
+    if task is Task.POSITION:
+        return np.zeros(len(T_found))
+    if task is Task.POSITION_AXIS:
+        sine, cosine = np.cross(T_found[:, :3, 2], T[:3, 2]), T_found[:, :3, 2] @ T[:3, 2]
+    else:
+        sine = 0.5 * np.cross(T_found[:, :3, :3], T[None, :3, :3], axisa=1, axisb=1).sum(axis=1)
+        cosine = 0.5 * (np.einsum("kij,ij->k", T_found[:, :3, :3], T[:3, :3]) - 1.0)
+    angles: Array = np.arctan2(np.linalg.norm(sine, axis=1), cosine)
+    return angles
 
 
 def _arm_to(chain: SerialChain, joints: int, point: Array) -> SerialChain:

@@ -15,7 +15,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
+from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import (
     NOMINAL,
     TRIALS,
@@ -25,12 +26,14 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
     beside_seed,
+    coupled,
     hold,
     middle,
     moving_joints,
     near_ranges,
     random_configurations,
     scaled_jacobian,
+    select_solver,
     spare_joints,
     turned_to,
     unite_families,
@@ -110,6 +113,11 @@ class RedundantChain(SolverBase):
             return f"no joint moves what task {task.value} asks for"
         if spare > (HELD_FOR_POSE if task is Task.POSE else HELD_OTHERWISE):
             return f"{spare} joints to spare; hold some (locked=, or --locked)"
+        if isinstance(chain, CoupledChain):
+            try:
+                select_solver(hold(chain, dict.fromkeys(_joints_to_hold(chain, task), 0.1)), task)
+            except NoSolverError:
+                return "no solver finds all solutions of what is left where joints are held"
         return None
 
     def details(self) -> str:
@@ -137,9 +145,10 @@ class RedundantChain(SolverBase):
     @cached_property
     def _numeric(self) -> NumericProblem:
         """The chain for a numeric search."""
-        chain, n = self.chain, self.chain.n
-        bounds = chain.lower, chain.upper
-        return NumericProblem(chain, np.eye(n), np.zeros(n), chain.prismatic, *bounds)
+        chain, bounds = self.chain, (self.chain.lower, self.chain.upper)
+        joints = chain.serial if isinstance(chain, CoupledChain) else chain
+        _, matrix, offset, _ = coupled(chain, within_limits=True)
+        return NumericProblem(joints, matrix, offset, chain.prismatic, *bounds)
 
     def _far_from(self, T: Array) -> bool:
         """Whether no configuration comes near a pose (4, 4), limits aside."""

@@ -13,7 +13,7 @@ from dh2urdf.kernels.certificate import ACCEPT, add_step, look
 from dh2urdf.kernels.newton import error_and_jacobian, make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import HELD, dot, first_guess, tangent_near, way_to
-from dh2urdf.kernels.shapes import Chain, Counts, Floats, Poses, Solutions
+from dh2urdf.kernels.shapes import AnyChain, Counts, Floats, Poses, Solutions
 from dh2urdf.kernels.short_chains import approach
 
 STEP, MOST_STEPS = 0.15, 500
@@ -136,7 +136,7 @@ def _walk_by(chain, goal, start, step, trail, passed, scratch, damped):
 
 @entry()
 def add_curves(
-    chain: Chain,
+    chain: AnyChain,
     task: int,
     unit: float,
     Ts: Poses,
