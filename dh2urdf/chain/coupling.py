@@ -66,11 +66,28 @@ class Coupling:
         """Joints of the chain (..., chain.n) at values q (..., n)."""
         return q @ self.matrix.T + self.offset
 
+    def ranges(self, lower: Array, upper: Array) -> tuple[Array, Array]:
+        """Between which values each joint is (chain.n,) while the values are between such (n,)."""
+        return _image(self.matrix, self.offset, lower, upper)
+
+    def values_of(self, lower: Array, upper: Array) -> tuple[Array, Array]:
+        """The same of values (n,) of a square coupling, while the joints are between such."""
+        assert self.inverse is not None
+        return _image(self.inverse, -self.inverse @ self.offset, lower, upper)
+
     def values(self, joints: Array) -> Array:
         """Values q (..., n) of joints (..., n) of a square coupling."""
         assert self.inverse is not None
         out: Array = (joints - self.offset) @ self.inverse.T
         return out
+
+
+def _image(matrix: Array, offset: Array, lower: Array, upper: Array) -> tuple[Array, Array]:
+    """Bounds of ``matrix @ x + offset`` for x between bounds, some of them infinite."""
+    with np.errstate(invalid="ignore"):
+        ends = np.stack([matrix * lower, matrix * upper])
+    low, high = np.sort(np.where(matrix == 0.0, 0.0, ends), axis=0).sum(axis=2) + offset
+    return low, high
 
 
 ROUNDING = 1e-12

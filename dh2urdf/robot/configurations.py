@@ -89,6 +89,36 @@ class RobotConfigurations:
         """True where joints follow others, or are at other angles than q."""
         return self._coupling is not None
 
+    @property
+    def coupling(self) -> Coupling | None:
+        """By which values q move the joints of the chain; None where each has its own."""
+        return self._coupling
+
+    def joint_ranges(self) -> tuple[Array, Array]:
+        """Between which values each joint of the chain stays, (chain.n,) each, limits kept."""
+        low, high = self.chain.lower, self.chain.upper
+        if self._coupling is None:
+            return low, high
+        ends = self._coupling.ranges(self.lower, self.upper)
+        return np.maximum(low, ends[0]), np.minimum(high, ends[1])
+
+    def moved_by_several(self) -> NDArray[np.bool_]:
+        """True where a joint of the chain moves by several values of q, shape (chain.n,)."""
+        if self._coupling is None:
+            return np.zeros(self.chain.n, np.bool_)
+        several: NDArray[np.bool_] = (self._coupling.matrix != 0.0).sum(axis=1) > 1
+        return several
+
+    def moved_alone(self, joint: int) -> int | None:
+        """Which value of q moves a joint of the chain by itself, one for one, and no other."""
+        if self._coupling is None:
+            return joint
+        row = self._coupling.matrix[joint]
+        value = int(np.abs(row).argmax())
+        column = self._coupling.matrix[:, value]
+        alone = np.count_nonzero(row) == np.count_nonzero(column) == 1 and abs(row[value]) == 1.0
+        return value if alone else None
+
     def followed_joints(self) -> tuple[Mimic | None, ...]:
         """What each joint of the chain follows of the others; empty where none does."""
         coupling, names = self._coupling, self.chain.names

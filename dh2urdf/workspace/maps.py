@@ -11,7 +11,7 @@ from dh2urdf.ik.redundant import SweptJoint, sample_values
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, pose
 from dh2urdf.workspace.refine import Index, Progress, refined
-from dh2urdf.workspace.section import Section, reach_ball, turns_in_plane
+from dh2urdf.workspace.section import Section, last_axis_ball, reach_ball, turns_in_plane
 from dh2urdf.workspace.task import orientations, task_of
 
 CHUNK = 60_000
@@ -65,10 +65,10 @@ def counts_at(
     near = _within_reach(robot, points)
     for start in range(0, len(near), CHUNK):
         part = near[start : start + CHUNK]
+        tell = _part_of(progress, start, len(part), len(near))
         Ts = pose(R, points[part])
-        counts[part] = robot.ik_batch(Ts, within_limits=within_limits, task=task).count
-        if progress is not None:
-            progress(start + len(part), len(near))
+        batch = robot.ik_batch(Ts, within_limits=within_limits, task=task, progress=tell)
+        counts[part] = batch.count
     return counts
 
 
@@ -132,15 +132,32 @@ def shares_at(
     for start in range(0, len(near), step):
         part = near[start : start + step]
         Ts = pose(turns, points[part, None]).reshape(-1, 4, 4)
-        hit = np.zeros(len(Ts), np.bool_)
-        for locked in tries:
-            left = np.flatnonzero(~hit)
-            found = robot.ik_batch(Ts[left], within_limits=within_limits, task=task, locked=locked)
+        hit, away = np.zeros(len(Ts), np.bool_), np.zeros(len(Ts), np.bool_)
+        if task == "pose":
+            away = _out_of_reach(robot, Ts)
+        for k, locked in enumerate(tries):
+            left = np.flatnonzero(~hit & ~away)
+            tell = _part_of(progress, start, len(part), len(near), k, len(tries))
+            found = robot.ik_batch(
+                Ts[left], within_limits=within_limits, task=task, locked=locked, progress=tell
+            )
             hit[left] = found.count > 0
         shares[part] = hit.reshape(len(part), -1).mean(axis=1)
-        if progress is not None:
-            progress(start + len(part), len(near))
     return shares
+
+
+def _part_of(
+    progress: Progress | None, start: int, part: int, whole: int, k: int = 0, parts: int = 1
+) -> Progress | None:
+    """Progress of the k-th work on some points, as that of all points."""
+    if progress is None:
+        return None
+    tell: Progress = progress
+
+    def told(done: int, total: int) -> None:
+        tell(start + int(part * (k + done / total) / parts), whole)
+
+    return told
 
 
 def _tries(held: Held | None) -> list[dict[int | str, float] | None]:
@@ -156,6 +173,14 @@ def _within_reach(robot: Robot, points: Array) -> Index:
     """Indices of the points (m, 3) that the arm's lengths do not rule out."""
     centre, radius = reach_ball(robot)
     return np.flatnonzero(np.linalg.norm(points - centre, axis=1) <= radius * (1.0 + 1e-9))
+
+
+def _out_of_reach(robot: Robot, Ts: Array) -> NDArray[np.bool_]:
+    """Which poses (m, 4, 4) would put the last axis where the arm's lengths do not reach."""
+    point, centre, radius = last_axis_ball(robot)
+    ways = Ts[:, :3, :3] @ point + Ts[:, :3, 3] - centre
+    away: NDArray[np.bool_] = np.linalg.norm(ways, axis=1) > radius * (1.0 + 1e-9)
+    return away
 
 
 def _checked(grid: Section, progress: Progress | None) -> Section:

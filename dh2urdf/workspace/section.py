@@ -120,8 +120,11 @@ def turns_in_plane(robot: Robot, grid: Section, within_limits: bool) -> bool:
     axis, centre = chain.axes[0], reach_ball(robot)[0]
     in_plane = abs(float(axis[grid.plane.v])) > 1.0 - STRAIGHT**2 / 2
     through = abs(float(centre[grid.plane.normal]) - grid.at) < STRAIGHT * chain.size
-    free = not within_limits or float(robot.upper[0] - robot.lower[0]) >= 2 * math.pi - 1e-9
-    return not chain.prismatic[0] and in_plane and through and free
+    first = robot.moved_alone(0)
+    if first is None or chain.prismatic[0]:
+        return False
+    width = float(robot.upper[first] - robot.lower[first])
+    return in_plane and through and (not within_limits or width >= 2 * math.pi - 1e-9)
 
 
 def reach_ball(robot: Robot) -> tuple[Array, float]:
@@ -174,8 +177,8 @@ def _feet(robot: Robot) -> list[Array]:
 
 def _travel(robot: Robot) -> float:
     """How far sliding joints can move the tip [m]; without limits as far as the arm is long."""
-    chain = robot.chain
-    far = np.maximum(np.abs(chain.lower), np.abs(chain.upper))[chain.prismatic]
+    chain, (low, high) = robot.chain, robot.joint_ranges()
+    far = np.maximum(np.abs(low), np.abs(high))[chain.prismatic]
     return float(np.where(np.isfinite(far), far, chain.size).sum())
 
 

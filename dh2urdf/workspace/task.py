@@ -8,7 +8,6 @@ import numpy as np
 from dh2urdf.bounds import ORIENTATIONS
 from dh2urdf.conversions.write import frame_along
 from dh2urdf.doors import instance, integer
-from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array, quaternion_to_matrix, rot_z
 
@@ -49,21 +48,8 @@ def _rolls_about_tool(robot: Robot) -> bool:
     """Tell whether the last joint turns about the tool's z, so that it only rolls the tool."""
     T_joint_tool = robot.chain.links[-1]
     off = np.abs([*T_joint_tool[:2, 3] / robot.chain.size, *T_joint_tool[:2, 2]])
-    return bool((off < 1e-9).all()) and not robot.chain.prismatic[-1]
-
-
-def refuse_coupled(robot: Robot) -> None:
-    """Refuse an arm of which values move joints together, whose limits are no box of the joints'.
-
-    Raises
-    ------
-    ArgumentError
-    """
-    if robot.is_coupled:
-        raise ArgumentError(
-            f"{robot.model.name} has joints that move together; this is worked out of joints that "
-            "move by themselves"
-        )
+    alone = robot.moved_alone(robot.chain.n - 1) is not None
+    return bool((off < 1e-9).all()) and not robot.chain.prismatic[-1] and alone
 
 
 def common_axis(robot: Robot) -> tuple[int | None, bool]:
@@ -103,8 +89,10 @@ def rolls_about(robot: Robot, within_limits: bool) -> Array | None:
     """
     T_joint_tip = robot.chain.links[-1]
     off = float(np.hypot(*T_joint_tip[:2, 3]))
-    free = not within_limits or float(robot.upper[-1] - robot.lower[-1]) >= 2 * math.pi - 1e-9
-    if robot.chain.prismatic[-1] or off > 1e-9 * robot.chain.size or not free:
+    last = robot.moved_alone(robot.chain.n - 1)
+    if last is None or robot.chain.prismatic[-1] or off > 1e-9 * robot.chain.size:
+        return None
+    if within_limits and float(robot.upper[last] - robot.lower[last]) < 2 * math.pi - 1e-9:
         return None
     return np.asarray(T_joint_tip[2, :3])
 

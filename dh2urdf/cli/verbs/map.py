@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 ENDS = "x from", "x to", "y from", "y to", "z from", "z to"
 
+OPTIONS = "step", "orientations", "region", "each", "refine"
+"""Arguments of a map that are options here."""
+
 
 def map_(
     robot: Arm,
@@ -107,7 +110,8 @@ def map_(
                 refine,
             )
         except ArgumentError as error:
-            raise ArgumentError(f"--{error}") from None
+            of_option = str(error).partition(":")[0] in OPTIONS
+            raise ArgumentError(f"--{error}" if of_option else str(error)) from None
         told = store_map(arm, settings, output, scheduler, report)
     if json:
         emit_json("map", path=output, within_limits=limits, **told._asdict())

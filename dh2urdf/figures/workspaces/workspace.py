@@ -201,7 +201,7 @@ def _branches(
     counts = reach.branch_counts(robot, grid, R, within_limits=within_limits, progress=progress)
 
     def counts_at(spots: Array) -> Counts:
-        return reach.counts_at(robot, grid.at_places(spots), R, within_limits)
+        return reach.counts_at(robot, grid.at_places(spots), R, within_limits, progress)
 
     halvings = HALVINGS[0 if _is_quick(robot) else 1]
     return Branches(grid, counts, regions(grid.u, grid.v, counts, counts_at, halvings))
@@ -234,7 +234,8 @@ def _shares(
     turns = reach.orientations(robot, task, sides, **limits)
 
     def reached_at(spots: Array) -> Counts:
-        found = reach.shares_at(robot, section.at_places(spots), turns, within_limits, held)
+        places = section.at_places(spots)
+        found = reach.shares_at(robot, places, turns, within_limits, held, progress)
         return (found > 0.0).astype(np.int64)
 
     sharp = each <= QUICK

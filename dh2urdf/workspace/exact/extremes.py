@@ -104,7 +104,7 @@ def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = Tru
     Raises
     ------
     ArgumentError
-        A slide without limits, joints that move together, no wrist point.
+        A slide without limits, no wrist point, limits of values and of joints that they move.
 
     Examples
     --------
@@ -123,6 +123,7 @@ def extreme_reach(robot: Robot, point: str = "tip", *, within_limits: bool = Tru
         q[name] = np.stack([configuration for _, configuration in found])
     T = carried.T_base_axis
     places = {name: carried.places(each) @ T[:3, :3].T + T[:3, 3] for name, each in q.items()}
+    q = {name: carried.box.values(each) for name, each in q.items()}
     return ExtremeReach(carried.name, T[:3, 3].copy(), T[:3, 2].copy(), **ends, q=q, places=places)
 
 
@@ -134,13 +135,15 @@ def bounds_of(carried: CarriedPoint, within_limits: bool) -> tuple[Array, Array]
     ArgumentError
         A slide without limits.
     """
-    chain = carried.chain
-    endless = chain.prismatic & ~np.isfinite(chain.upper - chain.lower)
+    box, chain = carried.box, carried.chain
+    free = ~box.slides & (not within_limits)
+    lower, upper = np.where(free, -np.inf, box.lower), np.where(free, np.inf, box.upper)
+    low, high = (lower, upper) if box.moves is None else box.moves.ranges(lower, upper)
+    endless = chain.prismatic & ~np.isfinite(high - low)
     if endless.any():
         name = chain.names[int(np.argmax(endless))]
         raise ArgumentError(f"{name} slides without limits: the reach has no bound")
-    free = ~chain.prismatic & (not within_limits)
-    return np.where(free, -np.inf, chain.lower), np.where(free, np.inf, chain.upper)
+    return lower, upper
 
 
 def _extreme(
@@ -168,7 +171,7 @@ def _extreme(
         upper = np.triu(second)
         curve = upper + np.triu(second, 1).swapaxes(1, 2)
         hessian = np.einsum("kxi,x,kxj->kij", J, W, J) + curve
-        return sign * gradient, sign * hessian
+        return carried.box.by_values(sign * gradient, sign * hessian)
 
     q, value = _descended(_starts(values, low, high), values, slopes, low, high, ROUGH)
     q = q[np.argsort(value, kind="stable")[:KEPT]]

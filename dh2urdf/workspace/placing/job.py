@@ -6,13 +6,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dh2urdf.ik.arm import Task
-from dh2urdf.kernels.measures import best_measures
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
+from dh2urdf.workspace.measures import measure_best
 from dh2urdf.workspace.refine import Progress
 from dh2urdf.workspace.section import reach_ball
-from dh2urdf.workspace.task import refuse_coupled
 
 PIECE = 8_192
 """Poses solved at a time."""
@@ -117,17 +115,8 @@ class Job:
             limits = np.clip(room.min(axis=1), 0.0, 1.0)
         return np.minimum(limits, np.clip(self._singular(q) / self.best_singular, 0.0, 1.0))
 
-    @cached_property
-    def _in_sizes(self) -> tuple[Array, Array]:
-        """The chain with its lengths in sizes of the arm, as kernels take it."""
-        chain = self.robot.chain
-        return chain.in_unit(chain.unit * chain.size).tables
-
     def _singular(self, q: Array) -> Array:
         """Smallest singular value of the task's Jacobian, lengths in sizes of the arm, (k,)."""
-        refuse_coupled(self.robot)
-        best = np.empty((3, len(q)))
-        scaled = np.where(self.robot.chain.prismatic, q / self.robot.chain.size, q)[:, None]
-        ones = np.ones(len(q), np.int64)
-        best_measures(self._in_sizes, Task(self.task).number, scaled, ones, best)
+        best, ones = np.empty((3, len(q))), np.ones(len(q), np.int64)
+        measure_best(self.robot, self.task, q[:, None], ones, best, self.robot.chain.size)
         return np.asarray(best[1])

@@ -57,7 +57,8 @@ def attributes(name: str, said: dict[str, Any]) -> dict[str, str]:
     if name != whole:
         words = f"{words}, of each orientation"
     if whole in MEASURES:
-        kinds = json.loads(said["chain"])["joint_types"]
+        arm = json.loads(said["chain"])
+        kinds = arm.get("value_types", arm["joint_types"])
         unit = measure_units(kinds, said[KEY]["task"])[whole]
         if unit == "rad or m":
             words = f"{words}, the least number of those in rad and those of slides in m"

@@ -5,11 +5,10 @@ of its singular values (Yoshikawa, "Manipulability of robotic mechanisms", 1985)
 of them; and the distance of the joints from their limits.
 """
 
-from dh2urdf.ik.arm import Task
 from dh2urdf.ik.problem import IKBatch
-from dh2urdf.kernels.measures import best_measures
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
+from dh2urdf.workspace.measures import measure_best
 
 MEASURES = "manipulability", "singular_value", "limit_margin"
 """Names of what `measure` finds, in its order."""
@@ -21,4 +20,4 @@ def measure(robot: Robot, task: str, found: IKBatch, best: Array) -> None:
     Manipulability, the smallest singular value, and the smallest distance of a joint from its
     limits [rad] or [m], negative beyond; -inf where there is no solution.
     """
-    best_measures(robot.chain.tables, Task(task).number, found.q, found.count, best)
+    measure_best(robot, task, found.q, found.count, best)

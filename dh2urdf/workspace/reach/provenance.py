@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.bounds import LENGTH
+from dh2urdf.dh import JointType
 from dh2urdf.dh_io import table_to_text
 from dh2urdf.robot import Robot
 from dh2urdf.workspace.reach.dataset import KEY
@@ -26,6 +27,7 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
         "joint_names": list(chain.names),
         "lower": _finite(chain.lower),
         "upper": _finite(chain.upper),
+        **_values(robot),
     }
     return {
         "title": f"Reach of {robot.model.name}, {robot.tip} in {robot.base}",
@@ -52,6 +54,21 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
             "refine": settings.refine,
             "block": settings.side,
         },
+    }
+
+
+def _values(robot: Robot) -> dict[str, Any]:
+    """The values of q of an arm whose joints move together: ``joints = matrix @ q + offset``."""
+    if robot.coupling is None:
+        return {}
+    kinds = (JointType.PRISMATIC if slides else JointType.REVOLUTE for slides in robot.slides)
+    return {
+        "value_types": [str(kind.value) for kind in kinds],
+        "value_names": list(robot.joint_names),
+        "value_lower": _finite(robot.lower),
+        "value_upper": _finite(robot.upper),
+        "matrix": robot.coupling.matrix.tolist(),
+        "offset": robot.coupling.offset.tolist(),
     }
 
 

@@ -15,7 +15,7 @@ from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
 from dh2urdf.workspace.reach.orientations import tried
 from dh2urdf.workspace.section import reach_ball
-from dh2urdf.workspace.task import common_axis, refuse_coupled
+from dh2urdf.workspace.task import common_axis
 
 BLOCK_POSES = 500_000
 """Poses of a block, about: a tenth of a second's work for each core, and what is lost of it."""
@@ -112,7 +112,6 @@ def settings_of(
 ) -> MapSettings:
     """Settings of arguments that are checked here."""
     task, turns = tried(instance(robot, "robot", Robot), orientations)
-    refuse_coupled(robot)
     inside = flag(within_limits, "within_limits")
     grid = _grid(robot, number(step, "step", 1e-6, LENGTH, unit="m"), region, inside)
     even = (BLOCK_POSES / (turns.shape[0] * turns.shape[1])) ** (1 / 3)
@@ -131,14 +130,15 @@ def settings_of(
 
 def bounded(robot: Robot, within_limits: bool) -> bool:
     """Whether no joint slides farther than the arm's lengths take into account."""
-    ends = np.concatenate([robot.lower[robot.slides], robot.upper[robot.slides]])
-    return not len(ends) or (within_limits and bool(np.isfinite(ends).all()))
+    ends = np.stack(robot.joint_ranges())[:, robot.chain.prismatic]
+    return not ends.size or (within_limits and bool(np.isfinite(ends).all()))
 
 
 def _endless(robot: Robot) -> str:
     """Names of the joints that slide without limits; where all have some, of all that slide."""
-    endless = robot.slides & ~(np.isfinite(robot.lower) & np.isfinite(robot.upper))
-    which = endless if endless.any() else robot.slides
+    slides, (low, high) = robot.chain.prismatic, robot.joint_ranges()
+    endless = slides & ~(np.isfinite(low) & np.isfinite(high))
+    which = endless if endless.any() else slides
     return ", ".join(name for name, one in zip(robot.chain.names, which, strict=True) if one)
 
 

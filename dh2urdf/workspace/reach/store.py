@@ -133,6 +133,11 @@ def _other_part(here: dict[str, Any], asked: dict[str, Any]) -> tuple[str, Any, 
             row, column = np.argwhere(np.asarray(a) != np.asarray(b))[0]
             what = f"link after {name}, row {row + 1}, column {column + 1}:"
             return what, a[row][column], b[row][column]
+    for key in ("value_names", "value_types", "value_lower", "value_upper", "matrix", "offset"):
+        a, b = here.get(key, "none"), asked.get(key, "none")
+        if a != b:
+            words = {"matrix": "couplings", "offset": "offsets of couplings"}
+            return words.get(key, f"{key.removeprefix('value_')} of q"), a, b
     raise AssertionError("chains of another digest are the same")
 
 
