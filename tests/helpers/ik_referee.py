@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 import dh2urdf
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import CoupledChain, SerialChain
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHRow, DHTable, JointType
 from dh2urdf.ik.arm import Outputs
@@ -120,6 +120,8 @@ def with_limits(chain, lower, upper):
 
 def forward(chain, q):
     """Poses of configurations (..., n) by the product of the chain."""
+    if isinstance(chain, CoupledChain):
+        return forward(chain.serial, q @ chain.matrix.T)
     T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
     for i in range(chain.n):
         T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
@@ -169,6 +171,8 @@ def by_pinocchio(robot, q):
 
 def jacobians(chain, q):
     """Geometric Jacobians at the tip in base axes, (..., 6, n)."""
+    if isinstance(chain, CoupledChain):
+        return jacobians(chain.serial, q @ chain.matrix.T) @ chain.matrix
     T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
     tip = forward(chain, q)[..., :3, 3]
     columns = []

@@ -44,7 +44,8 @@ class Tally:
         self.count[what] += 1
         self.cases.append((what, table, np.array(q)))
         values = " ".join(f"{x!r}" for x in np.asarray(q).tolist())
-        self.notes.append(f"{what}: {table_line(table)} at q = {values}")
+        line = table if isinstance(table, str) else table_line(table)
+        self.notes.append(f"{what}: {line} at q = {values}")
 
     def line(self):
         """One line of figures."""
@@ -91,10 +92,16 @@ def judge(tally, table, q, solve, robot=None, held=()):
     ``solve`` takes the robot and poses (m, 4, 4) and returns a batch; some joints may be held.
     """
     arm, robot = arm_of(table), robot or dh2urdf.Robot.from_dh(table)
+    judge_arm(tally, (table, arm), q, lambda Ts: solve(robot, Ts), held)
+
+
+def judge_arm(tally, named, q, solve, held=()):
+    """The same of an arm, before which stands its table, or its name."""
+    table, arm = named
     moving = np.isin(np.arange(arm.n), held, invert=True)
     Ts = np.ascontiguousarray(forward(arm, q))
     begun = time.perf_counter()
-    batch = solve(robot, Ts)
+    batch = solve(Ts)
     tally.seconds += time.perf_counter() - begun
     sigma = smallest(arm, q, moving)
     tolerance = np.clip(ROUNDING / np.maximum(sigma, 1e-300), LEAST, MOST)

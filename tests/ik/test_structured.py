@@ -5,11 +5,13 @@ and what is lost or wrong is added to the file that ``SWEEP_NOTES`` names: so tw
 """
 
 import os
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from dh_arm import arm_of
-from ik_referee import gaps
+from follower_arms import AWAY, MULTIPLIERS, follower_chain
+from ik_referee import gaps, solve
 from structured import (
     ROUNDINGS,
     random_tables,
@@ -19,12 +21,12 @@ from structured import (
     structured_configurations,
     variant_tables,
 )
-from sweep import Tally, judge, smallest
+from sweep import Tally, judge, judge_arm, smallest
 
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.exceptions import NoSolverError
-from dh2urdf.ik.arm import Task, spare_joints
+from dh2urdf.ik.arm import Task, select_solver, spare_joints
 
 SIZE = float(os.environ.get("SWEEP", "1"))
 """Poses of a class, as a multiple of what follows."""
@@ -133,6 +135,40 @@ def test_a_slice_of_structured_poses_with_slides_loses_nothing_that_is_regular()
 def test_structured_poses_with_slides_lose_nothing_that_is_regular(decimals):
     """As of other arms; of families that are not named there are some in a thousand."""
     check_regular(sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals))
+
+
+def followers_tally(away, multiplier, chains, poses):
+    """The tally of right-angled chains of six values, of which one moves two joints."""
+    tally = Tally(f"followers, {away} turns between, {multiplier:g} times")
+    for seed in range(chains):
+        chain = follower_chain(1000 + seed, multiplier, away, square=True).in_turns
+        try:
+            solver = select_solver(chain)
+        except NoSolverError:
+            tally.count["refused"] += 1
+            continue
+
+        def solved(Ts, chain=chain, solver=solver):
+            found = solve(chain, Ts, solver=solver)
+            return SimpleNamespace(q=found.q, count=found.count, free_mask=found.free)
+
+        q = structured_configurations(chain, poses, seed)
+        judge_arm(tally, (f"follower_chain({1000 + seed})", chain), q, solved)
+    return tally
+
+
+def test_a_slice_of_structured_poses_with_followers_loses_nothing_that_is_regular():
+    """A few poses of chains in which a joint follows another one."""
+    for away, multiplier in ((0, -1.0), (1, 1.0), (2, 2.0)):
+        check_regular(followers_tally(away, multiplier, 4, 8))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("multiplier", MULTIPLIERS)
+@pytest.mark.parametrize("away", AWAY)
+def test_structured_poses_with_followers_lose_nothing_that_is_regular(away, multiplier):
+    """As of other arms; of families that are not named there are some in a thousand."""
+    check_regular(followers_tally(away, multiplier, TABLES // 3, POSES // 2))
 
 
 @pytest.mark.exhaustive

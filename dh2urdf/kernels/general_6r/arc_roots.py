@@ -14,6 +14,7 @@ from dh2urdf.kernels.general_6r.arc_shapes import (
     DIP,
     DOUBT,
     FIRST,
+    FLAT,
     LARGEST,
     LEFT,
     OPEN,
@@ -154,7 +155,8 @@ def _decide(arm, k, roots, pairs, noise):
         return roots + 1, True
     if shapes[PAIR, k] > 0.0 if decided else changes == 2.0 and length < pairs[0]:
         roots, decided = _at_extremum(arm, k, roots, noise)
-    if shapes[DOUBT, k] > 0.0 and roots == before:
+    whole = decided or terms == SIXTEEN or shapes[LARGEST, k] < FLAT * noise
+    if shapes[DOUBT, k] > 0.0 and roots == before and whole:  # else its parts are looked at
         _note(arm, k, 1.0, -1.0, 0.0, 1.0)
     if not decided and length < 1e-12:
         _note(arm, k, 0.0, -1.0, 0.5, -2.0)

@@ -8,6 +8,7 @@ measured. Which degree is seen from the arrays' lengths, when kernels are transl
 """
 
 import math
+from functools import cache
 
 import numpy as np
 
@@ -20,6 +21,10 @@ DEGREE = 8
 TERMS = 2 * DEGREE + 1
 ARC = 2.0 * math.pi / LANES
 """Length [rad] of an arc of degree 8."""
+
+
+EPSILON = 2.0**-52
+"""Rounding of a coefficient's terms, in parts of them."""
 
 
 def lanes_of(degree):
@@ -88,7 +93,10 @@ def _beside(rows):
 
 
 def _window_table(degree):
-    """Weights of samples at the nodes, square: Bernstein coefficients, then 7 contradictions."""
+    """Weights of samples at the nodes, square: Bernstein coefficients, then 7 contradictions.
+
+    They grow as ``4^d``, and the rounding with them: for degree 8 alone.
+    """
     lanes, terms = lanes_of(degree), 2 * degree + 1
     x, basis = 0.5 * (1.0 + _nodes(lanes)), np.ones((1, lanes))
     for _ in range(2 * degree):
@@ -106,20 +114,57 @@ def _window_table(degree):
     return np.ascontiguousarray(both[:, terms:].T)
 
 
+def _chebyshev_table(degree):
+    """Weights of samples at the nodes in the coefficients of T_0, T_1, ..., square."""
+    lanes = lanes_of(degree)
+    turns = np.outer(2 * np.arange(lanes) + 1, np.arange(lanes)) % (4 * lanes)
+    cosines = np.array([sincos(2.0 * math.pi * k / (4 * lanes))[1] for k in range(4 * lanes)])
+    table = cosines[turns] * (2.0 / lanes)
+    table[:, 0] *= 0.5
+    return table
+
+
+def _bernstein(degree):
+    """Bernstein coefficients on [-1, 1] of Chebyshev's T_0, T_1, ..., square; and the largest ones.
+
+    In whole numbers: what ``u^i v^(2d - i)`` is taken times, where ``x = u - v`` and ``u + v = 1``.
+    """
+    terms, before, now = 2 * degree + 1, [1], [-1, 1]
+    rows = []
+    for j in range(terms):
+        row = before
+        for _ in range(terms - 1 - j):
+            row = _times(row, 1, 1)
+        rows.append([a / math.comb(terms - 1, i) for i, a in enumerate(row)])
+        square = _times(_times(before, 1, 1), 1, 1)
+        more = [2 * a - b for a, b in zip(_times(now, -1, 1), square, strict=True)]
+        before, now = now, more
+    table = np.array(rows)
+    return table, np.abs(table).max(axis=1)
+
+
+def _times(row, a, b):
+    """Coefficients of a polynomial in u and v times ``a v + b u``."""
+    return [a * low + b * high for low, high in zip([*row, 0], [0, *row], strict=True)]
+
+
 CIRCLE_8, TURNS_8 = _circle_table(LANES), _turns(DEGREE)
 ARC_8, WINDOW_8 = _arc_table(DEGREE), _window_table(DEGREE)
 NODES_8, PLACES_8 = _nodes(LANES), _circle(LANES)
 TAN_8, BINOMIAL_8 = _arc_tan(LANES), _binomial(DEGREE)
 
 
+@cache
 def tables_of(degree: int) -> dict[str, Floats]:
     """What a record of another degree has in place of these tables, by names."""
-    lanes = lanes_of(degree)
+    lanes, (bernstein, growth) = lanes_of(degree), _bernstein(degree)
     return {
         "circle": _circle_table(lanes),
         "turning": _turns(degree),
         "arc_table": _arc_table(degree),
-        "window": _window_table(degree),
+        "window": _chebyshev_table(degree),
+        "bernstein": bernstein,
+        "growth": growth,
         "nodes": _nodes(lanes),
         "places": _circle(lanes),
         "binomial": _binomial(degree),
@@ -220,20 +265,23 @@ def _window_nodes(centre, half_tan, nodes, hidden):
 def window_arc(half_tan, arm):
     """Bernstein coefficients of f on one window from its samples, to the first column of arcs.
 
-    Returns the largest contradiction among the samples, ``determinant``: the noise. They are
-    overwritten, ``series`` is scratch.
+    Returns the noise: the largest contradiction among the samples, ``determinant``, or more where
+    the coefficients are rounded by more. They are overwritten, ``series`` is scratch.
     """
     samples, series, turned = arm["determinant"], arm["series"], arm["turned"]
     if len(turned) == TERMS:
-        _window_arc(samples, half_tan, NODES_8, WINDOW_8, series, turned, arm["arcs"])
+        _window_series(samples, half_tan, NODES_8, WINDOW_8, series, turned)
+        rounding = 0.0
     else:
-        nodes = arm["nodes"]
-        _window_arc(samples, half_tan, nodes, arm["window"], series, turned, arm["arcs"])
-    return _largest(series, len(turned), len(series))
+        _window_series(samples, half_tan, arm["nodes"], arm["window"], series, turned)
+        rounding = _to_bernstein(samples, arm["bernstein"], arm["growth"], series, turned)
+    for i in range(len(turned)):
+        arm["arcs"][i, 0] = series[i]
+    return max(_largest(series, len(turned), len(series)), rounding)
 
 
-def _window_arc(samples, half_tan, nodes, table, series, turned, arcs):
-    """The same by the tables of a degree."""
+def _window_series(samples, half_tan, nodes, table, series, turned):
+    """Coefficients of ``(1 + t^2)^d f`` as a polynomial of t, and seven that should vanish."""
     for k in side_by_side(len(samples)):
         t = half_tan * nodes[k]
         square = (1.0 + t * t) * (1.0 + t * t)
@@ -241,5 +289,23 @@ def _window_arc(samples, half_tan, nodes, table, series, turned, arcs):
         for _ in range(len(turned) // 16):
             samples[k] *= eighth
     _transform(samples, table, series)
-    for i in range(len(turned)):
-        arcs[i, 0] = series[i]
+
+
+def _to_bernstein(row, table, growth, series, turned):
+    """From Chebyshev's coefficients those of Bernstein, in their place; by how much they are off.
+
+    High ones grow by far, and with them what they are rounded by: noise is left out.
+    """
+    terms, rounding = len(turned), 0.0
+    noise = _largest(series, terms, len(series))
+    for i in range(terms):
+        row[i] = 0.0
+    for j in range(terms):
+        c = series[j]
+        if abs(c) > noise:
+            rounding += abs(c) * growth[j]
+            for i in range(terms):
+                row[i] += c * table[j, i]
+    for i in range(terms):
+        series[i] = row[i]
+    return EPSILON * rounding

@@ -4,10 +4,12 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from follower_arms import apart, follower_chain, poses_at
+from follower_arms import follower_chain
+from ik_referee import forward, misses, solve
+from margins import assert_margin
 
 from dh2urdf import DHRow, DHTable, Mimic, Robot
-from dh2urdf.ik.arm import Outputs, select_solver, starts_of
+from dh2urdf.ik.arm import starts_of
 
 H, BEND = pi / 2, radians(35)
 
@@ -72,12 +74,50 @@ PAIRS = (
 @pytest.mark.parametrize(("seed", "multiplier", "between", "q"), PAIRS)
 def test_an_odd_number_of_solutions_is_searched_further(seed, multiplier, between, q):
     """Isolated solutions come in pairs; one of them was left out."""
-    chain = follower_chain(seed, multiplier, between, False).in_turns
-    solver, q = select_solver(chain), np.array(q)
-    out = Outputs.of(1, solver.kmax, 6)
-    solver.solve_batch(np.ascontiguousarray(poses_at(chain, q[None])), False, out)
-    assert apart(out.q[0, : out.counts[0]], q).min() < 1e-6
-    assert out.counts[0] % 2 == 0
+    chain, q = follower_chain(seed, multiplier, between, False).in_turns, np.array([q])
+    found = solve(chain, forward(chain, q))
+    assert_margin(misses(chain, found, q), 1e-6)
+    assert found.count[0] % 2 == 0
+
+
+FLAT = (
+    (
+        113,
+        1,
+        6,
+        (
+            -0.7428061850510321,
+            1.9103721588679203,
+            -0.4761636053085829,
+            0.5992706061571491,
+            0.41705126900614164,
+            -1.4612458453612802,
+        ),
+    ),
+    (
+        122,
+        2,
+        4,
+        (
+            1.280998189884487,
+            1.8537407111729705,
+            -2.109495010089149,
+            3.104821462368558,
+            -1.1940804009488655,
+            -1.9365405074049085,
+        ),
+    ),
+)
+"""Right-angled chains, how many free turns are between, and how many solutions a pose has."""
+
+
+@pytest.mark.parametrize(("seed", "between", "count", "q"), FLAT)
+def test_a_pair_where_the_polynomial_is_flat_is_found(seed, between, count, q):
+    """Two roots where it is 1e-12 of what it is 0.4 rad away: no rounding hides their signs."""
+    chain, q = follower_chain(seed, 1.0, between, True).in_turns, np.array([q])
+    found = solve(chain, forward(chain, q))
+    assert_margin(misses(chain, found, q), 1e-6)
+    assert found.count[0] == count
 
 
 def half_geared():

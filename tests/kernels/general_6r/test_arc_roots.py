@@ -31,13 +31,19 @@ def product(q, roots):
     return np.real(values)
 
 
+def filled(dtype):
+    """A record of a degree with its tables."""
+    arm = np.zeros(1, dtype)[0]
+    if dtype is not ARM_6R:
+        for name, table in tables_of(len(arm["turned"]) // 2).items():
+            arm[name] = table
+    return arm
+
+
 def roots_around(samples, pairs, dtype=ARM_6R):
     """Roots and slopes of all arcs of the circle, the noise, the largest coefficient."""
-    arm, lanes = np.zeros(1, dtype)[0], len(samples)
+    arm, lanes = filled(dtype), len(samples)
     arm["determinant"], terms = samples, len(arm["turned"])
-    if dtype is not ARM_6R:
-        for name, table in tables_of(terms // 2).items():
-            arm[name] = table
     noise, largest = circle_arcs(arm)
     arm["arcs"][terms + LEFT], arm["arcs"][terms + RIGHT] = -arc_tan(arm), arc_tan(arm)
     arm["arcs"][terms + CENTRE] = 2 * math.pi / lanes * np.arange(lanes)
@@ -78,16 +84,38 @@ def test_a_polynomial_of_a_higher_degree_has_all_its_roots(degree):
             assert_margin(np.minimum(gap, 2 * math.pi - gap).min(axis=1), 1e-4)
 
 
+@pytest.mark.parametrize("half_tan", [0.1, 0.03, 0.01])
+@pytest.mark.parametrize("degree", [16, 48])
+def test_rounding_of_a_window_of_a_higher_degree_is_told(degree, half_tan):
+    """Where f is 1e-12 of what it is at the ends it is off by no more than the noise."""
+    rng, arm = np.random.default_rng(degree), filled(record(root_order(degree), root_work(degree)))
+    near = 1.0 + 0.1 * half_tan * (rng.normal(size=7) + 1j * rng.normal(size=7))
+    others = rng.uniform(2.0, 6.0, degree - 8) + 1j * rng.uniform(0.1, 1.0, degree - 8)
+    roots = [*near, *near.conj(), *others, *others.conj(), 1.0 - 1e-3, 1.0 + 1e-3]
+    window_nodes(1.0, half_tan, arm)
+    f = product(np.arctan2(arm["hidden"][1], arm["hidden"][0]), roots)
+    arm["determinant"] = f
+    noise, x = window_arc(half_tan, arm), np.linspace(0.3, 0.7, 101)
+    row = arm["arcs"][: 2 * degree + 1, :1] * np.ones_like(x)
+    while len(row) > 1:
+        row = row[:-1] * (1.0 - x) + row[1:] * x
+    t = half_tan * (2.0 * x - 1.0)
+    expected = product(1.0 + 2.0 * np.arctan(t), roots) * (1.0 + t * t) ** degree
+    assert np.abs(expected).min() < 1e-9 * np.abs(f).max()
+    assert np.abs(row[0] - expected).max() < 10.0 * noise
+    assert noise < 1e-6 * np.abs(f).max()
+
+
 def nodes_of(middle, half_tan):
     """Cosines and sines of a window's nodes."""
-    arm = np.zeros(1, ARM_6R)[0]
+    arm = filled(ARM_6R)
     window_nodes(middle, half_tan, arm)
     return arm["hidden"]
 
 
 def arc_of(samples, half_tan):
     """Bernstein coefficients on a window, and their noise."""
-    arm = np.zeros(1, ARM_6R)[0]
+    arm = filled(ARM_6R)
     arm["determinant"] = samples
     noise = window_arc(half_tan, arm)
     return arm["arcs"][:TERMS], noise
