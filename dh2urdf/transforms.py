@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from dh2urdf.bounds import NUMBER
 from dh2urdf.doors import Array, finite_array, number, real_array
 from dh2urdf.exceptions import PoseError
+from dh2urdf.kernels.numbers import multiply
 from dh2urdf.poses import check_pose, nearest_rotation
 
 __all__ = [
@@ -212,13 +213,25 @@ def moved(T: Array, points: Array) -> Array:
 def product(first: Array, *others: Array) -> Array:
     """Product of matrices (..., m, n): ``@`` with the same order of sums on every machine."""
     for other in others:
-        if first.ndim == other.ndim == 2:  # all terms at once: few calls for few numbers
-            terms = first[:, :, None] * other
-            sums = [terms[:, k] for k in range(first.shape[1])]
+        if first.ndim == other.ndim <= 3 and first.shape[:-2] == other.shape[:-2] and first.size:
+            first = _multiplied(first, other)
         else:
-            sums = [first[..., :, k, None] * other[..., k, None, :] for k in range(first.shape[-1])]
-        first = reduce(np.add, sums)
+            terms = (
+                first[..., :, k, None] * other[..., k, None, :] for k in range(first.shape[-1])
+            )
+            first = reduce(np.add, terms)
     return first
+
+
+def _multiplied(first: Array, other: Array) -> Array:
+    """The product of two matrices, or of two stacks of equally many, by the kernel."""
+    a, b = np.ascontiguousarray(first, float), np.ascontiguousarray(other, float)
+    out = np.empty((*a.shape[:-1], b.shape[-1]))
+    if a.ndim == 2:
+        multiply(a[None], b[None], out[None])
+    else:
+        multiply(a, b, out)
+    return out
 
 
 def dot(a: Array, b: Array) -> Array:

@@ -90,3 +90,16 @@ def test_the_quick_forms_for_few_numbers_have_the_bits_of_the_general_ones(seed)
     assert np.array_equal(tf.cross(A[0, :3], B[0, :3]), np.cross(A[0, :3], B[0, :3]))
     assert np.array_equal(tf.product(A, B), tf.product(A[None], B[None])[0])
     assert tf.dot(A[0], B[0]) == tf.dot(A, B)[0]
+
+
+@pytest.mark.parametrize("shapes", [((4, 4), (4, 4)), ((5, 3, 2), (5, 2, 4)), ((4, 4), (6, 4, 4))])
+def test_products_are_summed_from_the_first_term_to_the_last(shapes):
+    """Whether or not the kernel takes the shapes; in any memory order."""
+    rng = np.random.default_rng(0)
+    a, b = (rng.normal(size=shape) for shape in shapes)
+    expected = a[..., :, 0, None] * b[..., 0, None, :]
+    for k in range(1, a.shape[-1]):
+        expected = expected + a[..., :, k, None] * b[..., k, None, :]
+    assert (tf.product(a, b) == expected).all()
+    turned = np.swapaxes(np.ascontiguousarray(np.swapaxes(a, -1, -2)), -1, -2)
+    assert (tf.product(turned, b) == expected).all()

@@ -13,6 +13,7 @@ import numpy as np
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.shared_tolerances import EXACT, FORM_ERROR, SNAP
+from dh2urdf.kernels.axis_lines import CENTRAL, MEETING, PARALLEL, snap_lines
 from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.kernels.numbers import atan2, hypot, sincos
 from dh2urdf.transforms import Array, cross, dot, inverted, length, pose_error, product
@@ -37,100 +38,44 @@ class AxisLines:
         """Length that counts as zero [m]."""
         return self.tolerance * self.chain.size
 
-    @cached_property
+    @property
     def signs(self) -> Array:
         """-1 where a line points against its joint: parallel neighbours point one way, (n,)."""
-        return self._directions[1]
+        return self._snapped[2]
 
-    @cached_property
+    @property
     def axes(self) -> Array:
         """Unit directions, shape (n, 3); parallel neighbours are equal."""
-        return self._directions[0]
+        return self._snapped[0]
 
-    @cached_property
-    def _directions(self) -> tuple[Array, Array]:
-        axes, signs = self.chain.axes.copy(), np.ones(self.chain.n)
-        for i in range(1, self.chain.n):
-            along = float(dot(axes[i], axes[i - 1]))
-            if np.linalg.norm(cross(axes[i], axes[i - 1])) <= self.tolerance:
-                signs[i] = math.copysign(1.0, along)
-                axes[i] = axes[i - 1]
-            elif abs(along) <= EXACT:
-                axes[i] -= along * axes[i - 1]
-                axes[i] /= length(axes[i])
-        return axes, signs
-
-    @cached_property
+    @property
     def points(self) -> Array:
         """A point on each line [m], shape (n, 3): the foot of the normal from the line before.
 
         A sliding joint has a direction only: its line goes through the point before it.
         """
-        chain, points = self.chain, self.chain.points.copy()
-        turning = [i for i in range(chain.n) if not chain.prismatic[i]]
-        for i in reversed(range(chain.n - 1)):
-            if chain.prismatic[i]:
-                points[i] = points[i + 1]
-        for i in range(1, chain.n):
-            if chain.prismatic[i]:
-                points[i] = points[i - 1]
-            elif i - 1 in turning and (meet := self._meeting(points, i - 1, i)) is not None:
-                points[i] = meet
-            else:
-                points[i] += self.axes[i] * dot(self.axes[i], points[i - 1] - points[i])
-        for i in range(chain.n - 2):
-            centre = self._centre(points, i)
-            if centre is not None and not chain.prismatic[i : i + 3].any():
-                points[i : i + 3] = centre
-        return points
+        return self._snapped[1]
 
-    def _meeting(self, points: Array, i: int, j: int) -> Array | None:
-        """Where lines i and j meet, the point of j nearest to i; None if they are apart."""
-        normal = cross(self.axes[i], self.axes[j])
-        square = float(dot(normal, normal))
-        gap = points[i] - points[j]
-        if square <= self.tolerance**2:
-            apart = gap - self.axes[j] * dot(self.axes[j], gap)
-            return points[i] if np.linalg.norm(apart) <= self.length else None
-        if abs(dot(gap, normal)) > self.length * math.sqrt(square):
-            return None
-        point: Array = points[j] + self.axes[j] * (dot(cross(self.axes[i], gap), normal) / square)
-        point += normal * (dot(gap, normal) / square)
-        return point
-
-    def _centre(self, points: Array, i: int) -> Array | None:
-        """Point within the tolerance of lines i, i + 1, i + 2, neighbours not parallel."""
-        if self.parallel(i) or self.parallel(i + 1):
-            return None
-        axes = self.axes[i : i + 3]
-        planes = np.eye(3) - axes[:, :, None] * axes[:, None, :]
-        near, some = points[i + 1], points[i : i + 3]
-        # normal equations (sum P) x = sum P (p - near), by Cramer's rule
-        x, y, z = planes[0] + planes[1] + planes[2]
-        moments = product(planes, (some - near)[:, :, None])[:, :, 0]
-        right = moments[0] + moments[1] + moments[2]
-        crossed = np.array([cross(y, z), cross(z, x), cross(x, y)])
-        centre: Array = near + dot(crossed, right) / dot(x, crossed[0])
-        gaps = [length(v) for v in product(planes, (centre - some)[:, :, None])[:, :, 0]]
-        return centre if max(gaps) <= self.length else None
+    @cached_property
+    def _snapped(self) -> tuple[Array, Array, Array, list[int]]:
+        """Axes, points and signs, and what each line does with those that follow."""
+        chain, n = self.chain, self.chain.n
+        lines, ties = (np.empty((n, 3)), np.empty((n, 3)), np.empty(n)), np.empty(n, np.int64)
+        slides = np.ascontiguousarray(chain.prismatic)
+        snap_lines(chain.joint_frames, slides, self.tolerance, self.length, *lines, ties)
+        return *lines, ties.tolist()
 
     def parallel(self, i: int) -> bool:
         """Whether lines i and i + 1 are parallel."""
-        return self._parallel[i]
-
-    @cached_property
-    def _parallel(self) -> list[bool]:
-        same: list[bool] = (self.axes[1:] == self.axes[:-1]).all(axis=1).tolist()
-        return same
+        return bool(self._snapped[3][i] & PARALLEL)
 
     def meet(self, i: int) -> bool:
         """Whether lines i and i + 1 have exactly one point in common."""
-        return not self.parallel(i) and self._meeting(self.points, i, i + 1) is not None
+        return bool(self._snapped[3][i] & MEETING)
 
     def spherical(self, i: int) -> bool:
         """Whether three revolute joints from i on have axes through one point."""
-        turning = not self.chain.prismatic[i : i + 3].any()
-        return turning and self._centre(self.points, i) is not None
+        return bool(self._snapped[3][i] & CENTRAL)
 
     def three_parallel(self, i: int) -> bool:
         """Whether three revolute joints from i on have parallel axes."""

@@ -95,9 +95,14 @@ def task_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:
 
 def random_configurations(chain: SerialChain, count: int) -> Array:
     """Configurations anywhere, the same ones each time, shape (count, n)."""
-    rng = np.random.default_rng(2)
     span = np.where(chain.prismatic, chain.size, np.pi)
-    return rng.uniform(-1.0, 1.0, (count, chain.n)) * span
+    return _draws(count, chain.n) * span
+
+
+@lru_cache(maxsize=8)
+def _draws(count: int, n: int) -> Array:
+    """Numbers from -1 to 1, the same ones each time, shape (count, n)."""
+    return np.random.default_rng(2).uniform(-1.0, 1.0, (count, n))
 
 
 def scaled_jacobian(chain: SerialChain, task: Task, q: Array) -> Array:

@@ -149,13 +149,6 @@ def _z(angle: float, offset: float) -> Array:
     return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, offset], [0, 0, 0, 1.0]])
 
 
-def _shift(way: Array) -> Array:
-    """A shift without a turn."""
-    out = np.eye(4)
-    out[:3, 3] = way
-    return out
-
-
 def short_links(links: Array, slides: Array, turns: Array) -> tuple[Array, Array]:
     """The same chain with each joint's origin slid along its axis, so that the links are short.
 
@@ -180,14 +173,17 @@ def short_links(links: Array, slides: Array, turns: Array) -> tuple[Array, Array
         rhs[rows] = -links[i, :3, 3]
     grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
     ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
-    short, zeros = links.copy(), np.zeros(n)
+    short, ends = links.copy(), np.zeros((2, n, 3))
     for i, (before, after, axes) in enumerate(places):
-        a, b = (product(axes, ways[some][:, None])[:, 0] for some in (before, after))
-        zeros[i] = a[2] - b[2]
-        short[i] = product(short[i], _shift(a))
-        turn = 0.0 if slides[i] else turns[i]
-        short[i + 1] = product(_z(turn, 0.0), _shift(-b), short[i + 1])
-    return short, zeros
+        for end, some in zip(ends, (before, after), strict=True):
+            end[i] = product(axes, ways[some][:, None])[:, 0]
+    turned = np.stack([_z(0.0 if s else turn, 0.0) for s, turn in zip(slides, turns, strict=True)])
+    short[1:, :3, 3] -= ends[1]
+    short[1:] = product(turned, short[1:])
+    short[:-1, :3, 3] = (
+        product(short[:-1, :3, :3], ends[0][:, :, None])[:, :, 0] + short[:-1, :3, 3]
+    )
+    return short, ends[0, :, 2] - ends[1, :, 2]
 
 
 def _outer_slides(chain: Array, slides: Array, outer: Array) -> None:

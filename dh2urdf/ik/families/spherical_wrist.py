@@ -5,11 +5,11 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.ik.arm import REGULAR, BatchKernel, DHForm, form_of, lines_of, plain_ranges, row_motion
+from dh2urdf.ik.arm import REGULAR, BatchKernel, DHForm, form_of, lines_of, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm
+from dh2urdf.kernels.chain import chain_jacobian_batch
 from dh2urdf.kernels.nearly import wrist_seeds
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
-from dh2urdf.transforms import cross
 
 
 class SphericalWrist(ClosedForm):
@@ -72,19 +72,9 @@ class SphericalWrist(ClosedForm):
 
 def _places_wrist(form: DHForm) -> bool:
     """Whether the first three joints move the wrist centre in three directions somewhere."""
-    rows, chain = form.rows, form.lines.chain
-    for q in np.random.default_rng(0).uniform(-3.0, 3.0, (4, 3)):
-        T, screws = np.eye(4), []
-        for i in range(3):
-            screws.append((T[:3, 2], T[:3, 3]))
-            T = T @ row_motion(rows[i], float(q[i]))
-        centre = T[:3, 3] + rows[3, 3] * T[:3, 2]
-        J = np.stack(
-            [
-                z if chain.prismatic[i] else cross(z, (centre - p) / chain.size)
-                for i, (z, p) in enumerate(screws)
-            ]
-        )
-        if abs(np.linalg.det(J)) > REGULAR:
-            return True
-    return False
+    links, slides = form.links[:4].copy(), np.ascontiguousarray(form.lines.chain.prismatic[:3])
+    links[3, :3, 3] += form.rows[3, 3] * links[3, :3, 2]
+    q, J = np.random.default_rng(0).uniform(-3.0, 3.0, (4, 3)), np.empty((4, 6, 3))
+    chain_jacobian_batch(links, slides, q, J)
+    J /= np.where(slides, 1.0, form.lines.chain.size)
+    return bool((np.abs(np.linalg.det(J[:, :3])) > REGULAR).any())
