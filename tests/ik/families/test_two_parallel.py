@@ -139,6 +139,23 @@ def test_shipped_arms_lose_none_of_20_000_poses_of_a_grid(name):
         check(shipped(name), structured(np.random.default_rng(seed), 2_000))
 
 
+TEN = {name: shipped(name) for name in (*SHIPPED, "niryo_ned2")}
+TEN |= {geometry: random_chain(geometry, "standard", 0) for geometry in CLASSES}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("name", TEN)
+def test_100_000_random_poses_of_ten_arms_miss_nothing(name):
+    """Nor is a solution wrong or there twice; a configuration is found as its pose tells it."""
+    chain = TEN[name]
+    for seed in range(20):
+        q = draw(chain, 5_000, seed)
+        found = check(chain, q)
+        assert found.residual[exists(found)].max() <= RESIDUAL * max(1.0, chain.size)
+        told = np.maximum(GAP, 1e-12 / np.maximum(regularity(chain, q), 1e-12))
+        assert (misses(chain, found, q) <= told).all()
+
+
 @pytest.mark.parametrize(
     ("chain", "q"),
     [
