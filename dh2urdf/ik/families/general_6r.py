@@ -28,6 +28,10 @@ TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 GRID = 2.0**-24
 """What shifts of frames are rounded to, in parts of the longest link: no library decides bits."""
 
+ALONG = 1e-3
+"""What slid origins must bring, in parts of how far they are slid: the common normal of axes that
+are parallel but for rounding is kilometres out, and lengths there have fewer digits."""
+
 SLIDES = 2
 """Most joints that slide; with three the orientation alone gives the turns."""
 
@@ -172,7 +176,7 @@ def short_links(links: Array, slides: Array, turns: Array) -> tuple[Array, Array
         matrix[rows, places[i][0]] = product(links[i, :3, :3], places[i][2])
         rhs[rows] = -links[i, :3, 3]
     grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
-    ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=1e-9)[0] / grid) * grid
+    ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=ALONG)[0] / grid) * grid
     short, ends = links.copy(), np.zeros((2, n, 3))
     for i, (before, after, axes) in enumerate(places):
         for end, some in zip(ends, (before, after), strict=True):

@@ -22,6 +22,7 @@ from dh2urdf.ik.arm import (
     keep_sharp,
     lines_of,
     plain_ranges,
+    search_in_doubt,
     starts_of,
     unite_families,
 )
@@ -216,12 +217,27 @@ class ThreeSlides(SolverBase):
 
     name = "three slides"
     needs = "three sliding joints and two or three turning ones"
-    kmax = 2
+    kmax = 8
     kernel = staticmethod(solve_three_slides)
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
         self.constants = self.chain.tables, np.clip(0.0, chain.lower, chain.upper)
+
+    def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+        """Search at poses Ts[rows], from what the equations give and many starts."""
+        poses, known = (
+            np.ascontiguousarray(Ts[rows]),
+            Outputs.of(len(rows), self.kmax, self.chain.n),
+        )
+        self.kernel(self.constants, poses, False, known)
+        known.counts[:] = -1 - known.counts
+        if self.chain.n == MOST_JOINTS:
+            wide = search_short(self.chain, poses, known, within_limits)
+        else:
+            deep = np.arange(len(rows))
+            wide = search_in_doubt(self.chain, poses, known, deep, within_limits)
+        out.put(rows, wide)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

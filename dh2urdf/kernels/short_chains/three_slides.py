@@ -4,6 +4,7 @@
 equations, gives the slides.
 """
 
+import math
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -46,6 +47,14 @@ SLACK = 1e-6
 IN_LINE = 1e-10
 """Sine of the middle angle at which only the sum or difference of the outer two is known."""
 
+SINGULAR = 1e-4
+"""Such a sine, and half the difference of two middle angles [rad], and the volume of the slides'
+directions, below which there may be more solutions, or families of them."""
+
+FAR = 100.0
+"""How much farther slides are out than the way that they are to bridge where such a volume only
+says that one of a pair is far out."""
+
 ROWS = 20
 """Rows of scratch: four links and the middle rotation, 4 x 4."""
 
@@ -66,9 +75,14 @@ def _turning_links(chain, turning, scratch):
     return count
 
 
+def _sine(M):
+    """Square of the sine between the axes before and after M."""
+    return M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
+
+
 def _outer(M, B):
     """Angles x, y with ``Rz(x) M Rz(y) = B``; x = 0 where M only turns about z."""
-    across = M[0, 2] * M[0, 2] + M[1, 2] * M[1, 2]
+    across = _sine(M)
     if across <= IN_LINE * IN_LINE:
         c = M[0, 0] * B[0, 0] + M[1, 0] * B[1, 0]
         s = M[0, 1] * B[0, 0] + M[1, 1] * B[1, 0]
@@ -79,13 +93,14 @@ def _outer(M, B):
 
 
 def _candidates(chain, T, q, turning, scratch, damped):
-    """Candidate configurations of a pose, at most two, in the first rows of q; how many.
+    """Candidate configurations of a pose, at most two, in the first rows of q.
 
-    ``turning`` (3,), ``scratch`` (ROWS, 4) and ``damped`` are scratch.
+    Returned are how many, and whether one is singular or nearly so. ``turning`` (3,), ``scratch``
+    (ROWS, 4) and ``damped`` are scratch.
     """
-    count = _turning_links(chain, turning, scratch)
+    count, least = _turning_links(chain, turning, scratch), SINGULAR * SINGULAR
     B, M = scratch[16:20], scratch[12:16]
-    found = 1
+    found, doubt = 1, False
     q[:] = 0.0
     # B = R_0^T R R_last^T
     invert_pose(scratch[4 * count : 4 * count + 4], B)
@@ -99,14 +114,17 @@ def _candidates(chain, T, q, turning, scratch, damped):
         b = first[2, 1] * second[0, 2] - first[2, 0] * second[1, 2]
         d = B[2, 2] - first[2, 2] * second[2, 2]
         found, c1, s1, c2, s2 = linear_trig(a, b, d, SLACK)
+        square = a * a + b * b
+        doubt = square - d * d < least * square
         for k in range(found):
             c, s = (c1, s1) if k == 0 else (c2, s2)
             q[k, turning[1]] = atan2(s, c)
             store_pose(joint_times_link(load_pose(first), False, q[k, turning[1]], second), M)
             q[k, turning[0]], q[k, turning[2]] = _outer(M, B)
+            doubt = doubt or _sine(M) < least
     for k in range(found):
-        _place(chain, T, q[k], damped)
-    return max(found, 0)
+        doubt = _place(chain, T, q[k], damped) or doubt
+    return max(found, 0), doubt and found > 0
 
 
 def _slides(joints, J):
@@ -126,14 +144,21 @@ def _slides(joints, J):
 
 
 def _place(chain, T, q, damped):
-    """Solve the three equations of the slides of q (n,) in place, the turns being known."""
-    joints, (J, work) = chain[1], damped
-    for _ in range(STEPS):
-        if error_and_jacobian(chain, (POSE, T, 1.0), q, damped) <= POLISH:
-            break
+    """Solve the three equations of the slides of q (n,) in place, the turns being known.
+
+    Returned is whether the slides are nearly in a plane, and not far out.
+    """
+    joints, (J, work), flat = chain[1], damped, False
+    for step in range(STEPS):
+        residual = error_and_jacobian(chain, (POSE, T, 1.0), q, damped)
         i, j, k, x, y, z = _slides(joints, J)
         error, normal = (work[0, 6], work[1, 6], work[2, 6]), cross(y, z)
         volume = dot(x, normal)
+        if step == 0 and abs(volume) < SINGULAR:
+            far = FAR * abs(volume) * math.sqrt(dot(error, error))
+            flat = abs(dot(error, normal)) <= far + abs(volume)
+        if residual <= POLISH:
+            break
         if abs(volume) > IN_PLANE:
             q[i] += dot(error, normal) / volume
             q[j] += dot(error, cross(z, x)) / volume
@@ -143,6 +168,7 @@ def _place(chain, T, q, damped):
                 J[joint] *= joints[joint, 0]
             solve_damped(damped, DAMPING)
             add_transposed(damped, 1.0, q)
+    return flat
 
 
 class SlidingArm(NamedTuple):
@@ -152,21 +178,27 @@ class SlidingArm(NamedTuple):
     rest: Annotated[Floats, "n"]
 
 
-@entry(solutions=2)
+@entry(solutions=8)
 def solve_three_slides(arm: SlidingArm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Solve poses Ts (m, 4, 4) of a chain of three sliding and two or three turning joints.
 
-    Of a family the member stays whose first free joint is at its value in ``rest`` (n,).
+    Of a family the member stays whose first free joint is at its value in ``rest`` (n,). The count
+    of a pose that is singular or nearly so is -1 minus that of its solutions; returned is how many
+    are.
     """
     chain, rest = arm
     q, residual, count, branch, free = outputs
     n = rest.shape[0]
     work, damped, trial = work_array(n), make_damped(n), np.empty((2, n))
-    turning, scratch = np.empty(3, np.int64), np.empty((ROWS, 4))
+    turning, scratch, doubts = np.empty(3, np.int64), np.empty((ROWS, 4)), 0
     for i in range(Ts.shape[0]):
         T, rows = Ts[i], (q[i], residual[i], branch[i], free[i])
-        found = _candidates(chain, T, q[i], turning, scratch, damped)
+        found, doubt = _candidates(chain, T, q[i], turning, scratch, damped)
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         found = finish_pose(chain, T, False, *rows, found, work)
         count[i] = finish_families(chain, T, rest, within_limits, rows, found, trial, work)
+        if doubt:
+            count[i] = -1 - count[i]
+            doubts += 1
+    return doubts

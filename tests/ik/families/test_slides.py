@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from dh_arm import arm_of
 from ik_referee import (
     GAP,
     RESIDUAL,
@@ -22,7 +23,8 @@ from ik_referee import (
     solve,
 )
 from margins import assert_apart, assert_margin
-from structured import sliding_tables
+from structured import rounded, sliding_tables, structured_configurations
+from sweep import Tally, judge
 
 import dh2urdf
 from dh2urdf.dh import DHRow, DHTable, Origin
@@ -160,6 +162,29 @@ def test_both_known_configurations_of_a_machine_of_two_slides_are_found():
     other = np.array([0.567924, 0.06803, 2.855506, 0.4, -1.408326, 2.553873])
     for known, digits in ((q, 1e-9), (other, 1e-6)):
         assert_margin(gaps(robot.chain, found.q, known).min(), digits, 1)
+
+
+def lost(table, q):
+    """What the referee of sweeps says of configurations q (m, 6) of a table."""
+    tally = Tally("slides")
+    judge(tally, table, q, lambda robot, Ts: robot.ik_batch(Ts, within_limits=False))
+    return [note for note in tally.notes if not note.startswith("unnamed")]
+
+
+def test_where_turns_are_in_line_and_three_slides_in_a_plane_nothing_is_lost():
+    """The equations have no solution at one member of the family of turns, and at others do."""
+    in_line = [-math.pi / 2, 0.3, 0.0, -math.pi / 2, 0.2, -math.pi]
+    beside = [-2.3561935486797667, 0.2992918153728758, -0.0234270813445917]
+    beside += [1.5707962780413265, 0.20391097312254722, 1.173418514392086]
+    assert lost(sliding_tables(198)[197], np.array([in_line, beside])) == []
+    in_plane = [3 * math.pi / 4, math.pi / 2, 0.1, -math.pi / 2, 0.0, 0.0]
+    assert lost(sliding_tables(81)[80], np.array([in_plane])) == []
+
+
+def test_a_slide_along_axes_that_are_parallel_but_for_rounding_is_measured_nearby():
+    """Not from where they come nearest, tens of kilometres out."""
+    table = rounded(sliding_tables(94)[93], 4)
+    assert lost(table, structured_configurations(arm_of(table), 40, 0)) == []
 
 
 def test_where_every_value_of_the_hidden_joint_carries_a_solution_a_member_is_found():
