@@ -20,9 +20,9 @@ RATIO = 1e6
 """Largest multiplier of a joint that follows another or adds to it: rounding of so many turns is
 seen in the eleventh digit."""
 
-INVERTIBLE = 1e-9
-"""Smallest singular value, relative to the largest, of the matrix by which values move coupled
-joints: so many of its digits are lost on the way back."""
+COUPLED = 1e6
+"""Largest condition, the spectral radius of ``|C^-1| |C|``, of the matrix by which values move
+coupled joints: the values of a turn then are millions of turns, which round to 1e-9."""
 
 INERTIA = 1e29
 """Largest entry of an inertia tensor [kg m^2]: in other axes it may be three times as large."""

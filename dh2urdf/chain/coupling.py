@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain.serial_chain import SerialChain, settled_state
 from dh2urdf.dh import DHTable, JointType, Mimic
+from dh2urdf.dh.coupling import narrowed, value_ranges
 from dh2urdf.transforms import Array
 
 
@@ -139,11 +140,8 @@ def coupling_of(table: DHTable, chain: SerialChain) -> Coupling | None:
     joints = table.joint_map
     if joints is None:
         return None
-    rows, own = table.joints, list(joints.own)
-    low = [-np.inf if rows[i].lower is None else rows[i].lower for i in own]
-    high = [np.inf if rows[i].upper is None else rows[i].upper for i in own]
+    own, bounds = list(joints.own), value_ranges(table.joints, joints)
     names = tuple(chain.names[i] for i in own)
-    bounds = np.array(low, float), np.array(high, float)
     return _bounded(
         chain, Coupling(joints.matrix, joints.offset, names, *bounds, chain.prismatic[own])
     )
@@ -151,24 +149,16 @@ def coupling_of(table: DHTable, chain: SerialChain) -> Coupling | None:
 
 def _bounded(chain: SerialChain, given: Coupling) -> Coupling:
     """The coupling, its bounds narrowed by those of joints that move by one value alone."""
-    lower, upper, warnings = given.lower.copy(), given.upper.copy(), []
-    for k in sorted(range(chain.n), key=lambda k: chain.names[k] not in given.names):
-        moving = np.flatnonzero(given.matrix[k])
-        if len(moving) != 1:
-            continue
-        v, factor = int(moving[0]), given.matrix[k, moving[0]]
-        own = chain.lower[k], chain.upper[k]
-        low, high = sorted((bound - given.offset[k]) / factor for bound in own)
-        if max(lower[v], low) <= min(upper[v], high):
-            lower[v], upper[v] = max(lower[v], low), min(upper[v], high)
-        else:
-            warnings.append(
-                f"joint {chain.names[k]!r}: its limits exclude those of {given.names[v]!r}, which "
-                "it follows; left out"
-            )
-    return Coupling(
-        given.matrix, given.offset, given.names, lower, upper, given.prismatic, tuple(warnings)
+    order = sorted(range(chain.n), key=lambda k: chain.names[k] not in given.names)
+    joints = {k: (float(chain.lower[k]), float(chain.upper[k])) for k in order}
+    values = given.lower, given.upper
+    lower, upper, clashes = narrowed(given.matrix, given.offset, values, joints)
+    warnings = tuple(
+        f"joint {chain.names[clash.joint]!r}: "
+        f"{clash.words(given.names[clash.value], bool(given.prismatic[clash.value]))}"
+        for clash in clashes
     )
+    return replace(given, lower=lower, upper=upper, warnings=warnings)
 
 
 def _resolve(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:

@@ -173,14 +173,21 @@ def robot_of(
     if source == "-":
         text = _piped()
         if text.lstrip().startswith("<"):
-            return Robot.from_urdf(text, base, tip, **reading.given)
+            return _followed(Robot.from_urdf(text, base, tip, **reading.given))
         if base or tip:
             raise UrdfError("<stdin>:1: not XML; --base and --tip are links of a URDF")
         return Robot.from_dh(noted(_table_of_text(text, reading.told)).table)
     if Path(source).suffix.lower() in ROBOT_SUFFIXES or base or tip:
-        return Robot.from_urdf(source, base, tip, **reading.given)
+        return _followed(Robot.from_urdf(source, base, tip, **reading.given))
     _refuse_given(reading)
     return Robot.from_dh(table_of(source, reading.told))
+
+
+def _followed(robot: Robot) -> Robot:
+    """The robot of a description, limits of its followers that count for nothing noted."""
+    for warning in robot.coupling.warnings if robot.coupling else ():
+        note(f"warning: {warning}")
+    return robot
 
 
 def parse_configuration(

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from dh2urdf.bounds import INVERTIBLE, RATIO
+from dh2urdf.bounds import COUPLED, RATIO
 from dh2urdf.dh.mimic import Couplings, ReadOnly
 from dh2urdf.dh.row import DHRow, JointType
 from dh2urdf.doors import found, number
@@ -77,10 +77,14 @@ def problems_between(
         out += [Problem(-1, (name, *keys), text) for keys, text in _of(name, terms, names, leads)]
     if out or not couplings:
         return out
-    joints = joint_map(rows, names, couplings)
-    low, high = np.linalg.svd(joints.matrix[list(joints.own)], compute_uv=False)[[-1, 0]]
-    if not low > INVERTIBLE * high:
+    condition = condition_of(joint_map(rows, names, couplings))
+    if not condition <= COUPLED:
         text = "their matrix has no inverse: different q would be the same angles"
+        if condition < SINGULAR:
+            text = (
+                f"their matrix has hardly an inverse: a turn of a joint would be {condition:.1e} "
+                f"turns of q; at most {COUPLED:.0e} are taken"
+            )
         return [Problem(-1, (), text)]
     for i, ends in enumerate(joint_ranges(rows, names, couplings)):
         if ends[0] > ends[1]:
@@ -192,6 +196,82 @@ def joint_ranges(
         low, high = (sum(ends) for ends in zip(*spans, strict=True))
         out.append((max(low, least), min(high, most)))
     return out
+
+
+SINGULAR = 1e12
+"""Condition of a matrix that has no inverse: what it seems to have is rounding."""
+
+
+def condition_of(joints: JointMap) -> float:
+    """How many times what a joint moves the values move: the spectral radius of ``|C^-1| |C|``.
+
+    Of all conditions by other units of the values and the joints that is the smallest (Bauer,
+    "Optimally scaled matrices", 1963), so that a steep thread is none.
+    """
+    C = joints.matrix[list(joints.own)]
+    try:
+        both = np.abs(np.linalg.inv(C)) @ np.abs(C)
+    except np.linalg.LinAlgError:
+        return math.inf
+    return float(np.abs(np.linalg.eigvals(both)).max()) if np.isfinite(both).all() else math.inf
+
+
+class Clash(NamedTuple):
+    """A joint whose limits leave nothing of those of the one value that moves it.
+
+    ``left`` is where they would put the value, ``ends`` its bounds.
+    """
+
+    joint: int
+    value: int
+    left: Range
+    ends: Range
+
+    def words(self, leader: str, slides: bool) -> str:
+        """What is wrong, of a value that is the angle or the length of a leader."""
+        left, ends = (_range_words(each, slides) for each in (self.left, self.ends))
+        return (
+            f"its limits exclude those of {leader!r}, which it follows: they leave it {left}, its "
+            f"own {ends}; left out"
+        )
+
+
+def _range_words(ends: Range, slides: bool) -> str:
+    low, high = (end + 0.0 if slides else math.degrees(end) + 0.0 for end in ends)
+    return f"{low:.6g} to {high:.6g} {'m' if slides else 'deg'}"
+
+
+def narrowed(
+    matrix: Array, offset: Array, values: tuple[Array, Array], joints: dict[int, Range]
+) -> tuple[Array, Array, list[Clash]]:
+    """Bounds of values, (n,) each, narrowed by those of joints that one value alone moves.
+
+    In the order of ``joints``, which gives the bounds of each; one that leaves nothing is left out.
+    """
+    lower, upper, clashes = values[0].copy(), values[1].copy(), []
+    for k, own in joints.items():
+        moving = np.flatnonzero(matrix[k])
+        if len(moving) != 1:
+            continue
+        v, factor = int(moving[0]), float(matrix[k, moving[0]])
+        low, high = sorted((bound - float(offset[k])) / factor for bound in own)
+        if max(lower[v], low) <= min(upper[v], high):
+            lower[v], upper[v] = max(lower[v], low), min(upper[v], high)
+        else:
+            clashes.append(Clash(k, v, (low, high), (float(lower[v]), float(upper[v]))))
+    return lower, upper, clashes
+
+
+def value_ranges(rows: Sequence[DHRow], joints: JointMap) -> tuple[Array, Array]:
+    """Bounds of the values q, (n,) each, infinite where there are none."""
+    low, high = np.array([_ends(rows[i].lower, rows[i].upper) for i in joints.own]).T
+    return low, high
+
+
+def clashes_of(rows: Sequence[DHRow], joints: JointMap) -> list[Clash]:
+    """Followers whose limits leave nothing of those of what they follow."""
+    own = {i: _ends(row.lower, row.upper) for i, row in enumerate(rows) if row.mimic is not None}
+    return narrowed(joints.matrix, joints.offset, value_ranges(rows, joints), own)[2]
 
 
 def _ends(lower: float | None, upper: float | None) -> Range:

@@ -68,7 +68,8 @@ def _warn(table: DHTable, context: Context) -> None:
     for path, message in near_misses(table, context.units, texts):
         place = context.places.get(path)
         inside = (cell.mark for key, cell in context.places.items() if key.startswith(path))
-        context.report.warn(place.mark if place else next(inside, NOWHERE), path, message)
+        mark = context.marks.get(path) or next(inside, NOWHERE)
+        context.report.warn(place.mark if place else mark, path, message)
 
 
 def _convention(cells: Cells, report: Report, told: Told) -> DHConvention:
@@ -154,6 +155,7 @@ def _rows(cells: Cells, context: Context) -> list[DHRow]:
             message = f"{name!r} is the name of {seen[name]} too; joints need different names"
             report.fault(item.mark, f"{path}.name", message)
         seen[name] = path
+        context.names.append(name)
         joint += 1
     if joint == 1:
         message = "no revolute or prismatic row; a table needs at least one"

@@ -1,5 +1,6 @@
 """What is allowed in a table and probably not meant; told, never changed."""
 
+import itertools
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -12,6 +13,7 @@ import numpy as np
 from dh2urdf.dh import DHConvention, DHRow, DHTable, JointType
 from dh2urdf.dh_io.cells.schema import ROW_KINDS
 from dh2urdf.dh_io.cells.units import PI, SI, Kind, Units
+from dh2urdf.dh_io.odd_couplings import odd_couplings
 
 LONG = 10.0
 """A length [m] that few arms have; millimetres read as metres come out beyond it."""
@@ -42,8 +44,8 @@ def near_misses(
     """Cells of a table that are probably not meant as they stand.
 
     Rounded multiples of pi, lengths over 10 m or all below 3 mm, angles over a turn, tensors of no
-    body, joints on one axis. ``units`` are those of the file and ``texts`` its cells by their
-    paths; where these are not given, the table's floats in [m] and [rad].
+    body, joints on one axis, couplings of nothing. ``units`` are those of the file and ``texts``
+    its cells by their paths; where these are not given, the table's floats in [m] and [rad].
     """
     known = texts is not None
     cells = {
@@ -60,6 +62,7 @@ def near_misses(
     for number, row in enumerate(table.rows, 1):
         out += _tensor(f"joints[{number}].inertia", row)
     out += _same_axis(table)
+    out += itertools.starmap(NearMiss, odd_couplings(table))
     return tuple(out)
 
 

@@ -13,6 +13,7 @@ from dh2urdf.dh_io.cells.schema import BY_TYPE, JOINT_TYPES, ROW_KEYS, ROW_KINDS
 from dh2urdf.dh_io.cells.units import Kind
 from dh2urdf.dh_io.cells.values import ExpressionError, Value
 from dh2urdf.dh_io.couplings import read_mimic
+from dh2urdf.dh_io.others_variables import hint_of
 from dh2urdf.exceptions import TableError
 
 _VARIABLE = re.compile(
@@ -116,20 +117,22 @@ class _Row:
             if constant:
                 raise ExpressionError(f"{key} is constant; a joint variable stands in theta or d")
             if match and not mine:
-                self.check_name(name, match, kind, own)
+                self.check_name(key, name, match, own)
             return Value(Decimal(0), kind, own, Decimal(1))
 
         return look
 
-    def check_name(self, name: str, match: re.Match[str], kind: Kind, own: str) -> None:
+    def check_name(self, key: str, name: str, match: re.Match[str], own: str) -> None:
         """Refuse the variable of another joint, or an angle's name in d."""
-        index = match["index"]
-        wrong_kind = match["length"] if kind is Kind.ANGLE else match["angle"]
+        index, report = match["index"], self.context.report
+        wrong_kind = match["length"] if ROW_KINDS[key] is Kind.ANGLE else match["angle"]
         if wrong_kind or (index not in (None, "i") and int(index) != self.joint):
-            message = f"{name!r} is not the variable of this row (joint {self.joint})"
-            hint = f"the row's own variable is {own}; {name} is a constant with "
-            hint += self.context.report.example("constants", **{name: "0.4"})
-            raise ExpressionError(message, hint)
+            message, cell = f"{name!r} is not the variable of this row (joint {self.joint})", ""
+            hint = f"the row's own variable is {own}; "
+            if isinstance(text := self.cells.get(key), Scalar) and not wrong_kind:
+                cell = hint_of(text.text, key, self.joint, self.context.names, report)
+            constant = f"{name} is a constant with {report.example('constants', **{name: '0.4'})}"
+            raise ExpressionError(message, hint + (cell or constant))
 
     def sign(self, parts: dict[str, Value | None]) -> int:
         """Sign given, or the one of the variable in its cell."""

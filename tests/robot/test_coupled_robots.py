@@ -85,7 +85,8 @@ def test_limits_of_a_follower_that_leave_nothing_are_told_and_left_out():
     robot = Robot.from_dh(DHTable((DHRow(a=1.0, lower=-1.0, upper=2.0), follower), "standard"))
     assert robot.upper.tolist() == [2.0]
     assert robot.warnings == (
-        "joint 'joint_2': its limits exclude those of 'joint_1', which it follows; left out",
+        "joint 'joint_2': its limits exclude those of 'joint_1', which it follows: they leave it "
+        "171.887 to 229.183 deg, its own -57.2958 to 114.592 deg; left out",
     )
 
 

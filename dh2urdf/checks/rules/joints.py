@@ -168,7 +168,28 @@ def mimic(doc: Document) -> Iterator[Finding]:
         leader = doc.joint_by_name.get(element.get("joint", ""))
         if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
             mend = "set both values in programs that move it on its own"
-            yield finding(element, f"follows {leader.get('name')!r}", *effects, mend=mend)
+            words = f"follows {leader.get('name')!r}{_excluded(doc, joint, element, leader)}"
+            yield finding(element, words, *effects, mend=mend)
+
+
+def _excluded(
+    doc: Document, joint: etree._Element, mimic: etree._Element, leader: etree._Element
+) -> str:
+    """That the limits of a follower leave nothing of those of its leader; empty if they do."""
+    factor, offset = doc.number(mimic, "multiplier"), doc.number(mimic, "offset") or 0.0
+    factor = 1.0 if factor is None else factor
+    own, led = (
+        [doc.number(each.find("limit"), key) for key in ("lower", "upper")]
+        if each.find("limit") is not None and doc.kind(each) in BOUNDED
+        else [None, None]
+        for each in (joint, leader)
+    )
+    if None in (*own, *led) or not factor:
+        return ""
+    low, high = sorted((float(end or 0.0) - offset) / factor + 0.0 for end in own)
+    if max(low, float(led[0] or 0.0)) <= min(high, float(led[1] or 0.0)):
+        return ""
+    return f", but its limits leave that {low:.6g} to {high:.6g}, outside {led[0]:g} to {led[1]:g}"
 
 
 def _followers(doc: Document) -> Iterator[tuple[etree._Element, etree._Element]]:

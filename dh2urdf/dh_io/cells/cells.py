@@ -34,6 +34,7 @@ class Context:
     """What all cells of a file share.
 
     By path: ``places`` of cells, ``marks`` of keys, ``ratios`` the kinds that multipliers say.
+    ``names`` are those of the joints that were read.
     """
 
     report: Report
@@ -42,6 +43,7 @@ class Context:
     places: dict[str, Scalar] = field(default_factory=dict)
     ratios: dict[str, tuple[Kind, Kind] | None] = field(default_factory=dict)
     marks: dict[str, Mark] = field(default_factory=dict)
+    names: list[str] = field(default_factory=list)
 
     def value(
         self, cell: Node, path: str, kind: Kind, lookup: Lookup | None = None, *, free: bool = False
