@@ -148,7 +148,9 @@ class Body(Assignments):
         start, end = self.integer(low, "a bound").text, self.integer(high, "a bound")
         reads = named(high).keys() & self.source.stored
         items = reads and any(isinstance(x, ast.Subscript) for x in ast.walk(high))
-        if end.known is None and (items or reads & named(s, ast.Store).keys()):  # it may change
+        calls = any(isinstance(x, ast.Call) and self._is_kernel(x) for x in ast.walk(high))
+        changes = items or calls or reads & named(s, ast.Store).keys()
+        if end.known is None and changes:
             end = self.temporary(end, "end")
         i = self.fresh("turn") if counter == "_" else self.name(counter)
         move = {1: f"{i}++", -1: f"{i}--"}.get(step, f"{i} += {step}")
@@ -159,6 +161,10 @@ class Body(Assignments):
         self.out(f"for (int {i} = {start}; {i} {sign} {end.at(Binds.COMPARISON + 1)}; {move}) {{")
         self._inner(s.body)
         self.out("}")
+
+    def _is_kernel(self, call: ast.Call) -> bool:
+        """Whether a call is one of a kernel."""
+        return self.source.kernel(ast.unparse(call.func)) is not None
 
     def _return(self, s: ast.Return, value: Value) -> None:
         if isinstance(value.type, Array | Record) or value.leaves() != [value]:

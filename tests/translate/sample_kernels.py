@@ -139,8 +139,14 @@ def counts(n: int, m: int):
     return found
 
 
+def _one_more(a):
+    """Raise the second number, and what it was."""
+    a[1] += 1
+    return a[1] - 1
+
+
 def end_is_kept(n: int, a: Ints):
-    """A range's end is looked at once."""
+    """A range's end is looked at once, and worked out once."""
     found, end = 0, n
     for _ in range(end):
         end += 1
@@ -148,6 +154,9 @@ def end_is_kept(n: int, a: Ints):
     a[0] = 2
     for _ in range(a[0]):
         a[0] += 1
+        found += 1
+    a[1] = 3
+    for _ in range(_one_more(a)):
         found += 1
     return found, end
 

@@ -163,7 +163,7 @@ def _redundant(robot, q, T) -> Iterator[tuple[str, Answer]]:
 
 def numbers() -> Iterator[tuple[str, Answer]]:
     """Answers of the entries that no robot needs."""
-    from dh2urdf.kernels.numbers import trig
+    from dh2urdf.kernels.numbers import any_family, trig
 
     rng, angles, roots = Random("numbers"), [], []
     for _ in range(200):
@@ -176,6 +176,7 @@ def numbers() -> Iterator[tuple[str, Answer]]:
     yield "roots", roots
     planar = [dh2urdf.planar_rr_ik(1.0, 0.5, k / 8, 0.625) for k in range(12)]
     yield "planar", planar
+    yield "families", [np.array([any_family(np.array([k]), np.array([[0, 8]])) for k in range(3)])]
     yield "coupled", _coupled()
     yield "towards a seed", [x for k in range(4) for x in _towards_seed(robot_of("puma560"), k)]
 

@@ -9,11 +9,12 @@ from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, prov
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.export.source.stack import stack_bytes
-from dh2urdf.ik.arm import LIMIT_SLACK
-from dh2urdf.kernels.certificate import DEEP, arrange_near, keep_inside
+from dh2urdf.ik.arm import LIMIT_SLACK, middle
+from dh2urdf.kernels.certificate import DEEP, arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.numbers import is_pose
+from dh2urdf.kernels.redundant import families_inside
 from dh2urdf.robot import Robot
 from dh2urdf.translate.definitions import ELEMENT, folded, number
 from dh2urdf.translate.statements import Body
@@ -40,9 +41,8 @@ Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by 
 found holds count solutions in its first rows, each with its residual, the larger of its errors of
 position [m] and rotation [rad] on the exact chain; its branch{branch_line}; and
 free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular. complete is false where there may be more solutions: the pose is next to one at which
-solutions meet, or a member of a singular family may be inside the limits where the one that was
-found is not; Robot.ik of dh2urdf searches there.
+singular. complete is false where there may be more solutions, because the pose is next to one at
+which solutions meet; Robot.ik of dh2urdf searches there.
 
 No function allocates or keeps anything between calls, and each may run in many threads at once.
 {P}_STACK bytes of the stack are enough for any of them. With contraction off (gcc and clang:
@@ -101,8 +101,8 @@ static inline int {p}_ik({parameters}, {p}_solutions *found)
         found->count = (-1 - found->count) % {deep};
         found->complete = false;
     }}
-    if (within_limits && {keep} > 0) {{
-        found->complete = false;
+    if (within_limits) {{
+        {inside};
     }}
     return (int)found->count;
 }}
@@ -191,6 +191,8 @@ class CProgram:
         pose, seed = Named("pose", np.empty((1, 4, 4))), Named("seed", np.empty(n))
         distance = Named("distance", np.empty(program.solver.kmax))
         near = tables, LIMIT_SLACK, POSE, pose, seed, out, distance
+        size, centre = float(program.chain.size), middle(program.chain)
+        inside = tables, LIMIT_SLACK, POSE, size, centre, pose, out
         parameters = ["const double T[16]", *["double held"] * len(program.held)]
         given = ["T", *["held"] * len(program.held), "within_limits"]
         limits = "bool within_limits"
@@ -213,7 +215,7 @@ class CProgram:
             scratch="".join(f"    {self._declared(x)};\n" for x in program.scratch),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
             steps="\n".join(map(self._step, program.calls)),
-            keep=self._call(Call(keep_inside, (tables, LIMIT_SLACK, POSE, pose, out))),
+            inside=self._call(Call(families_inside, inside)),
             arrange=self._call(Call(arrange_near, near)),
         )
         return "\n".join([*map(self._prepare, program.records), functions])

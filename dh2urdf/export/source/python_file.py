@@ -13,11 +13,12 @@ import numpy as np
 
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
-from dh2urdf.ik.arm import LIMIT_SLACK
-from dh2urdf.kernels.certificate import DEEP, arrange_near, keep_inside
+from dh2urdf.ik.arm import LIMIT_SLACK, middle
+from dh2urdf.kernels.certificate import DEEP, arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.numbers import is_pose
+from dh2urdf.kernels.redundant import families_inside
 from dh2urdf.robot import Robot
 from dh2urdf.translate.definitions import home_of
 from dh2urdf.translate.source import Source, source_of
@@ -46,8 +47,8 @@ configuration q is {n} numbers:
 Solutions are lists of the same length: q, residual (the larger of the errors of position [m] and
 rotation [rad] on the exact chain), branch{branch_line} and free_joints, whose bit i says that joint
 i can move while the tip stays, because the solution is singular. complete is False where there may
-be more solutions: the pose is next to one at which solutions meet, or a member of a singular family
-may be inside the limits where the one that was found is not; Robot.ik of dh2urdf searches there.
+be more solutions, because the pose is next to one at which solutions meet; Robot.ik of dh2urdf
+searches there.
 
 Results are those of dh2urdf to the last bit."""
 
@@ -99,8 +100,8 @@ def _solved({given}within_limits, seed):
 {steps}
     if count[0] < 0:
         count[0], complete = (-1 - count[0]) % {deep}, False
-    if within_limits and {keep} > 0:
-        complete = False
+    if within_limits:
+        {inside}
     if seed is not None and count[0] > 0:
         distance = empty({k})
         {arrange}
@@ -158,7 +159,8 @@ class PythonProgram:
         q, slides = Named("q", None), table[:, 0] != 0.0
         pose, seed, distance = Named("pose", None), Named("seed", None), Named("distance", None)
         near = tables, LIMIT_SLACK, POSE, pose, seed, program.out, distance
-        keep = tables, LIMIT_SLACK, POSE, pose, program.out
+        size, centre = float(program.chain.size), middle(program.chain)
+        inside = tables, LIMIT_SLACK, POSE, size, centre, pose, program.out
         scratch = [f"{x.name} = {self._blank(x.like)}" for x in program.scratch]
         scratch += ["held = _floats([held], (1,))"] if program.held else []
         scratch += [f"work = [{self._record(x.like[0])}]" for x in program.records]
@@ -175,7 +177,7 @@ class PythonProgram:
             is_pose=self._call(Call(is_pose, (Named("pose[0]", None),))),
             scratch=textwrap.indent("\n".join(scratch), "    "),
             steps="\n".join(map(self._step, program.calls)),
-            keep=self._call(Call(keep_inside, keep)),
+            inside=self._call(Call(families_inside, inside)),
             arrange=self._call(Call(arrange_near, near)),
         )
 

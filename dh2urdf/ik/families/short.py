@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
-from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     NOMINAL,
+    BatchKernel,
     IntArray,
     Others,
     Outputs,
@@ -28,7 +28,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.kernels.certificate import finish_batch, search_valleys
 from dh2urdf.kernels.numbers import dual_of_pose
-from dh2urdf.kernels.parallel_axes import solve_five_parallel
+from dh2urdf.kernels.parallel_axes import solve_five_joints
 from dh2urdf.kernels.short_chains import (
     close_loop,
     loop_columns,
@@ -71,7 +71,6 @@ class ShortChain(SolverBase):
     name = "short chain"
     needs = "one to five joints of any kind, each of which moves the tool"
     kmax = 8
-    kernel = staticmethod(solve_short_chains)
 
     def __init__(self, chain: SerialChain, task: Task = Task.POSE, others: Others = ()) -> None:
         super().__init__(chain, task, others)
@@ -85,25 +84,14 @@ class ShortChain(SolverBase):
             np.ascontiguousarray(Ts[rows]),
             Outputs.of(len(rows), self.kmax, self.chain.n),
         )
-        self.kernel(self.constants, poses, False, known)
+        solve_short_chains(self.closed_loop, poses, False, known)
         known.counts[:] = np.maximum(known.counts, -1 - known.counts)
         out.put(rows, search_short(self.chain, poses, known, within_limits))
 
-    def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Solve poses Ts (m, 4, 4): in lanes where that is possible, the others by the loop."""
-        if self.lanes is None:
-            super().solve_batch(Ts, within_limits, out)
-        elif solve_five_parallel(self.lanes, Ts, within_limits, out):
-            rows = np.flatnonzero(out.counts < 0)
-            rest = Outputs.of(len(rows), self.kmax, self.chain.n)
-            super().solve_batch(Ts[rows], within_limits, rest)
-            out.put(rows, rest)
-
-    def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
-        """The kernel alone, which has no doubt."""
-        if self.lanes is None:
-            return ((self.kernel, (self.constants, Ts, within_limits, out), False),)
-        return ((solve_five_parallel, (self.lanes, Ts, within_limits, out), False),)
+    @cached_property
+    def kernel(self) -> BatchKernel:  # type: ignore[override]
+        """The fastest kernel that covers the geometry."""
+        return solve_short_chains if self.lanes is None else solve_five_joints
 
     @cached_property
     def lanes(self) -> tuple[Any, ...] | None:
@@ -119,7 +107,12 @@ class ShortChain(SolverBase):
 
     @cached_property
     def constants(self) -> tuple[Any, ...]:
-        """Links, joints and the cuts of the loop, as the kernel takes them."""
+        """What the kernel knows of the arm."""
+        return self.closed_loop if self.lanes is None else (self.lanes, self.closed_loop)
+
+    @cached_property
+    def closed_loop(self) -> tuple[Any, ...]:
+        """Links, joints and the cuts of the loop, as the kernels take them."""
         return self.chain.tables, self.ends, self.loop, self.plan, self.rest_unit
 
     @cached_property

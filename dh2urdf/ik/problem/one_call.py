@@ -19,6 +19,7 @@ from dh2urdf.ik.problem.swept_problem import SweptProblem
 from dh2urdf.ik.redundant import MOST_MEMBERS, RedundantChain, SweptJoint, towards_seed
 from dh2urdf.kernels.certificate import arrange_plain, arrange_together, values_of_batch
 from dh2urdf.kernels.numbers import any_family, is_pose
+from dh2urdf.kernels.redundant import families_inside
 from dh2urdf.transforms import Array
 
 COUNT = slice(128, 136)
@@ -28,7 +29,8 @@ COUNT = slice(128, 136)
 def call_of(problem: Problem, within_limits: bool) -> AtOnce:
     """The function of a pose."""
     room = _room(problem)
-    return _call(room, _steps(problem, room, within_limits), within_limits)
+    steps = _steps(problem, room, within_limits)
+    return _call(room, _into_limits(problem, room, steps, within_limits))
 
 
 def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
@@ -39,7 +41,7 @@ def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
     steps = _steps(problem, room, within_limits)
     if not steps or isinstance(problem.solver, RedundantChain):
         return nothing_at_once
-    return _call(room, (*steps, _arrange(problem, room, seed)), False, seed)
+    return _call(room, (*steps, _arrange(problem, room, seed)), seed)
 
 
 def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) -> AtOnce:
@@ -51,7 +53,7 @@ def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) ->
         return nothing_at_once
     families: Step = any_family, (some.counts, some.free), False
     arrange = towards_seed(solver, room.Ts, seed, within_limits, some, room.out)
-    return _call(room, (*steps, families, *arrange), False, seed)
+    return _call(room, (*steps, families, *arrange), seed)
 
 
 def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
@@ -91,8 +93,8 @@ class HeldCall(NamedTuple):
         )
         low, high = max(low, float(lower), -bound), min(high, float(upper), bound)
         arranged = (*steps, _arrange(problem, room, seed)) if steps else ()
-        call = _call(room, steps, within_limits, held)
-        return cls(call, _call(room, arranged, False, held, seed), low, high, problem)
+        call = _call(room, _into_limits(problem, room, steps, within_limits), held)
+        return cls(call, _call(room, arranged, held, seed), low, high, problem)
 
 
 class HeldCalls(dict[tuple[int | str, type, bool], HeldCall]):
@@ -140,11 +142,18 @@ def _steps(problem: Problem, room: Room, within_limits: bool) -> tuple[Step, ...
     return problem.solver.steps(room.Ts, within_limits, room.out)
 
 
-def _call(room: Room, steps: tuple[Step, ...], within_limits: bool, *more: Array) -> AtOnce:
+def _into_limits(
+    problem: Problem, room: Room, steps: tuple[Step, ...], within_limits: bool
+) -> tuple[Step, ...]:
+    """Steps, if there are any, and the one after them that brings families into the limits."""
+    if not steps or not within_limits or isinstance(problem, CoupledProblem):
+        return steps
+    return *steps, (families_inside, (*problem.limits, room.Ts, room.out), False)
+
+
+def _call(room: Room, steps: tuple[Step, ...], *more: Array) -> AtOnce:
     """The function that checks a pose and goes through steps; none if there are none."""
     if not steps:
         return nothing_at_once
     is_one: Step = is_pose, (room.Ts[0],), True
-    families: Step = any_family, (room.out.counts, room.out.free), False
-    last = (families,) if within_limits else ()
-    return at_once(room.memory, is_one, *steps, *last, more=more)
+    return at_once(room.memory, is_one, *steps, more=more)

@@ -21,7 +21,6 @@ from dh2urdf.ik.arm import (
     all_turns,
     branch_words_of,
     hold,
-    inside,
     middle,
     seed_gaps,
     slide_to_seed,
@@ -35,7 +34,8 @@ from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import RedundantChain
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
-from dh2urdf.kernels.numbers import any_family, pad_solutions
+from dh2urdf.kernels.numbers import pad_solutions
+from dh2urdf.kernels.redundant import families_inside
 from dh2urdf.transforms import Array, length
 
 ForwardKinematics = Callable[[Array], Array]
@@ -106,10 +106,11 @@ class Problem:
             self._solve(room.Ts, within_limits, room.out)
         else:
             self._solve_held(room.Ts, within_limits, room.out)
+        if within_limits:
+            self._families_inside(room.Ts, room.out)
         found = IKSolutions(self, room.memory.tobytes())
-        singular = within_limits and any_family(room.out.counts, room.out.free)
         self._rooms.append(room)
-        return self._families_inside(found) if singular else found
+        return found
 
     def solve_many(
         self,
@@ -144,27 +145,19 @@ class Problem:
             self._solve(Ts, within_limits, out)
         else:
             self._solve_held(Ts, within_limits, out, rows)
-        singular = pad_solutions(out, np.nan)
-        for i in np.flatnonzero(out.free.any(axis=1)) if singular and within_limits else ():
-            k = out.counts[i]
-            codes = out.branch[i, :k], out.free[i, :k]
-            found = IKSolutions.of(self, Ts[i], out.q[i, :k], out.residual[i, :k], *codes)
-            found = self._families_inside(found)
-            k = out.counts[i] = len(found)
-            out.q[i, :k], out.residual[i, :k] = found.q, found.residual
-            out.branch[i, :k], out.free[i, :k] = found.codes
-            pad_solutions(out.rows(slice(i, i + 1)), np.nan)
+        if pad_solutions(out, np.nan) and within_limits:
+            self._families_inside(Ts, out)
+            pad_solutions(out, np.nan)
 
-    def _families_inside(self, found: IKSolutions) -> IKSolutions:
+    def _families_inside(self, Ts: Array, out: Outputs) -> None:
         """Bring the representatives of singular families into the limits, or drop them."""
-        q, keep = found.q.copy(), np.ones(len(found), np.bool_)
-        centre = middle(self.chain)
-        for k in np.flatnonzero(~inside(self.chain, q)):
-            family = Family(self.chain, self.task, found.T, found.free_joints[k], q[k])
-            member = family.nearest(centre, within_limits=True)
-            keep[k] = member is not None
-            q[k] = q[k] if member is None else member
-        return self._at(found, q).select(keep)
+        families_inside(*self.limits, Ts, out)
+
+    @property
+    def limits(self) -> tuple[Any, ...]:
+        """First arguments of :func:`.families_inside`."""
+        chain = self.chain
+        return chain.tables, LIMIT_SLACK, self.task.number, chain.size, middle(chain)
 
     def joints_at(self, q: Array) -> tuple[SerialChain, Array]:
         """The chain in metres, and its joints at values q (..., n)."""

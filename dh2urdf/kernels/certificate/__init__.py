@@ -12,7 +12,7 @@ from dh2urdf.kernels.certificate.arrange import (
     arrange_near,
     arrange_plain,
     distance2,
-    keep_inside,
+    measure,
     measure_all,
     measure_and_sort,
     turn_one,

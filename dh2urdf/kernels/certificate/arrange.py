@@ -120,31 +120,6 @@ def _sort_in(chain, task, T, seed, found, distance, k, damped):
         k -= 1
 
 
-def keep_inside(chain: AnyChain, slack: float, task: int, Ts: Poses, outputs: Outputs):
-    """Of one pose, leave out the solutions with free joints that are outside the limits; how many.
-
-    Other members of their families may be inside. Where a solution has free joints, all residuals
-    are measured anew.
-    """
-    (_, joints), (q, residual, counts, branch, free) = chain, outputs
-    if not any_family(counts, free):
-        return 0
-    kept, damped = 0, make_damped(q.shape[2])
-    for k in range(counts[0]):
-        inside = True
-        for i in range(q.shape[2]):
-            value = q[0, k, i]
-            inside = inside and joints[i, 1] - slack <= value and value <= joints[i, 2] + slack
-        if inside or free[0, k] == 0:
-            q[0, kept] = q[0, k]
-            branch[0, kept], free[0, kept] = branch[0, k], free[0, k]
-            residual[0, kept] = measure(chain, task, Ts[0], q[0, kept], damped)
-            kept += 1
-    dropped = counts[0] - kept
-    counts[0] = kept
-    return dropped
-
-
 def arrange_near(
     chain: AnyChain,
     slack: float,

@@ -6,6 +6,7 @@ task, `lanes` is the same for six turning joints, many seeds side by side.
 
 from dh2urdf.kernels.newton.damped import (
     POSE,
+    STAYING,
     add_transposed,
     error_and_jacobian,
     make_damped,

@@ -33,6 +33,9 @@ STILL = 1e-28
 POSE, POSITION, POSITION_AXIS = 0, 1, 2
 """Tasks: the whole pose, its position, its position and the direction of the tool's z axis."""
 
+STAYING = 4
+"""Added to a task as many times as a mask of joints says, these stay and move nothing."""
+
 
 def make_damped(n):
     """Scratch for n joints: Jacobian (n, 6), and `work_array` of six for error and solution."""
@@ -45,8 +48,13 @@ def error_and_jacobian(chain, goal, q, damped):
     The error is (position / unit, rotation vector as long as the sine of its angle) from the
     tool to the target in base axes; beyond 90 degrees the vector is scaled up to length 1.
     """
-    (J, work), (task, T, unit) = damped, goal
+    (J, work), (asked, T, unit) = damped, goal
+    task, held = asked % STAYING, asked // STAYING
     r = jacobian_rows(chain, q, J)
+    if held != 0:
+        for i in range(q.shape[0]):
+            if held >> i & 1:
+                J[i] = 0.0
     x, y, z = way_between(r, T)
     work[0, 6], work[1, 6], work[2, 6] = x / unit, y / unit, z / unit
     for i in range(q.shape[0]):

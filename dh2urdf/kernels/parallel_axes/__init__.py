@@ -6,7 +6,7 @@ rounding leaves where axis 5 is in line with them; `pairs` finds the joints outs
 """
 
 from dh2urdf.kernels.parallel_axes.blocks import solve_common_parallel
-from dh2urdf.kernels.parallel_axes.five import solve_five_parallel
+from dh2urdf.kernels.parallel_axes.five import solve_five_joints, solve_five_parallel
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs
 from dh2urdf.kernels.parallel_axes.plane import last_joint
 from dh2urdf.kernels.parallel_axes.poses import (

@@ -9,6 +9,7 @@ dirty from farther away of a rim than where six joints move, and where it fits, 
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,6 +37,7 @@ from dh2urdf.kernels.numbers import entry, side_by_side
 from dh2urdf.kernels.parallel_axes.blocks import PLANE, elbows
 from dh2urdf.kernels.rigid import dot
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
+from dh2urdf.kernels.short_chains import ShortChain, solve_short_chains
 
 IN_ORDER = np.arange(5)
 ANGLES = np.array([(r, OWN, 4 if 0 < r < 4 else 2) for r in range(5)])
@@ -103,7 +105,6 @@ def _near_rims(form, n, S):
         S[BLOCK * DIRTY + i] += S[BLOCK * VALID + i] if near else 0.0
 
 
-@entry(n=5, solutions=8)
 def solve_five_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Poses Ts (m, 4, 4) of five joints, axes 2, 3, 4 parallel, in lanes; count -1: in doubt.
 
@@ -131,4 +132,25 @@ def solve_five_parallel(arm: ClosedForm, Ts: Poses, within_limits: bool, outputs
         doubts += n - emit(
             form, joints, ANGLES, within_limits, IN_ORDER, False, first, n, S, outputs
         )
+    return doubts
+
+
+class FiveJoints(NamedTuple):
+    """What the lanes know of five joints, and what the closed loop knows."""
+
+    lanes: ClosedForm
+    loop: ShortChain
+
+
+@entry(n=5, solutions=8)
+def solve_five_joints(arm: FiveJoints, Ts: Poses, within_limits: bool, outputs: Outputs):
+    """Poses Ts (m, 4, 4) in lanes, those in doubt by the loop; how many are still in doubt."""
+    (lanes, loop), (q, residual, count, branch, free), doubts = arm, outputs, 0
+    if solve_five_parallel(lanes, Ts, within_limits, outputs) == 0:
+        return 0
+    for i in range(Ts.shape[0]):
+        if count[i] < 0:
+            one = q[i : i + 1], residual[i : i + 1], count[i : i + 1]
+            codes = branch[i : i + 1], free[i : i + 1]
+            doubts += solve_short_chains(loop, Ts[i : i + 1], within_limits, (*one, *codes))
     return doubts

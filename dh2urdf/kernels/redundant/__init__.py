@@ -3,10 +3,12 @@
 `held_wrist` solves with a joint held, and gathers the solutions of many values; `held_wrist_blocks`
 solves many poses side by side, from what `held_wrist_load` makes of them, `sweeps` one pose at many
 values; `self_motion` walks along solutions, `starts` says from where and `nearest` where to,
-`one_family` which of them are on one, `curves` finds all curves of them, `paths` shortens a path.
+`one_family` which of them are on one, `curves` finds all curves of them, `paths` shortens a path;
+`families` brings singular ones into the limits.
 """
 
 from dh2urdf.kernels.redundant.curves import DULL, add_curves
+from dh2urdf.kernels.redundant.families import families_inside
 from dh2urdf.kernels.redundant.held_wrist import gather_samples, repeat_pose, solve_held_wrist
 from dh2urdf.kernels.redundant.held_wrist_blocks import solve_held_blocks
 from dh2urdf.kernels.redundant.nearest import (

@@ -7,7 +7,7 @@ with three sliding joints; `search` looks from many starts where the loop says t
 
 from dh2urdf.kernels.short_chains.loop import loop_columns, loop_matrix
 from dh2urdf.kernels.short_chains.planar import planar_rr, solve_planar
-from dh2urdf.kernels.short_chains.poses import close_loop, solve_short_chains
+from dh2urdf.kernels.short_chains.poses import ShortChain, close_loop, solve_short_chains
 from dh2urdf.kernels.short_chains.position import solve_short_positions
 from dh2urdf.kernels.short_chains.search import approach, search_starts
 from dh2urdf.kernels.short_chains.three_slides import solve_three_slides

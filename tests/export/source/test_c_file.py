@@ -22,6 +22,9 @@ from tests.export.source.compiled import COMPILERS, Arm, configurations
 FAMILIES = "puma560 ur5 planar_rr omron_cobra600 px100 rpr_new_frame xarm5 stanford xarm6"
 """An arm of each kind of kernels."""
 
+WHOLE = "puma560 ur5 planar_rr omron_cobra600 px100 rpr_new_frame xarm5"
+"""Of these the arms whose files find all solutions at every pose."""
+
 EVERY_DAY = 300
 
 MOSTLY = {"spherical wrist": 0.9, "spherical shoulder": 0.9, "three parallel axes": 0.9}
@@ -72,7 +75,8 @@ def test_the_solutions_are_those_of_the_robot(name, tmp_path):
     """Without contraction every number is that of ``Robot.ik``, edge poses included."""
     arm = Arm(Robot.from_dh(name), tmp_path, HELD.get(name))
     arm.compile(*SAME)
-    compare(arm, EVERY_DAY, 1)
+    whole = compare(arm, EVERY_DAY, 1)
+    assert whole == 1.0 or name not in WHOLE.split()
 
 
 def other_arms():
