@@ -15,6 +15,8 @@ from dh2urdf.export.ros2 import ros2_package, write_ros2_package
 
 HERE = Path(__file__).parent / "moveit"
 
+AMENT = HERE.with_name("ament")
+
 STRICT = ["-std=c++17", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Woverloaded-virtual"]
 
 ARMS = {
@@ -43,6 +45,33 @@ def test_plugin_compiles_and_solves_as_moveit_asks(tmp_path, arm, compiler):
     robot = dh2urdf.Robot.from_dh(arm)
     q = [float(v) for v in ARMS[arm].split(",")]
     assert used.stdout == f"{len(robot.ik(robot.fk(q)))} solutions\n"
+
+
+@pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake")
+@pytest.mark.parametrize("plugin", [False, True])
+def test_cmake_builds_and_installs_the_package(tmp_path, plugin):
+    """With ament and MoveIt as exported targets alone; nothing is used that CMake or ROS gave up."""
+    folder, there = tmp_path / "arm_description", tmp_path / "there"
+    package = write_ros2_package("ur5e", folder, plugin=plugin)
+    assert "ament_target_dependencies" not in package.files["CMakeLists.txt"]
+    configure = ["-S", folder, "-B", "build", "-Werror=dev", "-Werror=deprecated"]
+    for words in (
+        [*configure, f"-DCMAKE_PREFIX_PATH={AMENT}", "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror"],
+        ["--build", "build"],
+        ["--install", "build", "--prefix", there],
+    ):
+        done = subprocess.run(
+            ["cmake", *words], cwd=tmp_path, capture_output=True, text=True, check=False
+        )
+        assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
+    share, installed = f"share/{package.name}", {path.name for path in there.glob("lib/*")}
+    assert installed == ({"libarm_description_kinematics.so"} if plugin else set())
+    folders = ("config", "launch", "rviz", "srdf", "urdf")
+    wanted = [f"{share}/{p}" for p in package.files if p.startswith(folders)]
+    wanted += [p for p in package.files if p.startswith("include")]
+    wanted += [f"{share}/kinematics_plugin.xml"] * plugin
+    missing = [place for place in wanted if not (there / place).is_file()]
+    assert not missing
 
 
 def test_package_names_its_plugin_everywhere_alike():
