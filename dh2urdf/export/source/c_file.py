@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from dh2urdf.export.source.c_kernels import ArmFile
+from dh2urdf.export.source.c_kernels import ArmFile, lanes_of
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
@@ -131,7 +131,8 @@ class CProgram:
 
     def __init__(self, robot: Robot, program: Program, prefix: str) -> None:
         self.robot, self.program, self.prefix = robot, program, prefix
-        self.file, self.n = ArmFile(prefix), program.chain.n
+        lanes = max(lanes_of(definition(call.kernel)) for call in program.calls)
+        self.file, self.n = ArmFile(prefix, lanes), program.chain.n
 
     def text(self) -> str:
         """The whole file."""

@@ -17,13 +17,17 @@ from dh2urdf.translate.definitions import ELEMENT, HELPERS, folded, home_of, num
 from dh2urdf.translate.source import Source
 from dh2urdf.translate.types import ELEMENTS, Array, Fixed, Tuple
 
-SMALL = {
-    "blocks.POSES": 1,
-    "blocks.LANES": 1,
-    "blocks.BLOCK": blocks.ARMS,
-    "two_parallel.branches.TOGETHER": 8,
-}
+SMALL = {"blocks.POSES": 1, "blocks.LANES": 1, "two_parallel.branches.TOGETHER": 8}
 """Sizes of blocks, of one pose, and of parts of a pose, that need a few kilobytes of stack."""
+
+BLOCK = "blocks.BLOCK"
+"""Numbers from row to row of a block: the arms of a pose where these are its lanes, else one."""
+
+
+def lanes_of(kernel: Callable[..., Any]) -> int:
+    """Lanes that a pose takes in the blocks of a kernel, whose module names them."""
+    return blocks.ARMS if "ARMS" in vars(inspect.getmodule(kernel)) else 1
+
 
 HEAD = """/* A loop whose turns do not depend on one another. */
 #if defined(__GNUC__) && !defined(__clang__)
@@ -34,9 +38,11 @@ HEAD = """/* A loop whose turns do not depend on one another. */
 
 
 @cache
-def _changed(home: ModuleType, name: str) -> int | None:
-    """A constant of a module that follows from the sizes of small blocks."""
+def _changed(home: ModuleType, name: str, lanes: int) -> int | None:
+    """A constant of a module that follows from the sizes of small blocks of some lanes."""
     place = f"{home.__name__}.{name}".removeprefix(f"{kernels.__name__}.")
+    if place == BLOCK:
+        return lanes
     if place in SMALL:
         return SMALL[place]
     found = None
@@ -48,7 +54,7 @@ def _changed(home: ModuleType, name: str) -> int | None:
     if found is None or not all(isinstance(n, plain) for n in ast.walk(found)):
         return None
     names = [n.id for n in ast.walk(found) if isinstance(n, ast.Name)]
-    given = {n: _changed(home_of(home, n)[0], n) for n in names}
+    given = {n: _changed(home_of(home, n)[0], n, lanes) for n in names}
     if all(value is None for value in given.values()):
         return None
     known = {n: value for n, value in given.items() if value is not None}
@@ -67,9 +73,9 @@ class ArmFile(CFile):
     head = HEAD
     folds = True
 
-    def __init__(self, prefix: str) -> None:
+    def __init__(self, prefix: str, lanes: int) -> None:
         super().__init__()
-        self.prefix = prefix
+        self.prefix, self.lanes = prefix, lanes
         for name in TAKEN.split():
             self.unique(name, "", TAKEN)
         self._given: dict[str, tuple[np.ndarray[Any, Any], str]] = {}
@@ -82,7 +88,7 @@ class ArmFile(CFile):
     def stands_for(self, source: Source, name: str) -> Any:
         """The object that a name of a kernel's module stands for; blocks are of one pose."""
         home, _ = home_of(source.module, name)
-        changed = _changed(home, name)
+        changed = _changed(home, name, self.lanes)
         return super().stands_for(source, name) if changed is None else changed
 
     def definition(self, source: Source) -> Callable[..., Any]:

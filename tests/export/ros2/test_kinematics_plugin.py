@@ -50,7 +50,7 @@ def test_plugin_compiles_and_solves_as_moveit_asks(tmp_path, arm, compiler):
 @pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake")
 @pytest.mark.parametrize("plugin", [False, True])
 def test_cmake_builds_and_installs_the_package(tmp_path, plugin):
-    """With ament and MoveIt as exported targets alone; nothing is used that CMake or ROS gave up."""
+    """With exported targets of ament and MoveIt alone; nothing is used that ROS gave up."""
     folder, there = tmp_path / "arm_description", tmp_path / "there"
     package = write_ros2_package("ur5e", folder, plugin=plugin)
     assert "ament_target_dependencies" not in package.files["CMakeLists.txt"]

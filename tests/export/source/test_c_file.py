@@ -35,9 +35,8 @@ Ned 2, whose solver is a polynomial."""
 HELD = {"franka_fer": 6, "kuka_iiwa14": 2}
 """Joints that are held of arms with one to spare."""
 
-SMALL, SEVEN = 16384, 20480
-"""Bytes of the stack that an arm's functions take at most, and those of one with a joint of seven
-held, which go along families to tell whether two solutions are on one."""
+SMALL = 16384
+"""Bytes of the stack that an arm's functions take at most."""
 
 SAME = ("-O2", "-ffp-contract=off")
 
@@ -216,7 +215,7 @@ def test_the_stack_that_is_stated_suffices(name, tmp_path):
         inner = set(re.findall(r"\w+(?=\()", bodies[name])) & bodies.keys()
         return frames[name] + 16 + max(map(most, inner), default=0)
 
-    assert most("arm_ik_near") <= arm.made.stack <= (SEVEN if robot.n == 7 else SMALL)
+    assert most("arm_ik_near") <= arm.made.stack <= SMALL
 
 
 @pytest.fixture(scope="module")
@@ -228,7 +227,7 @@ def everything_imported():
 @pytest.mark.usefixtures("everything_imported")
 @pytest.mark.parametrize("name", list_tables())
 def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name):
-    """Writing takes less than two seconds of the processor, what is written 16 KB of stack, or 20.
+    """Writing takes less than two seconds of the processor, what is written 16 KB of stack.
 
     Arms with joints that follow are refused.
     """
@@ -242,7 +241,7 @@ def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name
         made = exported(robot, language="c", held=robot.solver.joint if robot.n == 7 else None)
         seconds.append(time.process_time() - start)
     assert min(seconds) < 2.0
-    assert made.stack <= (SEVEN if robot.n == 7 else SMALL)
+    assert made.stack <= SMALL
 
 
 def test_the_head_says_what_it_is():
