@@ -167,3 +167,92 @@ def snap_lines(
         apart = ties[i] & PARALLEL == 0 and ties[i + 1] & PARALLEL == 0
         if apart and _turning(slides, i, 3) and _centre(axes, points, i, near)[0]:
             ties[i] |= CENTRAL
+
+
+def _scaled(v, factor):
+    """A vector times a number."""
+    return v[0] * factor, v[1] * factor, v[2] * factor
+
+
+def _foot(z, p, along):
+    """The point of a line that is so far along it."""
+    return p[0] + z[0] * along, p[1] + z[1] * along, p[2] + z[2] * along
+
+
+def _any_normal(z):
+    """A unit vector square to another."""
+    x, y, w = abs(z[0]), abs(z[1]), abs(z[2])
+    e = (0.0, 0.0, 1.0)
+    if x <= y and x <= w:
+        e = (1.0, 0.0, 0.0)
+    elif y <= w:
+        e = (0.0, 1.0, 0.0)
+    normal = cross(z, e)
+    long = length(normal)
+    return normal[0] / long, normal[1] / long, normal[2] / long
+
+
+def _common_normal(axes, points, i, parallel, near, x, origin):
+    """Direction of the common normal from line i to line i + 1, and its foot on line i + 1.
+
+    Where there are many it starts at the foot of the last one; x is kept where it has no length.
+    """
+    z, onward, p = axes[i], axes[i + 1], points[i + 1]
+    if parallel:
+        foot = _foot(onward, p, dot(onward, minus(origin, p)))
+        gap = minus(foot, origin)
+        distance = length(gap)
+        if distance > near:
+            return gap[0] / distance, gap[1] / distance, gap[2] / distance, *foot
+        return *x, *origin
+    normal = cross(z, onward)
+    square = dot(normal, normal)
+    gap = minus(points[i], p)
+    foot = _foot(onward, p, dot(cross(z, gap), normal) / square)
+    root = math.sqrt(square)
+    way = normal[0] / root, normal[1] / root, normal[2] / root
+    if dot(gap, way) > near:
+        way = -way[0], -way[1], -way[2]
+    return *way, *foot
+
+
+def _write_frame(x, z, T):
+    """Directions of a frame with the given z and the direction of x."""
+    long = length(x)
+    a = x[0] / long, x[1] / long, x[2] / long
+    b = cross(z, a)
+    for k in range(4):
+        T[3, k] = 1.0 if k == 3 else 0.0
+    T[0, 0], T[1, 0], T[2, 0] = a[0], a[1], a[2]
+    T[0, 1], T[1, 1], T[2, 1] = b[0], b[1], b[2]
+    T[0, 2], T[1, 2], T[2, 2] = z[0], z[1], z[2]
+
+
+@entry()
+def dh_frames(
+    axes: Vectors,
+    points: Vectors,
+    ties: Annotated[Integers, "n"],
+    near: float,
+    frames: Annotated[Floats, "n", 4, 4],
+):
+    """Frames (n, 4, 4) of lines by Denavit and Hartenberg, z_i along line i, arguments as above."""
+    n = axes.shape[0]
+    x = _any_normal(axes[0])
+    origin = points[0, 0], points[0, 1], points[0, 2]
+    for i in range(n):
+        if i > 0:
+            parallel = ties[i - 1] & PARALLEL != 0
+            a, b, c, u, v, w = _common_normal(axes, points, i - 1, parallel, near, x, origin)
+            x, origin = (a, b, c), (u, v, w)
+        if i == 1:
+            _write_frame(x, axes[0], frames[0])
+        along = dot(axes[i], x)
+        _write_frame(minus(x, _scaled(axes[i], along)), axes[i], frames[i])
+        frames[i, 0, 3], frames[i, 1, 3], frames[i, 2, 3] = origin[0], origin[1], origin[2]
+    if n > 1:
+        z, o, p = axes[0], frames[0], frames[1]
+        gap = p[0, 3] - o[0, 3], p[1, 3] - o[1, 3], p[2, 3] - o[2, 3]
+        along = dot(z, gap)
+        for k in range(3):
+            frames[0, k, 3] += z[k] * along

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.shared_tolerances import EXACT, FORM_ERROR, SNAP
-from dh2urdf.kernels.axis_lines import CENTRAL, MEETING, PARALLEL, snap_lines
+from dh2urdf.kernels.axis_lines import CENTRAL, MEETING, PARALLEL, dh_frames, snap_lines
 from dh2urdf.kernels.chain import chain_fk_batch
 from dh2urdf.kernels.numbers import atan2, hypot, sincos
-from dh2urdf.transforms import Array, cross, dot, inverted, length, pose_error, product
+from dh2urdf.transforms import Array, cross, inverted, length, pose_error, product
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,26 +57,30 @@ class AxisLines:
         """
         return self._snapped[1]
 
+    @property
+    def ties(self) -> NDArray[np.int64]:
+        """What each line does with those that follow, bits of the kernel, shape (n,)."""
+        return self._snapped[3]
+
     @cached_property
-    def _snapped(self) -> tuple[Array, Array, Array, list[int]]:
-        """Axes, points and signs, and what each line does with those that follow."""
+    def _snapped(self) -> tuple[Array, Array, Array, NDArray[np.int64]]:
         chain, n = self.chain, self.chain.n
-        lines, ties = (np.empty((n, 3)), np.empty((n, 3)), np.empty(n)), np.empty(n, np.int64)
+        found = np.empty((n, 3)), np.empty((n, 3)), np.empty(n), np.empty(n, np.int64)
         slides = np.ascontiguousarray(chain.prismatic)
-        snap_lines(chain.joint_frames, slides, self.tolerance, self.length, *lines, ties)
-        return *lines, ties.tolist()
+        snap_lines(chain.joint_frames, slides, self.tolerance, self.length, *found)
+        return found
 
     def parallel(self, i: int) -> bool:
         """Whether lines i and i + 1 are parallel."""
-        return bool(self._snapped[3][i] & PARALLEL)
+        return bool(self.ties[i] & PARALLEL)
 
     def meet(self, i: int) -> bool:
         """Whether lines i and i + 1 have exactly one point in common."""
-        return bool(self._snapped[3][i] & MEETING)
+        return bool(self.ties[i] & MEETING)
 
     def spherical(self, i: int) -> bool:
         """Whether three revolute joints from i on have axes through one point."""
-        return bool(self._snapped[3][i] & CENTRAL)
+        return bool(self.ties[i] & CENTRAL)
 
     def three_parallel(self, i: int) -> bool:
         """Whether three revolute joints from i on have parallel axes."""
@@ -118,37 +123,10 @@ class DHForm:
     @cached_property
     def frames(self) -> Array:
         """DH frames 0 ... n - 1 at q = 0 in base, z_i along line i, shape (n, 4, 4)."""
-        axes, points = self.lines.axes, self.lines.points
-        x, origin = cross(axes[0], np.eye(3)[np.abs(axes[0]).argmin()]), points[0]
-        x /= length(x)
-        frames: list[Array] = []
-        for i in range(len(axes)):
-            if i > 0:
-                x, origin = self._normal(i - 1, x, origin)
-            if i == 1:
-                frames[0] = pose_along(x, axes[0], frames[0][:3, 3])
-            frames.append(pose_along(x - axes[i] * dot(axes[i], x), axes[i], origin))
-        if len(axes) > 1:
-            frames[0][:3, 3] += axes[0] * dot(axes[0], frames[1][:3, 3] - frames[0][:3, 3])
-        return np.stack(frames)
-
-    def _normal(self, i: int, x: Array, origin: Array) -> tuple[Array, Array]:
-        """Direction of the common normal from line i to i + 1, and its foot on line i + 1."""
         lines = self.lines
-        z, z_next, p_next = lines.axes[i], lines.axes[i + 1], lines.points[i + 1]
-        if lines.parallel(i):
-            foot = p_next + z_next * dot(z_next, origin - p_next)
-            gap = foot - origin
-            distance = length(gap)
-            return (gap / distance, foot) if distance > lines.length else (x, origin)
-        normal = cross(z, z_next)
-        square = float(dot(normal, normal))
-        gap = lines.points[i] - p_next
-        foot = p_next + z_next * (dot(cross(z, gap), normal) / square)
-        normal /= math.sqrt(square)
-        if dot(gap, normal) > lines.length:
-            normal = -normal
-        return normal, foot
+        frames = np.empty((lines.chain.n, 4, 4))
+        dh_frames(lines.axes, lines.points, lines.ties, lines.length, frames)
+        return frames
 
     @cached_property
     def rows(self) -> Array:

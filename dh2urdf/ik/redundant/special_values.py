@@ -200,8 +200,9 @@ class HeldAtAnyValue(HeldSolver):
             return grid[:0]
         around = np.concatenate([[np.inf], gaps, [np.inf]])
         dips = grid[(gaps <= around[:-2]) & (gaps <= around[2:])]
+        ways = np.linspace(-1.0, 1.0, CLOSER)
         for _ in range(ROUNDS if len(dips) else 0):
-            trial = dips[:, None] + step * np.linspace(-1.0, 1.0, CLOSER)
+            trial = dips[:, None] + step * ways
             best = self._depth(trial.ravel()).reshape(trial.shape).argmin(axis=1)
             dips = trial[np.arange(len(dips)), best]
             step *= 2.0 / (CLOSER - 1)
