@@ -26,9 +26,9 @@ from dh2urdf.ik.arm import (
     random_configurations,
     scaled_jacobian,
 )
-from dh2urdf.ik.redundant.held_in_doubt import HeldInDoubt, InDoubt
+from dh2urdf.ik.redundant.held_in_doubt import SHARP, HeldInDoubt, InDoubt
 from dh2urdf.ik.redundant.held_values import HeldEnd, HeldOneByOne
-from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE
+from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
 from dh2urdf.transforms import Array, inverse
 
 GRID = 48
@@ -67,7 +67,8 @@ class HeldAtAnyValue(HeldSolver):
     def solve_held(self, Ts: Array, values: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1)."""
         doubt = self.inner.solve_plainly(Ts, values, within_limits, out)
-        special, folded = self._special(values[:, 0]), np.flatnonzero(self._folded(Ts)).tolist()
+        special = self._special(values[:, 0])
+        folded = np.flatnonzero(self._folded(Ts) & ~_every_branch(out, doubt)).tolist()
         if len(special):
             found = Outputs.of(len(special), self.kmax, self.chain.n)
             poses = np.ascontiguousarray(Ts[special])
@@ -207,6 +208,14 @@ class HeldAtAnyValue(HeldSolver):
             dips = trial[np.arange(len(dips)), best]
             step *= 2.0 / (CLOSER - 1)
         return dips[self._rank_gap(dips) <= DIP] if len(dips) else dips
+
+
+def _every_branch(out: Outputs, doubt: IntArray) -> NDArray[np.bool_]:
+    """Of which poses all branches are found, each sharp; some are in doubt."""
+    every: NDArray[np.bool_] = out.residual[:, : HeldWrist.kmax].max(axis=1) <= SHARP
+    every &= out.counts == HeldWrist.kmax
+    every[doubt] = False
+    return every
 
 
 def at_any_value(solver: HeldSolver, task: Task) -> HeldSolver:

@@ -1,10 +1,11 @@
 """Joints to spare: one of seven held or swept, and motions that leave the tool where it is.
 
-`held_wrist` solves with a joint held, and gathers the solutions of many values; `held_wrist_blocks`
-solves many poses side by side, from what `held_wrist_load` makes of them, `sweeps` one pose at many
-values; `self_motion` walks along solutions, `starts` says from where and `nearest` where to,
-`one_family` which of them are on one, `curves` finds all curves of them, `paths` shortens a path;
-`families` brings singular ones into the limits.
+`held_wrist` solves with a joint held, and gathers the solutions of many values, `held_wrist_place`
+says where its wrist is put; `held_wrist_blocks` solves many poses side by side, from what
+`held_wrist_load` makes of them, `sweeps` one pose at many values; `self_motion` walks along
+solutions, `starts` says from where and `nearest` where to, `one_family` which of them are on one,
+`curves` finds all curves of them, `paths` shortens a path; `families` brings singular ones into
+the limits.
 """
 
 from dh2urdf.kernels.redundant.curves import DULL, add_curves

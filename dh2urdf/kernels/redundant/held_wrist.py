@@ -19,7 +19,6 @@ Constants of an arm, packed for a cheap call:
     Sliding, lower, upper of the moving joints.
 """
 
-import math
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -34,18 +33,12 @@ from dh2urdf.kernels.certificate import (
 )
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
 from dh2urdf.kernels.newton import POLISH, POSE, normal_equations, pose_residual, restore
-from dh2urdf.kernels.numbers import atan2, circle_pair, entry, hypot, sincos
+from dh2urdf.kernels.numbers import entry, sincos
+from dh2urdf.kernels.redundant.held_wrist_place import place_held
 from dh2urdf.kernels.redundant.one_family import keep_one_of_each
-from dh2urdf.kernels.rigid import applied, applied_inverse, cross, dot, invert_pose, turned_back
+from dh2urdf.kernels.rigid import invert_pose, turned_back
 from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
-from dh2urdf.kernels.spherical_wrist import (
-    FREE,
-    SHOULDER_FREE,
-    UPPER_FREE,
-    append_wrist,
-    elbow_on_axis,
-    tool_to_wrist,
-)
+from dh2urdf.kernels.spherical_wrist import append_wrist, tool_to_wrist
 
 VAGUE = 1e-10
 """Volume that the motions of joints 1, 2, 3 span, in sizes of the arm, times the sine of joint 5,
@@ -60,9 +53,6 @@ NOTHING, SOME, ALL, EVERYTHING = range(4)
 
 MOST = 8
 """Solutions that such an arm has at most: if all are there, a search would find no other."""
-
-VOID = 1e-4
-"""Size of an equation, in sizes of the arm, that says too little for a pose to be out of reach."""
 
 HELD, SLIDES, REVERSED, ORIENTED, VARIES = range(5)
 ORIENTED_LINKS, LINK, AROUND, ENDS, SIDES, FACTORS = 8, 16, 19, 21, 24, 26
@@ -100,70 +90,6 @@ def oriented_pose(frames, which, value, T, scratch):
             S[i] = frames[LINK + i]
 
 
-def _place_wrist(form, D, S, slack, scratch):
-    """Joints 1, 2, 3 that put the wrist centre where D has it: rows of ``arm``; how many.
-
-    Seen from axis 2, ``y(q1) = S0^-1 Z1^-1 p`` and ``u(q3) = S1 Z3 w`` have one height and one
-    length: a subproblem 6 in q1 and q3. Subproblem 1 gives q2. The rows are as in
-    :mod:`dh2urdf.kernels.spherical_wrist.position_arm`, without names of branches, then the volume
-    that the three motions of the centre span. -1 where there are none for equations are void.
-    """
-    arm, (two, series, pairs) = scratch[4], scratch[8]
-    M, N, d = two[0], two[1], two[2, 0]
-    S0, S1, reach = S[0], S[1], form[3, 3]
-    px, py, pz = D[0, 3], D[1, 3], D[2, 3]
-    wx, wy, wz = applied(S[2], (0.0, 0.0, reach))
-    tx, ty, tz, ux, uy, uz = S0[0, 3], S0[1, 3], S0[2, 3], S1[0, 3], S1[1, 3], S1[2, 3]
-    nx, ny, nz = turned_back(S1, (ux, uy, uz))
-    gx, gy, gz, hx, hy, hz = S0[0, 2], S0[1, 2], S0[2, 2], S1[2, 0], S1[2, 1], S1[2, 2]
-    M[0, 0], M[0, 1] = gx * px + gy * py, gx * py - gy * px
-    N[0, 0], N[0, 1] = -hx * wx - hy * wy, hx * wy - hy * wx
-    d[0] = hz * wz + uz - gz * pz + gx * tx + gy * ty + gz * tz
-    M[1, 0], M[1, 1] = -2.0 * (tx * px + ty * py), -2.0 * (tx * py - ty * px)
-    N[1, 0], N[1, 1] = -2.0 * (nx * wx + ny * wy), -2.0 * (ny * wx - nx * wy)
-    square = px * px + py * py
-    size = square + pz * pz + tx * tx + ty * ty + tz * tz
-    size = math.sqrt(size + wx * wx + wy * wy + wz * wz + ux * ux + uy * uy + uz * uz)
-    d[1] = wx * wx + wy * wy + wz * wz + ux * ux + uy * uy + uz * uz + 2.0 * nz * wz
-    d[1] -= square + pz * pz + tx * tx + ty * ty + tz * tz - 2.0 * tz * pz
-    free = square <= FREE * FREE
-    if free:
-        count = elbow_on_axis(N, d, 0.0, slack, pairs)
-    else:
-        count = circle_pair(M, N, d, slack, series, pairs)
-    if count <= 0:
-        first = hypot(M[0, 0], M[0, 1]) + hypot(M[1, 0], M[1, 1]) / size
-        last = hypot(N[0, 0], N[0, 1]) + hypot(N[1, 0], N[1, 1]) / size
-        return -1 if min(first, last) <= VOID * size else 0
-    for k in range(count):
-        c1, s1, c3, s3 = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
-        y = applied_inverse(S0, (c1 * px + s1 * py, c1 * py - s1 * px, pz))
-        v = applied(S1, (c3 * wx - s3 * wy, s3 * wx + c3 * wy, wz))
-        (yx, yy, _), (vx, vy, _) = y, v
-        upper_free = vx * vx + vy * vy <= FREE * FREE
-        arm[k, 0], arm[k, 2], arm[k, 3] = atan2(s1, c1), atan2(s3, c3), -1.0
-        arm[k, 1] = 0.0 if upper_free else atan2(vx * yy - vy * yx, vx * yx + vy * yy)
-        arm[k, 4] = SHOULDER_FREE if free else (UPPER_FREE if upper_free else 0.0)
-        arm[k, 5] = _volume(S0, S1, y, v) / (size * size * size)
-    return count
-
-
-def _volume(S0, S1, y, v):
-    """What the motions of the wrist centre by joints 1, 2 and 3 span.
-
-    y is the centre seen from axis 2, v the same behind joint 2.
-    """
-    square = max(v[0] * v[0] + v[1] * v[1], 1e-300)
-    c, s = (v[0] * y[0] + v[1] * y[1]) / square, (v[0] * y[1] - v[1] * y[0]) / square
-    px, py, _ = applied(S0, y)
-    first, second = turned_back(S0, (-py, px, 0.0)), (-y[1], y[0], 0.0)
-    third = cross(
-        (S1[0, 2], S1[1, 2], S1[2, 2]), (v[0] - S1[0, 3], v[1] - S1[1, 3], v[2] - S1[2, 3])
-    )
-    third = c * third[0] - s * third[1], s * third[0] + c * third[1], third[2]
-    return abs(dot(first, cross(second, third)))
-
-
 def _orientation_left(D, S, values, R):
     """``R_36 = S2^T Z3^T S1^T Z2^T S0^T Z1^T R_06``, to R (3, 3)."""
     for j in range(3):
@@ -182,7 +108,7 @@ def held_candidates(arm, value, T, rows, scratch):
     (frames, which, form, _, slack), (q, _, _, free) = arm, rows
     oriented_pose(frames, which, value, T, scratch)
     D, S, R, place = scratch[1], scratch[2], scratch[3], scratch[4]
-    found, places, seen, vague = 0, _place_wrist(form, D, S, slack, scratch), 0, 0
+    found, places, seen, vague = 0, place_held(form, D, S, slack, scratch), 0, 0
     for k in range(places):
         _orientation_left(D, S, place[k], R)
         before = found

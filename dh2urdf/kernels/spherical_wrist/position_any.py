@@ -13,23 +13,20 @@ Notation and output as in :mod:`dh2urdf.kernels.spherical_wrist.position_arm`.
 import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT
-from dh2urdf.kernels.numbers import (
-    add_square,
-    atan2,
-    circle_pair,
-    hypot,
-    linear_trig,
-    root_of_gap,
-    sincos,
-    trig_roots,
-)
-from dh2urdf.kernels.rigid import dot, minus
+from dh2urdf.kernels.numbers import atan2, circle_pair, hypot, linear_trig, sincos
+from dh2urdf.kernels.rigid import dot
 from dh2urdf.kernels.spherical_wrist.position_arm import (
     FREE,
     SHOULDER_FREE,
     UPPER_FREE,
     VAGUE,
     place_wrist_in_plane,
+)
+from dh2urdf.kernels.spherical_wrist.position_slides import (
+    about_z,
+    point_at,
+    turn_and_slide,
+    two_slides,
 )
 
 ON_AXIS = 1e-6
@@ -38,9 +35,6 @@ ON_AXIS = 1e-6
 BESIDE = 1e-5
 """Distance [m] of the wrist centre from axis 2 at which joint 2 is vague: joints 1 and 3 are off by
 the root of rounding where that is nearest."""
-
-OBLIQUE = 1e-9
-"""Cosine between a slide and a neighbouring axis up to which they count as square."""
 
 
 def place_wrist(form, px, py, pz, slack, arm):
@@ -54,10 +48,10 @@ def place_wrist(form, px, py, pz, slack, arm):
     if not first and not third:
         count = _two_turns(form, Y, V, free, slack, pairs)
     elif first and third:
-        count = _two_slides(form, Y, V, slack, pairs)
+        count = two_slides(form, Y, V, slack, pairs)
     else:
         turn, slide = (V, Y) if first else (Y, V)
-        count = _turn_and_slide(turn, slide, second, free, form[0, 4], slack, pairs)
+        count = turn_and_slide(turn, slide, second, free, form[0, 4], slack, pairs)
         for k in range(count if first else 0):
             c, s = pairs[k, 0], pairs[k, 1]
             pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], 0.0, c, s
@@ -89,23 +83,12 @@ def _along_arm(form):
         k, C, S = (0.0, 0.0, z + form[2, 3]), (x, y, 0.0), (-y, x, 0.0)
     k, C, S = _turned_up(k, ca, sa), _turned_up(C, ca, sa), _turned_up(S, ca, sa)
     k = k[0] + a, k[1], k[2] + lift
-    return _turned(k, c, s), _turned(C, c, s), _turned(S, c, s)
-
-
-def _turned(v, c, s):
-    """``Rot_z v``."""
-    return c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]
+    return about_z(k, c, s), about_z(C, c, s), about_z(S, c, s)
 
 
 def _turned_up(v, c, s):
     """``Rot_x v``."""
     return v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]
-
-
-def _at(columns, c, s):
-    """``k + c C + s S``."""
-    k, C, S = columns
-    return k[0] + c * C[0] + s * S[0], k[1] + c * C[1] + s * S[1], k[2] + c * C[2] + s * S[2]
 
 
 def _two_turns(form, Y, V, free, slack, pairs):
@@ -136,88 +119,13 @@ def _two_turns(form, Y, V, free, slack, pairs):
     return count
 
 
-def _turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
-    """One turns, one slides: the slide eliminated, rows (c, s, t, 0).
-
-    ``flat``: joint 2 slides; ``free``: the turning joint is free, and put to ``nice``.
-    """
-    (k, C, S), (m, E, _) = turn, slide
-    rows, cosines, sines, series = 0, np.empty(4), np.empty(4), np.zeros(5)
-    rise, steep, fall, slope = (k[2] - m[2], C[2], S[2], E[2])
-    if flat:
-        rise = E[0] * (k[1] - m[1]) - E[1] * (k[0] - m[0])
-        steep, fall, slope = E[0] * C[1] - E[1] * C[0], E[0] * S[1] - E[1] * S[0], 0.0
-    oblique, along = abs(slope) > OBLIQUE, dot(m, E)
-    size = dot(m, m) + dot(k, k) + dot(C, C)
-    length = 2.0 * dot(m, m) - size
-    if oblique:
-        rise, steep, fall = rise / slope, steep / slope, fall / slope
-    if free:
-        count, (sines[0], cosines[0]) = 1, sincos(nice)
-    elif oblique:
-        series[0] = length + 2.0 * along * rise
-        series[1], series[2] = 2.0 * (along * steep - dot(k, C)), 2.0 * (along * fall - dot(k, S))
-        add_square(series, 1.0, rise, steep, fall)
-        count = trig_roots(series, 2, cosines, sines)
-    else:
-        count, c, s, e, f = linear_trig(steep, fall, -rise, slack)
-        cosines[0], sines[0], cosines[1], sines[1] = c, s, e, f
-    for j in range(count):
-        c, s = cosines[j], sines[j]
-        found, t, other = 1, rise + c * steep + s * fall, 0.0
-        if flat:
-            x, y, _ = _at(turn, c, s)
-            t = ((x - m[0]) * E[0] + (y - m[1]) * E[1]) / (E[0] * E[0] + E[1] * E[1])
-        elif not oblique:
-            rest = length - 2.0 * (c * dot(k, C) + s * dot(k, S))
-            root = root_of_gap(along * along - rest, size, slack)
-            found = 0 if root < 0.0 else (1 if root == 0.0 and slack > 0.0 else 2)
-            t, other = root - along, -root - along
-        for i in range(found):
-            pairs[rows, 0], pairs[rows, 1], pairs[rows, 3] = c, s, 0.0
-            pairs[rows, 2] = t if i == 0 else other
-            rows += 1
-    return rows
-
-
-def _two_slides(form, Y, V, slack, pairs):
-    """Joints 1 and 3 slide: linear equations, or a subproblem 4 in the angle of joint 2.
-
-    That is what is left of y = v across slide 1 when d3 is eliminated.
-    """
-    (k, C, _), (m, E, _) = Y, V
-    if form[1, 5] != 0.0:
-        x, y, det = m[0] - k[0], m[1] - k[1], C[1] * E[0] - C[0] * E[1]
-        pairs[0, 0], pairs[0, 1] = (y * E[0] - x * E[1]) / det, 0.0
-        pairs[0, 2], pairs[0, 3] = (C[0] * y - C[1] * x) / det, 0.0
-        return 1
-    ca1, sa1, ca2, sa2 = form[0, 1], form[0, 2], form[1, 1], form[1, 2]
-    gx, gy, x, y = k[0], ca1 * k[1] - sa1 * k[2] + sa1 * m[2], m[0], m[1]
-    a, b = sa1 * ca2 * x - ca1 * sa2 * gx, -sa2 * gy - sa1 * ca2 * y
-    count, c, s, e, f = linear_trig(a, b, sa1 * ca2 * gx - ca1 * sa2 * x, slack)
-    rows = 0
-    for j in range(count):
-        c, s = (c, s) if j == 0 else (e, f)
-        fx, fy = s * sa2, -ca1 * c * sa2 - sa1 * ca2
-        square = fx * fx + fy * fy
-        if square <= 0.0:
-            continue
-        hx, hy = gx - c * x + s * y, gy - ca1 * (s * x + c * y)
-        t = (hx * fx + hy * fy) / square
-        u = _turned(_at(V, t, 0.0), c, s)
-        pairs[rows, 0] = dot(C, minus(u, k))
-        pairs[rows, 1], pairs[rows, 2], pairs[rows, 3] = 0.0, t, 0.0
-        rows += 1
-    return rows
-
-
 def _nearest(columns, slides, c, s):
     """The value of a joint, as a row has it, at which its point is nearest to axis 2; the distance.
 
     For a point that is next to the axis: there its root is double, and rounding parts it by 1e-8.
     """
     _, C, S = columns
-    x, y, _ = _at(columns, c, s)
+    x, y, _ = point_at(columns, c, s)
     dx, dy = (C[0], C[1]) if slides else (c * S[0] - s * C[0], c * S[1] - s * C[1])
     square = dx * dx + dy * dy
     move = -(x * dx + y * dy) / square if square > 0.0 else 0.0
@@ -226,7 +134,7 @@ def _nearest(columns, slides, c, s):
     else:
         f, e = sincos(move)
         c, s = c * e - s * f, s * e + c * f
-    x, y, _ = _at(columns, c, s)
+    x, y, _ = point_at(columns, c, s)
     return c, s, hypot(x, y)
 
 
@@ -234,7 +142,7 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
     """Joint 2 of all pairs, and rows of ``arm``; where the centre is on axis 2, joint 2 is free."""
     for k in range(count):
         c, s, e, f = pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3]
-        (x, y, z), (vx, vy, vz) = _at(Y, c, s), _at(V, e, f)
+        (x, y, z), (vx, vy, vz) = point_at(Y, c, s), point_at(V, e, f)
         arm[k, 1], arm[k, 4] = z - vz, 0.0
         if form[1, 5] == 0.0:
             arm[k, 1] = atan2(vx * y - vy * x, vx * x + vy * y)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from structured import rounded
 from sweep import Tally, judge
 
 import dh2urdf
@@ -80,3 +81,24 @@ def test_wrists_beside_a_right_angle_lose_no_configuration(right, seed, fifth, b
         J = dh2urdf.Robot.from_dh(arm(np.pi / 2)).jacobian(q)[:, :4]
         if np.linalg.svd(J, compute_uv=False)[-1] > 0.01:  # no other singularity is near
             assert lost(arm(right), q[None]) == []
+
+
+NEARLY_SQUARE = [
+    (3, (0.0032, 1.5727, 3.146, -1.5802, 1.5677, -1.5735, 1.5737)),
+    (2, (-0.01342, 1.58673, -2.61579, -2.11198, -0.26883, 1.05125, 2.62203)),
+    (2, (-0.3, 1.5708, -2.6, -2.1, -0.3, 1.1, 2.6)),
+]
+
+
+@pytest.mark.parametrize(("joint", "q"), NEARLY_SQUARE)
+def test_a_slide_that_is_nearly_square_to_the_next_axis_loses_no_pair(joint, q):
+    """An arm on a rail of which a joint is held: both ways along the rail, also next to its rim."""
+    table = rounded(dh2urdf.load_table("abb_irb4600_track"), 4)
+    tally, q = Tally("rail"), np.array([q]) + 1e-3 * np.random.default_rng(0).normal(size=(20, 7))
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={joint: q[:, joint]})
+
+    judge(tally, table, q, held, held=(joint,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
