@@ -179,12 +179,7 @@ class CoupledChain(SerialChain):
             ratio = Fraction(float(self.factors[i])).limit_denominator(LARGEST)
             exact = abs(ratio - self.factors[i]) <= RATIO * abs(self.factors[i])
             if self.sliding[i] or not exact:
-                how = "slides as it turns" if self.sliding[i] else f"{self.factors[i]:.12g} times"
-                raise NoSolverError(
-                    f"a joint follows {self.names[v]}: {how}; there is no number of turns after "
-                    "which the pose comes again, and infinitely many solutions; ik_numeric finds "
-                    "solutions one at a time"
-                )
+                raise NoSolverError(self._never_back(i, v))
             ratios[v].append(ratio)
         turns = [_turns_of(of) if of else 1.0 for of in ratios]
         if turns == [1.0] * self.n:
@@ -197,6 +192,19 @@ class CoupledChain(SerialChain):
             upper=self.upper / each,
             factors=np.where(turning, more, self.factors),
             turns=tuple(a * b for a, b in zip(self.turns, turns, strict=True)),
+        )
+
+    def _never_back(self, i: int, v: int) -> str:
+        """Why no number of turns of value v brings joint i back, and what that means."""
+        how = (
+            f"turns {self.factors[i]:.12g} times as far, no ratio of whole numbers up to {LARGEST}"
+        )
+        many = "infinitely many solutions, since it has no limits on both sides"
+        if np.isfinite(self.upper[v] - self.lower[v]):
+            many = "different solutions in each turn within its limits, which are not counted"
+        return (
+            f"a joint that follows {self.names[v]} {how}: there is no number of turns after which "
+            f"the pose comes again, and {many}; ik_numeric finds solutions one at a time"
         )
 
     def held(self, values: dict[int, float]) -> Self:

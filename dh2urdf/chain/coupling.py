@@ -76,11 +76,32 @@ class Coupling:
         assert self.inverse is not None
         return _image(self.inverse, -self.inverse @ self.offset, lower, upper)
 
+    def leaves_values(self, joints: SerialChain) -> bool:
+        """Whether the limits of the joints of a square coupling alone keep the values in theirs."""
+        if self.inverse is None:
+            return False
+        low, high = self.values_of(joints.lower, joints.upper)
+        return within(low, high, self.lower, self.upper)
+
+    def in_turns(self, turns: Array) -> "Coupling":
+        """The same for joints that are counted in so many turns each, (chain.n,)."""
+        matrix, offset = self.matrix / turns[:, None], self.offset / turns
+        return replace(self, matrix=matrix, offset=offset)
+
     def values(self, joints: Array) -> Array:
         """Values q (..., n) of joints (..., n) of a square coupling."""
         assert self.inverse is not None
         out: Array = (joints - self.offset) @ self.inverse.T
         return out
+
+
+ALIKE = 1e-9
+"""Rounding [rad or m] of a limit that follows from others."""
+
+
+def within(low: Array, high: Array, lower: Array, upper: Array) -> bool:
+    """Whether ranges (n,) are inside others."""
+    return bool((low >= lower - ALIKE).all() and (high <= upper + ALIKE).all())
 
 
 def _image(matrix: Array, offset: Array, lower: Array, upper: Array) -> tuple[Array, Array]:

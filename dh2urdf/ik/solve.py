@@ -18,7 +18,7 @@ from dh2urdf.dh import JointMap
 from dh2urdf.dh.variables import coupled_words
 from dh2urdf.doors import choice, flag, instance, integer
 from dh2urdf.engine import AtOnce, nothing_at_once
-from dh2urdf.exceptions import ArgumentError, ConfigurationError, NoSolverError, PoseError
+from dh2urdf.exceptions import ArgumentError, ConfigurationError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
     Solver,
@@ -79,15 +79,10 @@ class InverseKinematics:
     def __init__(
         self, chain: SerialChain, coupling: Coupling | None, referee: ForwardKinematics
     ) -> None:
-        if (
-            coupling is not None
-            and isinstance(chain, CoupledChain)
-            and any(turn != 1.0 for turn in chain.in_turns.turns)
-        ):
-            raise NoSolverError(
-                "coupled joints, and followers of which a turn is no turn: ik needs one or the "
-                "other; ik_numeric finds solutions one at a time"
-            )
+        self._given = chain, coupling
+        if coupling is not None and isinstance(chain, CoupledChain):
+            chain = chain.in_turns
+            coupling = coupling.in_turns(np.where(chain.prismatic, 1.0, chain.turns))
         self.chain, self.coupling, self.referee = chain, coupling, referee
         self.own = in_own_unit(chain)
         self.values = chain if coupling is None else coupling.chain_of(chain)
@@ -98,7 +93,7 @@ class InverseKinematics:
         self._held = HeldCalls()
 
     def __getstate__(self) -> dict[str, Any]:
-        return InverseKinematics(self.chain, self.coupling, self.referee).__dict__
+        return InverseKinematics(*self._given, self.referee).__dict__
 
     @property
     def solver(self) -> Solver:
@@ -285,9 +280,10 @@ class InverseKinematics:
             problem = ScaledProblem(self.chain, problem)
         if self.coupling is None:
             return problem
+        given = self._given[1] or self.coupling
         if isinstance(solver, SolverBase) and set(self.coupling.names) == set(self.chain.names):
             own = tuple(map(self.chain.names.index, self.coupling.names))
-            joints_of = JointMap(self.coupling.matrix, self.coupling.offset, own)
+            joints_of = JointMap(given.matrix, given.offset, own)
             solver.moved = coupled_words(self.chain.names, joints_of)
         return CoupledProblem(self.values, self.coupling, problem, joints)
 

@@ -198,6 +198,7 @@ def held_values(
     count = integer(count, "count", 1, SAMPLES)
     if not isinstance(solver, SweptJoint):
         return None
-    inside = flag(within_limits, "within_limits")
-    values = sample_values(robot.chain, solver.joint, count, inside)
-    return {solver.joint: values}
+    inside, value = flag(within_limits, "within_limits"), robot.moved_alone(solver.joint)
+    if value is None:  # no value holds it
+        return None
+    return {value: sample_values(robot.chain, solver.joint, count, inside)}

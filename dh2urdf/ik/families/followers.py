@@ -66,13 +66,17 @@ class Followers(OwnRecord, SolverBase):
         """Name the leader, what follows it, and the method."""
         leader = leaders_of(self.arm)[0]
         moved = [
-            f"joint {i + 1} by {factor / self.arm.turns[leader]:g}"
+            (i + 1, factor / self.arm.turns[leader])
             for i, (v, factor) in enumerate(zip(self.arm.leaders, self.arm.factors, strict=True))
             if v == leader
         ]
+        axes, times = (
+            " and ".join(f"{each:g}" for each in part) for part in zip(*moved, strict=True)
+        )
         return (
-            f"{self.arm.names[leader]} moves {', '.join(moved)}; the five others are eliminated "
-            "(Raghavan and Roth 1993), its turn is a root of a trigonometric polynomial of degree "
+            f"{self.arm.names[leader]} turns axes {axes}, by {times}; the five others are "
+            "eliminated (Raghavan and Roth 1993), its turn is a root of a trigonometric polynomial "
+            "of degree "
             f"{self.degree}; then Newton's method on the exact chain"
         )
 

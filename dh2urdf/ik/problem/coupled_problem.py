@@ -180,8 +180,13 @@ class CoupledProblem(Problem):
             It moves together with others, or limits of values that do are asked for.
         """
         joint = self.inner.solver.joint  # type: ignore[union-attr]
-        if within_limits or joint in self.turns.block:
-            names = ", ".join(self.coupling.names[i] for i in self.turns.block)
+        names = ", ".join(self.coupling.names[i] for i in self.turns.block)
+        if joint in self.turns.block:
+            raise ConfigurationError(
+                f"intervals: the joint that is swept, {self.inner.chain.names[joint]}, is one of "
+                f"those that move together ({names}), and so no value of q"
+            )
+        if within_limits and not self.coupling.leaves_values(self.inner.chain):
             raise ConfigurationError(
                 f"intervals: limits of joints that move together ({names}) are not intervals of "
                 "one; within_limits=False gives those of a joint that moves alone"

@@ -132,10 +132,36 @@ def find_path(
         found = find_path(problem.inner, poses, origin, within_limits, max_jump, tell)
         return replace(found, q=found.q * problem.scale)
     if isinstance(problem, CoupledProblem) and problem.sampled:
-        raise ConfigurationError(
-            "path: not of an arm with a joint to spare of which values move joints together; "
-            "hold a joint (locked)"
-        )
+        return _path_of_joints(problem, Ts, start, within_limits, max_jump, tell)
     if isinstance(problem, SweptProblem):
         return SweptPath(problem, Ts, start, within_limits, max_jump, tell).find()
     return PathFinder(problem, Ts, start, within_limits, max_jump, tell).find()
+
+
+def _path_of_joints(
+    problem: CoupledProblem,
+    Ts: Array,
+    start: Array | None,
+    within_limits: bool,
+    max_jump: float | None,
+    tell: Progress | None,
+) -> IKPath:
+    """The path of least motion of the joints, of which there is one to spare, in the values.
+
+    Raises
+    ------
+    ConfigurationError
+        The limits of the joints may put values outside theirs.
+    """
+    coupling = problem.coupling
+    if within_limits and not coupling.leaves_values(problem.inner.chain):
+        raise ConfigurationError(
+            "path: of an arm with a joint to spare whose values have limits that are not those of "
+            "the joints that they move together; hold a joint (locked), or give within_limits=False"
+        )
+    origin = None if start is None else coupling.joints(start)
+    found = find_path(problem.inner, Ts, origin, within_limits, max_jump, tell)
+    q, reached = coupling.values(found.q), np.isfinite(found.q[:, 0])
+    steps = np.abs(np.diff(q[reached], axis=0)).max(axis=1, initial=0.0)
+    breaks = np.flatnonzero(reached)[1:][steps > found.max_jump]
+    return replace(found, q=q, breaks=tuple(breaks.tolist()), joint_names=coupling.names)

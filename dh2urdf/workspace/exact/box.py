@@ -10,12 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dh2urdf.chain import Coupling, SerialChain
+from dh2urdf.chain.coupling import ALIKE, within
 from dh2urdf.exceptions import ArgumentError
 from dh2urdf.robot import Robot
 from dh2urdf.transforms import Array
-
-ALIKE = 1e-9
-"""Rounding [rad or m] of a limit that follows from others."""
 
 
 class Box(NamedTuple):
@@ -77,23 +75,16 @@ def box_of(robot: Robot) -> Box:
     own = chain.lower, chain.upper, chain.prismatic
     if coupling is None:
         return Box(*own, None, None)
-    if coupling.inverse is not None:
-        low, high = coupling.values_of(chain.lower, chain.upper)
-        if _inside(low, high, robot.lower, robot.upper):
-            return Box(*own, None, coupling)
+    if coupling.leaves_values(chain):
+        return Box(*own, None, coupling)
     low, high = coupling.ranges(robot.lower, robot.upper)
-    if _inside(low, high, chain.lower, chain.upper):
+    if within(low, high, chain.lower, chain.upper):
         return Box(robot.lower, robot.upper, robot.slides, coupling, None)
     raise ArgumentError(
         f"{robot.model.name}: {_bound_twice(robot.chain, low, high)} moves by several values and "
         "has limits of its own; exact reach takes limits of the values or of the joints, not of "
         "both; workspace without --exact draws what is sampled"
     )
-
-
-def _inside(low: Array, high: Array, lower: Array, upper: Array) -> bool:
-    """Whether ranges (n,) are within others."""
-    return bool((low >= lower - ALIKE).all() and (high <= upper + ALIKE).all())
 
 
 def _bound_twice(chain: SerialChain, low: Array, high: Array) -> str:
