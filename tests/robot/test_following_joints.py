@@ -74,7 +74,7 @@ def test_the_hollow_wrist_has_its_four_solutions(painter):
 
 def test_the_solver_says_what_follows(painter):
     assert str(painter.solver) == "followers"
-    assert "j5 moves joint 5 by 1, joint 6 by -1" in painter.solver.explain()
+    assert "j5 turns axes 5 and 6, by 1 and -1" in painter.solver.explain()
     assert "degree 16" in painter.solver.explain()
 
 
