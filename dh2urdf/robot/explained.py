@@ -94,6 +94,9 @@ def question_of(
     rows = np.arange(len(found))
     if found and isinstance(solver, (SweptJoint, RedundantChain)):
         spare = solver.held if isinstance(solver, RedundantChain) else (solver.joint,)
+        if coupling is not None and coupling.inverse is None:  # the solver counts the values
+            names = [coupling.names[v] for v in spare]
+            spare = tuple(k for k, name in enumerate(robot.chain.names) if name in names)
         held |= {i: float(moved[index, i]) for i in spare}
         rows = np.flatnonzero((moved[:, spare] == moved[index, spare]).all(axis=1))
     return Question(

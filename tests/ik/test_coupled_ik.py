@@ -14,7 +14,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from dh2urdf import DHRow, DHTable, Mimic, Robot, load_table
-from dh2urdf.exceptions import ConfigurationError, NoSolverError
+from dh2urdf.exceptions import ConfigurationError
 
 TURN = 2.0 * np.pi
 SEEDS = st.integers(0, 2**32 - 1)
@@ -331,14 +331,18 @@ def test_followers_and_couplings_go_together():
         assert found.verify().max() < 1e-9
 
 
-def test_followers_by_half_turns_are_refused_beside_couplings():
-    """A turn of the leader would be half a one of its follower."""
+def test_followers_by_half_turns_are_found_beside_couplings():
+    """A turn of the leader is half a one of its follower: two bring both back."""
     rows = [DHRow(0.1, 0.1, 0.2, 1.0) for _ in range(6)] + [
         DHRow(a=0.1, mimic=Mimic("joint_5", 0.5))
     ]
     robot = Robot.from_dh(DHTable(tuple(rows), "standard", couplings={"joint_3": {"joint_2": 1.0}}))
-    with pytest.raises(NoSolverError, match="coupled joints, and followers"):
-        robot.ik(np.eye(4))
+    q = np.array([0.3, -0.4, 0.5, 0.6, 4.0, -0.8])
+    found = robot.ik(robot.fk(q), seed=q)
+    assert np.abs(found.q[0] - q).max() < 1e-7
+    turn = TURN * np.eye(6)[4]
+    assert found.gaps(q + 2 * turn)[0].max() < 1e-7
+    assert found.gaps(q + turn)[0, 4] == pytest.approx(TURN)
 
 
 @pytest.mark.exhaustive

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,11 +23,23 @@ def inside(chain: SerialChain, q: Array) -> NDArray[np.bool_]:
     return out
 
 
-def middle(chain: SerialChain) -> Array:
+class Ranges(Protocol):
+    """What has limits: a chain, or a robot with those of its values."""
+
+    @property
+    def lower(self) -> Array:
+        """Lower bounds (n,)."""
+
+    @property
+    def upper(self) -> Array:
+        """Upper bounds (n,)."""
+
+
+def middle(arm: Ranges) -> Array:
     """Middle of each range; where a bound is infinite, the allowed value nearest to zero."""
-    both = np.isfinite(chain.lower) & np.isfinite(chain.upper)
-    nearest = np.clip(0.0, chain.lower, chain.upper)
-    lower, upper = np.where(both, chain.lower, 0.0), np.where(both, chain.upper, 0.0)
+    both = np.isfinite(arm.lower) & np.isfinite(arm.upper)
+    nearest = np.clip(0.0, arm.lower, arm.upper)
+    lower, upper = np.where(both, arm.lower, 0.0), np.where(both, arm.upper, 0.0)
     return np.where(both, 0.5 * (lower + upper), nearest)
 
 

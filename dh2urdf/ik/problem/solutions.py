@@ -48,6 +48,9 @@ class Answering(Protocol):
     def turned(self, q: Array, reference: Array) -> Array:
         """Configurations (..., n) in the turns nearest to a reference."""
 
+    def gaps(self, q: Array, seed: Array) -> Array:
+        """As :meth:`Problem.gaps`."""
+
     def joints_at(self, q: Array) -> tuple[SerialChain, Array]:
         """The chain, and its joints at configurations (..., n)."""
 
@@ -146,6 +149,11 @@ class IKSolutions:
         found = self._problem.arranged(self, goal)
         found.pose_change = self.pose_change
         return found
+
+    def gaps(self, seed: ArrayLike) -> Array:
+        """How far each value of each solution is from a seed (n,), full turns aside, (k, n)."""
+        goal = as_configuration(seed, self._problem.chain.prismatic, "seed")
+        return self._problem.gaps(self.q, goal)
 
     def words(self, maker: str) -> tuple[NamedTuple, ...]:
         """The word of each solution in the terms of a controller: its text is what that shows.

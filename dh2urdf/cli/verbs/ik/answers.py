@@ -154,20 +154,18 @@ def reason_of(
     if not found and "seed_tolerance" in near:
         others = arm.ik(T, **{**near, **options, "seed_tolerance": None})
         if others:
-            return _too_far(arm, others.q, near)
+            return _too_far(arm, others, near)
     return arm.why_unreachable(T, **{**options, "within_limits": True})
 
 
-def _too_far(arm: Robot, q: Array, near: dict[str, Any]) -> str:
-    """By how much the nearest of solutions (k, n) is farther from the seed than is allowed."""
-    from dh2urdf.ik.arm import seed_gaps
-
-    excess = seed_gaps(arm.chain, q, near["seed"]) - near["seed_tolerance"]
+def _too_far(arm: Robot, others: IKSolutions, near: dict[str, Any]) -> str:
+    """By how much the nearest of solutions is farther from the seed than is allowed."""
+    excess = others.gaps(near["seed"]) - near["seed_tolerance"]
     nearest = excess[excess.max(axis=1).argmin()]
     worst = int(nearest.argmax())
     by = f"{nearest[worst]:.4g} {'m' if arm.slides[worst] else 'rad'}"
     return (
-        f"all {len(q)} solutions are farther from the seed than --seed-tolerance allows, the "
+        f"all {len(others)} solutions are farther from the seed than --seed-tolerance allows, the "
         f"nearest by {by} at {arm.joint_names[worst]}"
     )
 

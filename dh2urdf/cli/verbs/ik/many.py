@@ -143,7 +143,7 @@ def _solved(arm: Robot, Ts: Array, asked: Asked) -> Iterator[_Chunk]:
     from dh2urdf.ik.arm import middle
 
     near, options = asked.near, asked.options
-    goal = middle(arm.chain) if near["seed"] is None else near["seed"]
+    goal = middle(arm) if near["seed"] is None else near["seed"]
     for start in range(0, len(Ts), CHUNK):
         part = Ts[start : start + CHUNK]
         plain = near["seed"] is None and near["turns"] == "nearest"
