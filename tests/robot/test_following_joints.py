@@ -176,7 +176,7 @@ def test_a_follower_by_half_counts_both_turns():
 def test_a_multiplier_that_is_no_ratio_is_refused_by_name():
     joints = [*HOLLOW[:5], (*HOLLOW[5][:3], "j5 0.718281828"), HOLLOW[6]]
     robot = Robot.from_urdf(urdf(joints))
-    with pytest.raises(NoSolverError, match=r"j5: 0\.718281828 times.*ik_numeric"):
+    with pytest.raises(NoSolverError, match=r"j5 turns 0\.718281828 times.*ik_numeric"):
         robot.ik(robot.fk(Q))
 
 
