@@ -21,7 +21,7 @@ from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
 
 ABOUT = """\
-{p}.h: the kinematics of one arm, with all of its inverse kinematics, in C99 that C++ takes, too.
+The kinematics of one arm, with all of its inverse kinematics, in C99 that C++ takes, too.
 {provenance}
 
 Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by row, the last row
@@ -29,28 +29,41 @@ Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by 
 
 {joints}
 
-    {p}_fk(q, T)           the pose of a configuration
-    {p}_jacobian(q, J)     6 x {n} row by row: velocity of the tip, then angular velocity, in the
-                           axes of the base
+    {p}_fk(q, T)
+        the pose of a configuration
+    {p}_jacobian(q, J)
+        6 x {n} row by row: velocity of the tip, then angular velocity, in the axes of the base
     {p}_ik(T, {held}within_limits, {work}&found)
-                           all configurations that reach a pose; their number, or -1 if T is no
-                           pose (not finite, or no rotation within 1e-6)
+        all configurations that reach a pose; their number, or -1 if T is no pose (not finite, or
+        no rotation within 1e-6)
     {p}_ik_near(T, {held}seed, within_limits, {work}&found)
-                           the same, in the full turns nearest to a seed, nearest first
+        the same, in the full turns nearest to a seed, nearest first
 {held_line}{work_line}
 found holds count solutions in its first rows, each with its residual, the larger of its errors of
-position [m] and rotation [rad] on the exact chain; its branch{branch_line}; and
-free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular. complete is false where there may be more solutions, because the pose is next to one at
-which solutions meet; Robot.ik of dh2urdf searches there.
+position [m] and rotation [rad] on the exact chain; its branch{branch_line}
+and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
+singular: it stands for a family, along which {p}_ik_near does not move it. complete is false
+where there may be more solutions, because the pose is next to one at which solutions meet;
+Robot.ik of dh2urdf searches there.
+
+    {p}_solutions found;
+{example}    {p}_ik(T, {held}true, {work}&found);
+    for (int k = 0; k < found.count; k++) {{
+        printf("%g, residual %.0e\\n", found.q[k][0], found.residual[k]);
+    }}
 
 No function allocates or keeps anything between calls, and each may run in many threads at once.
-{P}_STACK bytes of the stack are enough for any of them. With contraction off (gcc and clang:
--ffp-contract=off) results are those of dh2urdf to the last bit."""
+{stack} bytes of the stack, {P}_STACK, are enough for any of them. With contraction off (gcc and
+clang: -ffp-contract=off) results are those of dh2urdf to the last bit."""
 
 WORK_LINE = """
-work is a {p}_workspace that {p}_prepare(&work) has filled once, what the solver knows of the arm
-and works in: one for each thread.
+work is a {p}_workspace of {size} bytes that {p}_prepare(&work) has filled once, what the solver
+knows of the arm and works in: one for each thread.
+"""
+
+WORK_EXAMPLE = """\
+    static {p}_workspace work;
+    {p}_prepare(&work);
 """
 
 SOLUTIONS = """\
@@ -149,8 +162,7 @@ class CProgram:
     def _about(self) -> str:
         """What the head says."""
         p, program = self.prefix, self.program
-        bits = branches(program)
-        held = program.held
+        held, works = program.held, bool(program.records)
         line = ""
         if held:
             name = one_line(self.robot.joint_names[held[0]])
@@ -165,9 +177,13 @@ class CProgram:
             tip=one_line(self.robot.tip),
             held="held, " if held else "",
             held_line=line,
-            work="&work, " if program.records else "",
-            work_line=WORK_LINE.format(p=p) if program.records else "",
-            branch_line=f" ({'; '.join(bits)}), or -1" if bits else ", -1 as they have none",
+            work="&work, " if works else "",
+            work_line="".join(
+                WORK_LINE.format(p=p, size=record.like.dtype.itemsize) for record in program.records
+            ),
+            example=WORK_EXAMPLE.format(p=p) if works else "",
+            branch_line=branches(program),
+            stack=self.stack,
         )
 
     def _solutions(self, stack: int) -> str:

@@ -1,6 +1,7 @@
 """What stands at the head of an exported file: what it is, of which arm, by whom, on what terms."""
 
 import hashlib
+import textwrap
 from pathlib import Path
 
 from dh2urdf import __version__, engine
@@ -52,7 +53,8 @@ def provenance(robot: Robot, program: Program) -> list[str]:
         made = f"the robot description {robot.source.name if robot.source else 'it was given'}"
     lines = [f"{MARK} {__version__} from {made}, {one_line(robot.base)} to {one_line(robot.tip)}."]
     if robot.table is not None and robot.table.source:
-        lines.append(f"Source of the table: {one_line(robot.table.source)}")
+        text = f"Source of the table: {one_line(robot.table.source, 600)}"
+        lines += textwrap.wrap(text, 96, subsequent_indent="  ")
     lines += [
         f"SHA-256 of the arm's links and joints: {numbers}",
         f"SHA-256 of the solver's sources:       {engine.fingerprint()}",
@@ -71,16 +73,17 @@ def joints(robot: Robot) -> list[str]:
     return rows
 
 
-def branches(program: Program) -> list[str]:
-    """What the bits of a branch say, a line for each."""
+def branches(program: Program) -> str:
+    """What the bits of a branch say, a line for each, between commas."""
     words = branch_words_of(program.solver)
-    return [f"bit {i}: 0 {w[0]}, 1 {w[1]}" for i, w in enumerate(words) if w]
+    bits = [f"    bit {i}: 0 {w[0]}, 1 {w[1]}" for i, w in enumerate(words) if w]
+    return "\n".join([", or -1,", "", *bits, ""]) if bits else ", -1 as they have none;"
 
 
-def one_line(text: str) -> str:
-    """A text of a file as a comment may have it."""
+def one_line(text: str, most: int = 200) -> str:
+    """A text of a file as a comment may have it, so many signs of it."""
     plain = "".join(c if c.isascii() and c.isprintable() else "_" for c in " ".join(text.split()))
-    return plain.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/")[:200]
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace("\\", "/")[:most]
 
 
 def file_name(path: Path) -> str:

@@ -37,18 +37,25 @@ configuration q is {n} numbers:
 
 {joints}
 
-    fk(q)               the pose of a configuration
-    jacobian(q)         six rows: velocity of the tip, then angular velocity, in the base's axes
+    fk(q)
+        the pose of a configuration
+    jacobian(q)
+        six rows: velocity of the tip, then angular velocity, in the axes of the base
     ik(T, {held}within_limits=True)
-                        all configurations that reach a pose, as Solutions; ValueError if T is none
+        all configurations that reach a pose, as Solutions; ValueError if T is none
     ik_near(T, {held}seed, within_limits=True)
-                        the same, in the full turns nearest to a seed, nearest first
+        the same, in the full turns nearest to a seed, nearest first
 {held_line}
 Solutions are lists of the same length: q, residual (the larger of the errors of position [m] and
-rotation [rad] on the exact chain), branch{branch_line} and free_joints, whose bit i says that joint
-i can move while the tip stays, because the solution is singular. complete is False where there may
-be more solutions, because the pose is next to one at which solutions meet; Robot.ik of dh2urdf
-searches there.
+rotation [rad] on the exact chain), branch{branch_line}
+and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
+singular: it stands for a family, along which ik_near does not move it. complete is False where
+there may be more solutions, because the pose is next to one at which solutions meet; Robot.ik of
+dh2urdf searches there.
+
+    found = ik(T{held_given}, within_limits=False)
+    for q, residual in zip(found.q, found.residual):
+        print(q, residual)
 
 Results are those of dh2urdf to the last bit."""
 
@@ -136,7 +143,7 @@ class PythonProgram:
 
     def _about(self) -> str:
         """What the head says."""
-        held, bits = self.program.held, branches(self.program)
+        held = self.program.held
         name = one_line(self.robot.joint_names[held[0]]) if held else ""
         line = (
             f"\nheld is the value of {name}, q[{held[0]}], the caller's choice.\n" if held else ""
@@ -149,7 +156,8 @@ class PythonProgram:
             tip=one_line(self.robot.tip),
             held="held, " if held else "",
             held_line=line,
-            branch_line=f" ({'; '.join(bits)}), or -1," if bits else "",
+            held_given=", held" if held else "",
+            branch_line=branches(self.program),
         )
 
     def _functions(self) -> str:

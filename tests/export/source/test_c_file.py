@@ -111,12 +111,16 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
     assert found["complete"].mean() > MOSTLY.get(solver, 0.7)
 
 
-STACKS = dict.fromkeys([*FAMILIES.split(), *HELD]) | {"general 6R": other_arms()["general 6R"]}
+KINDS = dict.fromkeys([*FAMILIES.split(), "cross_slide_arm", *HELD])
+KINDS |= {"general 6R": other_arms()["general 6R"]}
 """Arms of each kind of kernels, and the tables of those that do not ship."""
+
+SHIPPED = [name for name in list_tables() if not Robot.from_dh(name).is_coupled]
+"""Arms that ship, but for those whose joints follow others, which are refused."""
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("name", list_tables())
+@pytest.mark.parametrize("name", SHIPPED)
 def test_all_arms_that_ship_answer_as_the_robot_does(name, tmp_path):
     """The same on 10,000 poses of every arm that ships."""
     arm = whole_arm(name, tmp_path)
@@ -126,7 +130,7 @@ def test_all_arms_that_ship_answer_as_the_robot_does(name, tmp_path):
 
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("compiler", ["g++", "clang", "clang++"])
-@pytest.mark.parametrize("name", list_tables())
+@pytest.mark.parametrize("name", SHIPPED)
 def test_compilers_have_nothing_to_say_of_any_arm(name, compiler, tmp_path):
     """C99 and C++17, as gcc in the test above."""
     whole_arm(name, tmp_path).compile("-O1", compiler=compiler)
@@ -143,39 +147,50 @@ def test_compilers_have_nothing_to_say(name, compiler, tmp_path):
 
 
 def whole_arm(name, folder):
-    """The file of an arm that ships, the joint held that it has to spare."""
-    robot = Robot.from_dh(name)
+    """The file of an arm that ships or is one of the kinds, the joint held that it has to spare."""
+    robot = Robot.from_dh(KINDS.get(name) or name)
     return Arm(robot, folder, robot.solver.joint if robot.n == 7 else None)
 
 
 def sanitize(name, folder, m):
     """Run an arm at m configurations, watched by the sanitizers."""
     arm = whole_arm(name, folder)
-    arm.compile("-O1", "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
+    arm.compile("-O0", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
     arm.run(configurations(arm.robot, np.random.default_rng(3), m))
 
 
-def test_sanitizers_find_nothing(tmp_path):
+@pytest.mark.parametrize("name", KINDS)
+def test_sanitizers_find_nothing(name, tmp_path):
     """No address out of bounds and nothing undefined, at singular poses either."""
-    sanitize("puma560", tmp_path, EVERY_DAY)
+    sanitize(name, tmp_path, EVERY_DAY)
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("name", list_tables())
+@pytest.mark.parametrize("name", SHIPPED)
 def test_sanitizers_find_nothing_on_ten_thousand_poses(name, tmp_path):
     """The same on 10,000 poses of every arm that ships."""
     sanitize(name, tmp_path, 10_000)
 
 
-def test_contraction_changes_the_last_digits_only(tmp_path):
+@pytest.mark.parametrize("name", KINDS)
+def test_contraction_changes_the_last_digits_only(name, tmp_path):
     """Compiled for a processor that fuses products with sums, regular solutions move by 1e-12."""
-    robot = Robot.from_dh("puma560")
-    arm = Arm(robot, tmp_path)
-    arm.compile("-O3", "-march=native", "-ffp-contract=fast")
-    q = np.random.default_rng(4).uniform(-1.2, -0.2, (EVERY_DAY, 6))
-    found, batch = arm.run(q)["any"], robot.ik_batch(robot.fk(q), within_limits=False)
+    arm = whole_arm(name, tmp_path)
+    arm.compile("-O1", "-march=native", "-ffp-contract=fast")
+    robot, held = arm.robot, arm.held
+    low, high = robot.bounded(1.0, np.pi)
+    q = np.random.default_rng(4).uniform(low, high, (EVERY_DAY, robot.n))
+    locked = {} if held is None else {"locked": {held: q[:, held]}}
+    found = arm.run(q)["any"]
+    batch = robot.ik_batch(robot.fk(q), within_limits=False, **locked)
     assert np.array_equal(found["count"], batch.count)
-    assert np.nanmax(np.abs(found["q"] - batch.q)[~np.isnan(batch.q)]) <= 1e-12
+    gaps = found["q"][:, :, None] - batch.q[:, None]  # whose order may be another
+    turned = np.remainder(gaps + np.pi, 2.0 * np.pi) - np.pi
+    far = np.abs(np.where(robot.slides, gaps, turned)).max(axis=3)
+    for some, solutions, count in zip(far, batch.q, batch.count, strict=True):
+        J = np.delete(robot.jacobian(solutions[:count]), [] if held is None else held, axis=2)
+        regular = np.linalg.svd(J, compute_uv=False)[:, J.shape[2] - 1] > 0.05
+        assert (some[:count, :count].min(axis=0)[regular] <= 1e-12).all()
 
 
 def test_a_seed_sorts_and_turns_as_the_robot_does(tmp_path):
@@ -198,11 +213,10 @@ def test_what_is_no_pose_has_no_solutions(tmp_path):
     assert (arm.run(np.zeros((2, 6)), Ts)["any"]["count"] == 0).all()
 
 
-@pytest.mark.parametrize("name", STACKS)
+@pytest.mark.parametrize("name", KINDS)
 def test_the_stack_that_is_stated_suffices(name, tmp_path):
     """The frames that gcc makes, not optimised, add up to no more."""
-    robot = Robot.from_dh(STACKS[name] or name)
-    arm = Arm(robot, tmp_path, HELD.get(name))
+    arm = whole_arm(name, tmp_path)
     arm.compile("-O0", "-fstack-usage")
     [listing] = tmp_path.glob("*.su")
     lines = [re.split(r"[:\t]", line) for line in listing.read_text().splitlines()]
@@ -242,6 +256,36 @@ def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name
         seconds.append(time.process_time() - start)
     assert min(seconds) < 2.0
     assert made.stack <= SMALL
+
+
+EXAMPLE = """
+#include <stdio.h>
+
+#include "arm.h"
+
+int main(void)
+{{
+    double q[ARM_JOINTS] = {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}}, T[16];
+    const double held = q[ARM_JOINTS - 1];
+    (void)held;
+    arm_fk(q, T);
+{}    return 0;
+}}
+"""
+
+
+@pytest.mark.parametrize("name", ["ur5", "xarm6", "franka_fer"])
+def test_the_example_of_the_head_runs(name, tmp_path):
+    """It prints solutions of the pose; the stack stands there in bytes, and no line is long."""
+    arm = Arm(Robot.from_dh(name), tmp_path, HELD.get(name))
+    head = arm.made.text.partition("*/")[0]
+    example = re.search(r"^ \*     arm_solutions found;\n(?: \*     .*\n)+", head, re.M)[0]
+    (tmp_path / "main.c").write_text(EXAMPLE.format(re.sub("^ \\*", "", example, flags=re.M)))
+    arm.compile()
+    done = subprocess.run(["./main"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout.count("residual") >= 1
+    assert f"{arm.made.stack} bytes of the stack" in head
+    assert max(map(len, head.splitlines())) <= 110
 
 
 def test_the_head_says_what_it_is():

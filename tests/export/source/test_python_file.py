@@ -1,8 +1,10 @@
 """A Python file answers what the robot does, where there is nothing but the standard library."""
 
 import json
+import re
 import subprocess
 import sys
+import textwrap
 
 import numpy as np
 import pytest
@@ -72,6 +74,18 @@ def test_what_is_no_pose_is_refused(tmp_path):
         given["ik"]([[2.0 * (i == j) for j in range(4)] for i in range(4)])
     with pytest.raises(ValueError, match="expected 16 numbers, got 9"):
         given["ik"]([[1.0, 0.0, 0.0]] * 3)
+
+
+def test_the_example_of_the_head_runs(tmp_path, capsys):
+    """It prints the solutions of a pose, held joint or not."""
+    for name, held in (("puma560", None), ("franka_fer", 6)):
+        made = export_solver(Robot.from_dh(name), tmp_path / f"{name}.py", held=held)
+        example = re.search(r"^    found = .*\n(?:    .*\n)+", made.text, re.M)[0]
+        given: dict = {"held": 0.3}
+        exec(made.text, given)
+        given["T"] = given["fk"]([0.1, 0.2, -0.3, 0.4, 0.5, 0.6, 0.3][: given["JOINTS"]])
+        exec(textwrap.dedent(example), given)
+        assert capsys.readouterr().out.count("[") >= 1
 
 
 def test_it_compiles_as_any_python(tmp_path):
