@@ -29,6 +29,12 @@ are shorter."""
 MOST = 150
 SHORT = 0.004
 
+FLATTEST = 1e-3
+"""Singular value, in parts of the next one, of the one direction of a curve among weak others."""
+
+SHARP = 1e-13
+"""Residual [m and rad] of the points of such a curve: between two of them it is more."""
+
 ANGLES = 24
 """Directions round a point where curves may cross that are looked at."""
 
@@ -141,7 +147,37 @@ def on_family(arm, p, q, T, free, tolerance):
                 near = gaps(arm, point, q) < 3 * step or (len(flat) > 1 and k % 10 == 0)
                 if near and walks_to(arm, point, q, T, free, tolerance):
                     return True
+    return len(flat) > 1 and on_curve(arm, p, q, T, free, tolerance)
+
+
+def on_curve(arm, p, q, T, free, tolerance):
+    """Whether the one curve through p that keeps the pose to rounding contains q.
+
+    Where an elbow is folded, the tool hardly moves in other directions, but by more than is
+    accepted: a walk by all of them leaves the pose.
+    """
+    for side in (1.0, -1.0):
+        ahead, at = None, p
+        for k in range(4 * MOST):
+            sigma, V = directions(arm, at, free)
+            ahead = V[-1] * (side if ahead is None else np.sign(V[-1] @ ahead))
+            at = sharpened(arm, at + 0.5 * STEP * ahead, T, free)
+            if sigma[-1] > FLATTEST * sigma[-2] or residuals(arm, at, T) > SHARP:
+                break
+            foot = at
+            for _ in range(4 if gaps(arm, at, q) < STEP else 0):
+                way = directions(arm, foot, free)[1][-1]
+                foot = sharpened(arm, foot + (way @ wrapped(arm, q - foot)) * way, T, free)
+                if gaps(arm, foot, q) <= tolerance and residuals(arm, foot, T) <= SHARP:
+                    return True
+            if k > 3 and gaps(arm, at, p) < 0.3 * STEP:
+                break
     return False
+
+
+def sharpened(arm, p, T, free):
+    """The solution next to p, across strong directions first and then by all but the flattest."""
+    return newton(arm, newton(arm, p, T, free, FLAT, 8, 1e-14), T, free, 1e-11, 12, 1e-15)
 
 
 def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS, crossing=True):

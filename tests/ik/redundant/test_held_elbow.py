@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from dh_arm import arm_of
 from ik_referee import forward, residuals
+from self_motions import on_curve
+from structured import rounded
 from sweep import Tally, judge
 
 import dh2urdf
@@ -65,3 +67,28 @@ def test_all_branches_of_an_elbow_nearly_folded_come_from_equations(joint, size,
     judge(tally, table, q, held, held=(joint,))
     for fault in ("singular lost", "regular lost", "wrong", "twice", "no family"):
         assert tally.count[fault] == 0, fault
+
+
+@pytest.mark.parametrize("decimals", [None, 9])
+def test_of_an_elbow_held_folded_the_curve_that_is_named_has_the_configuration(decimals):
+    """The referee follows the one curve on which the pose is kept to rounding, not weak ways."""
+    table, tally = rounded(dh2urdf.load_table("kuka_iiwa7"), decimals), Tally("held folded")
+    q = np.radians((0, 90, -45, -180, 0, -90, 90))
+    q += (1.4e-9, 3.08e-8, -7.66e-9, -2.709e-8, -7.12e-8, -7.28e-8, -3.11e-8)
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={3: q[3]})
+
+    judge(tally, table, q[None], held, held=(3,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
+
+
+def test_the_referee_tells_a_configuration_that_is_beside_that_curve():
+    """Where the wrist's centre is elsewhere, next to the shoulder's, no curve leads."""
+    arm = arm_of(dh2urdf.load_table("kuka_iiwa7"))
+    q = np.radians((0, 90, -45, -180, 0, -90, 90)) + 3e-8
+    other = q + np.array([0.3, 0.0, 0.0, 0.0, -0.3, 0.0, 0.0])
+    free = np.arange(7) != 3
+    assert on_curve(arm, q, q, forward(arm, q), free, 1e-6)
+    assert not on_curve(arm, q, other, forward(arm, q), free, 1e-6)
