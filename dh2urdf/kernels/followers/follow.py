@@ -1,20 +1,12 @@
 """From roots to solutions: seeds, Newton's method on the exact chain, a list without doubles."""
 
-import math
-
-import numpy as np
-
-from dh2urdf.kernels.certificate import ACCEPT, TWO_PI, principal, same
+from dh2urdf.kernels.certificate import ACCEPT, principal
 from dh2urdf.kernels.followers.elimination import joint_of
 from dh2urdf.kernels.followers.roots import block_resultants
 from dh2urdf.kernels.general_6r import (
-    AT_ROOT,
     LEFT,
-    MEMBERS,
-    SAME,
-    SHARP,
-    SINGULAR,
-    VALLEY,
+    at_root,
+    list_solution,
     outer_joints,
     split_pairs,
     two_joints,
@@ -135,55 +127,31 @@ def scaled_determinant(chain, T, q, size, work):
 
 
 def keep(chain, T, found, q, residual, arm, work):
-    """Bring the values in ``q`` of the record to the pose and store them unless they are known.
-
-    Returns the number of solutions, and the index of this one; -1 if it missed.
-    """
-    p, size, kept = arm["q"], arm["size"], arm["kept"]
+    """Bring the values in ``q`` of the record to the pose and list them, as by `list_solution`."""
+    p, size = arm["q"], arm["size"]
     error = polish(chain, T, p, work)
     if not error <= ACCEPT * min(size, 1.0):
         return found, -1
     for i in range(6):
         p[i] = principal(p[i])
     determinant = scaled_determinant(chain, T, p, size, work)
-    place, singular, members = found, -1, 0
-    for f in range(found):
-        loose = max(error, residual[f])
-        if same(chain[1], q[f], p, SAME if loose < SHARP else VALLEY * math.sqrt(loose), 0):
-            place = f
-            break
-        if kept[f] < SINGULAR:
-            singular = f
-            members += 1
-    if place == found:
-        if determinant < SINGULAR and members >= MEMBERS:
-            return found, singular
-        if found == q.shape[0]:
-            if singular < 0:
-                return found, -1
-            place = singular
-    elif error >= residual[place]:
-        return found, place
-    residual[place], kept[place] = error, determinant
-    q[place] = p
-    return max(found, place + 1), place
+    return list_solution(found, q, residual, error, determinant, arm)
 
 
-def _at_root(e, root, q, arm):
-    """Whether the leader has the value of a root of elimination e at a solution q (6,)."""
-    leader = arm["leader"]
-    value = q[leader] - arm["zeros"][leader]
-    gap = (value - root if arm["choices"][e, 1] == 0 else value + root) / TWO_PI
-    return abs(gap - np.floor(gap + 0.5)) < AT_ROOT / TWO_PI
+def _leader_value(e, q, arm):
+    """The leader's value in the loop of elimination e at a solution q (6,)."""
+    value = q[arm["leader"]] - arm["zeros"][arm["leader"]]
+    return value if arm["choices"][e, 1] == 0 else -value
 
 
 def follow(e, count, found, chain, T, q, residual, arm, work):
     """Append the solutions that the roots lead to, as for six turning joints.
 
     A double root, and one that leads nowhere, to another value of the leader or where another root
-    went, are taken for two solutions with the same value of it, and tried again as such. Returns
-    the number of solutions, how many roots had to be tried again, and the largest error of the
-    seeds that stood. A complex pair next to the real axis need not lead anywhere.
+    went, are taken for two solutions with the same value of it, and tried again as such. The
+    leader's values at all solutions are left in ``hidden_values``. Returns the number of solutions,
+    how many roots had to be tried again, and the largest error of the seeds that stood. A complex
+    pair next to the real axis need not lead anywhere.
     """
     roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
     bends = arm["bends"]
@@ -203,27 +171,13 @@ def follow(e, count, found, chain, T, q, residual, arm, work):
                 led = place >= 0 and seen[place] == 0.0 and copies == 1 and slopes[r] > 0.0
                 if copies == 2:
                     worst = max(worst, seeded if place >= 0 or bends[r] != 0.0 else 0.0)
-                elif led and _at_root(e, roots[r], q[place], arm):
+                elif led and at_root(roots[r], _leader_value(e, q[place], arm)):
                     worst = max(worst, seeded)
                 else:
                     doubles[again], bends[again] = roots[r], slopes[r]
                     again += 1
                 if place >= 0:
                     seen[place] = 1.0
+    for k in range(found):
+        arm["hidden_values"][k] = _leader_value(e, q[k], arm)
     return found, again, worst
-
-
-def accounted(e, count, found, q, arm):
-    """Whether every root has as many solutions with its value as it has multiplicity."""
-    roots, slopes = arm["roots"], arm["slopes"]
-    for r in range(count):
-        here, there = 0, 0
-        for t in range(count):
-            if abs(roots[t] - roots[r]) < AT_ROOT:
-                here += 1 if slopes[t] > 0.0 else 2
-        for f in range(found):
-            if _at_root(e, roots[r], q[f], arm):
-                there += 1
-        if there < here and (there > 0 or slopes[r] != 0.0):
-            return False
-    return True

@@ -13,18 +13,15 @@ import numpy as np
 from dh2urdf.kernels.certificate import finish_all, turn_inside
 from dh2urdf.kernels.followers.arm import FOLLOWERS_16, FOLLOWERS_48
 from dh2urdf.kernels.followers.elimination import eliminate
-from dh2urdf.kernels.followers.follow import accounted, follow
+from dh2urdf.kernels.followers.follow import follow
 from dh2urdf.kernels.followers.roots import find_roots, place_target
 from dh2urdf.kernels.general_6r import (
-    ATTEMPTS,
-    COARSE,
     CROWDED,
     CROWDED_ATTEMPTS,
-    DEEP,
-    NUDGE,
-    SINGULAR,
+    begin_trial,
     how_many_below,
-    nudge,
+    is_last,
+    roots_meet,
 )
 from dh2urdf.kernels.newton import POLISH, work_array
 from dh2urdf.kernels.numbers import entry
@@ -36,39 +33,23 @@ Arms48 = Annotated[Any, FOLLOWERS_48, "followers_48", 1]
 
 def _solve_pose(chain, T, q, residual, arm, work):
     """All solutions of one pose; their number, and 1 where doubt is left that all are found."""
-    spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
+    trials, first, found, doubt, meeting = arm["trials"], arm["first"], 0, 1, False
     place_target(T, arm)
-    found, doubt, meeting = 0, 1, False
     first[0] = 1.0
     for trial in range(CROWDED_ATTEMPTS * trials):
-        if trial == ATTEMPTS * trials and (
-            how_many_below(kept, found, CROWDED) == 0 or how_many_below(kept, found, SINGULAR) > 0
-        ):
+        if not begin_trial(trial, found, arm["chain"][arm["motions"] - 1], arm):
             break
-        e = trial % trials
-        if e == 0 and trial > 0:
-            # where solutions crowd, each attempt takes it further
-            nudge(arm["chain"][arm["motions"] - 1], NUDGE if trial == trials else -1.7 * NUDGE)
+        e, before, retried, seeded = trial % trials, found, 0, 0.0
         eliminate(e, arm)
-        before, retried, seeded = found, 0, 0.0
         count = find_roots(e, arm)
         if count < 0:
             continue
-        meeting = meeting or how_many_below(arm["slopes"], count, -1.0) > 0
-        meeting = meeting or spans[0, 0] >= DEEP
-        exact = how_many_below(arm["slopes"], count, 0.0)
-        # a double root has no slope
-        simple = count - how_many_below(arm["slopes"], count, 1e-300)
+        meeting = meeting or roots_meet(count, arm)
         if count > 0:
             found, retried, seeded = follow(e, count, found, chain, T, q, residual, arm, work)
             if trial == 0:
-                first[0], first[1] = seeded, spans[0, 0]
-        whole = retried + exact == 0 or (trial < trials and accounted(e, count, found, q, arm))
-        apart = before > 0 and trial >= trials and how_many_below(kept, found, CROWDED) == 0
-        clear = spans[1, 0] == 0.0 and (whole or apart)
-        sure = seeded < COARSE if before == 0 else found == before
-        fits = found % 2 == 0 and found >= simple and found + trial > 0
-        if clear and sure and fits and how_many_below(kept, found, SINGULAR) == 0:
+                first[0], first[1] = seeded, arm["spans"][0, 0]
+        if is_last(trial, count, (before, found, retried), seeded, arm):
             doubt = 1 if trial >= trials or meeting else 0
             break
     return found, doubt

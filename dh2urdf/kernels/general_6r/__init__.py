@@ -2,8 +2,9 @@
 
 `poses` is the solver (after Raghavan and Roth 1993), `arm` the record on which everything works;
 `elimination` and `resultant` make a polynomial in the hidden joint, `roots` finds its real roots
-by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions. Where two joints slide
-`two_slides` is in place of both eliminations.
+by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions, which `listing` keeps
+apart, and `trials` says when all are found. Where two joints slide `two_slides` is in place of
+both eliminations.
 """
 
 from dh2urdf.kernels.general_6r.arc_samples import ARC, tables_of
@@ -17,28 +18,9 @@ from dh2urdf.kernels.general_6r.elimination import (
     reduce_right,
     right_coefficients,
 )
-from dh2urdf.kernels.general_6r.follow import (
-    AT_ROOT,
-    MEMBERS,
-    SAME,
-    SHARP,
-    SINGULAR,
-    VALLEY,
-    how_many_below,
-    keep_lane,
-    polish_lanes,
-)
-from dh2urdf.kernels.general_6r.poses import (
-    ATTEMPTS,
-    COARSE,
-    CROWDED,
-    CROWDED_ATTEMPTS,
-    DEEP,
-    NUDGE,
-    Arms,
-    finish_general_6r,
-    solve_general_6r,
-)
+from dh2urdf.kernels.general_6r.follow import keep_lane, polish_lanes
+from dh2urdf.kernels.general_6r.listing import SINGULAR, at_root, how_many_below, list_solution
+from dh2urdf.kernels.general_6r.poses import Arms, finish_general_6r, solve_general_6r
 from dh2urdf.kernels.general_6r.resultant import (
     LEFT,
     finish_reduction,
@@ -48,3 +30,10 @@ from dh2urdf.kernels.general_6r.resultant import (
     two_joints,
 )
 from dh2urdf.kernels.general_6r.roots import PAIRS, add_roots, nudge, place_samples
+from dh2urdf.kernels.general_6r.trials import (
+    CROWDED,
+    CROWDED_ATTEMPTS,
+    begin_trial,
+    is_last,
+    roots_meet,
+)

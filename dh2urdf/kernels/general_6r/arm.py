@@ -99,6 +99,7 @@ def root_work(degree):
         "scaled": (terms, lanes),  # coefficients of their arcs times binomials
         "roots": lanes,
         "slopes": lanes,  # at the roots
+        "hidden_values": lanes,  # of the hidden joint at the solutions
         "spans": (2, SPANS + 1),  # spans of doubt, their number first
         "fresh": (2, SPANS + 1),  # those in a window
     }

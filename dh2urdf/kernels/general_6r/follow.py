@@ -2,10 +2,8 @@
 
 import math
 
-import numpy as np
-
-from dh2urdf.kernels.certificate import TWO_PI
 from dh2urdf.kernels.general_6r.elimination import joint_of
+from dh2urdf.kernels.general_6r.listing import at_root, list_solution
 from dh2urdf.kernels.general_6r.resultant import (
     as_length,
     other_joints,
@@ -26,25 +24,6 @@ CONVERGED = 2e-15
 MOST_STEPS = 40
 DAMPED_STEPS = 12
 """Damped steps before undamped ones: those are safer, these more precise."""
-
-SAME = 1e-6
-"""Solutions closer than this [rad] are one."""
-
-SHARP = 1e-13
-"""Residual above which a solution has not converged: it lies beside a double one."""
-
-VALLEY = 100.0
-"""Distance [rad] to the double solution, in square roots of such a residual."""
-
-SINGULAR = 1e-6
-"""Determinant of the Jacobian, in parts of size cubed, below which a solution is singular."""
-
-MEMBERS = 8
-"""Most singular solutions kept."""
-
-AT_ROOT = 1e-4
-"""Angle [rad] between a root and the hidden joint's value at a solution of it: double roots are
-known to 1e-8 at best, to the root of that where four solutions nearly meet."""
 
 
 def _from_null_vectors(n, copies, arm):
@@ -143,55 +122,25 @@ def polish_lanes(lanes, damped, converged, arm):
 
 
 def keep_lane(k, found, out_q, out_residual, arm):
-    """Store lane k unless it missed the target or is known.
-
-    Of a family of solutions only some members are kept, to leave room for the isolated ones.
-    Returns the number of solutions, and the index of this one; -1 if it missed.
-    """
+    """List what lane k has come to, unless it missed the target; as by `list_solution`."""
     cosines, sines, position, angle = arm["cosines"], arm["sines"], arm["position"], arm["angle"]
-    size, q, determinant, kept = arm["size"], arm["q"], arm["determinant"], arm["kept"]
-    slides = arm["slides"]
-    residual = max(position[k], angle[k])
+    size, q, slides = arm["size"], arm["q"], arm["slides"]
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
         return found, -1
     for i in range(6):
         sine = sines[i * LANES + k]
         q[i] = atan2(sine, cosines[i * LANES + k]) if slides[i] == 0 else sine
-    place, singular, members = found, -1, 0
-    for f in range(found):
-        far = 0.0
-        for i in range(6):
-            d = abs(q[i] - out_q[f, i])
-            far = max(far, min(d, TWO_PI - d) if slides[i] == 0 else d / size)
-        loose = max(residual, out_residual[f])
-        if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
-            place = f
-            break
-        if kept[f] < SINGULAR:
-            singular = f
-            members += 1
-    if place == found:
-        if determinant[k] < SINGULAR and members >= MEMBERS:
-            return found, singular
-        if found == out_q.shape[0]:
-            if singular < 0:
-                return found, -1
-            place = singular
-    elif residual >= out_residual[place]:
-        return found, place
-    out_residual[place], kept[place] = residual, determinant[k]
-    out_q[place] = q
-    return max(found, place + 1), place
+    residual = max(position[k], angle[k])
+    return list_solution(found, out_q, out_residual, residual, arm["determinant"][k], arm)
 
 
-def _at_root(e, root, q, arm):
-    """Whether the hidden joint of elimination e has the value of a root at a solution q (6,)."""
-    reverse, joint = arm["choices"][e, 1] != 0, joint_of(arm["choices"], e, 2)
+def _hidden_value(e, q, arm):
+    """The hidden joint's value in the loop of elimination e at a solution q (6,)."""
+    joint = joint_of(arm["choices"], e, 2)
     value = q[joint] - arm["turns"][2, joint]
     if arm["slides"][joint] != 0:
         value = 2.0 * atan2(value, arm["reach"] * arm["size"])
-    gap = (value + root if reverse else value - root) / TWO_PI
-    return abs(gap - np.floor(gap + 0.5)) < AT_ROOT / TWO_PI
+    return value if arm["choices"][e, 1] == 0 else -value
 
 
 def follow(e, count, found, out_q, out_residual, arm):
@@ -199,8 +148,9 @@ def follow(e, count, found, out_q, out_residual, arm):
 
     A double root, and one that leads nowhere, to another value of the hidden joint or where another
     root went, are taken for two solutions with the same value of it, and tried again as such.
-    Returns the number of solutions, how many roots had to be tried again, and the largest error of
-    the seeds that stood: roots with more than two solutions, or none, have no exact ones.
+    The hidden joint's values at all solutions are left in ``hidden_values``. Returns the number of
+    solutions, how many roots had to be tried again, and the largest error of the seeds that stood:
+    roots with more than two solutions, or none, have no exact ones.
     """
     roots, slopes, seen, doubles = arm["roots"], arm["slopes"], arm["seen"], arm["doubles"]
     again, worst = 0, 0.0
@@ -211,7 +161,8 @@ def follow(e, count, found, out_q, out_residual, arm):
         for lane in range(lanes):
             found, place = keep_lane(lane, found, out_q, out_residual, arm)
             led = place >= 0 and seen[place] == 0.0 and slopes[lane] > 0.0
-            if copies == 2 or (led and _at_root(e, roots[lane], out_q[place], arm)):
+            led = led and at_root(roots[lane], _hidden_value(e, out_q[place], arm))
+            if copies == 2 or led:
                 worst = max(worst, arm["seeded"][lane])
             else:
                 doubles[again] = roots[lane]
@@ -221,32 +172,6 @@ def follow(e, count, found, out_q, out_residual, arm):
         count = min(again, LANES // 2)
         if count == 0:
             break
+    for k in range(found):
+        arm["hidden_values"][k] = _hidden_value(e, out_q[k], arm)
     return found, again, worst
-
-
-def accounted(e, count, found, out_q, arm):
-    """Whether every root has as many solutions with its value as it has multiplicity.
-
-    Those that did not have to be tried again do. A complex pair next to the real axis counts as a
-    double root only where it has a solution.
-    """
-    roots, slopes = arm["roots"], arm["slopes"]
-    for r in range(count):
-        here, there = 0, 0
-        for t in range(count):
-            if abs(roots[t] - roots[r]) < AT_ROOT:
-                here += 1 if slopes[t] > 0.0 else 2
-        for f in range(found):
-            if _at_root(e, roots[r], out_q[f], arm):
-                there += 1
-        if there < here and (there > 0 or slopes[r] != 0.0):
-            return False
-    return True
-
-
-def how_many_below(values, count, least):
-    """How many of the first values are below the least."""
-    below = 0
-    for k in range(count):
-        below += 1 if values[k] < least else 0
-    return below

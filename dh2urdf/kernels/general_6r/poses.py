@@ -5,8 +5,7 @@ joints, and find the sixth as the roots of a trigonometric polynomial of degree 
 are determinants. Each root gives a seed for Newton's method on the exact chain; what is returned
 carries the residual of that chain, tool included.
 
-An elimination can fail for an arm (parallel axes make the determinant vanish) or lose precision
-for a pose. So the arm's record holds several, best first; a pose for which one leaves doubt is
+The arm's record holds several eliminations, best first; a pose for which one leaves doubt is
 looked at again, first with new samples where the polynomial is small, then with the next one.
 """
 
@@ -17,72 +16,42 @@ import numpy as np
 from dh2urdf.kernels.certificate import finish_all, turn_inside
 from dh2urdf.kernels.general_6r.arm import ARM_6R
 from dh2urdf.kernels.general_6r.elimination import eliminate, prepare
-from dh2urdf.kernels.general_6r.follow import SINGULAR, accounted, follow, how_many_below
-from dh2urdf.kernels.general_6r.roots import find_roots, nudge, place_target
+from dh2urdf.kernels.general_6r.follow import follow
+from dh2urdf.kernels.general_6r.listing import how_many_below
+from dh2urdf.kernels.general_6r.roots import find_roots, place_target
+from dh2urdf.kernels.general_6r.trials import (
+    CROWDED,
+    CROWDED_ATTEMPTS,
+    begin_trial,
+    is_last,
+    roots_meet,
+)
 from dh2urdf.kernels.newton import POLISH, pose_residual, work_array
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.shapes import Chain, Counts, Outputs, Poses, Solutions, Values
 
 Arms: TypeAlias = Annotated[Any, ARM_6R, "arm_6r", 1]
 
-COARSE = 1e-2
-"""Error of a seed, lengths in parts of the arm's size, above which another elimination is asked:
-roots so inexact may stand for more than one each."""
-
-CROWDED = 1e-3
-"""Determinant of a solution's Jacobian below which roots of several may run together: none is
-taken for the last before every root is accounted for."""
-
-NUDGE = 1e-3
-"""Size of a nudge: tangent of half its angle, and shift in parts of the arm's size."""
-
-ATTEMPTS = 3
-"""Rounds of all eliminations, from the second one on for a pose nearby."""
-
-CROWDED_ATTEMPTS = 7
-"""The same where solutions are close together yet apart: each round may lead to others."""
-
-
-DEEP = 5
-"""Spans of doubt from which on roots may meet that look apart: on random poses one in a thousand
-has so many."""
-
 
 def _solve_pose(T, out_q, out_residual, arm):
     """All solutions of one pose; their number, and 1 where doubt is left that all are found."""
-    spans, first, trials, kept = arm["spans"], arm["first"], arm["trials"], arm["kept"]
+    trials, first, found, doubt, meeting = arm["trials"], arm["first"], 0, 1, False
     place_target(T, arm)
-    found, doubt, meeting = 0, 1, False
     first[0] = 1.0
     for trial in range(CROWDED_ATTEMPTS * trials):
-        if trial == ATTEMPTS * trials and (
-            how_many_below(kept, found, CROWDED) == 0 or how_many_below(kept, found, SINGULAR) > 0
-        ):
+        if not begin_trial(trial, found, arm["chain"][5], arm):
             break
-        e = trial % trials
-        if e == 0 and trial > 0:
-            # where solutions crowd, each attempt takes it further
-            nudge(arm["chain"][5], NUDGE if trial == trials else -1.7 * NUDGE)
+        e, before, retried, seeded = trial % trials, found, 0, 0.0
         eliminate(e, arm)
-        before, retried, seeded = found, 0, 0.0
         count = find_roots(arm)
         if count < 0:
             continue
-        meeting = meeting or how_many_below(arm["slopes"], count, -1.0) > 0
-        meeting = meeting or spans[0, 0] >= DEEP
-        exact = how_many_below(arm["slopes"], count, 0.0)
-        # a double root has no slope
-        simple = count - how_many_below(arm["slopes"], count, 1e-300)
+        meeting = meeting or roots_meet(count, arm)
         if count > 0:
             found, retried, seeded = follow(e, count, found, out_q, out_residual, arm)
             if trial == 0:
-                first[0], first[1] = seeded, spans[0, 0]
-        whole = retried + exact == 0 or (trial < trials and accounted(e, count, found, out_q, arm))
-        apart = before > 0 and trial >= trials and how_many_below(kept, found, CROWDED) == 0
-        clear = spans[1, 0] == 0.0 and (whole or apart)
-        sure = seeded < COARSE if before == 0 else found == before
-        fits = found % 2 == 0 and found >= simple and found + trial > 0
-        if clear and sure and fits and how_many_below(kept, found, SINGULAR) == 0:
+                first[0], first[1] = seeded, arm["spans"][0, 0]
+        if is_last(trial, count, (before, found, retried), seeded, arm):
             doubt = 1 if trial >= trials or meeting else 0
             break
     return found, doubt
