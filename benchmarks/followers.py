@@ -1,7 +1,8 @@
 """``python -m benchmarks.followers``: what a pose takes of arms whose joints follow others.
 
 Random poses in a batch on one thread, limits aside: the least of several rounds, microseconds a
-pose, with the number of solutions and the residual of the worst.
+pose, with the number of solutions, the residual of the worst, and the part of the poses at which
+the polynomial leaves doubt, so that more is searched for.
 """
 
 import argparse
@@ -11,6 +12,9 @@ import numpy as np
 
 from benchmarks.compare import table
 from dh2urdf import DHRow, DHTable, Mimic, Robot
+from dh2urdf.ik.arm import Outputs
+from dh2urdf.ik.families.followers import Followers
+from dh2urdf.transforms import Array
 
 H = float(np.pi / 2)
 BEND = 0.610865238198015
@@ -53,6 +57,15 @@ ARMS = {
 }
 
 
+def in_doubt(robot: Robot, Ts: Array) -> str:
+    """The part of poses Ts (m, 4, 4) at which the polynomial leaves doubt."""
+    solver = robot.solver
+    if not isinstance(solver, Followers):
+        return "-"
+    out = Outputs.of(len(Ts), solver.kmax, robot.n)
+    return f"{len(solver.solve_sure(Ts, False, out)) / len(Ts):.2%}"
+
+
 def main() -> None:
     """Measure, and print a table."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.followers")
@@ -68,8 +81,9 @@ def main() -> None:
             batch = robot.ik_batch(Ts, within_limits=False, threads=1)
             times.append(time.perf_counter() - begun)
         micro, worst = 1e6 * min(times) / len(Ts), float(np.nanmax(batch.residual))
-        rows.append((name, f"{micro:.1f}", f"{batch.count.mean():.2f}", f"{worst:.1e}"))
-    print(table(("arm", "us a pose", "solutions", "residual"), rows))
+        cells = f"{micro:.1f}", f"{batch.count.mean():.2f}", f"{worst:.1e}"
+        rows.append((name, *cells, in_doubt(robot, Ts)))
+    print(table(("arm", "us a pose", "solutions", "residual", "in doubt"), rows))
 
 
 if __name__ == "__main__":

@@ -37,8 +37,8 @@ from dh2urdf.ik.arm import select_solver
 CLASSES = list(pairs(AWAY, MULTIPLIERS))
 REGULAR = 1e-4
 
-LOST = 1e-2
-"""Part of the nearly singular that may be lost."""
+LOST = 3e-4
+"""Part of those near a singularity that may be lost: several meet at one turn of the leader."""
 
 STARTS = 100, 400, 1600, 6400
 """Of the search; each time where that before found fewer."""
@@ -47,37 +47,50 @@ STARTS = 100, 400, 1600, 6400
 def check(chain, q):
     """Solutions reach their poses, are different, and the configurations are among them.
 
-    Returned is how many are not that are nearly singular: closer than ``REGULAR`` to where others
-    meet them. Regular ones all are.
+    Returned are the residuals, and how many are not that are nearly singular: closer than
+    ``REGULAR`` to where others meet them. Regular ones all are.
     """
     Ts = forward(chain, q)
     found = solve(chain, Ts)
-    assert found.count.all(), q[found.count == 0]
+    assert found.count.all(), q[found.count == 0].tolist()
     solutions, owner = rows_of(found)
     sigma, residual = regularity(chain, q), residuals(chain, solutions, Ts[owner])
     away, regular = misses(chain, found, q), sigma > REGULAR
-    assert_margin(residual, RESIDUAL, quantile=0.999)
-    assert residual[regular[owner]].max(initial=0.0) < 1e-10
-    lost = regular & (away > 1e-12 / sigma + 1e-8)
+    assert residual.max() < RESIDUAL
+    assert residual[regular[owner]].max(initial=0.0) < 0.1 * RESIDUAL
+    lost = regular & (away > 1e-12 / np.maximum(sigma, REGULAR) + 1e-8)
     assert not lost.any(), q[lost].tolist()
     assert distances(chain, found).min(initial=9.0) > GAP
     families = (exists(found) & (found.free != 0)).any(axis=1)
-    return int((~regular & ~families & (away > 1e-3)).sum())
+    return residual, int((~regular & ~families & (away > 1e-3)).sum())
+
+
+def check_class(away, multiplier, square, seeds, poses):
+    """The same of chains of a class, as many poses each, one in three near a singularity.
+
+    Returned are how many chains there were, for right-angled ones may have joints to spare, and
+    how many of the nearly singular are lost.
+    """
+    lost, some = 0, []
+    for seed in seeds:
+        chain = follower_chain(seed, multiplier, away, square).in_turns
+        try:
+            residual, missed = check(chain, configurations(chain, poses, seed))
+        except NoSolverError:
+            assert square
+            continue
+        some.append(residual)
+        lost += missed
+    assert_margin(np.concatenate(some), RESIDUAL, quantile=0.999)
+    return len(some), lost
 
 
 @pytest.mark.parametrize(("away", "multiplier"), CLASSES)
 @pytest.mark.parametrize("square", [False, True])
 def test_the_configuration_of_a_pose_is_found(away, multiplier, square):
-    """Random and right-angled chains, one pose in three near a singularity."""
-    checked, lost = 0, 0
-    for seed in range(4):
-        chain = follower_chain(seed, multiplier, away, square).in_turns
-        try:
-            lost += check(chain, configurations(chain, 15, seed))
-            checked += 1
-        except NoSolverError:
-            assert square  # joints to spare
-    assert checked >= (1 if square else 4)
+    """Random and right-angled chains."""
+    chains, lost = check_class(away, multiplier, square, range(4), 15)
+    assert chains >= (1 if square else 4)
     assert lost <= square
 
 
@@ -85,17 +98,10 @@ def test_the_configuration_of_a_pose_is_found(away, multiplier, square):
 @pytest.mark.parametrize(("away", "multiplier"), CLASSES)
 @pytest.mark.parametrize("square", [False, True])
 def test_the_configuration_of_20_000_poses_is_found(away, multiplier, square):
-    """The same of forty chains a class, 500 poses each."""
-    lost, chains, seed = 0, 0, 100
-    while chains < 40:
-        chain = follower_chain(seed, multiplier, away, square).in_turns
-        try:
-            lost += check(chain, configurations(chain, 500, seed))
-            chains += 1
-        except NoSolverError:
-            assert square
-        seed += 1
+    """The same of forty chains of each class or more."""
+    chains, lost = check_class(away, multiplier, square, range(100, 145 if square else 140), 500)
     print(f"{lost} nearly singular lost of {500 * chains} poses")
+    assert chains >= 40
     assert lost <= LOST * 500 * chains / 3
 
 
