@@ -135,7 +135,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         core = None
         if given.eaik:
-            core = eaik_core(given.eaik, given.eigen, Path(folder, "eaik.so"))
+            core = eaik_core(given.eaik, given.eigen, given.eaik / "core.so")
         for name in given.arms:
             key, _, joint = name.partition(":")
             robot, rng = Robot.from_dh(key), np.random.default_rng(0)

@@ -26,13 +26,14 @@ PLACES = ("src", "src/IK", "src/IK/utils", "src/utils", "external/ik-geo/cpp/sub
 
 
 def eaik_core(source: Path, eigen: Path, library: Path) -> ctypes.CDLL:
-    """The core of an unpacked source distribution, compiled with -O2 as a library."""
+    """The core of an unpacked source distribution, compiled with -O2 as a library once."""
     inner = source / "CPP"
     places = [f"-I{path}" for path in (eigen, *(inner / place for place in PLACES))]
     parts = [str(path) for path in sorted(inner.rglob("*.cpp"))]
     loop = str(Path(__file__).with_suffix(".cpp"))
     command = ["g++", "-std=c++17", "-O2", "-shared", "-fPIC", "-w", *places, loop, *parts]
-    subprocess.run([*command, "-o", str(library)], check=True)
+    if not library.exists():
+        subprocess.run([*command, "-o", str(library)], check=True)
     core = ctypes.CDLL(str(library))
     core.make.restype = ctypes.c_void_p
     core.many.argtypes = [ctypes.c_void_p, ctypes.c_int, ctypes.c_void_p]
