@@ -1,6 +1,7 @@
 """The entry: a pose of an arm, explained along one of the solutions that ``ik`` gave."""
 
 import math
+import textwrap
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from dh2urdf.lessons.marks import elbow_side, joint_mark
 from dh2urdf.lessons.notation import measured, vector_shown
 from dh2urdf.lessons.steps import Equation, IKExplanation, Step
 from dh2urdf.lessons.way import Way
+from dh2urdf.lessons.wording import WIDTH
 from dh2urdf.transforms import Array, pose_error
 
 LIMIT = 1e-9
@@ -27,7 +29,8 @@ def explain_pose(question: Question) -> IKExplanation:
         index, branch = question.numbers[question.index], question.branches[question.index]
     steps, q = [*case.notes], None
     if case.lesson is None:
-        steps.append(Step("The solver", question.details))
+        lines = (textwrap.fill(line, WIDTH) for line in question.details.split("\n"))
+        steps.append(Step("The solver", "\n".join(lines)))
     else:
         steps.append(taken_off(case.arm, case.T, case.pose(), case.task is Task.POSITION))
         way = case.chosen()

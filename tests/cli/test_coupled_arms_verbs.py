@@ -52,3 +52,13 @@ def test_a_way_to_a_direction_names_the_joint_that_is_held(arm, run):
     code, out, _ = run("ik", arm, *words, "--explain")
     assert code == 0
     assert f"so some are held: {robot.joint_names[-1]} at 0 rad" in out
+
+
+@pytest.mark.parametrize("arm", ARMS[:2])
+def test_a_way_without_steps_names_its_solver_in_lines_that_fit(arm, run):
+    robot = Robot.from_dh(arm)
+    T = robot.fk(0.5 * (robot.lower + robot.upper) + 0.1)
+    words = f"--matrix={','.join(map(repr, T.ravel().tolist()))}", "--explain"
+    code, out, _ = run("ik", arm, *words)
+    assert code == 0
+    assert max(map(len, out.splitlines())) <= 100

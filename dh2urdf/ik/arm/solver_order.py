@@ -56,7 +56,9 @@ def select_solver(chain: SerialChain, task: Task | str = Task.POSE) -> Solver:
             return solver
         others += ((family.name, obstacle),)
         listing += f"\n  {family.name} ({family.needs}): {obstacle}"
+    remedy = next((f": {why}" for _, why in others if "hold some" in why), "")
     raise NoSolverError(
-        f"no solver finds all solutions for task {task.value!r} of this {chain.n}-joint chain; "
-        f"ik_numeric finds some. The classes that exist, and what keeps them from it:{listing}"
+        f"no solver finds all solutions for task {task.value!r} of this {chain.n}-joint chain"
+        f"{remedy}; ik_numeric finds some. The classes that exist, and what keeps them from it:"
+        f"{listing}"
     )
