@@ -85,13 +85,30 @@ def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) ->
     Candidates are ``found``. Solutions that are known keep their branch.
     """
     wide = search_in_doubt(chain, T, found, np.zeros(1, np.int64), False)
-    name_batch(chain.tables, T, wide)
+    _name_again(chain, T, wide)
     keep_sharp(wide, known.q[0, : known.counts[0]])
     unite_families(chain, T, False, wide)
     for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
         away = far(chain, wide.q[0, : wide.counts[0]], p)
         wide.branch[0, : len(away)][away <= SAME] = branch
     return wide
+
+
+def _name_again(chain: SerialChain, T: Array, wide: Outputs) -> None:
+    """Name families of a pose (1, 4, 4) by their joints alone, but surfaces not by a curve's."""
+    before = wide.free[0].copy()
+    name_batch(chain.tables, T, wide)
+    for k, (all_, some) in enumerate(zip(before, wide.free[0, : wide.counts[0]], strict=False)):
+        if some != all_ and some and not some & ~all_:
+            families = (family_of(chain, T[0], wide.q[0, k], mask) for mask in (all_, some))
+            more, fewer = (family.dimensions() for family in families)
+            wide.free[0, k] = all_ if more > fewer else some
+
+
+def family_of(chain: SerialChain, T: Array, q: Array, mask: int) -> Family:
+    """The family of a pose T (4, 4) by the joints of a mask, through a solution q (n,)."""
+    joints = tuple(np.flatnonzero(mask >> np.arange(chain.n) & 1).tolist())
+    return Family(chain, Task.POSE, T, joints, q.copy())
 
 
 def keep_known(chain: SerialChain, T: Array, known: Outputs, wide: Outputs) -> None:
@@ -129,8 +146,7 @@ def _curves(
     """
     rows, families = slice(first, int(out.counts[0])), []
     for q, free in zip(out.q[0, rows], out.free[0, rows], strict=True):
-        joints = tuple(np.flatnonzero(free >> np.arange(chain.n) & 1).tolist())
-        families += [Family(chain, Task.POSE, T, joints, q.copy())] if joints else []
+        families += [family_of(chain, T, q, free)] if free else []
     curves = [family for family in families if family.dimensions() == 1]
     return curves, len(curves) < len(families)
 
@@ -189,8 +205,7 @@ def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
     while members:
         first = members.pop(0)
         kept.append(first)
-        joints = tuple(np.flatnonzero(free[first] >> np.arange(chain.n) & 1).tolist())
-        family = Family(chain, Task.POSE, np.array(T), joints, q[first].copy())
+        family = family_of(chain, np.array(T), q[first], free[first])
         alike = [m for m in members if free[m] == free[first]]
         trials = 2 if len(kept) - isolated <= FAMILIES else 0
         same = {m for m, on in zip(alike, family.contains(q[alike], trials), strict=True) if on}

@@ -18,7 +18,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.redundant.held_values import HeldJoints, HeldOneByOne
 from dh2urdf.ik.redundant.searched import nearly_reaching
-from dh2urdf.kernels.certificate import finish_batch, measure_all
+from dh2urdf.kernels.certificate import finish_batch, measure_all, name_batch
 from dh2urdf.transforms import Array
 
 SHARP = 1e-11
@@ -45,6 +45,7 @@ class InDoubt(SolverBase):
         """Solve a pose (1, 4, 4); ``void``: equations say so little that others are searched."""
         known, found = self.inner.before_search(T)
         wide = from_starts(self.chain, T, self._candidates(T, found) if void else found, known)
+        name_batch(self.chain.tables, T, known)
         drop_dull_members(known)
         sharp = known.residual[0, : known.counts[0]] <= SHARP
         for k in np.flatnonzero(sharp & (known.free[0, : known.counts[0]] != 0)).tolist():

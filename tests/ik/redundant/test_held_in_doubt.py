@@ -132,3 +132,28 @@ def test_of_two_solutions_side_by_side_along_a_valley_both_are_kept(name):
     judge(tally, table, q, held, held=(3,))
     assert tally.failures() == []
     assert tally.count["singular lost"] == 0
+
+
+ROUNDED = [
+    ("franka_fer", 9, 5, (180, 180, 0, 0, 90, 90, -90), 0.0),
+    ("franka_fr3", 9, 5, (180, 180, 0, 0, 90, 90, -90), 0.0),
+    ("kuka_iiwa14", 4, 6, (-75.57, 83.21, -83.05, 0, 21.66, 105.13, 36.21), 5.934e-11),
+    ("kuka_iiwa7", 9, 6, (-75.57, 83.21, -83.05, 0, 21.66, 105.13, 36.21), 5.934e-11),
+]
+
+
+@pytest.mark.parametrize(("name", "decimals", "joint", "degrees", "bent"), ROUNDED)
+def test_of_rounded_twists_surfaces_are_named_whole_and_families_as_a_walk_confirms(
+    name, decimals, joint, degrees, bent
+):
+    """Not a surface by a curve on it, nor what a closed form takes for a family beside one."""
+    table, tally = rounded(dh2urdf.load_table(name), decimals), Tally("rounded twists")
+    q = np.radians(degrees)
+    q[3] += bent
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={joint: q[joint]})
+
+    judge(tally, table, q[None], held, held=(joint,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
