@@ -73,6 +73,18 @@ def smallest(arm, q, moving):
     return np.linalg.svd(J, compute_uv=False)[..., -1]
 
 
+def smallest_of_far(arm, q, moving):
+    """The same in sizes of how far out slides are, where that is farther: their motions, too.
+
+    Partners of a pair may be tens of kilometres out, where slides are parallel but for 1e-5.
+    """
+    size = np.maximum(arm.size, np.abs(q[:, arm.prismatic]).max(axis=1, initial=0.0))
+    J = jacobians(arm, q)
+    J[:, :, arm.prismatic] *= size[:, None, None]
+    J[:, :3] /= size[:, None, None]
+    return np.linalg.svd(J[..., moving], compute_uv=False)[..., -1]
+
+
 def contains(arm, found, masks, q, T, tolerance, moving=slice(None)):
     """Whether q (n,) is a solution (k, n), on a named family, or a solution to rounding."""
     away = gaps(arm, found, q) if len(found) else np.array([np.inf])
@@ -129,7 +141,7 @@ def _check_solutions(tally, table, arm, solutions, T, q):
     alike = masks[:, None] == masks[None]
     if ((away + 9.0 * np.eye(len(found)) < MOST) & alike).any():
         tally.note("twice", table, q)
-    sigma = smallest(arm, found, moving)
+    sigma = smallest_of_far(arm, found, moving)
     for p, mask, small in zip(found, masks.tolist(), sigma, strict=True):
         bits = (mask >> np.arange(arm.n)) & 1 == 1
         if mask and not is_family(arm, p, T, bits):

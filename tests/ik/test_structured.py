@@ -36,6 +36,9 @@ NOTES = os.environ.get("SWEEP_NOTES")
 POSES, TABLES = int(120 * SIZE), int(60 * SIZE)
 """Poses a table that ships, and tables of other classes, each with a third as many poses."""
 
+UNNAMED = 1e-3
+"""Part of the poses of arms with slides with a family that may go unnamed, each of them listed."""
+
 SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
 
 
@@ -67,13 +70,13 @@ def sweep(name, tables, poses, decimals=None, seed=0):
     return tally
 
 
-def report(tally):
-    """Print the figures, and fail with what may not be."""
+def report(tally, allowed=()):
+    """Print the figures, and fail with what may not be and is not allowed."""
     print("\n" + tally.line())
     if NOTES:
         with open(NOTES, "a") as file:
             file.writelines(f"{tally.name}; {note}\n" for note in tally.notes)
-    assert tally.failures() == []
+    assert [note for note in tally.failures() if not note.startswith(allowed)] == []
 
 
 CLASSES = {
@@ -131,10 +134,14 @@ def test_a_slice_of_structured_poses_with_slides_loses_nothing_that_is_regular()
 
 
 @pytest.mark.exhaustive
+@pytest.mark.parametrize("part", range(4))
 @pytest.mark.parametrize("decimals", ROUNDINGS)
-def test_structured_poses_with_slides_lose_nothing_that_is_regular(decimals):
-    """As of other arms; of families that are not named there are some in a thousand."""
-    check_regular(sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals))
+def test_structured_poses_with_slides_lose_nothing(decimals, part):
+    """As of other arms; of families that are not named there is one pose in a thousand at most."""
+    tables = sliding(5 * TABLES)[part::4]
+    tally = sweep("sliding of 6", tables, POSES // 3, decimals, seed=1000 * part)
+    few = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
+    report(tally, "unnamed" if few else ())
 
 
 def followers_tally(away, multiplier, chains, poses):

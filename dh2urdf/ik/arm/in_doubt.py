@@ -8,7 +8,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.limits import TWO_PI
 from dh2urdf.ik.arm.singular_families import Family
 from dh2urdf.ik.arm.solver import IntArray, Outputs
-from dh2urdf.ik.arm.task import Task
+from dh2urdf.ik.arm.task import Task, task_jacobian
 from dh2urdf.kernels.certificate import finish_batch, name_batch
 from dh2urdf.kernels.in_doubt import search_beside, search_from
 from dh2urdf.kernels.redundant import WELL
@@ -26,6 +26,10 @@ SHARP = 1e-11
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
+
+DULL, EXACT, VALLEY = 1e-13, 1e-14, 1e-7
+"""Residuals [m and rad] of a point of a valley and of a solution beside which it is none, and the
+smallest singular value there: along slides a valley is straight, and may be as long as the arm."""
 
 FAMILIES = 4
 """Families of a pose whose members are looked for at any distance: a few milliseconds each."""
@@ -75,8 +79,35 @@ def search_in_doubt(
     finish_batch(chain.tables, Ts, False, wide)
     search_beside(chain.tables, Ts, wide)
     finish_batch(chain.tables, Ts, False, wide)
+    if chain.prismatic.any():
+        _drop_valleys(chain, wide)
     unite_families(chain, Ts, within_limits, wide)
     return wide
+
+
+def _drop_valleys(chain: SerialChain, wide: Outputs) -> None:
+    """Drop what is accepted along valleys of poses that have exact solutions, in place."""
+    for i, count in enumerate(wide.counts):
+        one = wide.rows(slice(i, i + 1))
+        residual = one.residual[0, :count]
+        dull = np.flatnonzero((residual > DULL) & (one.free[0, :count] == 0))
+        if len(dull) and residual.min() <= EXACT:
+            valley = dull[_weakest(chain, one.q[0, dull]) < VALLEY]
+            _keep(one, np.delete(np.arange(count), valley))
+
+
+def _weakest(chain: SerialChain, q: Array) -> Array:
+    """Smallest singular values of the Jacobian (k,) at q (k, n).
+
+    Lengths and slides are in sizes of the arm, or of how far out slides are: partners of a pair may
+    be tens of kilometres out, where they are parallel but for 1e-5.
+    """
+    size = np.abs(q[:, chain.prismatic]).max(axis=1, initial=chain.size)[:, None, None]
+    J = task_jacobian(chain, Task.POSE, q)
+    J[:, :3] /= size
+    J[:, :, chain.prismatic] *= size
+    weakest: Array = np.linalg.svd(J, compute_uv=False)[:, -1]
+    return weakest
 
 
 def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) -> Outputs:
