@@ -36,7 +36,7 @@ NOTES = os.environ.get("SWEEP_NOTES")
 POSES, TABLES = int(120 * SIZE), int(60 * SIZE)
 """Poses a table that ships, and tables of other classes, each with a third as many poses."""
 
-UNNAMED = 1e-3
+UNNAMED = 2e-3
 """Part of the poses of arms with slides with a family that may go unnamed, each of them listed."""
 
 SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
@@ -134,12 +134,10 @@ def test_a_slice_of_structured_poses_with_slides_loses_nothing_that_is_regular()
 
 
 @pytest.mark.exhaustive
-@pytest.mark.parametrize("part", range(4))
 @pytest.mark.parametrize("decimals", ROUNDINGS)
-def test_structured_poses_with_slides_lose_nothing(decimals, part):
-    """As of other arms; of families that are not named there is one pose in a thousand at most."""
-    tables = sliding(5 * TABLES)[part::4]
-    tally = sweep("sliding of 6", tables, POSES // 3, decimals, seed=1000 * part)
+def test_structured_poses_with_slides_lose_nothing(decimals):
+    """As of other arms; of families that are not named there are two in a thousand at most."""
+    tally = sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals)
     few = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
     report(tally, "unnamed" if few else ())
 

@@ -3,6 +3,7 @@
 from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.limits import TWO_PI
@@ -92,12 +93,12 @@ def _drop_valleys(chain: SerialChain, wide: Outputs) -> None:
         residual = one.residual[0, :count]
         dull = np.flatnonzero((residual > DULL) & (one.free[0, :count] == 0))
         if len(dull) and residual.min() <= EXACT:
-            valley = dull[_weakest(chain, one.q[0, dull]) < VALLEY]
+            valley = dull[_hardly_moves(chain, one.q[0, dull])]
             _keep(one, np.delete(np.arange(count), valley))
 
 
-def _weakest(chain: SerialChain, q: Array) -> Array:
-    """Smallest singular values of the Jacobian (k,) at q (k, n).
+def _hardly_moves(chain: SerialChain, q: Array) -> NDArray[np.bool_]:
+    """Whether the pose hardly changes in one direction at configurations q (k, n).
 
     Lengths and slides are in sizes of the arm, or of how far out slides are: partners of a pair may
     be tens of kilometres out, where they are parallel but for 1e-5.
@@ -106,8 +107,8 @@ def _weakest(chain: SerialChain, q: Array) -> Array:
     J = task_jacobian(chain, Task.POSE, q)
     J[:, :3] /= size
     J[:, :, chain.prismatic] *= size
-    weakest: Array = np.linalg.svd(J, compute_uv=False)[:, -1]
-    return weakest
+    flat: NDArray[np.bool_] = np.linalg.svd(J, compute_uv=False)[:, -1] < VALLEY
+    return flat
 
 
 def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) -> Outputs:

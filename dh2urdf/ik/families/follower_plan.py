@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import CoupledChain
 from dh2urdf.ik.arm import TWO_PI, Outputs
-from dh2urdf.ik.families.general_6r import DEAREST, TURN, WORTH, short_links
+from dh2urdf.ik.families.general_6r import DEAREST, TURN, WORTH
+from dh2urdf.ik.families.short_links import short_links
 from dh2urdf.kernels.followers import (
     ALWAYS,
     FOLLOWERS_16,

@@ -15,6 +15,7 @@ from dh2urdf.engine import Step
 from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
 from dh2urdf.ik.families.closed_form import STUCK
 from dh2urdf.ik.families.own_record import OwnRecord
+from dh2urdf.ik.families.short_links import screw, short_links
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
@@ -24,13 +25,6 @@ Arm: TypeAlias = NDArray[np.void]
 
 TURN = np.array([0.7310, -1.1170, 0.4127, 1.3019, -0.8233, 0.5171])
 """Zero of each joint's angle inside the solver [rad]: none that a user's pose would have."""
-
-GRID = 2.0**-24
-"""What shifts of frames are rounded to, in parts of the longest link: no library decides bits."""
-
-ALONG = 1e-3
-"""What slid origins must bring, in parts of how far they are slid: the common normal of axes that
-are parallel but for rounding is kilometres out, and lengths there have fewer digits."""
 
 SLIDES = 2
 """Most joints that slide; with three the orientation alone gives the turns."""
@@ -147,49 +141,6 @@ class General6R(OwnRecord, SolverBase):
         return ((finish_general_6r, arguments, False),)
 
 
-def _z(angle: float, offset: float) -> Array:
-    """Turn about z, then shift along it."""
-    s, c = sincos(angle)
-    return np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, offset], [0, 0, 0, 1.0]])
-
-
-def short_links(links: Array, slides: Array, turns: Array) -> tuple[Array, Array]:
-    """The same chain with each joint's origin slid along its axis, so that the links are short.
-
-    Minimises ``sum |t_i - b_i + R_i a_(i+1)|^2`` over ``a_i = b_i = s_i e3`` of joints that turn;
-    a joint that slides may be anywhere: only along its axis do a_i and b_i differ. Joints that
-    turn have their zeros at ``turns`` [rad]. Returns the links and the differences, the slides'
-    zeros [m].
-    """
-    # of each joint: which unknowns, along which axes, before it and after it
-    places: list[tuple[IntArray, IntArray, Array]] = []
-    free, n = 0, len(slides)
-    for joint_slides in slides.tolist():
-        first, last = ([0, 1, 2], [0, 1, 3]) if joint_slides else ([0], [0])
-        axes = np.eye(3) if joint_slides else np.eye(3)[2:]
-        places.append((free + np.array(first), free + np.array(last), axes.T))
-        free += 4 if joint_slides else 1
-    matrix, rhs = np.zeros((3 * n - 3, free)), np.zeros(3 * n - 3)
-    for i in range(1, n):
-        rows = slice(3 * i - 3, 3 * i)
-        matrix[rows, places[i - 1][1]] = -places[i - 1][2]
-        matrix[rows, places[i][0]] = product(links[i, :3, :3], places[i][2])
-        rhs[rows] = -links[i, :3, 3]
-    grid = GRID * (np.abs(links[:, :3, 3]).max() or 1.0)
-    ways = np.round(np.linalg.lstsq(matrix, rhs, rcond=ALONG)[0] / grid) * grid
-    short, ends = links.copy(), np.zeros((2, n, 3))
-    for i, (before, after, axes) in enumerate(places):
-        for end, some in zip(ends, (before, after), strict=True):
-            end[i] = product(axes, ways[some][:, None])[:, 0]
-    turned = np.stack([_z(0.0 if s else turn, 0.0) for s, turn in zip(slides, turns, strict=True)])
-    short[1:, :3, 3] -= ends[1]
-    short[1:] = product(turned, short[1:])
-    short[:-1, :3, 3] = (
-        product(short[:-1, :3, :3], ends[0][:, :, None])[:, :, 0] + short[:-1, :3, 3]
-    )
-    return short, ends[0, :, 2] - ends[1, :, 2]
-
-
 def _outer_slides(chain: Array, slides: Array, outer: Array) -> None:
     """Directions of the slides next to base and tool, and of their shares of a vector.
 
@@ -220,7 +171,7 @@ def _random_poses(arm: Arm) -> Array:
     for m, q in enumerate(rng.uniform(-math.pi, math.pi, (POSES, 6))):
         T = links[0]
         for i in range(6):
-            Z = _z(0.0, arm["middles"][0, i] + span * q[i]) if slides[i] else _z(q[i], 0.0)
+            Z = screw(0.0, arm["middles"][0, i] + span * q[i]) if slides[i] else screw(q[i], 0.0)
             T = product(T, Z, links[i + 1])
         poses[m] = T
     return poses

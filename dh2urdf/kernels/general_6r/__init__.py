@@ -4,7 +4,7 @@
 `elimination` and `resultant` make a polynomial in the hidden joint, `roots` finds its real roots
 by `arc_samples` and `arc_roots`; `follow` leads from a root to solutions, which `listing` keeps
 apart, and `trials` says when all are found. Where two joints slide `two_slides` is in place of
-both eliminations.
+both eliminations, and `joints_of_slides` leads from its roots to seeds.
 """
 
 from dh2urdf.kernels.general_6r.arc_samples import ARC, tables_of

@@ -3,6 +3,7 @@
 import math
 
 from dh2urdf.kernels.general_6r.elimination import joint_of
+from dh2urdf.kernels.general_6r.joints_of_slides import joints_of_two_slides
 from dh2urdf.kernels.general_6r.listing import at_root, list_solution
 from dh2urdf.kernels.general_6r.resultant import (
     as_length,
@@ -11,7 +12,7 @@ from dh2urdf.kernels.general_6r.resultant import (
     split_pairs,
     two_joints,
 )
-from dh2urdf.kernels.general_6r.two_slides import joints_of_two_slides, sample_two_slides
+from dh2urdf.kernels.general_6r.two_slides import sample_two_slides
 from dh2urdf.kernels.newton import chain_frames, newton_step, pose_error
 from dh2urdf.kernels.numbers import LANES, atan2, null_vectors, side_by_side, sincos
 
