@@ -211,9 +211,9 @@ class HeldAtAnyValue(HeldSolver):
 
 
 def _every_branch(out: Outputs, doubt: IntArray) -> NDArray[np.bool_]:
-    """Of which poses all branches are found, each sharp; some are in doubt."""
+    """Of which poses all branches are found, each sharp and isolated; some are in doubt."""
     every: NDArray[np.bool_] = out.residual[:, : HeldWrist.kmax].max(axis=1) <= SHARP
-    every &= out.counts == HeldWrist.kmax
+    every &= (out.counts == HeldWrist.kmax) & ~out.free.any(axis=1)
     every[doubt] = False
     return every
 
