@@ -94,6 +94,8 @@ def _solve(A, step):
             A[r] -= factor * A[c]
     longest = 0.0
     for c in range(6):
+        if A[c, c] == 0.0:  # what was left of an entry, times next to infinity, took the pivot
+            return math.inf
         step[c] = A[c, 6] / A[c, c]
         longest = max(longest, abs(step[c]))
     return longest
