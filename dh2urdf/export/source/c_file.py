@@ -4,11 +4,12 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.bounds import ANGLE
 from dh2urdf.export.source.c_kernels import ArmFile, lanes_of
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
-from dh2urdf.export.source.stack import stack_bytes
+from dh2urdf.export.source.stack import kept_apart, stack_bytes
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
 from dh2urdf.kernels.certificate import DEEP, arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
@@ -24,8 +25,8 @@ ABOUT = """\
 The kinematics of one arm, with all of its inverse kinematics, in C99 that C++ takes, too.
 {provenance}
 
-Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by row, the last row
-0 0 0 1. A configuration q is {n} numbers:
+Numbers are doubles, lengths metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by
+row, the last 0 0 0 1. A configuration q is {n} numbers:
 
 {joints}
 
@@ -34,10 +35,11 @@ Lengths are metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by 
     {p}_jacobian(q, J)
         6 x {n} row by row: velocity of the tip, then angular velocity, in the axes of the base
     {p}_ik(T, {held}within_limits, {work}&found)
-        all configurations that reach a pose; their number, or -1 if T is no pose (not finite, or
-        no rotation within 1e-6)
+        all configurations that reach a pose; their number, or -1 if T is no pose (not finite, no
+        rotation within 1e-6){held_refused}
     {p}_ik_near(T, {held}seed, within_limits, {work}&found)
-        the same, in the full turns nearest to a seed, nearest first
+        the same, in the full turns nearest to a seed of {n} numbers, nearest first; -1 if one of
+        them is none, or beyond {angle:g}
 {held_line}{work_line}
 found holds count solutions in its first rows, each with its residual, the larger of its errors of
 position [m] and rotation [rad] on the exact chain; its branch{branch_line}
@@ -55,6 +57,9 @@ Robot.ik of dh2urdf searches there.
 No function allocates or keeps anything between calls, and each may run in many threads at once.
 {stack} bytes of the stack, {P}_STACK, are enough for any of them. With contraction off (gcc and
 clang: -ffp-contract=off) results are those of dh2urdf to the last bit."""
+
+HELD_REFUSED = """,
+        or held is outside its limits within_limits"""
 
 WORK_LINE = """
 work is a {p}_workspace of {size} bytes that {p}_prepare(&work) has filled once, what the solver
@@ -86,6 +91,17 @@ typedef struct {{
 }} {p}_solutions;
 """
 
+NOINLINE = """\
+/* What keeps the frames of functions apart, so that they do not add up on the stack. */
+#if defined(__GNUC__)
+#define {P}_NOINLINE __attribute__((noinline))
+#elif defined(_MSC_VER)
+#define {P}_NOINLINE __declspec(noinline)
+#else
+#define {P}_NOINLINE
+#endif
+"""
+
 FUNCTIONS = """\
 /* The pose T_{base}_{tip}, 16 numbers row by row, of a configuration. */
 static inline void {p}_fk(const double q[{n}], double T[16])
@@ -109,7 +125,7 @@ static inline int {p}_ik({parameters}, {p}_solutions *found)
     if (!{is_pose}) {{
         return -1;
     }}
-{steps}
+{held_check}{steps}
     if (found->count < 0) {{
         found->count = (-1 - found->count) % {deep};
         found->complete = false;
@@ -124,13 +140,30 @@ static inline int {p}_ik({parameters}, {p}_solutions *found)
 static inline int {p}_ik_near({near}, {p}_solutions *found)
 {{
     double pose[1][4][4], distance[{kmax}];
-    const int count = {p}_ik({given}, found);
+    int i, count;
+    found->count = 0;
+    found->complete = true;
+    for (i = 0; i < {n}; i++) {{
+        if (!(seed[i] >= -{angle} && seed[i] <= {angle})) {{
+            return -1;
+        }}
+    }}
+    count = {p}_ik({given}, found);
     if (count > 0) {{
         memcpy(pose, T, sizeof pose);
         {arrange};
     }}
     return count;
 }}
+"""
+
+HELD = """\
+    if (!(held >= -{angle} && held <= {angle})) {{
+        return -1;
+    }}
+    if (within_limits && !(held >= {P}_LOWER[{joint}] && held <= {P}_UPPER[{joint}])) {{
+        return -1;
+    }}
 """
 
 CASTS = {"T": "(double (*)[4])T", "held": "&held", "work": "work"}
@@ -151,12 +184,14 @@ class CProgram:
         """The whole file."""
         p, functions = self.prefix, self._functions()
         kernels = self.file.text()
+        kernels = kept_apart(kernels, f"{p.upper()}_NOINLINE")
         body = hidden(f"{kernels}\n\n{functions}", p)
         self.stack = -(-stack_bytes(self._solutions(0) + body, f"{p}_ik_near") // 256) * 256
         guard = f"{p.upper()}_H"
         includes = [f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")]
         parts = [_comment(self._about()), _comment(LICENCE), f"#ifndef {guard}\n#define {guard}\n"]
-        parts += ["\n".join([*includes, ""]), self._solutions(self.stack), body]
+        apart = NOINLINE.format(P=p.upper())
+        parts += ["\n".join([*includes, ""]), apart, self._solutions(self.stack), body]
         return "\n".join([*parts, f"#endif /* {guard} */\n"])
 
     def _about(self) -> str:
@@ -175,7 +210,9 @@ class CProgram:
             joints="\n".join(f"    {row}" for row in joints(self.robot)),
             base=one_line(self.robot.base),
             tip=one_line(self.robot.tip),
+            angle=ANGLE,
             held="held, " if held else "",
+            held_refused=HELD_REFUSED if held else "",
             held_line=line,
             work="&work, " if works else "",
             work_line="".join(
@@ -230,6 +267,10 @@ class CProgram:
             near=", ".join([*parameters, f"const double seed[{n}]", limits]),
             given=", ".join(given),
             scratch="".join(f"    {self._declared(x)};\n" for x in program.scratch),
+            angle=ANGLE,
+            held_check="".join(
+                HELD.format(P=p.upper(), angle=ANGLE, joint=joint) for joint in program.held
+            ),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
             steps="\n".join(map(self._step, program.calls)),
             inside=self._call(Call(families_inside, inside)),

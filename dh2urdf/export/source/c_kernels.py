@@ -62,7 +62,7 @@ def _changed(home: ModuleType, name: str, lanes: int) -> int | None:
 
 
 TAKEN = """
-fk jacobian ik ik_near solutions prepare H JOINTS SOLUTIONS STACK HAS_WORKSPACE LOWER UPPER
+fk jacobian ik ik_near solutions prepare H JOINTS SOLUTIONS STACK NOINLINE HAS_WORKSPACE LOWER UPPER
 """
 """Names of what the file offers."""
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from dh2urdf.bounds import ANGLE
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
@@ -42,7 +43,7 @@ configuration q is {n} numbers:
     jacobian(q)
         six rows: velocity of the tip, then angular velocity, in the axes of the base
     ik(T, {held}within_limits=True)
-        all configurations that reach a pose, as Solutions; ValueError if T is none
+        all configurations that reach a pose, as Solutions; ValueError if T is none{held_refused}
     ik_near(T, {held}seed, within_limits=True)
         the same, in the full turns nearest to a seed, nearest first
 {held_line}
@@ -58,6 +59,15 @@ dh2urdf searches there.
         print(q, residual)
 
 Results are those of dh2urdf to the last bit."""
+
+HELD_REFUSED = """, or if
+        held is outside its limits within_limits"""
+
+HELD = """\
+    lower, upper = (LOWER[{joint}], UPPER[{joint}]) if within_limits else (-{angle}, {angle})
+    if not max(lower, -{angle}) <= held <= min(upper, {angle}):
+        raise ValueError(f"held: {{held}} is outside the limits {{lower}} to {{upper}}")
+"""
 
 FUNCTIONS = '''\
 JOINTS, LOWER, UPPER = {n}, {lower}, {upper}
@@ -101,7 +111,9 @@ def _solved({given}within_limits, seed):
     pose = _floats(T, (1, 4, 4))
     if not {is_pose}:
         raise ValueError("no pose: not finite, or no rotation within 1e-6")
-    q, residual, count = empty((1, {k}, {n})), empty((1, {k})), zeros(1, int64)
+    if seed is not None and not all(abs(x) <= {angle} for x in seed.rows()):
+        raise ValueError("seed: expected numbers up to {angle}")
+{held_check}    q, residual, count = empty((1, {k}, {n})), empty((1, {k})), zeros(1, int64)
     branch, free_joints, complete = zeros((1, {k}), int64), zeros((1, {k}), int64), True
 {scratch}
 {steps}
@@ -155,6 +167,7 @@ class PythonProgram:
             base=one_line(self.robot.base),
             tip=one_line(self.robot.tip),
             held="held, " if held else "",
+            held_refused=HELD_REFUSED if held else "",
             held_line=line,
             held_given=", held" if held else "",
             branch_line=branches(self.program),
@@ -182,6 +195,8 @@ class PythonProgram:
             handed="held, " if program.held else "",
             fk=self._call(Call(chain_fk, (links, slides, q, Named("T", None)))),
             jacobian=self._call(Call(chain_jacobian, (links, slides, q, Named("J", None)))),
+            angle=ANGLE,
+            held_check="".join(HELD.format(angle=ANGLE, joint=joint) for joint in program.held),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", None),))),
             scratch=textwrap.indent("\n".join(scratch), "    "),
             steps="\n".join(map(self._step, program.calls)),

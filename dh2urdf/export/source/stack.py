@@ -33,6 +33,24 @@ def stack_bytes(text: str, function: str) -> int:
     return most(function)
 
 
+LARGE = 256
+"""Bytes of a function's own from which on it is kept apart from its callers."""
+
+
+def kept_apart(text: str, mark: str) -> str:
+    """The text with a mark at functions whose arrays would add up if they became one function.
+
+    Compilers that inline them give each its own place in the frame.
+    """
+    sizes = {"double": 8, "int64_t": 8, "int": 8, "bool": 8}
+
+    def marked(found: re.Match[str]) -> str:
+        head = re.sub(r"^static (inline )?", f"static {mark} ", found[0], count=1)
+        return head if _local(found[2], sizes) >= LARGE else found[0]
+
+    return _FUNCTION.sub(marked, text)
+
+
 def _local(body: str, sizes: dict[str, int]) -> int:
     """Bytes of what is declared in a body."""
     total = 0

@@ -232,6 +232,123 @@ def test_the_stack_that_is_stated_suffices(name, tmp_path):
     assert most("arm_ik_near") <= arm.made.stack <= SMALL
 
 
+PAINTED = """
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include "{header}"
+#define ROOM 1048576
+
+static double T[16];
+static arm_solutions found;
+#if ARM_HAS_WORKSPACE
+static arm_workspace work;
+#endif
+
+static void *nothing(void *given) {{ return given; }}
+
+static void *solve(void *given)
+{{
+    double seed[ARM_JOINTS] = {{0}};
+#if ARM_HAS_WORKSPACE
+    arm_ik_near(T, seed, true, &work, &found);
+#else
+    arm_ik_near(T, seed, true, &found);
+#endif
+    return given;
+}}
+
+static long used(void *(*call)(void *), unsigned char *memory)
+{{
+    pthread_attr_t how;
+    pthread_t one;
+    long k = 0;
+    memset(memory, 0xA5, ROOM);
+    pthread_attr_init(&how);
+    pthread_attr_setstack(&how, memory, ROOM);
+    pthread_create(&one, &how, call, NULL);
+    pthread_join(one, NULL);
+    while (memory[k] == 0xA5) k++;
+    return ROOM - k;
+}}
+
+int main(void)
+{{
+    unsigned char *memory = aligned_alloc(4096, ROOM);
+    long rest = used(nothing, memory), most = 0, now;
+#if ARM_HAS_WORKSPACE
+    arm_prepare(&work);
+#endif
+    for (int k = 0; k < 100; k++) {{
+        double q[ARM_JOINTS];
+        for (int i = 0; i < ARM_JOINTS; i++) {{
+            q[i] = k % 2 ? (rand() % 5 - 2) * 1.5707963267948966 : rand() % 6283 / 1000.0 - 3.14;
+        }}
+        arm_fk(q, T);
+        now = used(solve, memory) - rest;
+        most = now > most ? now : most;
+    }}
+    printf("%ld", most);
+    return 0;
+}}
+"""
+
+
+@pytest.mark.parametrize("compiler", [c for c in ("gcc", "clang") if shutil.which(c)])
+@pytest.mark.parametrize("name", ["puma560", "ur5", "xarm5", "fanuc_crx10ia"])
+def test_compilers_that_inline_need_no_more_stack_than_is_stated(name, compiler, tmp_path):
+    """What is written of a painted stack, at -O3, singular poses included."""
+    made = export_solver(Robot.from_dh(name), tmp_path / "arm.h", prefix="arm")
+    source, program = tmp_path / "painted.c", tmp_path / "painted"
+    source.write_text(PAINTED.format(header=tmp_path / "arm.h"))
+    flags = "-std=gnu11", "-O3", "-Wl,-z,now", "-pthread", "-o", program, source, "-lm"
+    subprocess.run([compiler, *map(str, flags)], check=True)
+    most = int(subprocess.run([program], capture_output=True, check=True, text=True).stdout)
+    assert 1000 < most < 0.9 * made.stack
+
+
+ODD = """
+#include <stdio.h>
+#include <math.h>
+#include "{header}"
+
+int main(void)
+{{
+    const double q[ARM_JOINTS] = {{0.1, 0.2, 0.3, 0.4, 0.5, 0.6}};
+    double T[16], seed[ARM_JOINTS] = {{0}};
+    arm_solutions found;
+    arm_fk(q, T);
+    for (int i = 0; i < 4; i++) {{
+        const double odd[4] = {{NAN, INFINITY, -1e9, 0.0}};
+        seed[2] = odd[i];
+        printf("%d ", arm_ik_near(T, {held}seed, true, &found));
+    }}
+    {more}
+    return 0;
+}}
+"""
+
+
+@pytest.mark.parametrize(("name", "held"), [("puma560", None), ("kuka_iiwa14", 2)])
+def test_seeds_that_are_none_and_held_values_beyond_their_limits_are_refused(name, held, tmp_path):
+    made = export_solver(Robot.from_dh(name), tmp_path / "arm.h", prefix="arm", held=held)
+    assert made
+    more = 'printf("%d", found.count > 0);'
+    if held is not None:
+        more = "".join(
+            f'printf("%d ", arm_ik(T, {value}, {limits}, &found) < 0);'
+            for value, limits in (("9.0", "true"), ("NAN", "false"), ("0.3", "true"))
+        )
+    source, program = tmp_path / "odd.c", tmp_path / "odd"
+    given = "" if held is None else "0.3, "
+    source.write_text(ODD.format(header=tmp_path / "arm.h", held=given, more=more))
+    subprocess.run(["gcc", "-std=gnu11", "-o", program, source, "-lm"], check=True)
+    said = subprocess.run([program], capture_output=True, check=True, text=True).stdout.split()
+    assert said[:3] == ["-1"] * 3
+    assert int(said[3]) > 0
+    assert said[4:] == (["1"] if held is None else ["1", "1", "0"])
+
+
 @pytest.fixture(scope="module")
 def everything_imported():
     """What the first file that a process writes waits for."""

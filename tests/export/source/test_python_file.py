@@ -1,6 +1,8 @@
 """A Python file answers what the robot does, where there is nothing but the standard library."""
 
+import importlib
 import json
+import math
 import re
 import subprocess
 import sys
@@ -105,3 +107,21 @@ def test_a_c_program_does_not_test_a_python_file(tmp_path, capsys):
     assert ended.value.code == 2
     assert "does nothing for Python" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+def test_a_seed_that_is_none_and_a_held_value_beyond_its_limits_are_refused(tmp_path, monkeypatch):
+    """With the value, where it is the held one's with the limits."""
+    export_solver(Robot.from_dh("kuka_iiwa14"), tmp_path / "odd_iiwa.py", held=2)
+    monkeypatch.syspath_prepend(tmp_path)
+    arm = importlib.import_module("odd_iiwa")
+    q = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]
+    T = arm.fk(q)
+    assert arm.ik_near(T, 0.3, q).q
+    for odd in (math.nan, math.inf, 1e9):
+        with pytest.raises(ValueError, match="seed"):
+            arm.ik_near(T, 0.3, [odd, *q[1:]])
+        with pytest.raises(ValueError, match=r"held: .* is outside the limits"):
+            arm.ik(T, odd, within_limits=False)
+    with pytest.raises(ValueError, match=r"held: 9\.0 is outside the limits -2\.96"):
+        arm.ik(T, 9.0)
+    assert arm.ik(T, 0.3 + 2.0 * math.pi, within_limits=False).q
