@@ -1,8 +1,8 @@
 """At how many poses an exported file says that its solutions are all.
 
 ``python -m tests.export.source.complete [ARM...]``: each arm's file is compiled and solves 3000
-poses, a third of them random, a third at multiples of 45 degrees, a third beside such; of arms with
-a joint to spare that one is held. Poses in doubt are those where ``Robot.ik`` searches in Python.
+poses, a third of them random, a third at multiples of 45 degrees, a third beside such, and 300 with
+all joints at multiples of 90 degrees; of arms with a joint to spare that one is held. Poses in doubt are those where ``Robot.ik`` searches in Python.
 """
 
 import sys
@@ -18,7 +18,10 @@ POSES = 3000
 
 
 def main(names):
-    """Print a line for each arm: all, of these the random, the singular, those beside."""
+    """Print a line for each arm: all, of these the random, the singular, those beside.
+
+    Then those at multiples of 90 degrees, and how many of them have no solution in the file.
+    """
     for name in names or list_tables():
         robot = Robot.from_dh(name)
         held = robot.solver.joint if robot.n == 7 else None
@@ -27,7 +30,12 @@ def main(names):
             arm.compile("-O1", "-ffp-contract=off")
             found = arm.run(configurations(robot, np.random.default_rng(2), POSES))
             whole = found["inside"]["complete"]
+            low, high = robot.bounded(1.0, np.pi)
+            turns = np.random.default_rng(3).uniform(low, high, (300, robot.n))
+            q = np.where(robot.slides, turns, 0.5 * np.pi * np.round(turns / (0.5 * np.pi)))
+            square = arm.run(np.clip(q, low, high))["inside"]
         shares = [100.0 * np.mean(x) for x in (whole, *(whole[k::3] for k in range(3)))]
+        shares += [100.0 * np.mean(x) for x in (square["complete"], square["count"] == 0)]
         text = " ".join(f"{share:6.1f}" for share in shares)
         print(f"{name:24s} {arm.made.solver:28s} {text} %", flush=True)
 
