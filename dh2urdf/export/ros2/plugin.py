@@ -5,7 +5,7 @@ from pathlib import Path
 
 from dh2urdf.dh import DHTable
 from dh2urdf.doors import found
-from dh2urdf.exceptions import ArgumentError
+from dh2urdf.exceptions import ArgumentError, NoSolverError
 from dh2urdf.export.blanks import filled
 from dh2urdf.export.ros2.parameters import PLAIN_NAME
 from dh2urdf.export.self_test import has_workspace
@@ -64,7 +64,15 @@ def plugin_files(table: DHTable, blanks: Mapping[str, str]) -> dict[str, str]:
     """
     if odd := [name for name in table.joint_names if not PLAIN_NAME.fullmatch(name)]:
         raise ArgumentError(f"{found(odd[0])}: a plugin has joints of letters, digits, _ and -")
-    made = exported(Robot.from_dh(table), language="c")
+    from dh2urdf.ik.redundant import SweptJoint
+
+    robot = Robot.from_dh(table)
+    if isinstance(robot.solver, SweptJoint):
+        raise NoSolverError(
+            "MoveIt asks its plugins with no joint held, and this arm has a joint to spare: leave "
+            "out the plugin (--plugin), and the package is written with KDL's"
+        )
+    made = exported(robot, language="c")
     joints = ", ".join(f'"{name}"' for name in table.joint_names)
     works = has_workspace(made)
     both = {
