@@ -157,6 +157,7 @@ def extract_dh(
         carry,
         configurations,
         following,
+        following_alike,
         read_source,
         table_poses,
     )
@@ -177,7 +178,7 @@ def extract_dh(
     if written is not None and wanted in (None, written.convention):
         fits = written.n == chain.n
         error = pose_error(table_poses(written, qs), truth) if fits else math.inf
-        follow = tuple(row.mimic for row in written.joints) == (found.mimics or (None,) * chain.n)
+        follow = fits and following_alike(written, found.mimics)
         if error <= allowed and follow:
             return Extraction(written, found.base, found.tip, error, len(qs), ())
         warnings.append(_assigned_anew(written, error, follow))

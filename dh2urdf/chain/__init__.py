@@ -6,7 +6,7 @@ fewer or other values move its joints, `coupled_chain` a chain that fewer values
 """
 
 from dh2urdf.chain.coupled_chain import CoupledChain
-from dh2urdf.chain.coupling import Coupling, coupling_of, follow, parted
+from dh2urdf.chain.coupling import Coupling, coupling_of, follow, parted, resolved
 from dh2urdf.chain.serial_chain import FARTHEST, SerialChain, settled_state
 
 __all__ = [
@@ -17,5 +17,6 @@ __all__ = [
     "coupling_of",
     "follow",
     "parted",
+    "resolved",
     "settled_state",
 ]

@@ -195,7 +195,14 @@ class CoupledChain(SerialChain):
         )
 
     def _never_back(self, i: int, v: int) -> str:
-        """Why no number of turns of value v brings joint i back, and what that means."""
+        """Why no number of turns of value v brings joint i back, and what there is instead."""
+        if self.sliding[i]:
+            by = math.radians(self.factors[i] * self.unit * 1e3)
+            return (
+                f"a slide that follows {self.names[v]}, which turns, moves {by:.6g} mm for each "
+                "degree of it: such an arm has no closed form; ik_numeric finds solutions one at "
+                "a time"
+            )
         how = (
             f"turns {self.factors[i]:.12g} times as far, no ratio of whole numbers up to {LARGEST}"
         )

@@ -143,7 +143,7 @@ def follow(chain: SerialChain, mimics: Mapping[str, Mimic]) -> Coupling | None:
     """
     if not any(name in mimics for name in chain.names):
         return None
-    terms = [_resolve(name, mimics) for name in chain.names]
+    terms = [resolved(name, mimics) for name in chain.names]
     leaders = [leader for leader, _, _ in terms]
     places = {v: chain.names.index(v) if v in chain.names else leaders.index(v) for v in leaders}
     names = tuple(sorted(places, key=lambda v: places[v]))
@@ -182,8 +182,8 @@ def _bounded(chain: SerialChain, given: Coupling) -> Coupling:
     return replace(given, lower=lower, upper=upper, warnings=warnings)
 
 
-def _resolve(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:
-    """Leader, factor and constant of a joint, through chains of mimics."""
+def resolved(name: str, mimics: Mapping[str, Mimic]) -> tuple[str, float, float]:
+    """Leader that follows none, factor and constant of a joint, through chains of mimics."""
     factor, constant, seen = 1.0, 0.0, {name}
     while name in mimics and mimics[name].joint not in seen:
         mimic = mimics[name]

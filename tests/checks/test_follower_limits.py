@@ -2,7 +2,9 @@
 
 import re
 
+import pinocchio as pin
 import pytest
+import urdf_faults
 from coupled_arms import painter
 
 from dh2urdf import urdf_text
@@ -35,3 +37,17 @@ def test_limits_that_leave_a_leader_nothing_are_told(limits, multiplier, words, 
     assert "follows 'joint_5'" in said
     assert words in said
     assert bool(words) == ("but its limits" in said)
+
+
+def test_a_follower_of_a_follower_is_one_that_pinocchio_refuses_to_move(written):
+    """With mimic=True; yourdfpy complains, and check says so of both."""
+    wrist = urdf_faults.joint("wrist", parent="fore", child="hand", extra='<mimic joint="elbow"/>')
+    text = urdf_faults.arm(
+        elbow=urdf_faults.joint(extra='<mimic joint="shoulder"/>'),
+        extra=f'<link name="hand">{urdf_faults.BODY}</link>{wrist}',
+    )
+    path = written("arm.urdf", text)
+    with pytest.raises(ValueError, match="wrong argument size"):
+        pin.buildModelFromUrdf(str(path), mimic=True)
+    (found,) = [f for f in check_urdf(path) if "which follows another" in f.message]
+    assert any("refuses" in str(effect) for effect in found.effects)

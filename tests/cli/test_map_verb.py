@@ -79,3 +79,21 @@ def test_time_left_counts_the_work_of_this_run(monkeypatch, capsys):
             clock[0] += 5.0
             report(done, 100)
     assert "mapping: 92 of 100, 40 s left" in capsys.readouterr().err
+
+
+def test_nothing_is_written_of_an_arm_without_a_solver(run, tmp_path):
+    """Exit 2, and no folder of a map that cannot be."""
+    table = tmp_path / "scissor.yaml"
+    zeros = "theta: 0, d: 0, alpha: 0"
+    table.write_text(f"""name: scissor
+convention: standard
+units: {{length: mm, angle: deg}}
+joints:
+  - {{name: j1, a: 100, {zeros}, lower: -90, upper: 90}}
+  - {{name: s, a: 0, {zeros}, type: prismatic, mimic: {{joint: j1, multiplier: 1 mm/deg}}}}
+  - {{name: j2, a: 100, {zeros}}}
+""")
+    code, _, err = run("map", str(table), "-o", str(tmp_path / "z.zarr"), "--step", "0.1")
+    assert code == 2
+    assert "has no closed form" in err
+    assert not (tmp_path / "z.zarr").exists()

@@ -7,6 +7,7 @@ from lxml import etree
 from dh2urdf import Robot, export_solver
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.export.ros2 import ros2_package
+from dh2urdf.export.source import exported
 from dh2urdf.symbolic import symbolic_ik
 
 
@@ -48,3 +49,30 @@ def test_followers_are_at_home_where_their_leaders_put_them():
     home = {joint.get("name"): float(joint.get("value")) for joint in state}
     assert home["joint_2"] == 1.0
     assert home["joint_4"] == -1.0
+
+
+def test_a_package_says_which_joints_follow_and_asks_of_four_values_a_position():
+    """In README, package.xml and MoveIt's parameters."""
+    files = ros2_package("abb_irb460", "arm_description").files
+    for place in ("README.md", "config/kinematics.yaml"):
+        assert "level_2 follows joint_2; level_3 follows joint_3." in files[place]
+    for place in ("README.md", "package.xml"):
+        assert "an arm of 6 joints (2 follow others)" in files[place]
+    assert "position_only_ik: true" in files["config/kinematics.yaml"]
+
+
+def test_a_package_says_that_its_joint_is_not_the_controllers():
+    """J3 of a pendant counts from the level."""
+    files = ros2_package("fanuc_r1000ia80f", "arm_description").files
+    for place in ("README.md", "config/kinematics.yaml"):
+        assert (
+            "joint_3 of the URDF is the joint itself, at the controller's joint_3 plus 1 joint_2"
+            in files[place]
+        )
+
+
+def test_no_one_is_told_to_leave_out_couplings_that_are_followers():
+    """Only of a controller's angles is the table without them the same arm."""
+    with pytest.raises(NoSolverError, match="4 values move 6 joints") as error:
+        exported(Robot.from_dh("abb_irb460"), language="c")
+    assert "without couplings" not in str(error.value)

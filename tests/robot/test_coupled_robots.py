@@ -4,12 +4,14 @@ import pickle
 
 import numpy as np
 import pinocchio as pin
+import pytest
 from dh_product import dh_frames, difference
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import coupled_tables, moved_joints
 
 from dh2urdf import DHRow, DHTable, Mimic, Robot, urdf_text
+from dh2urdf.exceptions import NoSolverError
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -101,3 +103,12 @@ def test_a_coupled_robot_survives_pickling():
     again = pickle.loads(pickle.dumps(robot))
     assert again.joint_names == robot.joint_names
     assert np.array_equal(again.fk([0.3, 0.4]), robot.fk([0.3, 0.4]))
+
+
+def test_a_slide_that_follows_a_turn_is_refused_in_its_units():
+    """By ik; what there is instead is named."""
+    rows = [DHRow(a=0.2, alpha=0.5 * k, name=f"j{k}") for k in range(1, 7)]
+    slide = DHRow(joint_type="prismatic", mimic=Mimic("j3", 0.8e-3 * 180 / np.pi))
+    robot = Robot.from_dh(DHTable((*rows[:3], slide, *rows[3:]), "standard"))
+    with pytest.raises(NoSolverError, match=r"slide .* j3, .* moves 0.8 mm .* degree.* ik_numeric"):
+        robot.ik(np.eye(4))

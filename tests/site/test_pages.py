@@ -3,10 +3,11 @@
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import dh2urdf
-from dh2urdf import compare
+from dh2urdf import Robot, compare
 from docs.extensions.blocks import Runner, blocks
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -61,3 +62,14 @@ def test_runner_fails_where_a_command_does(tmp_path):
     for text in ("```sh\nfalse\n```", "<!-- status 1 -->\n```sh\ntrue\n```"):
         with pytest.raises(RuntimeError, match="status"):
             run(_block(text))
+
+
+def test_the_forearm_of_the_page_on_coupled_joints_stays_at_the_angle_shown(written):
+    """Whatever J2 is; and FANUC's turns of J4 and J6 are those of q."""
+    texts = {b.file: b.text for b in blocks((DOCS / "howto" / "coupled.md").read_text())}
+    robot = Robot.from_dh(written("coupled.yaml", texts["coupled.yaml"]))
+    q = np.radians([[10, j2, j3, 0, 0, 0] for j2 in (0, 20, 40) for j3 in (-30, 10)])
+    assert np.abs(np.arcsin(robot.fk(q)[:, 2, 2]) - q[:, 2]).max() < 1e-12
+    shown = np.radians([10, 20, 10, 185, -40, -200])
+    (word, *_) = robot.ik(robot.fk(shown), seed=shown).words("fanuc")
+    assert word[3:] == (0, 1, -1)

@@ -158,18 +158,29 @@ def mimic(doc: Document) -> Iterator[Finding]:
     equality = "makes an equality of it from 3.13 on, which simulation keeps and qpos may not"
     constraint = "makes a constraint of it, which a SAP solver in discrete time keeps; else free"
     effects = (
-        accept("yourdfpy RViz", "move it along"),
-        accept("Pinocchio", "moves it along when asked: buildModelFromUrdf(path, mimic=True)"),
         accept("MuJoCo", equality),
         accept("Drake", constraint),
         accept("PyBullet KDL ikpy", "move it on its own"),
+    )
+    moves = (
+        accept("yourdfpy RViz", "move it along"),
+        accept("Pinocchio", "moves it along when asked: buildModelFromUrdf(path, mimic=True)"),
+    )
+    stays = (
+        complain("yourdfpy", "takes the leader as 0"),
+        accept("Pinocchio", "moves it on its own; with mimic=True it refuses the file"),
+        accept("RViz", "moves it along"),
     )
     for joint, element in _followers(doc):
         leader = doc.joint_by_name.get(element.get("joint", ""))
         if leader is not None and leader is not joint and doc.kind(leader) in MOVING:
             mend = "set both values in programs that move it on its own"
             words = f"follows {leader.get('name')!r}{_excluded(doc, joint, element, leader)}"
-            yield finding(element, words, *effects, mend=mend)
+            moved = moves if leader.find("mimic") is None else stays
+            if moved is stays:
+                words = f"{words}, which follows another"
+                mend = "name the joint that leads both, with the product of the multipliers"
+            yield finding(element, words, *moved, *effects, mend=mend)
 
 
 def _excluded(

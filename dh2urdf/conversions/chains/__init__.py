@@ -9,6 +9,7 @@ from dh2urdf.conversions.chains.carried import (
     carried_joint_frames,
     carry,
     following,
+    following_alike,
 )
 from dh2urdf.conversions.chains.extract_source import read_source
 from dh2urdf.conversions.chains.model_chain import (

@@ -6,7 +6,7 @@ from dataclasses import asdict, replace
 import numpy as np
 import pinocchio as pin
 
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import SerialChain, resolved
 from dh2urdf.conversions.chains.model_chain import ChainPath
 from dh2urdf.conversions.chains.tree_chain import ChainSource
 from dh2urdf.conversions.read import Actuation
@@ -45,6 +45,19 @@ def following(table: DHTable, mimics: Sequence[Mimic | None]) -> DHTable:
     each = iter(mimics)
     rows = (replace(row, mimic=next(each)) if row.is_joint else row for row in table.rows)
     return replace(table, rows=tuple(rows))
+
+
+def following_alike(table: DHTable, mimics: Sequence[Mimic | None]) -> bool:
+    """Whether the joints of a table follow as those of a source do, which may name other leaders.
+
+    A file that is written of a joint which follows a follower names the one that leads both.
+    """
+    names = table.joint_names
+    own, read = (
+        {name: mimic for name, mimic in zip(names, each, strict=False) if mimic is not None}
+        for each in ([row.mimic for row in table.joints], mimics)
+    )
+    return all(resolved(name, own) == resolved(name, read) for name in names)
 
 
 def carried_dh_frames(table: DHTable, own: LinkFrames) -> Array:

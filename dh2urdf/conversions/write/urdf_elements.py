@@ -7,7 +7,7 @@ import numpy as np
 from lxml import etree
 
 from dh2urdf.bounds import ANGLE, LENGTH
-from dh2urdf.chain import SerialChain
+from dh2urdf.chain import SerialChain, resolved
 from dh2urdf.conversions.write.bodies import Body, draw_bodies
 from dh2urdf.conversions.write.inertia import Inertial, inertial_element, whole_numbers
 from dh2urdf.conversions.write.link_masses import link_masses
@@ -103,6 +103,8 @@ class _Writer:
         self.table, self.options = table, options
         self.chain: SerialChain = dh_to_chain(table)
         self.frames: LinkFrames = link_frames(table)
+        pairs = zip(table.joint_names, table.joints, strict=True)
+        self.mimics = {name: row.mimic for name, row in pairs if row.mimic is not None}
         self.bodies = draw_bodies(table, self.chain)
         self.masses, self.warnings = link_masses(table, self.frames.dh, self.bodies, options)
         self.robot = etree.Element("robot", name=table.name)
@@ -176,9 +178,10 @@ class _Writer:
         if row.damping is not None or row.friction is not None:
             etree.SubElement(joint, "dynamics", {k: self._number(v) for k, v in losses.items()})
         if row.mimic is not None:
-            numbers = {"multiplier": row.mimic.multiplier, "offset": row.mimic.offset}
-            follows = {"joint": row.mimic.joint, **{k: repr(v) for k, v in numbers.items()}}
-            etree.SubElement(joint, "mimic", follows)
+            # Pinocchio and yourdfpy take no leader that follows another
+            leader, multiplier, offset = resolved(name, self.mimics)
+            numbers = {"multiplier": repr(multiplier), "offset": repr(offset)}
+            etree.SubElement(joint, "mimic", {"joint": leader, **numbers})
 
     def _link(self, name: str, inertial: Inertial, bodies: list[Body]) -> None:
         link = etree.SubElement(self.robot, "link", name=name)

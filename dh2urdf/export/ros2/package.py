@@ -18,7 +18,13 @@ from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.doors import flag
 from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
 from dh2urdf.export.blanks import filled
-from dh2urdf.export.ros2.parameters import KDL, PLAIN_NAME, joint_limits_yaml, kinematics_yaml
+from dh2urdf.export.ros2.parameters import (
+    KDL,
+    PLAIN_NAME,
+    coupled_words,
+    joint_limits_yaml,
+    kinematics_yaml,
+)
 from dh2urdf.export.ros2.self_collisions import Disabled, disabled_collisions
 from dh2urdf.export.ros2.semantics import srdf_text
 
@@ -111,12 +117,20 @@ def _blanks(table: DHTable, name: str, arm: str, disabled: Sequence[Disabled]) -
     return {
         "PACKAGE": name,
         "ARM": arm,
-        "COUNT": str(table.n),
+        "COUNT": _count(table),
         "VERSION": __version__,
-        "DESCRIPTION": f"Description of an arm of {table.n} joints for ROS 2 and MoveIt 2",
+        "DESCRIPTION": f"Description of an arm of {_count(table)} for ROS 2 and MoveIt 2",
+        "COUPLED": "".join(f"\n{line}\n" for line in coupled_words(table)),
         "DISABLED": _counts(disabled),
         **dict.fromkeys(("PLUGIN_CMAKE", "PLUGIN_DEPENDS", "PLUGIN_ABOUT"), ""),
     }
+
+
+def _count(table: DHTable) -> str:
+    """How many joints an arm has, and how many of them follow others."""
+    followers = sum(row.mimic is not None for row in table.joints)
+    more = f" ({followers} follow{'s' * (followers == 1)} others)" if followers else ""
+    return f"{table.n} joints{more}"
 
 
 def write_ros2_package(

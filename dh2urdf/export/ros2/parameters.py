@@ -22,6 +22,8 @@ _KINEMATICS = """\
 
 _POSITION_ONLY = "  position_only_ik: true  # fewer than six joints reach no pose at will\n"
 
+_FEW_VALUES = "  position_only_ik: true  # fewer than six values reach no pose at will\n"
+
 _LIMITS = """\
 default_velocity_scaling_factor: 0.1
 default_acceleration_scaling_factor: 0.1
@@ -39,9 +41,24 @@ _LIMIT = """\
 
 
 def kinematics_yaml(table: DHTable, solver: str = KDL) -> str:
-    """Solver of the group; KDL's reaches positions alone with fewer than six joints."""
-    alone = table.n < 6 and solver == KDL
-    return _KINEMATICS.format(group=GROUP, solver=solver) + (_POSITION_ONLY if alone else "")
+    """Solver of the group; KDL's reaches positions alone with fewer than six values."""
+    values = sum(row.mimic is None for row in table.joints)
+    few = _POSITION_ONLY if table.n < 6 else _FEW_VALUES
+    alone = few if values < 6 and solver == KDL else ""
+    said = "".join(f"# {line}\n" for line in coupled_words(table))
+    return said + _KINEMATICS.format(group=GROUP, solver=solver) + alone
+
+
+def coupled_words(table: DHTable) -> list[str]:
+    """What someone who moves the URDF's joints has to know of followers and couplings."""
+    pairs = zip(table.joint_names, table.joints, strict=True)
+    follow = "; ".join(f"{name} follows {row.mimic.joint}" for name, row in pairs if row.mimic)
+    words = [
+        f"{name} of the URDF is the joint itself, at the controller's {name} plus "
+        f"{' plus '.join(f'{ratio:g} {other}' for other, ratio in terms.items())}"
+        for name, terms in table.couplings.items()
+    ]
+    return [f"{' '.join(each.split())}." for each in (follow, *words) if each]
 
 
 def joint_limits_yaml(table: DHTable) -> str:

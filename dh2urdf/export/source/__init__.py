@@ -133,10 +133,7 @@ def exported(
     spoken = _language(language, path)
     name = _prefix(robot, prefix, path)
     if robot.is_coupled:
-        raise NoSolverError(
-            "joints that follow others or are coupled cannot be exported; of a controller's angles "
-            "export the table without couplings, and add them where its solver is called"
-        )
+        raise NoSolverError(_not_exported(robot))
     solver: Solver | HeldSolver = robot.solver
     if held is not None:
         joint = _joint(robot, held)
@@ -152,6 +149,20 @@ def exported(
     written = PythonProgram(robot, program) if python else CProgram(robot, program, name)
     text = written.text()
     return Exported(text, spoken, name, solver.name, solver.kmax, written.stack)
+
+
+def _not_exported(robot: Robot) -> str:
+    """Why no solver of joints that follow others or are coupled is written, and what can be."""
+    if robot.n == robot.chain.n:
+        return (
+            "coupled joints cannot be exported; export the table without couplings, and add them "
+            "where its solver is called"
+        )
+    return (
+        f"joints that follow others cannot be exported: {robot.n} values move {robot.chain.n} "
+        "joints, and a solver of these without their followers is one of another arm; ik and "
+        "ik_batch of the package solve them"
+    )
 
 
 def _language(language: str | None, path: Path | None) -> str:

@@ -140,6 +140,7 @@ def _worked(
     levels = [settings]
     for _ in range(settings.refine):
         levels.append(levels[-1].halved())
+    arm.solver_for(task=settings.task)  # or an error, before anything is written
     said = provenance(arm, settings)
     paths = [_path_of_level(path, level, settings.refine) for level in range(len(levels))]
     values: Values | None = None

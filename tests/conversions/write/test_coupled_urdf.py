@@ -4,12 +4,23 @@ import math
 import re
 
 import numpy as np
+import pinocchio as pin
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from strategies import coupled_tables
 
-from dh2urdf import DHRow, DHTable, Mimic, Robot, UrdfOptions, to_convention, urdf_text, write_urdf
+from dh2urdf import (
+    DHRow,
+    DHTable,
+    Mimic,
+    Robot,
+    UrdfOptions,
+    extract_dh,
+    to_convention,
+    urdf_text,
+    write_urdf,
+)
 from dh2urdf.conversions.write import verified_urdf
 from dh2urdf.convert import table_of_description
 
@@ -98,3 +109,23 @@ def test_a_table_of_the_other_convention_moves_its_joints_as_well(table):
     q = np.random.default_rng(0).uniform(-1, 1, (5, a.n))
     assert other.couplings == table.couplings
     assert np.abs(a.fk(q) - b.fk(q)).max() < 1e-12
+
+
+def test_a_follower_of_a_follower_is_written_as_one_of_what_leads_both():
+    """Pinocchio and yourdfpy take no other; the embedded table keeps what it says."""
+    rows = (
+        DHRow(a=1.0, lower=-1.0, upper=2.0),
+        DHRow(a=0.5, mimic=Mimic("joint_1", -2.0, 0.1)),
+        DHRow(a=0.3, mimic=Mimic("joint_2", -0.5, 0.2)),
+    )
+    table = DHTable(rows, "standard", name="arm")
+    text = verified_urdf(table)[0]
+    assert text.count('<mimic joint="joint_1"') == 2
+    model = pin.buildModelFromXML(text, mimic=True)
+    data = model.createData()
+    pin.framesForwardKinematics(model, data, np.array([0.3]))
+    T = data.oMf[model.getFrameId("tool0")].homogeneous
+    assert np.abs(T - Robot.from_dh(table).fk([0.3])).max() < 1e-12
+    found = extract_dh(text)
+    assert found.table == table
+    assert not found.warnings
