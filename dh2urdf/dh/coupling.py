@@ -114,6 +114,8 @@ def _of_row(
         yield Problem(i, ("mimic",), f"{names[i]!r} has couplings, too; a joint has one of both")
     if leader not in names:
         text = f"no joint {leader!r} to follow; there are {_list(names)}"
+        if leader[:1] == "-" and leader[1:] in names:
+            text = f"no joint {leader!r} to follow; to turn against it write {leader[1:]} -1"
         yield Problem(i, ("mimic", "joint"), text)
         return
     if leader == names[i]:

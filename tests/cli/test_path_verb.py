@@ -68,7 +68,8 @@ def test_breaks_and_gaps_are_told_by_line_and_marked(run, tmp_path):
     assert np.isfinite(q[[0, 1, 2, 5, 6]]).all()
     assert err.splitlines()[0].startswith("in.csv:7: break: joint_")
     assert err.splitlines()[0].endswith(" rad from the pose on line 6")
-    assert err.splitlines()[1] == "in.csv: out of reach: lines 4 to 5"
+    gap = err.splitlines()[1]
+    assert gap.startswith("in.csv: lines 4 to 5: of the first, the wrist centre lies ")
     assert "1 break, 2 out of reach" in out
     told = json.loads(run(*argv, "--json")[1])
     assert (told["breaks"], told["unreachable"], told["continuous"]) == ([6], [3, 4], False)
@@ -111,3 +112,14 @@ def test_a_path_prints_in_a_few_lines():
     assert repr(path) == f"<IKPath: {path.summary}>"
     assert len(repr(path)) < 100
     assert f"... and {len(path.breaks) - 5} more breaks" in str(path)
+
+
+def test_a_pose_whose_point_is_reached_is_not_out_of_reach(run, tmp_path):
+    """A palletiser comes to the point of a tilted pose, and path says so as ik does."""
+    robot = dh2urdf.Robot.from_dh("abb_irb460")
+    T = robot.fk(0.5 * (robot.lower + robot.upper) + np.array([[0.1], [0.1]]))
+    T[1, :3, :3] = T[1, :3, :3] @ [[1, 0, 0], [0, 0.8, -0.6], [0, 0.6, 0.8]]
+    poses_file(tmp_path / "in.csv", T)
+    status, _, err = run("path", "abb_irb460", "in.csv", "-o", "out.csv")
+    assert status == 1
+    assert "in.csv:2: the tool reaches the point, but not with this orientation" in err

@@ -82,6 +82,11 @@ REFUSED = {
         {"joint_3": {"joint_3": 1}},
         "couplings.joint_3.joint_3: the joint's",
     ),
+    "a sign before the name": (
+        [(4, Mimic("-joint_1"))],
+        {},
+        "joint_4.mimic.joint: no joint '-joint_1' to follow; to turn against it write joint_1 -1",
+    ),
     "coupled unknown": ([], {"joint_9": {"joint_3": 1}}, "couplings.joint_9: no joint 'joint_9'"),
     "coupled to unknown": ([], {"joint_3": {"elbow": 1}}, "couplings.joint_3.elbow: no joint"),
     "coupled to a follower": (

@@ -45,8 +45,8 @@ def held_joints(coupling: Coupling, held: tuple[int, ...]) -> tuple[int, ...]:
             break
     name, more = coupling.names[v], " and ".join(others)
     raise ConfigurationError(
-        f"locked: {name!r} held at a value holds no joint, since one moves by it and by {more}; "
-        f"hold {more}, too"
+        f"locked: {name} alone holds no joint still, since the one that it moves also moves by "
+        f"{more}; hold {more}, too"
     )
 
 

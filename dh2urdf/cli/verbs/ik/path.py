@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -20,8 +21,11 @@ from dh2urdf.dh_io import atomic_write, refuse_foreign
 from dh2urdf.exceptions import ArgumentError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from dh2urdf.ik.problem import IKPath
     from dh2urdf.robot import Robot
+    from dh2urdf.transforms import Array
 
 SHOWN = 20
 """Breaks, and poses out of reach, that are told one by one."""
@@ -109,7 +113,8 @@ def path_(
         from dh2urdf.figures import path_figure, save_picture
 
         save_picture(path_figure(arm, found), figure, dpi=dpi, force=force)
-    _tell(arm, found, read, output if to_file else None, figure, json=json)
+    why = partial(arm.why_unreachable, within_limits=within_limits, task=task, nearest=nearest)
+    _tell(arm, found, read, output if to_file else None, figure, why, json=json)
     return 0 if found.continuous else 1
 
 
@@ -128,19 +133,24 @@ def _csv(arm: Robot, path: IKPath, *, deg: bool) -> bytes:
 
 
 def _tell(
-    arm: Robot, path: IKPath, read: Poses, output: Path | None, figure: Path | None, *, json: bool
+    arm: Robot,
+    path: IKPath,
+    read: Poses,
+    output: Path | None,
+    figure: Path | None,
+    why: Callable[[Array], str],
+    *,
+    json: bool,
 ) -> None:
-    """What was found: a summary, and where the path breaks."""
+    """What was found: a summary, where the path breaks, and ``why`` poses have no solution."""
     tell_change(float(path.pose_change.max(initial=0.0)))
     told = [_break(arm, path, read, i) for i in path.breaks[:SHOWN]]
     if len(path.breaks) > SHOWN:
         told.append(f"... and {len(path.breaks) - SHOWN} more breaks")
-    told += [
-        f"{read.file}: out of reach: lines {read.lines[first]} to {read.lines[last]}"
-        if first < last
-        else f"{read.name(first)}: out of reach"
-        for first, last in path.gaps[:SHOWN]
-    ]
+    for first, last in path.gaps[:SHOWN]:
+        reason = why(read.T[first]) or "out of reach"
+        many = f"{read.file}: lines {read.lines[first]} to {read.lines[last]}: of the first, "
+        told.append(f"{many if first < last else f'{read.name(first)}: '}{reason}")
     if len(path.gaps) > SHOWN:
         told.append(f"... and {len(path.gaps) - SHOWN} more gaps")
     for line in told:
