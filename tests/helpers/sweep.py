@@ -142,11 +142,24 @@ def _check_solutions(tally, table, arm, solutions, T, q):
     if ((away + 9.0 * np.eye(len(found)) < MOST) & alike).any():
         tally.note("twice", table, q)
     sigma = smallest_of_far(arm, found, moving)
-    for p, mask, small in zip(found, masks.tolist(), sigma, strict=True):
-        bits = (mask >> np.arange(arm.n)) & 1 == 1
-        if mask and not is_family(arm, p, T, bits):
+    for k, (p, mask, small) in enumerate(zip(found, masks.tolist(), sigma, strict=True)):
+        if mask and not _named_rightly(arm, found, masks, k, T):
             tally.note("no family", table, q)
             break
         if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE, LENGTHS[:1], False):
             tally.note("unnamed", table, q)
             break
+
+
+def _named_rightly(arm, found, masks, k, T):
+    """Whether a walk from solution k is a family, or one from another solution that comes to it.
+
+    Where curves cross at a solution, ways from there end on either of them.
+    """
+    bits = (masks[k] >> np.arange(arm.n)) & 1 == 1
+    if is_family(arm, found[k], T, bits):
+        return True
+    others = (p for j, p in enumerate(found) if j != k and masks[j] == masks[k])
+    return any(
+        is_family(arm, p, T, bits) and on_family(arm, p, found[k], T, bits, MOST) for p in others
+    )
