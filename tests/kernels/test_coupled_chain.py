@@ -70,7 +70,7 @@ def test_a_ratio_that_is_none_is_refused_by_name():
     matrix = MATRIX.copy()
     matrix[3, 0] = 0.7183
     chain = _coupled(matrix)
-    with pytest.raises(NoSolverError, match=r"follows a: 0\.7183 times"):
+    with pytest.raises(NoSolverError, match=r"follows a turns 0\.7183 times"):
         _ = chain.in_turns
 
 

@@ -50,7 +50,7 @@ def rows(form, x):
 
 def text_of(kernel):
     """The C of a kernel of a known form and a number."""
-    file = ArmFile("arm")
+    file = ArmFile("arm", 1)
     file.add_entry(kernel, [file.fixed("form", FORM), "float"])
     return file.text()
 
