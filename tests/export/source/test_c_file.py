@@ -364,7 +364,7 @@ def test_every_arm_that_ships_is_exported_at_once_and_works_in_little_stack(name
     """
     robot, seconds = Robot.from_dh(name), []
     if robot.is_coupled:
-        with pytest.raises(NoSolverError, match="follow|coupled joints"):
+        with pytest.raises(NoSolverError, match=r"follow|coupled joints"):
             exported(robot, language="c")
         return
     while len(seconds) < 2 and min(seconds, default=9.0) >= 2.0:  # on a busy core twice
