@@ -12,6 +12,7 @@ from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
 from dh2urdf.ik.arm import HeldSolver, Outputs
+from dh2urdf.ik.families.general_6r import plan_general_6r
 
 __all__ = ["KEYS", "QUICK", "run"]
 
@@ -19,7 +20,10 @@ Array = NDArray[np.float64]
 Parts = dict[str, tuple[Callable[[], object], int]]
 """Calls by name, and how many poses each takes."""
 
-KEYS = QUICK = ("puma560", "ur5", "franka_fer")
+QUICK = ("puma560", "ur5", "franka_fer")
+PLANNED = ("generic_6r", "ur5e_calibrated")
+"""Arms of which the general solver tries all eliminations when it is built."""
+KEYS = (*QUICK, *PLANNED)
 FRESH = 100_000
 """Poses of the batch whose memory is filled."""
 
@@ -31,6 +35,9 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
     """The single call of closed forms, and forward kinematics."""
     for key in keys:
         arm = arm_named(key)
+        if key in PLANNED:
+            _add(results, key, _planned(arm))
+            continue
         _add(results, key, _held_parts(arm) if arm.held else _inverse_parts(arm))
         if key == "ur5":
             _add(results, key, _forward_parts(arm))
@@ -82,6 +89,11 @@ def _held_parts(arm: Arm) -> Parts:
         "solver, one pose": (lambda: solver.solve_held(T[:1], values[:1], False, one), 1),
         "solver, a pose of many": (lambda: solver.solve_held(T, values, False, many), MANY),
     }
+
+
+def _planned(arm: Arm) -> Parts:
+    chain = Robot.from_dh(arm.table).chain
+    return {"trying eliminations": (lambda: plan_general_6r(chain.links, chain.prismatic), 1)}
 
 
 def _forward_parts(arm: Arm) -> Parts:

@@ -6,6 +6,8 @@ All on one thread.
 * **entry**: a kernel called with no pose: arguments checked, the function found and left.
 * **memory**: the arrays of the answers written once, where they have been written before, and
   where the system has never handed them out; all poses of a batch, 8 bytes at a time.
+* **in the cache**: two batches whose answers fit into a processor's own cache, solved again and
+  again into the same arrays, one after the other on one thread and side by side on two.
 * **arctangents**: as many as the joint values of all solutions need that are no mirror images of
   others, by NumPy, which has them as vector instructions where the processor does.
 """
@@ -13,6 +15,7 @@ All on one thread.
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +46,9 @@ ANGLES = {
 KEYS = tuple(ANGLES)
 QUICK = ("puma560", "franka_fer")
 MANY = 20_000
+CACHED = 1_000
+"""Poses whose answers, some 600 bytes each, fit into the cache of one core."""
+AGAIN = 20
 
 
 def run(results: Results, keys: tuple[str, ...]) -> None:
@@ -50,7 +56,7 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
     m = 500 if results.quick else MANY
     for key in keys:
         arm = arm_named(key)
-        parts = {**_inverse(arm, m), **_forward(arm, m)}
+        parts = {**_inverse(arm, m), **_forward(arm, m), **_cached(arm)}
         blocks = {name: _block(call, units) for name, (call, units) in parts.items()}
         budget = 0.3 if results.quick else 4.0
         for name, timing in interleaved(blocks, budget, most=100).items():
@@ -91,6 +97,24 @@ def _inverse(arm: Arm, m: int) -> dict[str, tuple[Callable[[], object], int]]:
         "memory": (lambda: again.fill(1.0), m),
         "fresh memory": (lambda: np.full((m, written), 1.0), m),
         "arctangents": (lambda: np.arctan2(y, x, out=target), m),
+    }
+
+
+def _cached(arm: Arm) -> dict[str, tuple[Callable[[], object], int]]:
+    """Two batches one after the other, and each on a thread of its own."""
+    robot, pool = Robot.from_dh(arm.table), ThreadPoolExecutor(2)
+    asked = {"within_limits": False, "locked": arm.locked, "threads": 1}
+    poses = [arm.draw(CACHED, seed=seed)[1] for seed in (1, 2)]
+    rooms = [robot.ik_batch(T, **asked) for T in poses]
+
+    def solve(k: int) -> None:
+        for _ in range(AGAIN):
+            robot.ik_batch(poses[k], out=rooms[k], **asked)
+
+    units = 2 * AGAIN * CACHED
+    return {
+        "in the cache": (lambda: [solve(k) for k in (0, 1)], units),
+        "in the cache, two threads": (lambda: list(pool.map(solve, (0, 1))), units),
     }
 
 
