@@ -73,8 +73,8 @@ def _why_threads(results: Results) -> str:
     )
     gain = f"{one / two:.2f} times" if one and two else "not measured"
     return (
-        f"answers that stay in the cores' own caches gain {gain} (puma560): what is missing is "
-        "memory that both cores write to"
+        f"batches of 1,000 poses, each on a thread of its caller's, whose answers stay in the "
+        f"cores' own caches, gain {gain} (puma560): it is not memory alone"
     )
 
 
