@@ -200,6 +200,18 @@ def test_what_no_held_value_reaches_is_given_up_in_time():
     assert not outcome(robot.ik, T, task="position+axis", locked={0: 0.0}, within_limits=False)
 
 
+def test_a_pose_that_is_off_by_little_of_a_vast_arm_is_given_up_in_time():
+    """A kilometre beyond an arm of 2,400 km, two joints to spare: no search at every value."""
+    rows = [(0.0, 0.0, -0.5, 0.0), (0.0, 0.0, 0.0, 0.0), (0.0, 0.0, -0.5, 0.0)]
+    rows += [(0.0, 0.0, 0.0, -np.pi / 2), (0.3, -0.8185393711526021, 0.0, np.pi)]
+    made = [DHRow(*row) for row in [*rows, (-np.pi / 2, 2436257.0, -0.5, 1e-12)]]
+    robot = dh2urdf.Robot.from_dh(DHTable(tuple(made), "standard"))
+    q = robot.random_configuration(0)
+    T = robot.fk(q)
+    T[:3, 3] += 1e3
+    assert not outcome(robot.ik, T, task="position+axis", seed=q)
+
+
 LENGTHS = st.sampled_from([0.0, 0.3, -0.5, 2436257.0, 1e-7, 1e9, 123.4]) | st.floats(-2.0, 2.0)
 TWISTS = st.sampled_from([0.0, np.pi / 2, -np.pi / 2, np.pi, 1e-7, 1e-12, 0.3])
 ROW = st.tuples(st.sampled_from("RRRP"), TWISTS, LENGTHS, LENGTHS, TWISTS)

@@ -179,6 +179,7 @@ def test_bad_arguments_are_refused():
     for wrong, words in (
         ({"region": [[1, 0], [0, 1]]}, "region, x: lower end first, got 1 and 0"),
         ({"height": (1.0, 0.0)}, "height: lower end first, got 1 and 0"),
+        ({"height": np.ma.masked_all(())}, "height: expected a number from"),
         ({"yaw": (-6.0, 6.0)}, "one turn"),
         ({"task": "all"}, "task"),
         ({"mount": [0, 0]}, "mount"),

@@ -55,6 +55,9 @@ FAR = 0.01
 """Error, in sizes of the arm and radians, of such poses; what is reached, a rim too, is found to
 rounding by one of the searches."""
 
+OFF = 1e-4
+"""The same after damped least squares from many starts, which come close to rims, too."""
+
 SURE = 1e-11
 """Residual [m and rad] of a solution beside which a walk decides whether there is a family."""
 
@@ -154,7 +157,7 @@ class RedundantChain(SolverBase):
         """Whether no configuration comes near a pose (4, 4), limits aside."""
         _, error = nearly_reaching(self.chain, T, self.task)
         error[:, :3] /= self.chain.size
-        return bool(np.abs(error).max(axis=1).min() > FAR)
+        return bool(np.abs(error).max(axis=1).min() > OFF)
 
     @cached_property
     def _starts(self) -> Array:

@@ -75,12 +75,13 @@ class SearchedSolver:
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), and search: of six joints where there is no solution."""
-        self.inner.solve_batch(Ts, within_limits, out)
-        rows = np.flatnonzero((out.counts == 0) | (self.chain.n < SIX))
+        always = self.chain.n < SIX
+        self.inner.solve_batch(Ts, within_limits and not always, out)
+        rows = np.flatnonzero((out.counts == 0) | always)
         if not len(rows):
             return
         poses, known = np.ascontiguousarray(Ts[rows]), out.rows(rows)
-        if within_limits:
+        if within_limits and not always:
             self.inner.solve_batch(poses, False, known)
         out.put(rows, search_short(self.chain, poses, known, within_limits))
 

@@ -108,7 +108,7 @@ def sides(job: Job) -> Array:
 
 def _ends(value: object, what: str, most: float) -> tuple[float, float]:
     """A range of one number, or of two."""
-    if isinstance(value, tuple | list | np.ndarray) and len(value) == 2:
+    if isinstance(value, tuple | list | np.ndarray) and np.shape(value)[:1] == (2,):
         low, high = (number(v, what, -most, most) for v in value)
         return low, high
     single = number(value, what, -most, most)
