@@ -68,7 +68,7 @@ class HeldAtAnyValue(HeldSolver):
         """Solve poses Ts (m, 4, 4), each with its held value (m, 1)."""
         doubt = self.inner.solve_plainly(Ts, values, within_limits, out)
         special = self._special(values[:, 0])
-        folded = np.flatnonzero(self._folded(Ts) & ~_every_branch(out, doubt)).tolist()
+        folded = _left_open(np.flatnonzero(self._folded(Ts)), out, doubt).tolist()
         if len(special):
             found = Outputs.of(len(special), self.kmax, self.chain.n)
             poses = np.ascontiguousarray(Ts[special])
@@ -210,12 +210,14 @@ class HeldAtAnyValue(HeldSolver):
         return dips[self._rank_gap(dips) <= DIP] if len(dips) else dips
 
 
-def _every_branch(out: Outputs, doubt: IntArray) -> NDArray[np.bool_]:
-    """Of which poses all branches are found, each sharp and isolated; some are in doubt."""
-    every: NDArray[np.bool_] = out.residual[:, : HeldWrist.kmax].max(axis=1) <= SHARP
-    every &= (out.counts == HeldWrist.kmax) & ~out.free.any(axis=1)
-    every[doubt] = False
-    return every
+def _left_open(some: IntArray, out: Outputs, doubt: IntArray) -> IntArray:
+    """Those of some poses in doubt, or without all branches, each of them sharp and isolated."""
+    if not len(some):  # as in most batches: what all their residuals are would take a third longer
+        return some
+    every = out.residual[some, : HeldWrist.kmax].max(axis=1) <= SHARP
+    every &= (out.counts[some] == HeldWrist.kmax) & ~out.free[some].any(axis=1)
+    left: IntArray = some[~every | np.isin(some, doubt)]
+    return left
 
 
 def at_any_value(solver: HeldSolver, task: Task) -> HeldSolver:
