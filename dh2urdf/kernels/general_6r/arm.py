@@ -3,7 +3,7 @@
 import numpy as np
 
 from dh2urdf.kernels.general_6r.arc_roots import FACTS, FOUND, SPANS, WAITING
-from dh2urdf.kernels.general_6r.arc_samples import DEGREE, lanes_of, tables_of
+from dh2urdf.kernels.general_6r.arc_samples import DEGREE, lanes_of, table_shapes
 from dh2urdf.kernels.general_6r.arc_shapes import ROWS, SHAPES
 from dh2urdf.kernels.general_6r.brackets import BRACKETS
 from dh2urdf.kernels.general_6r.two_slides import PAIRS
@@ -81,9 +81,9 @@ _WORK = {
 def root_work(degree):
     """What the roots of a polynomial of a degree are found in, by names."""
     lanes, terms = lanes_of(degree), 2 * degree + 1
-    tables = {} if degree == DEGREE else tables_of(degree)
+    tables = {} if degree == DEGREE else table_shapes(degree)
     return {
-        **{name: table.shape for name, table in tables.items()},
+        **tables,
         "hidden": (2, lanes),  # cosine and sine of the hidden joint where it is sampled
         "determinant": lanes,
         "series": lanes,

@@ -12,6 +12,7 @@ from dh2urdf.kernels.general_6r.arc_samples import (
     arc_tan,
     circle_arcs,
     lanes_of,
+    table_shapes,
     tables_of,
     window_arc,
     window_nodes,
@@ -193,3 +194,10 @@ def test_a_window_gives_the_same_polynomial():
     expected = product(ends, roots) * (1 + half_tan**2) ** 8
     assert_margin(np.abs(arcs[[0, TERMS - 1], 0] / expected - 1.0), 1e-9)
     assert_margin(noise, 1e-12 * np.abs(arcs).max())
+
+
+@pytest.mark.parametrize("degree", [16, 48])
+def test_shapes_that_a_record_reserves_are_those_of_the_tables(degree):
+    """They are stated, in the order of the record, so that no import makes the tables."""
+    made = {name: table.shape for name, table in tables_of(degree).items()}
+    assert list(table_shapes(degree).items()) == list(made.items())
