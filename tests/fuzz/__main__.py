@@ -1,6 +1,7 @@
-"""Try the doors: ``python -m tests.fuzz [DOOR...] [--inputs N] [--seed S] [--guided SECONDS]``.
+"""Try the doors: ``python -m tests.fuzz [DOOR...] [--inputs N] [--seed S] [--random]``.
 
-By properties, or guided by coverage for so long; what breaks a door goes to its corpus. With
+By properties, by plain random edits, which is quicker, or guided by coverage for so many seconds
+with ``--guided``; what breaks a door goes to its corpus. With
 ``--record`` the run is added to ``runs.csv``, from which the table in ``README.md`` is written.
 """
 
@@ -13,25 +14,31 @@ import tempfile
 import time
 import traceback
 from collections import defaultdict
+from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "helpers"))
 
+from tests.fuzz.door import Door  # noqa: E402
 from tests.fuzz.doors import DOORS  # noqa: E402
-from tests.fuzz.drive import attempt, keep, properties  # noqa: E402
+from tests.fuzz.drive import at_random, attempt, keep, properties  # noqa: E402
 
 RUNS, PAGE = HERE / "runs.csv", HERE / "README.md"
 MARK = "<!-- runs -->\n"
 
+WAYS = "properties", "random", "coverage"
 
-def by_properties(name: str, inputs: int, seed: int) -> tuple[int, str]:
+Drive = Callable[[Door, int, int], int]
+
+
+def by_inputs(name: str, drive: Drive, inputs: int, seed: int) -> tuple[int, str]:
     """Inputs tried and how the first broke."""
     door = DOORS[name]
     try:
         for data in door.starts:
             attempt(door, data)
-        return properties(door, inputs, seed), ""
+        return drive(door, inputs, seed), ""
     except Exception as error:
         traceback.print_exc()
         found = getattr(error, "smallest", b"")
@@ -74,16 +81,16 @@ def table() -> str:
     for (name, way, seed), (count, took) in runs.items():  # the last of those that are the same
         inputs[name, way] += int(count)
         seconds[name] += float(took)
-        if way == "properties":
+        if way != "coverage":
             seeds[name].add(int(seed))
     lines = [
-        "| door | by properties | seeds | by coverage | minutes | corpus |",
-        "| - | -: | - | -: | -: | -: |",
+        "| door | by properties | at random | seeds | by coverage | minutes | corpus |",
+        "| - | -: | -: | - | -: | -: | -: |",
     ]
     for name, door in DOORS.items():
-        used = ", ".join(map(str, sorted(seeds[name])))
+        properly, at_random, guided = (inputs[name, way] for way in WAYS)
         lines.append(
-            f"| {name} | {inputs[name, 'properties']:,} | {used} | {inputs[name, 'coverage']:,} | "
+            f"| {name} | {properly:,} | {at_random:,} | {stretches(seeds[name])} | {guided:,} | "
             f"{seconds[name] / 60:.1f} | {len(door.starts)} |"
         )
     total = sum(inputs.values())
@@ -93,12 +100,24 @@ def table() -> str:
     )
 
 
+def stretches(numbers: set[int]) -> str:
+    """Numbers, of which those that follow each other are written by their ends."""
+    ends: list[list[int]] = []
+    for number in sorted(numbers):
+        if ends and ends[-1][1] == number - 1:
+            ends[-1][1] = number
+        else:
+            ends.append([number, number])
+    return ", ".join(str(a) if a == b else f"{a}-{b}" for a, b in ends)
+
+
 def main() -> int:
     """Run the doors; 1 where one broke."""
     parser = argparse.ArgumentParser(prog="python -m tests.fuzz", description=__doc__)
     parser.add_argument("doors", nargs="*", choices=[*DOORS, []], metavar="DOOR")
     parser.add_argument("--inputs", type=int, default=2000)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--random", action="store_true")
     parser.add_argument("--guided", type=int, metavar="SECONDS")
     parser.add_argument("--record", action="store_true")
     asked = parser.parse_args()
@@ -108,12 +127,13 @@ def main() -> int:
         if asked.guided:
             count, fault = by_coverage(name, asked.guided, asked.seed)
         else:
-            count, fault = by_properties(name, asked.inputs, asked.seed)
+            drive = at_random if asked.random else properties
+            count, fault = by_inputs(name, drive, asked.inputs, asked.seed)
         took = time.monotonic() - start
         print(f"{name}: {count:,} inputs in {took:.0f} s{fault and ': ' + fault}", flush=True)
         broke = broke or bool(fault)
         if asked.record and count:
-            way = "coverage" if asked.guided else "properties"
+            way = "coverage" if asked.guided else "random" if asked.random else "properties"
             record((name, way, count, asked.seed, round(took, 1)))
     return int(broke)
 

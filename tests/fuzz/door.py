@@ -1,5 +1,6 @@
 """A door of the package as fuzzing sees it: bytes go in, an answer or one message comes out."""
 
+import random
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -67,6 +68,14 @@ class Door(NamedTuple):
         one = st.tuples(st.integers(0, 7), st.integers(0, 4000), st.integers(0, 30), word)
         changed = st.builds(edited, st.sampled_from(self.starts), st.lists(one, max_size=6))
         return changed if self.shaped is None else st.one_of(changed, self.shaped)
+
+
+def some_edits(rng: random.Random, words: list[bytes]) -> list[Edit]:
+    """A few edits, mostly one."""
+    return [
+        (rng.randrange(8), rng.randrange(4000), rng.randrange(30), rng.choice(words))
+        for _ in range(rng.choice([1, 1, 2, 4]))
+    ]
 
 
 def _sign(escape: re.Match[str]) -> str:

@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 with atheris.instrument_imports(include=["dh2urdf"]):
     from tests.fuzz.doors import DOORS
 
-from tests.fuzz.door import edited
+from tests.fuzz.door import edited, some_edits
 from tests.fuzz.drive import attempt, keep
 
 NAME = sys.argv.pop(1)
@@ -44,11 +44,7 @@ def changed(data: bytes, most: int, seed: int) -> bytes:
     rng = random.Random(seed)
     if rng.random() < 0.3:
         return atheris.Mutate(data, most)
-    edits = [
-        (rng.randrange(8), rng.randrange(4000), rng.randrange(30), rng.choice(TOKENS))
-        for _ in range(rng.choice([1, 1, 2, 4]))
-    ]
-    return edited(data, edits)[:most]
+    return edited(data, some_edits(rng, TOKENS))[:most]
 
 
 atheris.Setup(sys.argv, one, custom_mutator=changed)

@@ -20,10 +20,11 @@ XACRO = "xmlns:xacro='http://ros.org/wiki/xacro'"
 
 
 @cache
-def _server() -> subprocess.Popen[str]:
+def _server(reader: str) -> subprocess.Popen[str]:
+    """The process of a reader, which has imported what that needs and no more."""
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     server = subprocess.Popen(
-        [sys.executable, "-m", "tests.fuzz.reader"],
+        [sys.executable, "-m", "tests.fuzz.reader", reader],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
@@ -39,7 +40,7 @@ def forked(command, *, timeout, cwd, **_):
     from tests.fuzz.guard import unwatched
 
     with unwatched():
-        server = _server()
+        server = _server(command[3])
     asked = [*command[3:], cwd or os.path.dirname(command[4]), timeout]
     print(json.dumps(asked), file=server.stdin, flush=True)
     status = json.loads(server.stdout.readline())
@@ -48,8 +49,8 @@ def forked(command, *, timeout, cwd, **_):
     return subprocess.CompletedProcess(command, status)
 
 
-def _serve(answers) -> None:
-    _warm()
+def _serve(answers, reader: str) -> None:
+    _warm(reader)
 
     def late(*_: object) -> None:
         with contextlib.suppress(ProcessLookupError):  # which has ended just now
@@ -57,7 +58,7 @@ def _serve(answers) -> None:
 
     signal.signal(signal.SIGALRM, late)
     for line in sys.stdin:
-        reader, source, folder, cwd, timeout = json.loads(line)
+        source, folder, cwd, timeout = json.loads(line)[1:]
         child = os.fork()
         if child == 0:
             _read(reader, source, folder, cwd)
@@ -68,21 +69,21 @@ def _serve(answers) -> None:
         print(json.dumps(None if late else status), file=answers, flush=True)
 
 
-def _warm() -> None:
-    """Read a file of each kind here, so that all that this imports is there when one is forked."""
+def _warm(reader: str) -> None:
+    """Read a file here, so that all that this imports is there when one is forked."""
     from dh2urdf.conversions.read import apart
 
     given = Path("given")
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         given.write_text(json.dumps(apart.NOTHING))
-        text = (
-            f"<robot name='r' {XACRO}><xacro:if value='${{1}}'/><link name='${{1 + 1}}'/></robot>"
-        )
-        Path("arm.xacro").write_text(text)
-        apart._xacro("arm.xacro", Path())
-        Path("arm.xml").write_text("<mujoco><worldbody/></mujoco>")
-        with contextlib.suppress(Exception):  # an arm without joints is none
-            apart._mjcf("arm.xml", Path())
+        if reader == "xacro":
+            inner = "<xacro:if value='${1}'/><link name='${1 + 1}'/>"
+            Path("arm.xacro").write_text(f"<robot name='r' {XACRO}>{inner}</robot>")
+            apart._xacro("arm.xacro", Path())
+        else:
+            Path("arm.xml").write_text("<mujoco><worldbody/></mujoco>")
+            with contextlib.suppress(Exception):  # an arm without joints is none
+                apart._mjcf("arm.xml", Path())
     gc.freeze()
 
 
@@ -104,4 +105,4 @@ if __name__ == "__main__":
         os.dup2(os.open(os.devnull, os.O_RDWR), _stream)
     import dh2urdf.conversions.read.apart  # noqa: F401, once for all
 
-    _serve(_answers)
+    _serve(_answers, sys.argv[1])

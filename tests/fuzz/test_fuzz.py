@@ -3,7 +3,7 @@
 import pytest
 
 from tests.fuzz.doors import DOORS
-from tests.fuzz.drive import attempt, properties
+from tests.fuzz.drive import at_random, attempt
 
 KEPT = [(name, path) for name, door in DOORS.items() for path in door.kept]
 
@@ -17,7 +17,7 @@ def test_an_input_of_the_corpus_is_answered_or_refused(name, path):
 @pytest.mark.parametrize("name", DOORS)
 def test_a_door_answers_or_says_what_is_wrong(name):
     """No other exception, no warning, hang, memory, file, connection, process or code from data."""
-    assert properties(DOORS[name], DOORS[name].usual, 0) == DOORS[name].usual
+    assert at_random(DOORS[name], DOORS[name].usual, 0) == DOORS[name].usual
 
 
 @pytest.mark.exhaustive
@@ -25,4 +25,4 @@ def test_a_door_answers_or_says_what_is_wrong(name):
 @pytest.mark.parametrize("name", DOORS)
 def test_a_door_holds_for_a_hundred_thousand_inputs(name, seed):
     """The same in twenty parts, each with a seed of its own."""
-    assert properties(DOORS[name], 5000, seed) == 5000
+    assert at_random(DOORS[name], 5000, seed) == 5000

@@ -37,7 +37,7 @@ BREACHES = {
     "code from data: pickle": lambda _: pickle.loads(pickle.dumps(Path("x"))),
     "outside the folder: /tmp/outside": lambda _: swallowed(),
     "left behind": lambda folder: (folder / "x").write_text("x"),
-    "no end after": lambda _: time.sleep(3),
+    "no end after": lambda _: time.sleep(4),
 }
 
 

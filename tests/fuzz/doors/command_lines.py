@@ -1,4 +1,4 @@
-"""Command lines of every verb, and the numbers, poses and held joints that are typed in them."""
+"""Command lines of every verb, those that draw apart from others, and numbers that are typed."""
 
 import contextlib
 import io
@@ -11,8 +11,10 @@ import mujoco  # noqa: F401, starts a process where it is imported first
 
 import dh2urdf
 import dh2urdf.cli
+import dh2urdf.dh_io.read
+import dh2urdf.figures
 from dh2urdf.cli.verbs import check
-from dh2urdf.dh_io import table_to_text
+from dh2urdf.dh_io import TableFile, Told, parse_table, table_to_text
 from tests.fuzz.door import Door
 from tests.fuzz.guard import FaultError, unwatched
 
@@ -52,6 +54,23 @@ ik puma560 --xyz 0.4 0.1 0.3 --rpy 0 3.1 0 --seed 0 0 0 0 0 0 --seed-tolerance 0
 ik franka_fer --xyz 0.4 0.1 0.3 --rpy 0 3.1 0 --locked panda_joint7=0.3 --json
 ik franka_fer --xyz 0.4 0.1 0.3 --rpy 0 3.1 0 --locked 6=0.3 0=0.1 --no-within-limits
 ik puma560 --matrix 1 0 0 0.4 0 -1 0 0.1 0 0 -1 0.3 0 0 0 1 --nearest
+"""
+
+DRAWINGS = """
+figure arm.yaml -o a.svg --q 0.1,0.2 --force
+figure arm.urdf -o a.png --style schematic --view 30 20 --dpi 40 --no-table
+figure arm.yaml -o a.svg --branches --task position --no-frames --deg
+workspace arm.yaml -o a.svg --plane xy --points 200 --force
+workspace arm.yaml --exact --json
+workspace arm.yaml --envelope --orientations 3 --rpy 0 0 1 --at 0.1
+map arm.yaml -o a.zarr --step 0.9 --orientations 2 --json
+map arm.yaml -o a.zarr --step 400mm --region 0 1 0 1 0 0.5 --refine 1 --no-limits
+map arm.yaml -o a.zarr --towards 0 0 -1 --within 30deg --spins 2 --each --step 1
+place arm.yaml poses.csv --task position --region -1 1 -1 1 --yaw 0 --json
+place arm.yaml poses.csv -o a.svg --against arm.urdf --height 0 0.1 --mount pi 0 0 --deg
+export arm.yaml -o a.h --language c --prefix my --tests t.c --force
+export arm.urdf -o a.py --held joint_1=0.3 --force
+export arm.yaml --ros2 out --plugin --force
 """
 
 AWAY = ("--scheduler", "--host", "--port", "--debug")
@@ -126,7 +145,19 @@ def _lines(text: str) -> tuple[bytes, ...]:
     return tuple("\n".join(line.split()).encode() for line in text.strip().split("\n"))
 
 
+@cache
+def _kept(text: str, format: str, filename: str, told: Told) -> TableFile:
+    return parse_table(text, format, filename, told)
+
+
+def with_numbers(data: bytes, folder: Path) -> None:
+    """The same, where tables are read once: reading them is a door of its own."""
+    with patch.object(dh2urdf.dh_io.read, "parse_table", _kept):
+        run(data, folder)
+
+
 DOORS = [
-    Door("command_lines", run, ("command_lines",), _lines(VERBS), usual=1000),
-    Door("numbers", run, ("numbers",), _lines(NUMBERS), usual=1000),
+    Door("command_lines", run, ("command_lines",), _lines(VERBS)),
+    Door("drawings", run, ("command_lines", "drawings"), _lines(DRAWINGS), usual=500),
+    Door("numbers", with_numbers, ("numbers",), _lines(NUMBERS)),
 ]

@@ -1,9 +1,15 @@
 """Zarr stores of a map: one of its files holds anything."""
 
+import asyncio
+import atexit
 import shutil
 import tempfile
+import threading
+from concurrent.futures import Future
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
+from unittest.mock import patch
 
 from hostile import outcome
 
@@ -30,6 +36,39 @@ def _files() -> list[str]:
     return sorted(str(p.relative_to(path)) for p in path.rglob("*") if p.is_file())
 
 
+_turn = threading.Lock()
+
+
+@cache
+def _loop() -> asyncio.AbstractEventLoop:
+    with unwatched():
+        loop = asyncio.new_event_loop()
+    atexit.register(loop.close)
+    return loop
+
+
+def _run(coroutine, _) -> Future:
+    """Run a coroutine of Zarr in the thread that waits for it."""
+    done: Future = Future()
+    with _turn:
+        done.set_result(_loop().run_until_complete(coroutine))
+    return done
+
+
+async def _call(function, /, *given, **more):
+    return function(*given, **more)
+
+
+@contextmanager
+def _without_threads():
+    """Zarr without its thread for input and output, whose waiting takes most of the time."""
+    with (
+        patch.object(asyncio, "run_coroutine_threadsafe", _run),
+        patch.object(asyncio, "to_thread", _call),
+    ):
+        yield
+
+
 def read(data: bytes, folder: Path) -> None:
     """A map is opened or refused, and gone on with or refused, whatever one of its files holds."""
     robot, path = _store()
@@ -42,14 +81,19 @@ def read(data: bytes, folder: Path) -> None:
     with unwatched():
         shutil.copytree(path, folder / "map.zarr")
         (folder / "map.zarr" / name).write_bytes(content)
-    found = outcome(open_map, folder / "map.zarr")
-    if not isinstance(found, Exception):
-        for variable in VARIABLES[:2]:
-            outcome(map_cut, found, variable)
-        found.close()
-    outcome(lambda: reach_map(robot, step=1.0, store=folder / "map.zarr").close())
+    with _without_threads():
+        _use(robot, folder / "map.zarr")
     with unwatched():
         shutil.rmtree(folder / "map.zarr")
 
 
-DOORS = [Door("stores", read, ("stores",), usual=200)]
+def _use(robot: Robot, store: Path) -> None:
+    found = outcome(open_map, store)
+    if not isinstance(found, Exception):
+        for variable in VARIABLES[:2]:
+            outcome(map_cut, found, variable)
+        found.close()
+    outcome(lambda: reach_map(robot, step=1.0, store=store).close())
+
+
+DOORS = [Door("stores", read, ("stores",), usual=1000)]
