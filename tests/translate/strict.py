@@ -6,8 +6,6 @@ occur; lines that no question reaches are counted. Ends with 1 where an index wa
 """
 
 import argparse
-import inspect
-import json
 import sys
 import traceback
 from collections import Counter
@@ -15,17 +13,15 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from types import CodeType, FrameType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-import dh2urdf.kernels
 from dh2urdf.engine import INTERPRETED
-from tests.translate import workload
+from tests.translate import probes, workload
+from tests.translate.probes import KERNELS, is_kernel, short
 from tests.translate.record import entries_as
-
-KERNELS = str(Path(dh2urdf.kernels.__file__).parent)
 
 
 class OutsideError(IndexError):
@@ -55,16 +51,6 @@ class Strict(np.ndarray):
                 inside = 0 <= one < length
             if not inside:
                 raise OutsideError(f"[{index}] of an array of shape {self.shape}")
-
-
-def is_kernel(code: CodeType) -> bool:
-    """Whether a function is one of those that are written as C."""
-    return code.co_filename.startswith(KERNELS) and not code.co_filename.endswith("/shapes.py")
-
-
-def short(file: str) -> str:
-    """A file below the kernels."""
-    return file.removeprefix(KERNELS + "/")
 
 
 def strictly(value: Any) -> Any:
@@ -107,72 +93,6 @@ def strict_kernels() -> Iterator[None]:
             room.np = np
 
 
-class Lines:
-    """Lines of kernels, and which of them were reached."""
-
-    def __init__(self) -> None:
-        self.reached: dict[CodeType, set[int]] = {}
-
-    def trace(self, frame: FrameType, event: str, _: Any) -> Any:
-        """What `sys.settrace` calls: follow kernels, until all of their lines were reached."""
-        code = frame.f_code
-        if not is_kernel(code) or code.co_name == "<module>":
-            return None
-        reached = self.reached.setdefault(code, set())
-        if reached >= lines_of(code):
-            return None
-
-        def local(frame: FrameType, event: str, _: Any) -> Any:
-            if event == "line":
-                reached.add(frame.f_lineno)
-            return local
-
-        return local
-
-    def add(self, file: Path) -> None:
-        """Join what a file of earlier runs says was reached, and write both there."""
-        kept = json.loads(file.read_text()) if file.is_file() else {}
-        for code in kernels():
-            key = f"{short(code.co_filename)}:{code.co_name}"
-            own = self.reached.setdefault(code, set())
-            own |= set(kept.get(key, [])) & lines_of(code)
-            kept[key] = sorted(own)
-        file.write_text(json.dumps(kept))
-
-    def missed(self) -> dict[str, tuple[int, list[str]]]:
-        """For each file of kernels: how many lines it has, and which were not reached."""
-        out: dict[str, tuple[int, list[str]]] = {}
-        for code in kernels():
-            file = short(code.co_filename)
-            count, missed = out.get(file, (0, []))
-            own = lines_of(code)
-            left = sorted(own - self.reached.get(code, set()))
-            out[file] = count + len(own), missed + [f"{code.co_name}:{n}" for n in left]
-        return out
-
-
-_LINES: dict[CodeType, frozenset[int]] = {}
-
-
-def lines_of(code: CodeType) -> frozenset[int]:
-    """Lines of a kernel's body."""
-    if code not in _LINES:
-        found = {line for _, _, line in code.co_lines() if line}
-        _LINES[code] = frozenset(found - {code.co_firstlineno})
-    return _LINES[code]
-
-
-def kernels() -> list[CodeType]:
-    """Every function of the kernels."""
-    found: dict[CodeType, None] = {}
-    for name, room in list(sys.modules.items()):
-        if name.startswith("dh2urdf.kernels"):
-            for value in [*vars(room).values(), *INTERPRETED.values()]:
-                if inspect.isfunction(value) and is_kernel(value.__code__):
-                    found[value.__code__] = None
-    return list(found)
-
-
 def place_of(error: BaseException) -> str:
     """The line of a kernel that an error came from."""
     frames = traceback.extract_tb(error.__traceback__)
@@ -189,7 +109,8 @@ def main() -> int:
     parser.add_argument("--into", type=Path, help="file that adds up lines reached by several runs")
     parser.add_argument("--missed", action="store_true", help="list lines that were not reached")
     asked = parser.parse_args()
-    lines, errors, refused = Lines(), Counter[str](), 0
+    errors, refused = Counter[str](), 0
+    probes.mark_all()
 
     def told(kind: str, _: int) -> None:
         frame = sys._getframe(1)
@@ -198,26 +119,17 @@ def main() -> int:
     for arm in asked.arms or workload.arms():
         answers = islice(workload.answers(arm, asked.count), asked.tasks)
         with np.errstate(divide="call", invalid="call", over="call", call=told), strict_kernels():
-            sys.settrace(lines.trace)
             try:
                 for _ in answers:
                     pass
             except OutsideError as error:
                 refused += 1
                 print(f"{arm}: {error} at {place_of(error)}", flush=True)
-            finally:
-                sys.settrace(None)
     if asked.into:
-        lines.add(asked.into)
-    missed = lines.missed()
-    total, left = sum(n for n, _ in missed.values()), sum(len(m) for _, m in missed.values())
-    for file, (count, lost) in sorted(missed.items()):
-        where = ": " + " ".join(lost) if asked.missed else ""
-        if lost:
-            print(f"{file}: {count - len(lost)} of {count}{where}")
+        probes.add(asked.into)
+    probes.report(probes.reached(), names=asked.missed)
     for place, count in errors.most_common():
         print(f"{place}: {count} times")
-    print(f"{total - left} of {total} lines, {(total - left) / total:.1%}", end="; ")
     print(f"{refused} arms with an index refused")
     return int(refused > 0)
 
