@@ -10,6 +10,7 @@ import contextlib
 import os
 import random
 import resource
+import shutil
 import signal
 import sys
 import time
@@ -31,6 +32,9 @@ VERBS = {
     "check": "check faulty.urdf --fix fixed.urdf --force",
 }
 """A command line of each verb that writes files."""
+
+MAP = "map planar_rr -o a.zarr --step 0.1 --orientations 4"
+"""What appears piece by piece, and is gone on with."""
 
 OLD = b"<!-- written before -->"
 
@@ -102,9 +106,11 @@ class Writer:
             assert kind in expected, f"{self.verb}: {name}: {kind}, {len(content)} bytes"
 
     def killed(self, times: int, rng: random.Random) -> int:
-        """Kill it at random moments; how often it was still at work then."""
+        """Kill it at random moments until it was so often still at work; how often it was."""
         at_work = 0
-        for _ in range(times):
+        for _ in range(4 * times):
+            if at_work == times:
+                break
             self.older()
             process = start(self.line)
             time.sleep(rng.uniform(0.0, self.took))
@@ -124,6 +130,28 @@ class Writer:
         assert said.count("dh2urdf: ") == 1, f"{self.verb}, {what}: {said}"
         assert sorted(Path().rglob(".dh2urdf-*")) == beside, f"{self.verb}, {what}: left behind"
         self.whole("old")
+
+
+def gone_on_with(times: int, rng: random.Random) -> int:
+    """Kill a map at random moments while it is at work; begun again, it ends as if it never was."""
+    begin = time.monotonic()
+    assert wait(start(MAP)) == 0, Path("stderr").read_text()
+    took, whole, at_work = time.monotonic() - begin, held(), 0
+    for _ in range(4 * times):
+        if at_work == times:
+            break
+        shutil.rmtree("a.zarr")
+        process = start(MAP)
+        time.sleep(rng.uniform(0.0, took))
+        os.kill(process, signal.SIGKILL)
+        at_work += wait(process) == -signal.SIGKILL
+        assert wait(start(MAP)) == 0, f"map: {Path('stderr').read_text()}"
+        other = {
+            name for name in whole.keys() | held().keys() if whole.get(name) != held().get(name)
+        }
+        assert not other, f"map: {sorted(other)}"
+    shutil.rmtree("a.zarr")
+    return at_work
 
 
 def full() -> None:
@@ -161,7 +189,11 @@ if __name__ == "__main__":
     prepare(Path(sys.argv[1]))
     generator = random.Random(int(sys.argv[3]))
     try:
-        for name in sys.argv[4:] or VERBS:
-            print(name, tried(name, int(sys.argv[2]), generator), flush=True)
+        for name in sys.argv[4:] or [*VERBS, "map"]:
+            count = int(sys.argv[2])
+            kills = (
+                gone_on_with(count, generator) if name == "map" else tried(name, count, generator)
+            )
+            print(name, kills, flush=True)
     except AssertionError as fault:
         sys.exit(str(fault))
