@@ -16,7 +16,7 @@ _LATEX = {
 _MARKDOWN = re.compile(r"[\\`*<>&\[\]~$!:@]|(?<![^\W_])_|_(?![^\W_])")
 
 
-XML_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
+XML_FORBIDDEN = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 """A character that no XML document holds, written out or by its number."""
 
 

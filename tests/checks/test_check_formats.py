@@ -1,6 +1,7 @@
 """`dh2urdf check --format`: what build servers, browsers and pre-commit read of the findings."""
 
 import json
+import os
 import re
 import shlex
 from pathlib import Path
@@ -193,6 +194,22 @@ def test_json_is_a_format_too_and_an_unknown_one_is_refused(run, refused, tmp_pa
     same = [run("check", "arm.urdf", "--no-run", *f) for f in (["--json"], ["--format", "json"])]
     assert same[0] == same[1]
     assert "sarif" in refused("check", "arm.urdf", "--format", "xml")
+
+
+@pytest.mark.parametrize("form", ["text", "junit", "sarif", "html", "json"])
+def test_a_file_whose_name_is_no_text_is_told_in_every_format(run, form):
+    """Linux lets any bytes be a name: of a file that is checked, and of one that is not there."""
+    odd, gone = os.fsdecode(b"arm-\xff.urdf"), os.fsdecode(b"\xfe")
+    Path(odd).write_text(SOUND)
+    status, out, err = run("check", odd, gone, "--no-run", "--format", form)
+    assert status == 2
+    assert "Traceback" not in err
+    assert out.encode("utf-8", "surrogateescape")
+    if form == "junit":
+        suites = etree.fromstring(out.encode())
+        assert [suite.get("name") for suite in suites] == ["arm-\ufffd.urdf", "\ufffd"]
+    if form == "sarif":
+        assert '"uri": "%FE"' in out
 
 
 def test_the_hook_of_pre_commit_checks_the_files_that_it_is_given(run, tmp_path):

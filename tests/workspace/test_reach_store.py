@@ -208,6 +208,17 @@ def test_a_damaged_file_of_a_store_is_one_message(ur5e, small, tmp_path, name, c
         assert isinstance(found, xarray.Dataset) or "arm.zarr: " in str(found)
 
 
+def test_a_block_whose_mark_cannot_be_read_is_one_message(ur5e, small, tmp_path):
+    """Chunks of the marks that are larger than any array are found while blocks are worked out."""
+    shutil.copytree(small, tmp_path / "arm.zarr")
+    place = tmp_path / "arm.zarr" / "progress" / "done" / "zarr.json"
+    told = json.loads(place.read_text())
+    told["chunk_grid"]["configuration"]["chunk_shape"][2] = 10**30
+    place.write_text(json.dumps(told))
+    with pytest.raises(OutputError, match=r"arm\.zarr: is damaged .* remove it, or give another"):
+        reach_map(ur5e, **SMALL, store=tmp_path / "arm.zarr")
+
+
 class Touches(NamedTuple):
     """What makes a file where it is unpickled."""
 

@@ -1,6 +1,7 @@
 """Findings in the Static Analysis Results Interchange Format, SARIF 2.1.0 (OASIS, 2020)."""
 
 import json
+import os
 from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
@@ -72,7 +73,7 @@ def _result(file: str, finding: Finding, names: list[str]) -> dict[str, Any]:
 def _location(file: str, finding: Finding | None = None) -> dict[str, Any]:
     """A file, and the place in it."""
     path = Path(file)
-    uri = path.as_uri() if path.is_absolute() else quote(path.as_posix())
+    uri = path.as_uri() if path.is_absolute() else quote(os.fsencode(path.as_posix()))
     place: dict[str, Any] = {"artifactLocation": {"uri": uri}}
     if finding is not None:
         place["region"] = {"startLine": finding.line, "startColumn": finding.column}

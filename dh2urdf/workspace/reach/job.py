@@ -63,7 +63,7 @@ def run_block(job: Job, block: Block, coarse: Values | None = None) -> Values | 
             "both have to be the same"
         )
     settings = job.settings
-    if job.path is not None and bool(job.arrays[store.DONE][block]):
+    if job.path is not None and store.is_done(job.path, block, job.arrays):
         return None
     if job.before is not None:
         coarse = store.read(job.before, around(settings, block))

@@ -192,6 +192,12 @@ def done(path: str) -> NDArray[np.bool_]:
         return marks
 
 
+def is_done(path: str, block: Block, of: dict[str, Any]) -> bool:
+    """Whether the map's arrays ``of`` have a mark of a block."""
+    with writing(path):
+        return bool(of[DONE][block])
+
+
 def take_back(path: str, settings: MapSettings) -> NDArray[np.bool_]:
     """Which blocks are done, the marks of those removed that have lost a chunk since."""
     with writing(path):
