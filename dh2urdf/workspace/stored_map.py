@@ -74,7 +74,7 @@ def open_map(source: Any) -> xarray.Dataset:
             found = xr.open_zarr(source, consolidated=False, zarr_format=3)
         except Exception as fault:  # of zarr, numcodecs, xarray: what is there is no group
             raise ArgumentError(f"{source}: no map that can be read: {fault}") from None
-    if not isinstance(found, xr.Dataset) or "share" not in found or found.share.ndim != 3:
+    if not isinstance(found, xr.Dataset) or not _is_map(found):
         raise ArgumentError(f"{where}: holds no map of a reach")
     if not found.attrs.get("complete", 1):
         part = float(found.share.notnull().mean())
@@ -83,6 +83,13 @@ def open_map(source: Any) -> xarray.Dataset:
             "began it goes on with the rest"
         )
     return found
+
+
+def _is_map(found: xarray.Dataset) -> bool:
+    """Whether a group has shares of voxels, and their centres along each axis."""
+    grid = tuple("xyz")
+    centred = all(axis in found and found[axis].dims == (axis,) for axis in grid)
+    return centred and "share" in found and set(found.share.dims) == set(grid)
 
 
 def map_cut(

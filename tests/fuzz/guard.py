@@ -25,6 +25,7 @@ COMPUTED_BY = (
     "/inspect",
     "cyclopts",
     "/attr/",
+    "/dh2urdf/export/source/c_kernels.py",  # sizes as the kernels state them, in their own text
 )
 """Modules that compile texts of programs, such as annotations, when these are first used."""
 

@@ -89,15 +89,20 @@ def _from_file(
     given = read_description(source, base, tip, given=xacro)
     found = tree_to_chain(given.tree, given.base, given.tip)
     found = replace(found, warnings=(*given.mends, *found.warnings))
-    model, names = given.model, (found.base, found.tip)
+    pinocchio, names = given.model, (found.base, found.tip)
     if given.addresses:
-        ends = [0 if name == given.tree.root else frame_id(model, name) for name in names]
+        ends = [0 if name == given.tree.root else frame_id(pinocchio, name) for name in names]
         indices = [given.addresses[name] for name in found.chain.names]
-        referee = addressed_referee(model, ends[0], ends[1], indices)
+        if max(indices, default=-1) >= pinocchio.nq:
+            raise UrdfError(
+                f"{given.tree.where}: Pinocchio finds {pinocchio.nq} of its joints, "
+                f"MuJoCo at least {max(indices) + 1}; the file is read in two ways"
+            )
+        referee = addressed_referee(pinocchio, ends[0], ends[1], indices)
         written = replace(found, base="base_link") if found.base == given.tree.root else found
         return Source(found, referee, _embedded(given.root, given.tree.where, written))
-    start, end = (frame_id(model, name) for name in names)
-    referee = model_referee(model, start, end, found.chain.names)
+    start, end = (frame_id(pinocchio, name) for name in names)
+    referee = model_referee(pinocchio, start, end, found.chain.names)
     return Source(found, referee, _embedded(given.root, given.tree.where, found))
 
 
