@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any
 
 from dh2urdf.exceptions import ArgumentError, MissingExtraError, SchedulerError
@@ -20,6 +21,9 @@ Answered = Generator[tuple[Block, Values | None]]
 
 PATIENCE = 5
 """Seconds to wait for a scheduler."""
+
+TRIES = 5
+"""How often a client registers, where another one is just letting go of its work."""
 
 
 def on_threads(job: Job, blocks: list[Block], coarse: Coarse) -> Answered:
@@ -74,6 +78,14 @@ def _itself(job: Job) -> Job:
     return job
 
 
+def _registered(make: Callable[[], Any]) -> Any:
+    """A new client; the library asserts that none lets go of its work in that very moment."""
+    for _ in range(TRIES - 1):
+        with suppress(AssertionError):
+            return make()
+    return make()
+
+
 @contextmanager
 def connected(client: Any) -> Iterator[Any]:
     """The client that is given, or one to the scheduler at an address, closed at the end.
@@ -100,7 +112,7 @@ def connected(client: Any) -> Iterator[Any]:
                 super().__del__()
 
     try:
-        made = Closed(client, timeout=PATIENCE, set_as_default=False)
+        made = _registered(partial(Closed, client, timeout=PATIENCE, set_as_default=False))
     except (OSError, ValueError, MemoryError) as error:  # the last: of what is no scheduler
         raise SchedulerError(
             f"{client}: no Dask scheduler answers there: {_short(error)}"
