@@ -212,7 +212,7 @@ class HeldAtAnyValue(HeldSolver):
 
 def _left_open(some: IntArray, out: Outputs, doubt: IntArray) -> IntArray:
     """Those of some poses in doubt, or without all branches, each of them sharp and isolated."""
-    if not len(some):  # as in most batches: what all their residuals are would take a third longer
+    if not len(some):  # as in most batches, whose residuals then need not be looked at
         return some
     every = out.residual[some, : HeldWrist.kmax].max(axis=1) <= SHARP
     every &= (out.counts[some] == HeldWrist.kmax) & ~out.free[some].any(axis=1)

@@ -173,7 +173,7 @@ def tables_of(degree: int) -> dict[str, Floats]:
 
 
 def table_shapes(degree: int) -> dict[str, tuple[int, ...]]:
-    """Shapes of :func:`tables_of`, whose numbers take 60 ms for degree 48: for a start without."""
+    """Shapes of :func:`tables_of` without their numbers, which would delay each start."""
     lanes, terms = lanes_of(degree), 2 * degree + 1
     return {
         "circle": (lanes, lanes - 1),
