@@ -262,7 +262,8 @@ def test_rounded_matrices_of_a_file_are_named_by_line_or_taken(run, refused, tmp
     assert (status, len(out.splitlines())) == (0, 17)
     assert err.startswith("--nearest: the rotation was off by ")
     (tmp_path / "poses.csv").write_text(f"{row}\n{','.join(['0.7'] * 12)}\n")
-    assert "poses.csv:2:" in refused("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+    err = refused("ik", "denso_vs6556", "--csv", "poses.csv", "--nearest")
+    assert "poses.csv:2: rotation part is 1.1 away from the nearest rotation" in err
 
 
 def test_solutions_farther_from_the_seed_than_allowed_are_left_out(run):

@@ -263,7 +263,7 @@ def _stack(values: Array, columns: list[_Column], where: str, nearest: bool) -> 
     if columns[0].name == MATRIX[0]:
         T = np.broadcast_to(np.eye(4), (len(values), 4, 4)).copy()
         T[:, : values.shape[1] // 4] = values.reshape(len(values), -1, 4)
-        check_pose(rounded_off(T)[0] if nearest else T, what=where)
+        check_pose(rounded_off(T)[0] if nearest else T, what=where, rounded=nearest)
         return T
     position, turn = values[:, :3], values[:, 3:]
     if columns[-1].name == "z":
@@ -291,5 +291,5 @@ def _of_matrix(entries: list[float], what: str, nearest: bool) -> Array:
     """A pose from 12 or 16 numbers, row by row, that is rigid, or nearly where that will do."""
     T = np.eye(4)
     T[: len(entries) // 4] = np.reshape(entries, (-1, 4))
-    check_pose(rounded_off(T)[0] if nearest else T, what=what)
+    check_pose(rounded_off(T)[0] if nearest else T, what=what, rounded=nearest)
     return T
