@@ -94,6 +94,8 @@ def walks_to(arm, p, q, T, free, tolerance, accept=ACCEPT):
         flat = V[sigma < FLAT * sigma[0]]
         step = flat.T @ (flat @ d)
         step *= min(1.0, STEP / max(np.abs(step).max(), 1e-300))
+        if gaps(arm, p + step, q) <= tolerance and residuals(arm, p + step, T) <= accept:
+            return True
         p, residual = back(arm, p + step, T, free)
         if residual > accept:
             return False

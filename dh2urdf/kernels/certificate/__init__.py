@@ -34,7 +34,7 @@ from dh2urdf.kernels.certificate.certify import (
     same,
     turn_inside,
 )
-from dh2urdf.kernels.certificate.directions import add_step, look
+from dh2urdf.kernels.certificate.directions import add_step, look, look_at_some
 from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,

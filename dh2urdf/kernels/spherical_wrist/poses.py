@@ -25,8 +25,15 @@ from dh2urdf.kernels.certificate import (
 from dh2urdf.kernels.newton import polish
 from dh2urdf.kernels.numbers import atan2, entry, hypot, root_of_gap, sincos
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
+from dh2urdf.kernels.spherical_wrist.crossings import is_crossing, turn_in_line
 from dh2urdf.kernels.spherical_wrist.position_any import place_wrist
-from dh2urdf.kernels.spherical_wrist.position_arm import FREE, NICE, tool_to_wrist
+from dh2urdf.kernels.spherical_wrist.position_arm import (
+    FREE,
+    NICE,
+    SHOULDER_FREE,
+    UPPER_FREE,
+    tool_to_wrist,
+)
 
 MEETING = 1e-5
 """Distance [rad or m] of two position solutions that may be a double root: `MERGE` parts roots by
@@ -162,6 +169,30 @@ def add_merged(arm, places, T, scratch):
     return kept
 
 
+def add_crossings(arm, values, T, scratch, count):
+    """Append where a joint 1 or 2 that is free lines axes 4 and 6 up; the new count.
+
+    ``values`` (5,) are a position solution, whose wrists were the last to be computed.
+    """
+    (_, form, _, slack), (D, R, _, _, rows) = arm, scratch
+    mask, turned, turns = int(max(values[4], 0.0)), np.empty(5), np.empty(2)
+    if mask != SHOULDER_FREE and mask != UPPER_FREE:
+        return count
+    joint = 0 if mask == SHOULDER_FREE else 1
+    for side in range(2):
+        turns[side] = turn_in_line(form, values, joint, R, 1.0 - 2.0 * side)
+    for side in range(2):
+        turned[:] = values
+        turned[joint] += turns[side]
+        turned[3], turned[4] = -1.0, 0.0
+        found = add_wrist(form, D, turned, R, slack, *rows, count)
+        in_line = hypot(R[0, 2], R[1, 2])
+        if found > count and is_crossing(arm, T, in_line, rows[0][count]):
+            rows[1][count], rows[3][count] = -1.0, WRIST_FREE
+            count += 1
+    return count
+
+
 def hidden(joints, rows, merged, k):
     """Whether candidate k is, but for rounding, a member of a family among the merged ones.
 
@@ -196,6 +227,7 @@ def finish_wrists(arm, places, found, meet, T, within_limits, out, scratch):
             if not (merged and hidden(joints, rows, merged, j)):
                 move(*rows, j, found)
                 found += 1
+        found = add_crossings(arm, place[k], T, scratch, found)
     left = certify_pose(chain, T, *rows, found, work)
     for k in range(left):
         deep = deep or rows[1][k] > DULL

@@ -54,7 +54,7 @@ def place_wrist(form, px, py, pz, slack, arm):
         count = turn_and_slide(turn, slide, second, free, form[0, 4], slack, pairs)
         for k in range(count if first else 0):
             c, s = pairs[k, 0], pairs[k, 1]
-            pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], 0.0, c, s
+            pairs[k, 0], pairs[k, 1], pairs[k, 2], pairs[k, 3] = pairs[k, 2], pairs[k, 3], c, s
     return _write_rows(form, Y, V, free, slack, count, pairs, arm)
 
 
@@ -146,7 +146,8 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
         arm[k, 1], arm[k, 4] = z - vz, 0.0
         if form[1, 5] == 0.0:
             arm[k, 1] = atan2(vx * y - vy * x, vx * x + vy * y)
-            arm[k, 4] = VAGUE if vx * vx + vy * vy <= BESIDE * BESIDE else 0.0
+            rough = (s if form[0, 5] != 0.0 else f if form[2, 5] != 0.0 else 0.0) != 0.0
+            arm[k, 4] = VAGUE if rough or vx * vx + vy * vy <= BESIDE * BESIDE else 0.0
             if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
                 near_c, near_s, off = _nearest(Y, form[0, 5] != 0.0, c, s)
                 near_e, near_f, miss = _nearest(V, form[2, 5] != 0.0, e, f)

@@ -13,6 +13,10 @@ from dh2urdf.kernels.rigid import dot, minus
 OBLIQUE = 1e-9
 """Cosine between a slide and a neighbouring axis up to which they count as square."""
 
+NEARLY = 1e-4
+"""Cosine between a slide and a neighbouring axis up to which they are nearly square: angles that
+were written with four decimals."""
+
 APART, CLOSER = 30.0, 8
 """How much longer than its change with the slide the way from a rim is, where a slide is nearly
 square and has its equation to itself; and how often that is solved, each time some digits better.
@@ -31,12 +35,13 @@ def point_at(columns, c, s):
 
 
 def turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
-    """One turns, one slides: the slide eliminated, rows (c, s, t, 0).
+    """One turns, one slides: the slide eliminated, rows (c, s, t, rough).
 
     ``flat``: joint 2 slides; ``free``: the turning joint is free, and put to ``nice``.
+    ``rough`` is 1 where roots of a slide that is nearly square say no more than about where.
     """
     (k, C, S), (m, E, _) = turn, slide
-    rows, cosines, sines, series = 0, np.empty(4), np.empty(4), np.zeros(5)
+    rows, cosines, sines, series, rough = 0, np.empty(4), np.empty(4), np.zeros(5), 0.0
     rise, steep, fall, slope = (k[2] - m[2], C[2], S[2], E[2])
     if flat:
         rise = E[0] * (k[1] - m[1]) - E[1] * (k[0] - m[0])
@@ -49,7 +54,7 @@ def turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
         rows = _nearly_square(*lines, slack, pairs)
         if rows >= 0:
             return rows
-        rows = 0
+        rows, rough = 0, 1.0 if abs(slope) < NEARLY else 0.0
     if oblique:
         rise, steep, fall = rise / slope, steep / slope, fall / slope
     if free:
@@ -74,7 +79,7 @@ def turn_and_slide(turn, slide, flat, free, nice, slack, pairs):
             found = 0 if root < 0.0 else (1 if root == 0.0 and slack > 0.0 else 2)
             t, other = root - along, -root - along
         for i in range(found):
-            pairs[rows, 0], pairs[rows, 1], pairs[rows, 3] = c, s, 0.0
+            pairs[rows, 0], pairs[rows, 1], pairs[rows, 3] = c, s, rough
             pairs[rows, 2] = t if i == 0 else other
             rows += 1
     return rows
