@@ -86,8 +86,9 @@ def polish_lanes(lanes, damped, converged, arm):
 
     Converged: to an error of that size, relative to the arm's.
 
-    Leaves the errors of the seeds, lengths in parts of the arm's size, in ``seeded``, and the
-    determinant of the Jacobian, in parts of the size cubed, in ``determinant``.
+    Leaves the errors of the seeds, lengths in parts of the arm's size, in ``seeded``, the
+    determinant of the Jacobian, in parts of the size cubed, in ``determinant``, and the joints'
+    values in ``error``.
     """
     target, A, J, V, beta = arm["target"], arm["A"], arm["W"], arm["V"], arm["beta"]
     cosines, sines, frames = arm["cosines"], arm["sines"], arm["frames"]
@@ -120,17 +121,23 @@ def polish_lanes(lanes, damped, converged, arm):
     for k in range(lanes):
         product = abs(scale[k])
         scale[k] = math.sqrt(product) if damped == 1 else product * weight * weight * weight
+    for i in range(6):
+        q = i * LANES
+        if slides[i] != 0:
+            for k in side_by_side(n):
+                error[q + k] = sines[q + k]
+            continue
+        for k in side_by_side(n):
+            error[q + k] = atan2(sines[q + k], cosines[q + k])
 
 
 def keep_lane(k, found, out_q, out_residual, arm):
     """List what lane k has come to, unless it missed the target; as by `list_solution`."""
-    cosines, sines, position, angle = arm["cosines"], arm["sines"], arm["position"], arm["angle"]
-    size, q, slides = arm["size"], arm["q"], arm["slides"]
+    size, q, position, angle = arm["size"], arm["q"], arm["position"], arm["angle"]
     if not (position[k] <= TOLERANCE * min(size, 1.0) and angle[k] <= TOLERANCE):
         return found, -1
     for i in range(6):
-        sine = sines[i * LANES + k]
-        q[i] = atan2(sine, cosines[i * LANES + k]) if slides[i] == 0 else sine
+        q[i] = arm["error"][i * LANES + k]
     residual = max(position[k], angle[k])
     return list_solution(found, out_q, out_residual, residual, arm["determinant"][k], arm)
 

@@ -26,6 +26,15 @@ AT_ROOT = 1e-4
 known to 1e-8 at best, to the root of that where four solutions nearly meet."""
 
 
+def _closer(q, other, close, slides, size):
+    """Whether all six joints of two configurations differ by less, slides in sizes of the arm."""
+    for i in range(6):
+        d = abs(q[i] - other[i])
+        if (min(d, TWO_PI - d) if slides[i] == 0 else d / size) >= close:
+            return False
+    return True
+
+
 def list_solution(found, out_q, out_residual, residual, determinant, arm):
     """List the configuration in ``q`` of the record, of such a residual, unless it is known.
 
@@ -36,12 +45,9 @@ def list_solution(found, out_q, out_residual, residual, determinant, arm):
     size, q, kept, slides = arm["size"], arm["q"], arm["kept"], arm["slides"]
     place, singular, members = found, -1, 0
     for f in range(found):
-        far = 0.0
-        for i in range(6):
-            d = abs(q[i] - out_q[f, i])
-            far = max(far, min(d, TWO_PI - d) if slides[i] == 0 else d / size)
         loose = max(residual, out_residual[f])
-        if far < (SAME if loose < SHARP else VALLEY * math.sqrt(loose)):
+        close = SAME if loose < SHARP else VALLEY * math.sqrt(loose)
+        if _closer(q, out_q[f], close, slides, size):
             place = f
             break
         if kept[f] < SINGULAR:

@@ -26,22 +26,35 @@ def chain_frames(steps, slides, cosines, sines, n, frames):
         for k in side_by_side(n):
             frames[f + k] = value
     for i in range(len(steps) - 1):
-        a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = load_pose(steps[i + 1])
-        q, slide = i * LANES, slides[i] != 0
+        link, q = load_pose(steps[i + 1]), i * LANES
         for row in range(3):
             f = i * FRAME + 4 * row * LANES
             g = f + FRAME
+            if slides[i] != 0:
+                for k in side_by_side(n):
+                    u, v, z, p = _row(frames, f + k)
+                    x, y, z, p = _past(u, v, z, p + z * sines[q + k], link)
+                    frames[g + k], frames[g + LANES + k] = x, y
+                    frames[g + 2 * LANES + k], frames[g + 3 * LANES + k] = z, p
+                continue
             for k in side_by_side(n):
-                u, v, z = frames[f + k], frames[f + LANES + k], frames[f + 2 * LANES + k]
-                p = frames[f + 3 * LANES + k]
+                u, v, z, p = _row(frames, f + k)
                 c, s = cosines[q + k], sines[q + k]
-                x, y = u * c + v * s, v * c - u * s
-                if slide:
-                    x, y, p = u, v, p + z * s
-                frames[g + k] = x * a00 + y * a10 + z * a20
-                frames[g + LANES + k] = x * a01 + y * a11 + z * a21
-                frames[g + 2 * LANES + k] = x * a02 + y * a12 + z * a22
-                frames[g + 3 * LANES + k] = x * a03 + y * a13 + z * a23 + p
+                x, y, z, p = _past(u * c + v * s, v * c - u * s, z, p, link)
+                frames[g + k], frames[g + LANES + k] = x, y
+                frames[g + 2 * LANES + k], frames[g + 3 * LANES + k] = z, p
+
+
+def _row(frames, f):
+    """One row of a frame, of the lane whose first entry is at f."""
+    return frames[f], frames[f + LANES], frames[f + 2 * LANES], frames[f + 3 * LANES]
+
+
+def _past(x, y, z, p, link):
+    """A row of a pose times a link."""
+    a00, a01, a02, a03, a10, a11, a12, a13, a20, a21, a22, a23 = link
+    first, second = x * a00 + y * a10 + z * a20, x * a01 + y * a11 + z * a21
+    return first, second, x * a02 + y * a12 + z * a22, x * a03 + y * a13 + z * a23 + p
 
 
 def pose_error(target, frames, n, error, position, angle):
@@ -78,7 +91,7 @@ def _newton_system(frames, slides, error, size, n, A):
     """
     e = 6 * FRAME
     for i in range(6):
-        f, a, slide = i * FRAME, i * COLUMN, slides[i] != 0
+        f, a = i * FRAME, i * COLUMN
         for k in side_by_side(n):
             zx, zy, zz = frames[f + 48 + k], frames[f + 144 + k], frames[f + 240 + k]
             x = frames[e + 72 + k] - frames[f + 72 + k]
@@ -88,7 +101,9 @@ def _newton_system(frames, slides, error, size, n, A):
             A[a + 24 + k] = zz * x - zx * z
             A[a + 48 + k] = zx * y - zy * x
             A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = zx, zy, zz
-            if slide:
+        if slides[i] != 0:
+            for k in side_by_side(n):
+                zx, zy, zz = A[a + 72 + k], A[a + 96 + k], A[a + 120 + k]
                 A[a + k], A[a + 24 + k], A[a + 48 + k] = size * zx, size * zy, size * zz
                 A[a + 72 + k], A[a + 96 + k], A[a + 120 + k] = 0.0, 0.0, 0.0
         b = 6 * COLUMN + i * LANES
@@ -150,10 +165,14 @@ def newton_step(frames, slides, error, size, damped, n, A, J, scale, V, beta, co
             largest = max(largest, abs(error[i * LANES + k]))
         beta[k] = LARGEST_STEP / largest
     for i in range(6):
-        e, slide = i * LANES, slides[i] != 0
+        e = i * LANES
+        if slides[i] != 0:
+            for k in side_by_side(n):
+                sines[e + k] += size * (error[e + k] * beta[k])
+            continue
         for k in side_by_side(n):
             t = error[e + k] * beta[k]
             c, s = cosines[e + k], sines[e + k]
             h = 1.0 / math.sqrt(1.0 + t * t)
             cosines[e + k] = (c - s * t) * h
-            sines[e + k] = s + size * t if slide else (s + c * t) * h
+            sines[e + k] = (s + c * t) * h
