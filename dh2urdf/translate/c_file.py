@@ -16,6 +16,9 @@ INCLUDES = ["", *(f"#include <{name}.h>" for name in ("math", "stdbool", "stdint
 class CFile(Definitions):
     """Kernels, each once for each list of argument types, and what they share."""
 
+    writes = Body
+    """What writes a kernel."""
+
     def __init__(self) -> None:
         super().__init__()
         self.entries: list[Body] = []
@@ -39,7 +42,7 @@ class CFile(Definitions):
         if source in self._open:
             source.refuse(source.tree, "a kernel that calls itself", "a loop")
         self._open.add(source)
-        made = Body(self, source, given, self.kernel)
+        made = self.writes(self, source, given, self.kernel)
         made.write()
         self._open.remove(source)
         first = self._made.setdefault((source, made.arguments), made)

@@ -259,13 +259,17 @@ class Expressions(Names):
             if isinstance(known, int) and not 0 <= known < end:
                 self.refuse(n, "an index outside the array", "one from 0 to its length less 1")
             values = values[known] if values is not None and isinstance(known, int) else None
-            text = f"{text}[{value.text}]"
+            text = f"{text}[{self.place(value, length)}]"
         if isinstance(left, Record):
             return Value(left, f"&{text}", Binds.PREFIX)
         if values is not None and isinstance(left, Array):
             left = replace(left, fixed=Fixed(text, values))
         known = None if values is None or isinstance(left, Array) else values.item()
         return Value(left, text, Binds.POSTFIX, known=known)
+
+    def place(self, index: Value, length: Length) -> str:
+        """An index into so many, in C."""
+        return index.text
 
     def _view(self, n: ast.Subscript, text: str, t: Array, s: ast.Slice) -> Value:
         """A view from ``lower`` to ``upper``, which must not lie before it nor beyond the end."""

@@ -1,112 +1,82 @@
-"""Wrong changes, and whether tests see them: ``python -m tests.mutation ROOM [--count N]``.
+"""Wrong changes, and whether tests see them: ``python -m tests.mutation ROOM DIRECTORY``.
 
-Rooms are kernels, certificates and converters. Each of N changes, drawn by ``--seed`` from all that
-there are, is made in a copy of the package: kernels are compiled and asked for the golden answers,
-then come the tests of the room, until one fails or takes too long. ``--record`` adds the outcomes
-to ``runs.csv`` and writes the table of ``README.md``.
+Rooms are kernels, certificates and converters. Each of some changes, drawn by ``--seed`` from all
+that there are, is made in a copy of the package, and the tests that reach its line run until one
+fails: the directory is that of a run of ``tests.marked`` with ``-p tests.marked.each``.
+``--record`` adds the outcomes to ``runs.csv`` and writes the table of ``README.md``.
 """
 
 import argparse
 import csv
 import os
 import random
-import shutil
+import signal
 import subprocess
 import sys
 import time
 from collections import Counter
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import NamedTuple
 
+from tests.marked.__main__ import copied
+from tests.mutation.reach import FIRST, Reach
 from tests.mutation.sites import Site, changed, sites
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 RUNS, PAGE, MARK = HERE / "runs.csv", HERE / "README.md", "<!-- runs -->\n"
 
-SECONDS = 240
-"""Time of tests that end by themselves many times sooner."""
-
-
-class Room(NamedTuple):
-    """What is changed, and the tests that are to see it, in the order in which they are run."""
-
-    under: str
-    tests: tuple[str, ...]
-    compiled: bool = True
-
-
 ROOMS = {
-    "kernels": Room(
-        "dh2urdf/kernels", ("tests/kernels", "tests/ik/families", "tests/ik/redundant")
-    ),
-    "certificates": Room("dh2urdf/kernels/certificate", ("tests/kernels", "tests/ik")),
-    "converters": Room(
-        "dh2urdf/conversions",
-        ("tests/conversions", "tests/robot", "tests/cli", "tests/checks"),
-        compiled=False,
-    ),
+    "kernels": "dh2urdf/kernels",
+    "certificates": "dh2urdf/kernels/certificate",
+    "converters": "dh2urdf/conversions",
 }
 
+PYTEST = ["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-p", "tests.mutation.limits"]
 
-def drawn(room: Room, count: int, seed: int) -> list[tuple[str, Site]]:
+
+def drawn(room: str, count: int, seed: int) -> list[tuple[str, Site]]:
     """Changes of a room, each as likely as another."""
     every = [
         (str(path.relative_to(ROOT)), site)
-        for path in sorted((ROOT / room.under).rglob("*.py"))
+        for path in sorted((ROOT / ROOMS[room]).rglob("*.py"))
         if path.name not in ("shapes.py", "__init__.py")
         for site in sites(path.read_text())
     ]
     return random.Random(seed).sample(every, count)
 
 
-def copied(place: Path) -> None:
-    """The package in a folder of its own, beside the tests as they are."""
-    shutil.copytree(ROOT / "dh2urdf", place / "dh2urdf")
-    for name in ("tests", "urdf", "docs", "benchmarks", "examples", "pyproject.toml", "README.md"):
-        (place / name).symlink_to(ROOT / name)
-
-
-def outcome(room: Room, place: Path, file: str, site: Site) -> str:
-    """By what a change was seen, or ``survived``, or ``none`` for one that is no program."""
+def outcome(place: Path, tests: list[str], file: str, site: Site) -> str:
+    """By what a change was seen, ``survived``, or ``none`` for one that is no program."""
     path = place / file
     text = path.read_text()
     path.write_text(changed(text, site))
     try:
-        if room.compiled:
-            status = run(place, "-m", "tests.mutation.compiled")
+        if "/kernels/" in file and run(place, "-m", "tests.mutation.compiled"):
+            return "none"
+        golden = [test for test in tests if test.startswith(FIRST)]
+        for how, some in {"answers": golden, "tests": tests[len(golden) :]}.items():
+            (place / "some.txt").write_text("\n".join(some))
+            status = run(place, *PYTEST, "@some.txt") if some else 0
             if status:
-                return {3: "none", -1: "time"}.get(status, "answers")
-        named = sorted(ROOT.rglob(f"tests/**/test_*{path.stem}*.py"))
-        first = [str(t.relative_to(ROOT)) for t in named]
-        for tests in filter(None, (first, *([t] for t in room.tests))):
-            words = ("-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-c", "pyproject.toml")
-            status = run(place, *words, *tests)
-            if status not in (0, 5):
-                return "time" if status == -1 else "tests"
+                return "time" if status == -signal.SIGPROF else how
         return "survived"
     finally:
         path.write_text(text)
 
 
 def run(place: Path, *words: str) -> int:
-    """The status of Python with the changed package; -1 where it does not end."""
+    """The status of Python with the changed package; what it says is kept there."""
     keys = {"PYTHONPATH": str(place), "PYTHONDONTWRITEBYTECODE": "1"}
-    process = subprocess.Popen(
-        [sys.executable, "-W", "ignore", *words],
-        cwd=place,
-        env={**os.environ, **keys},
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,
-    )
-    try:
-        return process.wait(SECONDS)
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, 9)
-        process.wait()
-        return -1
+    with (place / "said.txt").open("w") as said:
+        return subprocess.run(
+            [sys.executable, "-W", "ignore", *words],
+            cwd=place,
+            env=os.environ | keys,
+            stdout=said,
+            stderr=subprocess.STDOUT,
+            check=False,
+        ).returncode
 
 
 def kept() -> list[list[str]]:
@@ -139,33 +109,25 @@ def main() -> int:
     """Draw changes, and tell what became of them."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
     parser.add_argument("room", choices=ROOMS)
+    parser.add_argument("marks", type=Path, metavar="DIRECTORY")
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--record", action="store_true")
     asked = parser.parse_args()
-    room, ends = ROOMS[asked.room], Counter[str]()
+    room, ends, reach = asked.room, Counter[str](), Reach(asked.marks)
     with TemporaryDirectory() as folder:
-        copied(Path(folder))
+        place = Path(folder)
+        copied(place)
         for file, site in drawn(room, asked.count, asked.seed):
-            begin = time.monotonic()
-            how = outcome(room, Path(folder), file, site)
+            begin, tests = time.monotonic(), reach.of(file, site.line)
+            how = outcome(place, tests, file, site)
             ends[how] += 1
             took = time.monotonic() - begin
-            print(
-                f"{how}: {file}:{site.line}: {site.old!r} -> {site.new!r}; {took:.0f} s", flush=True
-            )
+            said = (place / "said.txt").read_text().splitlines()[-2:] if tests else []
+            print(f"{how}: {file}:{site.line}: {site.old!r} -> {site.new!r}; {took:.0f} s,", end="")
+            print(f" {len(tests)} tests", *said, sep="\n    ", flush=True)
             if asked.record:
-                row = [
-                    asked.room,
-                    asked.seed,
-                    file,
-                    site.line,
-                    site.column,
-                    site.old,
-                    site.new,
-                    how,
-                    "",
-                ]
+                row = [room, asked.seed, file, site.line, site.column, site.old, site.new, how, ""]
                 with RUNS.open("a", newline="") as out:
                     csv.writer(out).writerow(row)
     print(dict(ends))

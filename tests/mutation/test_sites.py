@@ -29,7 +29,7 @@ def test_each_part_of_a_line_is_changed():
 
 def test_changes_of_the_package_are_programs():
     """Of each room some are drawn, the same for the same seed; none is a fault of syntax."""
-    for room in ROOMS.values():
+    for room in ROOMS:
         assert drawn(room, 20, 3) == drawn(room, 20, 3)
         for file, site in drawn(room, 20, 3):
             text = (ROOT / file).read_text()

@@ -1,0 +1,131 @@
+"""Run tests on kernels with marks: ``python -m tests.marked DIRECTORY [PATH...] [--missed]``.
+
+The repository is copied into the directory, where kernels are compiled that mark each statement
+that runs and each index outside its array, and then the tests of the paths run, by default the
+default suite. What they marked is added to the directory's ``marks`` and told; without paths
+and with ``--told`` nothing runs. Ends with 1 where an index was outside, or where fewer lines were
+reached than ``--least`` says.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import sysconfig
+from collections import Counter
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from tests.marked.python import mark_modules
+from tests.marked.written import KINDS, Place, statements, texts
+
+ROOT = Path(__file__).parents[2]
+
+FLAGS = ["-std=gnu99", "-O1", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-w", "-shared"]
+FLAGS += ["-fsanitize=signed-integer-overflow,shift,integer-divide-by-zero,float-cast-overflow"]
+"""What the compiler checks beside: its messages go to files ``undefined.*``."""
+
+ERRORS = "outside", "invalid", "divided", "overflow"
+"""After whether a statement ran, what its mark holds."""
+
+
+def copied(place: Path) -> None:
+    """The files of the repository as they are, without what is built."""
+    words = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(words, cwd=ROOT, capture_output=True, check=True)
+    for name in filter(None, listed.stdout.decode().split("\0")):
+        if not (ROOT / name).exists():
+            continue
+        (place / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(ROOT / name, place / name, follow_symlinks=False)
+
+
+def compiled(place: Path) -> list[Place]:
+    """Write the extension with marks into a copy of the package."""
+    from dh2urdf import engine
+    from dh2urdf.translate.build import compiler
+
+    written, marks = texts()
+    include = [f"-I{sysconfig.get_paths()['include']}", f"-I{np.get_include()}", "-I."]
+    same = ["-Wl,--defsym=entries_v3=entries_any", "-Wl,--defsym=entries_v4=entries_any"]
+    with TemporaryDirectory() as folder:
+        for name, text in written.items():
+            Path(folder, name).write_text(text)
+        sources = [f'-DSOURCES="{engine.fingerprint()}"', "-DTABLE=entries_any"]
+        files = ["kernels.c", str(ROOT / "dh2urdf/translate/doors.c"), "-o", "built.so", "-lm"]
+        subprocess.run(
+            [*compiler(), *FLAGS, *include, *sources, *files, *same], cwd=folder, check=True
+        )
+        shutil.copy(Path(folder, "built.so"), place / "dh2urdf/_kernels.abi3.so")
+    return marks
+
+
+def prepared(place: Path, modules: str | None = None) -> None:
+    """A copy with its kernels, and marks that nothing has reached; of Python modules, too."""
+    copied(place)
+    marks = compiled(place)
+    if modules:
+        mark_modules(place / "dh2urdf", modules, marks)
+    (place / "places.json").write_text(json.dumps(marks))
+    (place / "marks").write_bytes(bytes(KINDS * len(marks)))
+
+
+def run(place: Path, words: list[str]) -> int:
+    """Run pytest there."""
+    keys = {
+        "PYTHONPATH": str(place),
+        "KERNEL_MARKS": str(place / "marks"),
+        "DH2URDF_ENGINE": "compiled",
+        "UBSAN_OPTIONS": f"log_path={place}/undefined",
+    }
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
+    return subprocess.run(command, cwd=place, env=os.environ | keys, check=False).returncode
+
+
+def told(place: Path, *, missed: bool) -> tuple[float, int]:
+    """Print what was marked; the share of lines that ran, and how many indices were outside."""
+    places = [Place(*row) for row in json.loads((place / "places.json").read_text())]
+    seen = np.frombuffer((place / "marks").read_bytes(), bool).reshape(len(places), KINDS)
+    reached = {p for p, row in zip(places, seen, strict=True) if row[0]}
+    every = statements(place / "dh2urdf/kernels")
+    left = [p for p in every if p not in reached]
+    count, lost = Counter(p.file for p in every), Counter(p.file for p in left)
+    for file in lost:
+        print(f"{file}: {count[file] - lost[file]} of {count[file]}")
+        if missed:
+            print(*(f"  {p.function}:{p.line}" for p in left if p.file == file), sep="\n")
+    for kind, column in zip(ERRORS, seen.T[1:], strict=True):
+        for k in np.flatnonzero(column):
+            print(f"{kind}: {places[k].file}:{places[k].line} {places[k].function}")
+    for path in sorted(place.glob("undefined.*")):
+        print(path.read_text())
+    share = 1 - len(left) / len(every)
+    outside, *errors = (int(column.sum()) for column in seen.T[1:])
+    print(f"{len(every) - len(left)} of {len(every)} lines, {share:.1%};", end=" ")
+    print(f"lines with an index outside: {outside};", end=" ")
+    print("with floating-point errors:", *map("{1} {0}".format, ERRORS[1:], errors))
+    return share, outside
+
+
+def main() -> int:
+    """Prepare, run, tell."""
+    parser = argparse.ArgumentParser(prog="python -m tests.marked", description=__doc__)
+    parser.add_argument("place", type=Path)
+    parser.add_argument("--missed", action="store_true", help="list lines that were not reached")
+    parser.add_argument("--told", action="store_true", help="only tell what was marked before")
+    parser.add_argument("--modules", help="folder of Python modules that mark their lines, too")
+    parser.add_argument("--least", type=float, default=0.0, help="1 below this share")
+    asked, words = parser.parse_known_args()
+    if not (asked.place / "marks").exists():
+        prepared(asked.place.resolve(), asked.modules)
+    status = 0 if asked.told else run(asked.place.resolve(), words)
+    share, outside = told(asked.place, missed=asked.missed)
+    return int(share < asked.least or outside > 0 or status > 1)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

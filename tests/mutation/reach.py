@@ -1,0 +1,44 @@
+"""Which tests reach a line: of a run of ``tests.marked`` with its plugin ``each``."""
+
+import json
+from bisect import bisect_right
+from collections import defaultdict
+from pathlib import Path
+
+SECONDS = 120.0
+"""Of all tests that a change is shown to, as long as they took unchanged."""
+
+FIRST = "tests/translate/test_golden.py"
+
+
+class Reach:
+    """Tests by the statements that they reach."""
+
+    def __init__(self, place: Path) -> None:
+        places = json.loads((place / "places.json").read_text())
+        rows = [json.loads(row) for row in (place / "each.jsonl").read_text().splitlines()]
+        self.seconds = {row["test"]: row["seconds"] for row in rows if row["passed"]}
+        by_place = defaultdict[int, set[str]](set)
+        for row in rows:
+            for k in row["reached"] if row["passed"] else ():
+                by_place[k].add(row["test"])
+        self.tests = defaultdict[str, dict[int, set[str]]](dict)
+        """Of each file, by the line at which a statement begins."""
+        for k, (file, _, line) in enumerate(places):
+            name = file if file.startswith("dh2urdf/") else f"dh2urdf/kernels/{file}"
+            self.tests[name].setdefault(line, set()).update(by_place[k])
+
+    def of(self, file: str, line: int) -> list[str]:
+        """Tests that reach a line: golden answers first, then the quickest, for so many seconds."""
+        lines = sorted(self.tests[file])
+        at = bisect_right(lines, line) - 1
+        if at < 0:
+            return []
+        found = self.tests[file][lines[at]]
+        order = sorted(found, key=lambda t: (not t.startswith(FIRST), self.seconds[t]))
+        total, out = 0.0, list[str]()
+        for test in order:
+            total += self.seconds[test]
+            if total < SECONDS:
+                out.append(test)
+        return out
