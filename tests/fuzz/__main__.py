@@ -41,8 +41,9 @@ def by_inputs(name: str, drive: Drive, inputs: int, seed: int) -> tuple[int, str
         return drive(door, inputs, seed), ""
     except Exception as error:
         traceback.print_exc()
-        found = getattr(error, "smallest", b"")
-        return 0, f"{keep(name, found).name}: {type(error).__name__}: {error!s:.200}"
+        found = getattr(error, "smallest", None)
+        which = "one it begins with" if found is None else keep(name, found).name
+        return 0, f"{which}: {type(error).__name__}: {error!s:.200}"
 
 
 def by_coverage(name: str, seconds: int, seed: int) -> tuple[int, str]:
