@@ -81,7 +81,7 @@ WAYS = {"total += values[k]", "total = 1.0 / x", "values[:k] = 2.0", "total += 1
     ],
 )
 def test_statements_that_ran_are_told_and_no_others(compiled, k, x, ways):
-    """Each way through a kernel marks its own lines; what makes arrays is marked where it is used."""
+    """Each way through a kernel marks its lines; makers of arrays do where they are used."""
     reached, outside, *errors = called(compiled, k, x)
     assert reached & WAYS == ways
     assert {"part = some(2)", "return np.empty(n)", "if k < 1:", "while total < 0.0:"} < reached
