@@ -11,8 +11,6 @@ arm, or roots of a polynomial, lead to some of them only. From one of them the o
 direction in which the pose hardly changes.
 """
 
-from typing import Annotated
-
 import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT, finish_pose
@@ -20,16 +18,7 @@ from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
 from dh2urdf.kernels.parallel_axes import make_scratch as parallel_scratch
-from dh2urdf.kernels.shapes import (
-    ClosedForm,
-    Counts,
-    Floats,
-    Integers,
-    Outputs,
-    Poses,
-    Solutions,
-    Three,
-)
+from dh2urdf.kernels.shapes import ClosedForm, Counts, Outputs, Poses, Solutions, Three
 from dh2urdf.kernels.spherical_wrist import add_wrist, place_wrist, tool_to_wrist
 from dh2urdf.kernels.spherical_wrist import make_scratch as wrist_scratch
 
@@ -151,22 +140,3 @@ def reverse_all(q: Solutions):
         for k in range(q.shape[1]):
             for j in range(n // 2):
                 q[i, k, j], q[i, k, n - 1 - j] = q[i, k, n - 1 - j], q[i, k, j]
-
-
-@entry()
-def add_candidates(
-    rows: Annotated[Integers, "rows"],
-    outputs: Outputs,
-    wide: Annotated[Floats, "rows", "wide", "n"],
-    wide_count: Annotated[Integers, "rows"],
-):
-    """Append the candidates of the poses in doubt, rows (d,) of ``outputs``, to wide (d, k, n).
-
-    The count of a pose in doubt is -1 minus that of its candidates.
-    """
-    q, _, count, _, _ = outputs
-    for d in range(rows.shape[0]):
-        i = rows[d]
-        for r in range(-1 - count[i]):
-            wide[d, wide_count[d]] = q[i, r]
-            wide_count[d] += 1

@@ -1,11 +1,23 @@
 """The arm's C file: its functions, which call the kernels, and its head."""
 
+import re
 from typing import Any
 
 import numpy as np
 
 from dh2urdf.bounds import ANGLE
 from dh2urdf.export.source.c_kernels import ArmFile, lanes_of
+from dh2urdf.export.source.c_text import (
+    ABOUT,
+    FUNCTIONS,
+    HELD,
+    HELD_REFUSED,
+    NOINLINE,
+    SOLUTIONS,
+    WORK_EXAMPLE,
+    WORK_LINE,
+    WORKSPACE,
+)
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
@@ -21,152 +33,7 @@ from dh2urdf.translate.definitions import ELEMENT, folded, number
 from dh2urdf.translate.statements import Body
 from dh2urdf.translate.types import ELEMENTS, Array, Record, Tuple, Type
 
-ABOUT = """\
-The kinematics of one arm, with all of its inverse kinematics, in C99 that C++ takes, too.
-{provenance}
-
-Numbers are doubles, lengths metres, angles radians. A pose is T_{base}_{tip}, 16 numbers row by
-row, the last 0 0 0 1. A configuration q is {n} numbers:
-
-{joints}
-
-    {p}_fk(q, T)
-        the pose of a configuration
-    {p}_jacobian(q, J)
-        6 x {n} row by row: velocity of the tip, then angular velocity, in the axes of the base
-    {p}_ik(T, {held}within_limits, {work}&found)
-        all configurations that reach a pose; their number, or -1 if T is no pose (not finite, no
-        rotation within 1e-6){held_refused}
-    {p}_ik_near(T, {held}seed, within_limits, {work}&found)
-        the same, in the full turns nearest to a seed of {n} numbers, nearest first; -1 if one of
-        them is none, or beyond {angle:g}
-{held_line}{work_line}
-found holds count solutions in its first rows, each with its residual, the larger of its errors of
-position [m] and rotation [rad] on the exact chain; its branch{branch_line}
-and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular: it stands for a family, along which {p}_ik_near does not move it. complete is false
-where there may be more solutions, because the pose is next to one at which solutions meet;
-Robot.ik of dh2urdf searches there.
-
-    {p}_solutions found;
-{example}    {p}_ik(T, {held}true, {work}&found);
-    for (int k = 0; k < found.count; k++) {{
-        printf("%g, residual %.0e\\n", found.q[k][0], found.residual[k]);
-    }}
-
-No function allocates or keeps anything between calls, and each may run in many threads at once.
-{stack} bytes of the stack, {P}_STACK, are enough for any of them. With contraction off (gcc and
-clang: -ffp-contract=off) results are those of dh2urdf to the last bit."""
-
-HELD_REFUSED = """,
-        or held is outside its limits within_limits"""
-
-WORK_LINE = """
-work is a {p}_workspace of {size} bytes that {p}_prepare(&work) has filled once, what the solver
-knows of the arm and works in: one for each thread.
-"""
-
-WORK_EXAMPLE = """\
-    static {p}_workspace work;
-    {p}_prepare(&work);
-"""
-
-SOLUTIONS = """\
-#define {P}_JOINTS {n}
-#define {P}_SOLUTIONS {kmax}
-#define {P}_STACK {stack}
-#define {P}_HAS_WORKSPACE {workspace}
-
-/* Limits of the joints [rad] or [m]. */
-static const double {P}_LOWER[{P}_JOINTS] = {lower};
-static const double {P}_UPPER[{P}_JOINTS] = {upper};
-
-typedef struct {{
-    int64_t count;
-    double q[{P}_SOLUTIONS][{P}_JOINTS];
-    double residual[{P}_SOLUTIONS];
-    int64_t branch[{P}_SOLUTIONS];
-    int64_t free_joints[{P}_SOLUTIONS];
-    bool complete;
-}} {p}_solutions;
-"""
-
-NOINLINE = """\
-/* What keeps the frames of functions apart, so that they do not add up on the stack. */
-#if defined(__GNUC__)
-#define {P}_NOINLINE __attribute__((noinline))
-#elif defined(_MSC_VER)
-#define {P}_NOINLINE __declspec(noinline)
-#else
-#define {P}_NOINLINE
-#endif
-"""
-
-FUNCTIONS = """\
-/* The pose T_{base}_{tip}, 16 numbers row by row, of a configuration. */
-static inline void {p}_fk(const double q[{n}], double T[16])
-{{
-    {fk};
-}}
-
-/* The geometric Jacobian, 6 x {n} numbers row by row: linear velocity of the tip, then angular. */
-static inline void {p}_jacobian(const double q[{n}], double J[{n6}])
-{{
-    {jacobian};
-}}
-
-/* All configurations that reach a pose; their number, or -1 if T is no pose. */
-static inline int {p}_ik({parameters}, {p}_solutions *found)
-{{
-    double pose[1][4][4];
-{scratch}    memcpy(pose, T, sizeof pose);
-    found->count = 0;
-    found->complete = true;
-    if (!{is_pose}) {{
-        return -1;
-    }}
-{held_check}{steps}
-    if (found->count < 0) {{
-        found->count = (-1 - found->count) % {deep};
-        found->complete = false;
-    }}
-    if (within_limits) {{
-        {inside};
-    }}
-    return (int)found->count;
-}}
-
-/* The same, turned towards a seed of {n} numbers and sorted by distance from it. */
-static inline int {p}_ik_near({near}, {p}_solutions *found)
-{{
-    double pose[1][4][4], distance[{kmax}];
-    int i, count;
-    found->count = 0;
-    found->complete = true;
-    for (i = 0; i < {n}; i++) {{
-        if (!(seed[i] >= -{angle} && seed[i] <= {angle})) {{
-            return -1;
-        }}
-    }}
-    count = {p}_ik({given}, found);
-    if (count > 0) {{
-        memcpy(pose, T, sizeof pose);
-        {arrange};
-    }}
-    return count;
-}}
-"""
-
-HELD = """\
-    if (!(held >= -{angle} && held <= {angle})) {{
-        return -1;
-    }}
-    if (within_limits && !(held >= {P}_LOWER[{joint}] && held <= {P}_UPPER[{joint}])) {{
-        return -1;
-    }}
-"""
-
-CASTS = {"T": "(double (*)[4])T", "held": "&held", "work": "work"}
+CASTS = {"T": "(double (*)[4])T", "held": "&held"}
 CASTS |= {f"found->{x}": f"&found->{x}" for x in ("q", "residual", "count", "branch")}
 CASTS |= {"found->free_joints": "&found->free_joints"}
 """How the functions of the file hand on what they have."""
@@ -215,9 +82,7 @@ class CProgram:
             held_refused=HELD_REFUSED if held else "",
             held_line=line,
             work="&work, " if works else "",
-            work_line="".join(
-                WORK_LINE.format(p=p, size=record.like.dtype.itemsize) for record in program.records
-            ),
+            work_line=WORK_LINE.format(p=p, size=program.workspace) if works else "",
             example=WORK_EXAMPLE.format(p=p) if works else "",
             branch_line=branches(program),
             stack=self.stack,
@@ -231,7 +96,7 @@ class CProgram:
             n=self.n,
             kmax=self.program.solver.kmax,
             stack=stack,
-            workspace=len(self.program.records),
+            workspace=int(bool(self.program.records)),
             lower=number(self.robot.lower),
             upper=number(self.robot.upper),
         )
@@ -272,36 +137,32 @@ class CProgram:
                 HELD.format(P=p.upper(), angle=ANGLE, joint=joint) for joint in program.held
             ),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", np.empty((4, 4))),))),
-            steps="\n".join(map(self._step, program.calls)),
+            steps="\n".join(f"    {self._call(call)};" for call in program.calls),
             inside=self._call(Call(families_inside, inside)),
             arrange=self._call(Call(arrange_near, near)),
         )
-        return "\n".join([*map(self._prepare, program.records), functions])
+        return self._workspace() + functions if program.records else functions
 
-    def _prepare(self, record: Named) -> str:
-        """The function that fills what the solver works in."""
-        p, consts, sets = self.prefix, list[str](), list[str]()
-        for field in record.like.dtype.names or ():
-            values = record.like[field][0]
-            if not np.any(values):
-                continue
-            if np.ndim(values):
-                sizes = "".join(f"[{d}]" for d in values.shape)
-                kind = ELEMENT[ELEMENTS[values.dtype.kind]]
-                consts += folded(f"static const {kind} {field}{sizes} = {number(values)};", 4)
-                sets.append(f"    memcpy(work->{field}, {field}, sizeof {field});")
-            else:
-                sets.append(f"    work->{field} = {number(values)};")
-        lines = [f"static inline void {p}_prepare({p}_workspace *work)", "{", *consts]
-        about = "/* Fill what the solver knows and works in, once before all poses. */"
-        return "\n".join([about, *lines, "    memset(work, 0, sizeof *work);", *sets, "}", ""])
-
-    def _step(self, call: Call) -> str:
-        """A call that says whether the pose is in doubt, if it says anything."""
-        text = self._call(call)
-        if self.file.entries[-1].returned is None:
-            return f"    {text};"
-        return f"    if ({text}) {{\n        found->complete = false;\n    }}"
+    def _workspace(self) -> str:
+        """What the solver works in, and the function that fills it."""
+        consts, sets, parts = list[str](), list[str](), list[str]()
+        for record in self.program.records:
+            place = record.name.rpartition(".")[2]
+            struct = self.file.struct(Record(place, record.like.dtype))
+            parts.append(f"    {struct} {place};")
+            for field in record.like.dtype.names or ():
+                values = record.like[field][0]
+                if not np.any(values):
+                    continue
+                if np.ndim(values):
+                    sizes = "".join(f"[{d}]" for d in values.shape)
+                    kind = ELEMENT[ELEMENTS[values.dtype.kind]]
+                    consts += folded(f"static const {kind} {field}{sizes} = {number(values)};", 4)
+                    sets.append(f"    memcpy(work->{place}.{field}, {field}, sizeof {field});")
+                else:
+                    sets.append(f"    work->{place}.{field} = {number(values)};")
+        lines = (x and "\n".join([*x, ""]) for x in (parts, consts, sets))
+        return WORKSPACE.format(self.prefix, *lines)
 
     def _declared(self, array: Named) -> str:
         """An array as a variable."""
@@ -323,7 +184,8 @@ class CProgram:
             return []
         if isinstance(argument, Named):
             casts = CASTS | {"J": f"(double (*)[{self.n}])J"}
-            return [casts.get(argument.name, argument.name)]
+            name = re.sub(r"^work\.", "&work->", argument.name)
+            return [casts.get(name, name)]
         return [number(argument)]
 
     def _type(self, name: Any, argument: Any) -> Type:
@@ -335,7 +197,7 @@ class CProgram:
         if isinstance(argument, Named) and isinstance(argument.like, np.ndarray):
             dtype, shape = argument.like.dtype, argument.like.shape
             if dtype.names:
-                return Array(Record("workspace", dtype), shape)
+                return Array(Record(argument.name.rpartition(".")[2], dtype), shape)
             return Array(ELEMENTS[dtype.kind], shape, argument.name in ("q", "seed"))
         return type(argument.like if isinstance(argument, Named) else argument).__name__
 

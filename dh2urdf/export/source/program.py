@@ -16,7 +16,12 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import HeldSolver, Outputs, Room, Solver, SolverBase
+from dh2urdf.kernels.general_6r import ARM_6R
+from dh2urdf.kernels.in_doubt import IN_DOUBT
 from dh2urdf.transforms import Array
+
+RECORDS = {ARM_6R: "elimination", IN_DOUBT: "search"}
+"""What an arm's workspace has, by what kernels take."""
 
 
 class Switch(int):
@@ -55,8 +60,13 @@ class Program:
     scratch: tuple[Named, ...]
     """Arrays that one kernel leaves for another."""
     records: tuple[Named, ...]
-    """Structured arrays in which kernels keep what they know and what they work with, at most one
-    of them, as it is before the first pose."""
+    """Structured arrays in which kernels keep what they know and what they work with, each as it is
+    before the first pose."""
+
+    @property
+    def workspace(self) -> int:
+        """Bytes of the records."""
+        return sum(record.like.dtype.itemsize for record in self.records)
 
     @classmethod
     def of(cls, chain: SerialChain, solver: Solver | HeldSolver) -> "Program":
@@ -72,9 +82,9 @@ class Program:
         joints: tuple[int, ...] = ()
         take: Callable[[], tuple[Step, ...]] = tuple
         if isinstance(solver, HeldSolver):
-            joints, take = solver.held, partial(solver.steps, room.Ts, held, inside, room.out)
+            joints, take = solver.held, partial(solver.all_steps, room.Ts, held, inside, room.out)
         elif isinstance(solver, SolverBase):
-            take = partial(solver.steps, room.Ts, inside, room.out)
+            take = partial(solver.all_steps, room.Ts, inside, room.out)
         steps = take()
         if not steps:
             raise NoSolverError(f"{solver}: its solutions need more than kernels; not exported")
@@ -87,11 +97,10 @@ class Program:
             "found->branch": room.out.branch,
             "found->free_joints": room.out.free,
         }
-        records = [a for a in _arrays(steps) if a.dtype.names]
-        blank = tuple(Named("work", a.copy()) for a in records)
+        work = [Named(f"work.{RECORDS[a.dtype]}", a) for a in _arrays(steps) if a.dtype.names]
+        blank = tuple(Named(x.name, x.like.copy()) for x in work)
         made = [a for a in _made(steps, take()) if not a.dtype.names]
         scratch = [Named(f"between_{k + 1}", a) for k, a in enumerate(made)]
-        work = [Named("work", a) for a in records]
         known = [*(Named(name, a) for name, a in named.items()), *scratch, *work]
         calls = tuple(Call(k, _told(args, limits, known)) for k, args, _ in steps)
         out = Outputs._make(_told(tuple(room.out), limits, known))

@@ -14,6 +14,7 @@ import numpy as np
 from dh2urdf.bounds import ANGLE
 from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
+from dh2urdf.export.source.python_text import ABOUT, FUNCTIONS, HELD, HELD_REFUSED
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
 from dh2urdf.kernels.certificate import DEEP, arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
@@ -27,106 +28,6 @@ from dh2urdf.translate.types import ELEMENTS
 
 ARRAYS = Path(__file__).with_name("arrays.py.in").read_text()
 """What stands in the place of NumPy."""
-
-ABOUT = """\
-The kinematics of one arm, with all of its inverse kinematics, in Python that needs math alone.
-
-{provenance}
-
-Lengths are metres, angles radians. A pose is T_{base}_{tip}, four rows of four numbers. A
-configuration q is {n} numbers:
-
-{joints}
-
-    fk(q)
-        the pose of a configuration
-    jacobian(q)
-        six rows: velocity of the tip, then angular velocity, in the axes of the base
-    ik(T, {held}within_limits=True)
-        all configurations that reach a pose, as Solutions; ValueError if T is none{held_refused}
-    ik_near(T, {held}seed, within_limits=True)
-        the same, in the full turns nearest to a seed, nearest first
-{held_line}
-Solutions are lists of the same length: q, residual (the larger of the errors of position [m] and
-rotation [rad] on the exact chain), branch{branch_line}
-and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular: it stands for a family, along which ik_near does not move it. complete is False where
-there may be more solutions, because the pose is next to one at which solutions meet; Robot.ik of
-dh2urdf searches there.
-
-    found = ik(T{held_given}, within_limits=False)
-    for q, residual in zip(found.q, found.residual):
-        print(q, residual)
-
-Results are those of dh2urdf to the last bit."""
-
-HELD_REFUSED = """, or if
-        held is outside its limits within_limits"""
-
-HELD = """\
-    lower, upper = (LOWER[{joint}], UPPER[{joint}]) if within_limits else (-{angle}, {angle})
-    if not max(lower, -{angle}) <= held <= min(upper, {angle}):
-        raise ValueError(f"held: {{held}} is outside the limits {{lower}} to {{upper}}")
-"""
-
-FUNCTIONS = '''\
-JOINTS, LOWER, UPPER = {n}, {lower}, {upper}
-
-
-class Solutions(NamedTuple):
-    """Configurations that reach a pose, as the head of the file says."""
-
-    q: list
-    residual: list
-    branch: list
-    free_joints: list
-    complete: bool
-
-
-def fk(q):
-    """The pose of a configuration, four rows."""
-    q, T = _floats(q, ({n},)), empty((4, 4))
-    {fk}
-    return T.rows()
-
-
-def jacobian(q):
-    """The geometric Jacobian, six rows of {n}."""
-    q, J = _floats(q, ({n},)), empty((6, {n}))
-    {jacobian}
-    return J.rows()
-
-
-def ik({given}within_limits=True):
-    """All configurations that reach a pose."""
-    return _solved(T, {handed}within_limits, None)
-
-
-def ik_near({given}seed, within_limits=True):
-    """The same, turned towards a seed and sorted by distance from it."""
-    return _solved(T, {handed}within_limits, _floats(seed, ({n},)))
-
-
-def _solved({given}within_limits, seed):
-    pose = _floats(T, (1, 4, 4))
-    if not {is_pose}:
-        raise ValueError("no pose: not finite, or no rotation within 1e-6")
-    if seed is not None and not all(abs(x) <= {angle} for x in seed.rows()):
-        raise ValueError("seed: expected numbers up to {angle}")
-{held_check}    q, residual, count = empty((1, {k}, {n})), empty((1, {k})), zeros(1, int64)
-    branch, free_joints, complete = zeros((1, {k}), int64), zeros((1, {k}), int64), True
-{scratch}
-{steps}
-    if count[0] < 0:
-        count[0], complete = (-1 - count[0]) % {deep}, False
-    if within_limits:
-        {inside}
-    if seed is not None and count[0] > 0:
-        distance = empty({k})
-        {arrange}
-    found = (array[0].rows()[: count[0]] for array in (q, residual, branch, free_joints))
-    return Solutions(*found, complete)
-'''
 
 SPELT = {"found->" + x: x for x in ("q", "residual", "count", "branch", "free_joints")}
 """Where solutions go, as the functions call it."""
@@ -184,7 +85,7 @@ class PythonProgram:
         inside = tables, LIMIT_SLACK, POSE, size, centre, pose, program.out
         scratch = [f"{x.name} = {self._blank(x.like)}" for x in program.scratch]
         scratch += ["held = _floats([held], (1,))"] if program.held else []
-        scratch += [f"work = [{self._record(x.like[0])}]" for x in program.records]
+        scratch += [f"{_place(x.name)} = [{self._record(x.like[0])}]" for x in program.records]
         return FUNCTIONS.format(
             n=n,
             k=k,
@@ -199,14 +100,10 @@ class PythonProgram:
             held_check="".join(HELD.format(angle=ANGLE, joint=joint) for joint in program.held),
             is_pose=self._call(Call(is_pose, (Named("pose[0]", None),))),
             scratch=textwrap.indent("\n".join(scratch), "    "),
-            steps="\n".join(map(self._step, program.calls)),
+            steps="\n".join(f"    {self._call(call)}" for call in program.calls),
             inside=self._call(Call(families_inside, inside)),
             arrange=self._call(Call(arrange_near, near)),
         )
-
-    def _step(self, call: Call) -> str:
-        """A call that may say that the pose is in doubt."""
-        return f"    if {self._call(call)}:\n        complete = False"
 
     def _call(self, call: Call) -> str:
         """A call of a kernel."""
@@ -222,7 +119,7 @@ class PythonProgram:
         if isinstance(argument, np.ndarray):
             return self._constant(name.upper(), argument)
         if isinstance(argument, Named):
-            return SPELT.get(argument.name, argument.name)
+            return SPELT.get(argument.name, _place(argument.name))
         return repr(argument)
 
     def _kernel(self, source: Source) -> str:
@@ -283,12 +180,17 @@ class PythonProgram:
 
 
 OWN = """
-fk jacobian ik ik_near Solutions JOINTS LOWER UPPER math NamedTuple work held T J q residual count
-branch free_joints complete pose seed distance within_limits
+fk jacobian ik ik_near Solutions JOINTS LOWER UPPER math NamedTuple elimination search held T J q
+residual count branch free_joints complete pose seed distance within_limits
 """
 
 RESERVED = {*re.findall(r"^(?:def |class )?(\w+)(?=\(|:| =)", ARRAYS, re.MULTILINE), *OWN.split()}
 """Names that the file has for itself."""
+
+
+def _place(name: str) -> str:
+    """What a part of the workspace is called."""
+    return name.rpartition(".")[2] if name.startswith("work.") else name
 
 
 def _renamed(body: str, names: dict[str, str]) -> str:

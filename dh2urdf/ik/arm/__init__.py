@@ -16,6 +16,7 @@ from dh2urdf.ik.arm.in_doubt import (
     from_starts,
     keep_known,
     keep_sharp,
+    room_in_doubt,
     search_in_doubt,
     starts_of,
     unite_families,

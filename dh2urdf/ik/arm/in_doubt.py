@@ -9,9 +9,10 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.limits import TWO_PI
 from dh2urdf.ik.arm.singular_families import Family
 from dh2urdf.ik.arm.solver import IntArray, Outputs
-from dh2urdf.ik.arm.task import Task, task_jacobian
+from dh2urdf.ik.arm.task import Task
 from dh2urdf.kernels.certificate import finish_batch, name_batch
-from dh2urdf.kernels.in_doubt import search_beside, search_from
+from dh2urdf.kernels.in_doubt import IN_DOUBT, MOST_STEPS, search_poses
+from dh2urdf.kernels.in_doubt import unite_families as keep_members
 from dh2urdf.kernels.redundant import WELL
 from dh2urdf.transforms import Array
 
@@ -27,16 +28,6 @@ SHARP = 1e-11
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
-
-DULL, EXACT, VALLEY = 1e-13, 1e-14, 1e-7
-"""Residuals [m and rad] of a point of a valley and of a solution beside which it is none, and the
-smallest singular value there: along slides a valley is straight, and may be as long as the arm."""
-
-FAMILIES = 4
-"""Families of a pose whose members are looked for at any distance: a few milliseconds each."""
-
-ALIKE = 1e-14
-"""Residuals [m and rad] below which one member of a family is as good as another."""
 
 
 @cache
@@ -70,45 +61,17 @@ def search_in_doubt(
 
     What lies beside is looked for at all of them, many starts are for the ``deep`` ones.
     """
-    wide = Outputs.of(len(Ts), WIDTH, chain.n)
-    if not len(Ts):
-        return wide
-    wide.q[:, : found.q.shape[1]], wide.counts[:] = found.q, found.counts
-    some = wide.rows(deep)
-    search_from(chain.tables, starts_of(chain, starts), chain.size, Ts[deep], some)
-    wide.put(deep, some)
-    finish_batch(chain.tables, Ts, False, wide)
-    search_beside(chain.tables, Ts, wide)
-    finish_batch(chain.tables, Ts, False, wide)
-    if chain.prismatic.any():
-        _drop_valleys(chain, wide)
-    unite_families(chain, Ts, within_limits, wide)
+    wide, many = Outputs.of(len(Ts), WIDTH, chain.n), np.zeros(len(Ts), np.int64)
+    if len(Ts):
+        wide.q[:, : found.q.shape[1]], wide.counts[:], many[deep] = found.q, found.counts, 1
+        tables, given = chain.tables, (np.ascontiguousarray(Ts), many, within_limits, wide)
+        search_poses(tables, starts_of(chain, starts), chain.size, room_in_doubt(), *given)
     return wide
 
 
-def _drop_valleys(chain: SerialChain, wide: Outputs) -> None:
-    """Drop what is accepted along valleys of poses that have exact solutions, in place."""
-    for i, count in enumerate(wide.counts):
-        one = wide.rows(slice(i, i + 1))
-        residual = one.residual[0, :count]
-        dull = np.flatnonzero((residual > DULL) & (one.free[0, :count] == 0))
-        if len(dull) and residual.min() <= EXACT:
-            valley = dull[_hardly_moves(chain, one.q[0, dull])]
-            _keep(one, np.delete(np.arange(count), valley))
-
-
-def _hardly_moves(chain: SerialChain, q: Array) -> NDArray[np.bool_]:
-    """Whether the pose hardly changes in one direction at configurations q (k, n).
-
-    Lengths and slides are in sizes of the arm, or of how far out slides are: partners of a pair may
-    be tens of kilometres out, where they are parallel but for 1e-5.
-    """
-    size = np.abs(q[:, chain.prismatic]).max(axis=1, initial=chain.size)[:, None, None]
-    J = task_jacobian(chain, Task.POSE, q)
-    J[:, :3] /= size
-    J[:, :, chain.prismatic] *= size
-    flat: NDArray[np.bool_] = np.linalg.svd(J, compute_uv=False)[:, -1] < VALLEY
-    return flat
+def room_in_doubt() -> NDArray[np.void]:
+    """What a thread searches in."""
+    return np.zeros(1, IN_DOUBT)
 
 
 def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) -> Outputs:
@@ -220,26 +183,7 @@ def _keep(out: Outputs, rows: IntArray | list[int]) -> None:
 
 def unite_families(chain: SerialChain, Ts: Array, within_limits: bool, wide: Outputs) -> None:
     """Keep one member of each family of poses Ts (d, 4, 4), and, then, what is within limits."""
-    named = (wide.free != 0) & (np.arange(wide.q.shape[1]) < wide.counts[:, None])
-    for i in np.flatnonzero(named.sum(axis=1) > 1).tolist():
-        one_of_each_family(chain, Ts[i], wide.rows(slice(i, i + 1)))
+    poses, walk = np.ascontiguousarray(Ts), np.empty((2, MOST_STEPS, chain.n))
+    keep_members(chain.tables, chain.size, poses, walk, wide)
     if within_limits:
-        finish_batch(chain.tables, Ts, True, wide)
-
-
-def one_of_each_family(chain: SerialChain, T: Array, out: Outputs) -> None:
-    """Keep the best member of each family of a pose T (4, 4), isolated ones first, in place."""
-    k = int(out.counts[0])
-    q, free, residual = out.q[0, :k], out.free[0, :k], np.maximum(out.residual[0, :k], ALIKE)
-    kept = np.flatnonzero(free == 0).tolist()
-    members = sorted(np.flatnonzero(free).tolist(), key=lambda m: residual[m])
-    isolated = len(kept)
-    while members:
-        first = members.pop(0)
-        kept.append(first)
-        family = family_of(chain, np.array(T), q[first], free[first])
-        alike = [m for m in members if free[m] == free[first]]
-        trials = 2 if len(kept) - isolated <= FAMILIES else 0
-        same = {m for m, on in zip(alike, family.contains(q[alike], trials), strict=True) if on}
-        members = [m for m in members if m not in same]
-    _keep(out, kept)
+        finish_batch(chain.tables, poses, True, wide)

@@ -177,6 +177,13 @@ class SolverBase:
             return ()
         return ((self.kernel, (self.constants, Ts, within_limits, out), False),)
 
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """Kernels that solve poses, those in doubt, too, where there are such kernels.
+
+        A count is negative, then, where that is not so.
+        """
+        return self.steps(Ts, within_limits, out)
+
     @cached_property
     def constants(self) -> tuple[Any, ...]:
         """First arguments of the kernel: what it knows of the arm."""
@@ -229,6 +236,12 @@ class HeldSolver:
     ) -> tuple[Step, ...]:
         """Kernels that solve poses with one held joint at values (m,), see :class:`SolverBase`."""
         return ()
+
+    def all_steps(
+        self, Ts: Array, values: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """The same with what is done of poses in doubt, see :class:`SolverBase`."""
+        return self.steps(Ts, values, within_limits, out)
 
     def clear_about(self, value: float) -> tuple[float, float]:
         """Between which values of the one held joint `steps` are right, about one at which it is.

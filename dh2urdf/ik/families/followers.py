@@ -106,7 +106,7 @@ class Followers(OwnRecord, SolverBase):
 
         Returned are their indices.
         """
-        with self._record() as arm:
+        with self.record() as arm:
             doubts = self.kernels.finished(self.chain.tables, arm, Ts, within_limits, out)
         return np.flatnonzero(out.counts < 0) if doubts else np.empty(0, np.int64)
 

@@ -12,11 +12,21 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
-from dh2urdf.ik.arm import AxisLines, IntArray, Others, Outputs, SolverBase, Task, search_in_doubt
+from dh2urdf.ik.arm import (
+    AxisLines,
+    IntArray,
+    Others,
+    Outputs,
+    SolverBase,
+    Task,
+    room_in_doubt,
+    starts_of,
+)
 from dh2urdf.ik.families.closed_form import STUCK
 from dh2urdf.ik.families.own_record import OwnRecord
 from dh2urdf.ik.families.short_links import screw, short_links
 from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
+from dh2urdf.kernels.in_doubt import search_doubtful
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
 
@@ -103,7 +113,7 @@ class General6R(OwnRecord, SolverBase):
     def solve_unfinished(self, Ts: Array, out: Outputs) -> IntArray:
         """Candidates of poses Ts (m, 4, 4), limits or not: q and counts; the poses in doubt."""
         doubt = np.zeros(len(Ts), np.int64)
-        with self._record() as arm:
+        with self.record() as arm:
             solve_general_6r(arm, Ts, out.q, out.residual, out.counts, doubt)
         return np.flatnonzero(doubt)
 
@@ -120,18 +130,21 @@ class General6R(OwnRecord, SolverBase):
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4); those in doubt are searched, too."""
-        doubt = self.solve_sure(Ts, within_limits, out)
-        if len(doubt):
-            found, deep = out.rows(doubt), np.arange(len(doubt))
-            found.counts[:] = -1 - found.counts
-            out.put(doubt, search_in_doubt(self.chain, Ts[doubt], found, deep, within_limits))
+        if len(self.solve_sure(Ts, within_limits, out)):
+            kernel, arguments, _ = self._search(Ts, within_limits, out)
+            kernel(*arguments)
+
+    def _search(self, Ts: Array, within_limits: bool, out: Outputs) -> Step:
+        """The kernel that searches at poses in doubt, and its arguments."""
+        chain, given = self.chain, (room_in_doubt(), Ts, within_limits, out)
+        return search_doubtful, (chain.tables, starts_of(chain), chain.size, *given), False
 
     def solve_sure(self, Ts: Array, within_limits: bool, out: Outputs) -> IntArray:
         """Solve poses Ts (m, 4, 4) but those in doubt, whose counts are -1 minus their candidates.
 
         Returned are their indices.
         """
-        with self._record() as arm:
+        with self.record() as arm:
             doubts = finish_general_6r(self.chain.tables, arm, Ts, within_limits, out)
         return np.flatnonzero(out.counts < 0) if doubts else np.empty(0, np.int64)
 
@@ -139,6 +152,10 @@ class General6R(OwnRecord, SolverBase):
         """The kernel alone, where it has no doubt."""
         arguments = self.chain.tables, self.plan.copy(), Ts, within_limits, out
         return ((finish_general_6r, arguments, False),)
+
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """That kernel, and the search where it has."""
+        return *self.steps(Ts, within_limits, out), self._search(Ts, within_limits, out)
 
 
 def _outer_slides(chain: Array, slides: Array, outer: Array) -> None:

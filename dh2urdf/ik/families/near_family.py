@@ -20,20 +20,16 @@ from dh2urdf.ik.arm import (
     SolverBase,
     Task,
     lines_of,
-    search_in_doubt,
+    room_in_doubt,
     spare_joints,
+    starts_of,
 )
 from dh2urdf.ik.families.closed_form import STUCK, ThreeParallel, not_six_revolute
-from dh2urdf.ik.families.general_6r import General6R
+from dh2urdf.ik.families.general_6r import Arm, General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.kernels.certificate import finish_batch
-from dh2urdf.kernels.nearly import (
-    add_candidates,
-    reverse_all,
-    settle_counts,
-    solve_near_parallel,
-    solve_near_wrist,
-)
+from dh2urdf.kernels.in_doubt import referee_doubtful
+from dh2urdf.kernels.nearly import reverse_all, settle_counts, solve_near_parallel, solve_near_wrist
 from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array
 
@@ -55,16 +51,16 @@ class Refereed(SolverBase):
         super().__init__(chain, task, others)
         self.general = General6R(chain)
 
-    def in_doubt(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[IntArray, Outputs]:
-        """Solve what is in doubt of poses Ts (m, 4, 4); the rows, which have no solutions now."""
-        rows = np.flatnonzero(out.counts < 0)
-        Ts, found = Ts[rows], Outputs.of(len(rows), 2 * self.kmax, 6)
-        first = Outputs.of(len(rows), self.kmax, 6)
-        deep = self.general.solve_unfinished(Ts, first)
-        found.q[:, : self.kmax], found.counts[:] = first.q, first.counts
-        add_candidates(rows, out, found.q, found.counts)
-        out.counts[rows] = 0
-        return rows, search_in_doubt(self.chain, Ts, found, deep, within_limits)
+    def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
+        """Solve poses Ts[rows], in doubt, by the general solver and a search, too."""
+        with self.general.record() as arm:
+            kernel, arguments, _ = self.referee(arm, Ts, within_limits, out)
+            kernel(*arguments)
+
+    def referee(self, arm: Arm, Ts: Array, within_limits: bool, out: Outputs) -> Step:
+        """The kernel that solves poses in doubt, and its arguments."""
+        chain, given = self.chain, (arm, room_in_doubt(), Ts, within_limits, out)
+        return referee_doubtful, (chain.tables, starts_of(chain), chain.size, *given), False
 
 
 class NearFamily(Refereed):
@@ -123,36 +119,38 @@ class NearFamily(Refereed):
 
     def _solve_both(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4) by the nominal arm, those in doubt by the general solver."""
-        wrist = isinstance(self.nominal, SphericalWrist)
-        poses, form = Ts, self.nominal.form
-        arm = self.nominal.chain.tables, form.rows, form.ends, self.slack
-        if self.reversed:
-            poses = np.empty_like(Ts)
-            invert_poses(Ts, poses)
-        solve = solve_near_wrist if wrist else solve_near_parallel
-        solve(arm, self.trust, poses, out)
-        if self.reversed:
-            out.q[:] = out.q[:, :, ::-1].copy()
-        rows, wide = self.in_doubt(Ts, within_limits, out)
+        for kernel, arguments, _ in self._by_nominal(Ts, out):
+            kernel(*arguments)
         finish_batch(self.chain.tables, Ts, within_limits, out)
-        out.put(rows, wide)
+        if len(rows := np.flatnonzero(out.counts < 0)):
+            self.look_wider(Ts, rows, within_limits, out)
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """Of a pose that is not in doubt: the general solver, or the nominal arm's as seeds."""
         if self.far:
             return self.general.steps(Ts, within_limits, out)
+        settle: Step = settle_counts, (out.counts,), False
+        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
+        return *self._by_nominal(Ts, out), settle, finish
+
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """Those of any pose: what the nominal arm gives is certified, or its candidates are."""
+        if self.far:
+            return self.steps(Ts, within_limits, out)
+        arm = self.general.plan.copy()
+        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
+        return *self._by_nominal(Ts, out), finish, self.referee(arm, Ts, within_limits, out)
+
+    def _by_nominal(self, Ts: Array, out: Outputs) -> tuple[Step, ...]:
+        """The kernels that make candidates of what the nominal arm does."""
         form, poses = self.nominal.form, np.empty_like(Ts)
         wrist = isinstance(self.nominal, SphericalWrist)
         solve = solve_near_wrist if wrist else solve_near_parallel
         arm = self.nominal.chain.tables, form.rows, form.ends, self.slack
         seen = poses if self.reversed else Ts
         first: Step = solve, (arm, self.trust, seen, out), False
-        settle: Step = settle_counts, (out.counts,), False
-        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
-        if not self.reversed:
-            return first, settle, finish
         turned: Step = reverse_all, (out.q,), False
-        return (invert_poses, (Ts, poses), False), first, turned, settle, finish
+        return ((invert_poses, (Ts, poses), False), first, turned) if self.reversed else (first,)
 
 
 @lru_cache(maxsize=4)

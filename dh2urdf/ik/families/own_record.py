@@ -15,7 +15,7 @@ class OwnRecord:
     _idle: list[NDArray[np.void]]
 
     @contextmanager
-    def _record(self) -> Iterator[NDArray[np.void]]:
+    def record(self) -> Iterator[NDArray[np.void]]:
         """A copy of the plan that no other thread has meanwhile."""
         try:
             arm = self._idle.pop()

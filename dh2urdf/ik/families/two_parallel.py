@@ -9,6 +9,7 @@ from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     NEAR,
     NOMINAL,
+    NONE,
     AxisLines,
     Others,
     Outputs,
@@ -70,17 +71,27 @@ class TwoParallel(Refereed):
             record = self._idle.pop()
         except IndexError:
             record = self.record.copy()
-        tables = self.chain.tables
-        doubts = solve_two_parallel(tables, self.form, record, self.exact, Ts, within_limits, out)
+        kernel, arguments, _ = self._solve(record, Ts, within_limits, out)
+        doubts = kernel(*arguments)
         self._idle.append(record)
         if doubts:
-            out.put(*self.in_doubt(Ts, within_limits, out))
+            self.look_wider(Ts, NONE, within_limits, out)
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """The kernel alone, where its lines are the chain's and it has no doubt."""
-        arguments = self.chain.tables, self.form, self.record.copy(), self.exact
-        solve: Step = solve_two_parallel, (*arguments, Ts, within_limits, out), False
-        return (solve,) if self.exact else ()
+        arm = self.record.copy()
+        return (self._solve(arm, Ts, within_limits, out),) if self.exact else ()
+
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """That kernel, and then the general solver where it has doubt."""
+        arm = self.general.plan.copy()
+        first = self._solve(arm, Ts, within_limits, out)
+        return first, self.referee(arm, Ts, within_limits, out)
+
+    def _solve(self, arm: Arm, Ts: Array, within_limits: bool, out: Outputs) -> Step:
+        """The kernel of the family, and its arguments."""
+        given = self.chain.tables, self.form, arm, self.exact, Ts, within_limits, out
+        return solve_two_parallel, given, False
 
 
 @lru_cache(maxsize=4)

@@ -15,6 +15,7 @@ from dh2urdf.kernels.certificate.arrange import (
     measure,
     measure_all,
     measure_and_sort,
+    swap,
     turn_one,
     turn_to,
 )

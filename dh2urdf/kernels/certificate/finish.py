@@ -250,12 +250,15 @@ def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
 def finish_batch(chain: AnyChain, Ts: Poses, within_limits: bool, outputs: Outputs):
     """Certify candidates q (m, kmax, n), the first ``count[i]`` of pose Ts[i], in place.
 
-    The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1.
+    The other arrays as in :class:`dh2urdf.ik.arm.solver.Solver`; branches become -1. Poses of which
+    the count is negative are left to others.
     """
     q, residual, count, branch, free = outputs
     n = q.shape[2]
     work, trial = work_array(n), np.empty((2, n))
     for i in range(Ts.shape[0]):
+        if count[i] < 0:
+            continue
         rows = q[i], residual[i], branch[i], free[i]
         count[i] = finish_all(chain, Ts[i], within_limits, rows, count[i], trial, work)
 

@@ -20,7 +20,13 @@ from dh2urdf.kernels.general_6r.elimination import (
 )
 from dh2urdf.kernels.general_6r.follow import keep_lane, polish_lanes
 from dh2urdf.kernels.general_6r.listing import SINGULAR, at_root, how_many_below, list_solution
-from dh2urdf.kernels.general_6r.poses import Arms, finish_general_6r, solve_general_6r
+from dh2urdf.kernels.general_6r.poses import (
+    Arms,
+    finish_general_6r,
+    make_ready,
+    solve_general_6r,
+    solve_pose,
+)
 from dh2urdf.kernels.general_6r.resultant import (
     LEFT,
     finish_reduction,

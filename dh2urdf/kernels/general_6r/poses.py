@@ -33,7 +33,14 @@ from dh2urdf.kernels.shapes import Chain, Counts, Outputs, Poses, Solutions, Val
 Arms: TypeAlias = Annotated[Any, ARM_6R, "arm_6r", 1]
 
 
-def _solve_pose(T, out_q, out_residual, arm):
+def make_ready(arm):
+    """Prepare the eliminations of a record, once."""
+    if arm["ready"] == 0:
+        prepare(arm)
+        arm["ready"] = 1
+
+
+def solve_pose(T, out_q, out_residual, arm):
     """All solutions of one pose; their number, and 1 where doubt is left that all are found."""
     trials, first, found, doubt, meeting = arm["trials"], arm["first"], 0, 1, False
     place_target(T, arm)
@@ -68,11 +75,9 @@ def solve_general_6r(
     shared between threads.
     """
     arm = arms[0]
-    if arm["ready"] == 0:
-        prepare(arm)
-        arm["ready"] = 1
+    make_ready(arm)
     for m in range(Ts.shape[0]):
-        count[m], doubt[m] = _solve_pose(Ts[m], q[m], residual[m], arm)
+        count[m], doubt[m] = solve_pose(Ts[m], q[m], residual[m], arm)
 
 
 def _measure(chain, T, found, rows):
@@ -93,12 +98,10 @@ def finish_general_6r(chain: Chain, arms: Arms, Ts: Poses, within_limits: bool, 
     """
     q, residual, count, branch, free = outputs
     arm, doubts, work, trial = arms[0], 0, work_array(6), np.empty((2, 6))
-    if arm["ready"] == 0:
-        prepare(arm)
-        arm["ready"] = 1
+    make_ready(arm)
     for m in range(Ts.shape[0]):
         rows = q[m], residual[m], branch[m], free[m]
-        found, doubt = _solve_pose(Ts[m], q[m], residual[m], arm)
+        found, doubt = solve_pose(Ts[m], q[m], residual[m], arm)
         if doubt == 1:
             found, doubts = -1 - found, doubts + 1
         else:

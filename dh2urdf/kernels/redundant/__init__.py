@@ -22,8 +22,8 @@ from dh2urdf.kernels.redundant.nearest import (
     spread,
     start_beside,
 )
-from dh2urdf.kernels.redundant.one_family import WELL, on_one_family
+from dh2urdf.kernels.redundant.one_family import WELL, members_among, on_one_family
 from dh2urdf.kernels.redundant.paths import onward, shorten
-from dh2urdf.kernels.redundant.self_motion import nearest_members, walk_family
+from dh2urdf.kernels.redundant.self_motion import HELD, nearest_members, walk_family
 from dh2urdf.kernels.redundant.starts import MOST_STARTS, find_starts
 from dh2urdf.kernels.redundant.sweeps import WALKED, sweep_pose

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, add_step, look
+from dh2urdf.kernels.certificate import ACCEPT, NO_JOINT, add_step, look
 from dh2urdf.kernels.newton import error_and_jacobian, make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import HELD, dot, first_guess, tangent_near, way_to
@@ -113,7 +113,7 @@ def _walk_by(chain, goal, start, step, trail, passed, scratch, damped):
         if closed:
             break
         at[:] = start
-        first_guess(guess)
+        first_guess(guess, NO_JOINT)
         for i in range(n):
             guess[i] *= 1.0 - 2.0 * side
         for k in range(MOST_STEPS):

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.certificate import move
-from dh2urdf.kernels.newton import make_damped
+from dh2urdf.kernels.newton import STAYING, make_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import go_nearer, largest, walk_family, way_to
 from dh2urdf.kernels.shapes import AnyChain, Configuration, Flags, Floats, Goal, Some
@@ -39,6 +39,42 @@ def _arrives(chain, goal, held, start, other, rows, damped):
     return largest(way) <= ARRIVED
 
 
+def members_among(chain, goal, length, held, q, others, trials, found, walk):
+    """Which of some solutions (k, n) are on the family of a member q (n,), by its free joints.
+
+    Asked are those that ``found`` (k,) says, where the answers are, too; the other joints stay as
+    they are in q. Ways straight from q are tried until so many ``trials`` have failed; then come
+    those from a walk, which has steps of a ``length`` [rad or m], at most as many each way as there
+    is room for. Towards a solution residuals are ``held`` at most.
+    """
+    n, failed, walked, staying = q.shape[0], 0, False, goal[0] // STAYING
+    damped, rows, counts = make_damped(n), np.empty((9, n)), np.zeros(2, np.int64)
+    other = rows[8]
+    for k in range(others.shape[0]):
+        if not found[k]:
+            continue
+        for i in range(n):
+            other[i] = q[i] if staying >> i & 1 else others[k, i]
+        found[k] = failed < trials and _arrives(chain, goal, held, q, other, rows, damped)
+        if found[k]:
+            continue
+        failed += 1
+        if not walked:
+            walk_family(chain, goal, length, q, walk, counts)
+            walked = True
+        way_to(chain[1], q, other, rows[6])
+        side, nearest, best = 0, -1, min(largest(rows[6]), BESIDE * length)
+        for way in range(2):
+            for i in range(counts[way]):
+                way_to(chain[1], walk[way, i], other, rows[6])
+                far = largest(rows[6])
+                if far < best:
+                    side, nearest, best = way, i, far
+        if best < BESIDE * length:
+            start = q if nearest < 0 else walk[side, nearest]
+            found[k] = _arrives(chain, goal, held, start, other, rows, damped)
+
+
 @entry()
 def on_one_family(
     chain: AnyChain,
@@ -53,31 +89,11 @@ def on_one_family(
 ):
     """Which solutions (k, n) are on the family of a member q (n,), to ``found`` (k,).
 
-    Ways straight from q are tried until so many ``trials`` have failed; then come those from a
-    walk, which has steps of a ``length`` [rad or m], at most as many each way as there is room for.
-    Towards a solution residuals are ``held`` at most.
+    Arguments as those of :func:`members_among`.
     """
-    n, failed, walked = q.shape[0], 0, False
-    damped, rows, counts = make_damped(n), np.empty((8, n)), np.zeros(2, np.int64)
     for k in range(others.shape[0]):
-        found[k] = failed < trials and _arrives(chain, goal, held, q, others[k], rows, damped)
-        if found[k]:
-            continue
-        failed += 1
-        if not walked:
-            walk_family(chain, goal, length, q, walk, counts)
-            walked = True
-        way_to(chain[1], q, others[k], rows[6])
-        side, nearest, best = 0, -1, min(largest(rows[6]), BESIDE * length)
-        for way in range(2):
-            for i in range(counts[way]):
-                way_to(chain[1], walk[way, i], others[k], rows[6])
-                far = largest(rows[6])
-                if far < best:
-                    side, nearest, best = way, i, far
-        if best < BESIDE * length:
-            start = q if nearest < 0 else walk[side, nearest]
-            found[k] = _arrives(chain, goal, held, start, others[k], rows, damped)
+        found[k] = True
+    members_among(chain, goal, length, held, q, others, trials, found, walk)
 
 
 def keep_one_of_each(chain, goal, q, residual, branch, free, count):

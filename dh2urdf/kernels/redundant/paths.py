@@ -13,7 +13,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import distance2, turn_to
+from dh2urdf.kernels.certificate import NO_JOINT, distance2, turn_to
 from dh2urdf.kernels.newton import POSE, make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import (
@@ -220,7 +220,7 @@ def shorten(
         diagonal[:] = LEAST
         beside[:] = 0.0
         for i in range(m):
-            first_guess(guess)
+            first_guess(guess, NO_JOINT)
             guess[:] = tangent[i] + 1e-3 * guess
             goal = POSE, Ts[i], unit
             if not tangent_near(chain, goal, q[i], guess, tangent[i], damped):

@@ -16,6 +16,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate import ACCEPT, distance2, principal
 from dh2urdf.kernels.newton import (
+    STAYING,
     add_transposed,
     error_and_jacobian,
     make_damped,
@@ -91,10 +92,14 @@ def largest(v):
     return size
 
 
-def first_guess(guess):
-    """A direction that no family is at right angles to by its nature."""
+def first_guess(guess, staying):
+    """A direction that no family is at right angles to by its nature; joints of a mask stay."""
+    some = 0
     for i in range(guess.shape[0]):
-        guess[i] = 1.0 + 0.1 * i
+        guess[i] = 0.0
+        if not staying >> i & 1:
+            guess[i] = 1.0 + 0.1 * some
+            some += 1
 
 
 def settle(chain, goal, q, seed, length, scratch, damped):
@@ -225,7 +230,7 @@ def enter(chain, goal, q, scratch, damped):
     """Move one solution q (n,) along its curve into the limits; whether it arrives."""
     (_, joints), last = chain, math.inf
     tangent, guess, work, trial = scratch[0], scratch[1], scratch[2], scratch[3]
-    first_guess(guess)
+    first_guess(guess, goal[0] // STAYING)
     for _ in range(MOST_STEPS):
         along, across, total = 0.0, 0.0, 0.0
         if not tangent_near(chain, goal, q, guess, tangent, damped):
@@ -275,13 +280,13 @@ def walk_family(
 
     Steps have a ``length`` [rad or m]; how many were found each way goes to ``counts`` (2,).
     """
-    n = q.shape[0]
+    n, staying = q.shape[0], goal[0] // STAYING
     damped, scratch = make_damped(n), np.empty((3, n))
     tangent, guess, work = scratch[0], scratch[1], scratch[2]
     for way in range(2):
         counts[way] = 0
         at, side = q, 1.0 - 2.0 * way
-        first_guess(guess)
+        first_guess(guess, staying)
         guess *= side
         for k in range(members.shape[1]):
             if not tangent_near(chain, goal, at, guess, tangent, damped):

@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 
 from dh2urdf.kernels.blocks import BLOCK, LANES, ROWS, VALID, emit
-from dh2urdf.kernels.certificate import TWO_PI
+from dh2urdf.kernels.certificate import NO_JOINT, TWO_PI
 from dh2urdf.kernels.newton import make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.held_wrist import HELD, SLIDES, HeldForm, make_scratch, points_at
@@ -94,7 +94,7 @@ def _walk(chain, goal, start, code, first, outputs, work, damped):
     _add_point(outputs, first + HALF, start, code)
     for side in range(2):
         at[:] = start
-        first_guess(guess)
+        first_guess(guess, NO_JOINT)
         for i in range(start.shape[0]):
             guess[i] *= 1.0 - 2.0 * side
         for k in range(HALF):

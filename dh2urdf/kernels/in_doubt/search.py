@@ -6,7 +6,6 @@ are solved by elimination with pivots, which keeps directions in which the pose 
 """
 
 import math
-from typing import Annotated
 
 import numpy as np
 
@@ -23,8 +22,6 @@ from dh2urdf.kernels.newton import (
     solve_damped,
     work_array,
 )
-from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import AnyChain, Floats, Outputs, Poses
 
 SINGULAR = 1e-11
 """Smallest eigenvalue of J^T J, relative to the trace, below which others are looked for."""
@@ -74,6 +71,19 @@ directions does, and then how many times as many steps they may take."""
 
 NEAR = 0.05
 """Residual [m and rad] from which on plain steps are tried."""
+
+
+def make_room():
+    """Scratch for a search: four configurations, six equations, least squares, a `work_array`."""
+    return (
+        np.empty(6),
+        np.empty(6),
+        np.empty(6),
+        np.empty(6),
+        np.empty((6, 7)),
+        make_damped(6),
+        work_array(6),
+    )
 
 
 def _solve(A, step):
@@ -146,23 +156,21 @@ def _add_if_new(chain, T, q, count, trial, A, step, damped):
     return count
 
 
-@entry(n=6)
-def search_beside(chain: AnyChain, Ts: Poses, outputs: Outputs):
-    """Append to q (m, kmax, 6) what lies beside nearly singular solutions of poses Ts (m, 4, 4)."""
-    q, _, count, _, _ = outputs
-    A, step, trial = np.empty((6, 7)), np.empty(6), np.empty(6)
-    work, damped = work_array(6), make_damped(6)
-    for i in range(Ts.shape[0]):
-        for k in range(count[i]):
-            normal_equations(chain, Ts[i], q[i, k], work)
-            if null_direction(work) > SINGULAR:
-                continue
-            way = NEAREST
-            for w in range(WAYS):
-                for j in range(6):
-                    trial[j] = q[i, k, j] + way * work[j, 6]
-                count[i] = _add_if_new(chain, Ts[i], q[i], count[i], trial, A, step, damped)
-                way = -way if w % 2 == 0 else -FARTHER * way
+def search_beside(chain, T, q, count, room):
+    """Append to q (kmax, 6) what lies beside nearly singular ones of so many; the new count."""
+    trial, _, _, step, A, damped, work = room
+    known = count
+    for k in range(known):
+        normal_equations(chain, T, q[k], work)
+        if null_direction(work) > SINGULAR:
+            continue
+        way = NEAREST
+        for w in range(WAYS):
+            for j in range(6):
+                trial[j] = q[k, j] + way * work[j, 6]
+            count = _add_if_new(chain, T, q, count, trial, A, step, damped)
+            way = -way if w % 2 == 0 else -FARTHER * way
+    return count
 
 
 def _approach(chain, goal, patience, q, best, dq, damped):
@@ -194,7 +202,7 @@ def _approach(chain, goal, patience, q, best, dq, damped):
 
 def _try_starts(chain, goal, starts, patience, q, count, room):
     """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen."""
-    trial, best, dq, step, A, damped = room
+    trial, best, dq, step, A, damped, _ = room
     least = math.inf
     for s in range(starts.shape[0]):
         if s == FEW and least > NEAR and count == 0:
@@ -212,23 +220,9 @@ def _try_starts(chain, goal, starts, patience, q, count, room):
     return count, least
 
 
-@entry(n=6)
-def search_from(
-    chain: AnyChain,
-    starts: Annotated[Floats, "starts", 6],
-    unit: float,
-    Ts: Poses,
-    outputs: Outputs,
-):
-    """Append to q (m, kmax, 6) what Newton's method finds of poses Ts (m, 4, 4) from starts (s, 6).
-
-    ``unit`` is the size of the arm [m].
-    """
-    q, _, count, _, _ = outputs
-    vectors = np.empty(6), np.empty(6), np.empty(6), np.empty(6)
-    room = *vectors, np.empty((6, 7)), make_damped(6)
-    for i in range(Ts.shape[0]):
-        goal = POSE, Ts[i], unit
-        count[i], least = _try_starts(chain, goal, starts, 1, q[i], count[i], room)
-        if count[i] == 0 and least <= HARDLY:
-            count[i], _ = _try_starts(chain, goal, starts, PATIENCE, q[i], count[i], room)
+def search_from(chain, goal, starts, q, count, room):
+    """Append to q (kmax, 6) what Newton's method finds from starts (s, 6); the new count."""
+    count, least = _try_starts(chain, goal, starts, 1, q, count, room)
+    if count == 0 and least <= HARDLY:
+        count, _ = _try_starts(chain, goal, starts, PATIENCE, q, count, room)
+    return count
