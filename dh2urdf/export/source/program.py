@@ -97,7 +97,7 @@ class Program:
             "found->branch": room.out.branch,
             "found->free_joints": room.out.free,
         }
-        work = [Named(f"work.{RECORDS[a.dtype]}", a) for a in _arrays(steps) if a.dtype.names]
+        work = _records(steps)
         blank = tuple(Named(x.name, x.like.copy()) for x in work)
         made = [a for a in _made(steps, take()) if not a.dtype.names]
         scratch = [Named(f"between_{k + 1}", a) for k, a in enumerate(made)]
@@ -142,6 +142,18 @@ def _made(steps: tuple[Step, ...], again: tuple[Step, ...]) -> list[Array]:
     """Arrays that a solver makes for each of its programs: those of another are elsewhere."""
     others = list(_arrays(again))
     return [a for a in _arrays(steps) if not any(_is(a, b) for b in others)]
+
+
+def _records(steps: tuple[Step, ...]) -> list[Named]:
+    """Records that kernels keep something in; of a kind of which there are two, each by a number."""
+    names, found = list[str](), list[Named]()
+    for a in _arrays(steps):
+        if a.dtype.names:
+            name = RECORDS[a.dtype]
+            names.append(name)
+            more = names.count(name) - 1
+            found.append(Named(f"work.{name}{more + 1 if more else ''}", a))
+    return found
 
 
 def names_of(kernel: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:

@@ -1,6 +1,6 @@
 """Poses of six joints in doubt: what many starts find, and a member of each family."""
 
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +40,7 @@ def _angles(joints: int, count: int) -> Array:
     return starts
 
 
+@lru_cache(maxsize=64)
 def starts_of(chain: SerialChain, count: int = STARTS) -> Array:
     """Configurations (count, n); slides up to the arm's size."""
     starts = _angles(chain.n, count)

@@ -88,9 +88,9 @@ def _dimensions(chain, goal, q, mask, room):
     return directions
 
 
-def _mark_members(chain, T, unit, rows, k, count, trials, gone, asked, walk):
+def _mark_members(chain, T, unit, rows, k, count, trials, room):
     """Note which solutions after row k are on its family, by its free joints, as ``gone``."""
-    q, _, _, free = rows
+    (q, _, _, free), (walk, _, gone, asked) = rows, room
     n, mask, some = q.shape[1], free[k], False
     for j in range(asked.shape[0]):
         asked[j] = k < j < count and not gone[j] and free[j] == mask
@@ -98,22 +98,22 @@ def _mark_members(chain, T, unit, rows, k, count, trials, gone, asked, walk):
         some = some or asked[j]
     if not some:
         return
-    room = make_damped(n), np.empty((n, n)), np.empty(n)
+    looked = make_damped(n), np.empty((n, n)), np.empty(n)
     goal = POSE + STAYING * ((1 << n) - 1 - mask), T, unit
-    straight = trials if _dimensions(chain, goal, q[k], mask, room) > 1 else 0
+    straight = trials if _dimensions(chain, goal, q[k], mask, looked) > 1 else 0
     members_among(chain, goal, STEP, HELD, q[k], q, straight, asked, walk)
     for j in range(k + 1, count):
         gone[j] = gone[j] or asked[j]
 
 
-def one_of_each_family(chain, T, unit, rows, count, walk):
+def one_of_each_family(chain, T, unit, rows, count, room):
     """Keep the best member of each family of a pose, isolated solutions first; how many are left.
 
-    ``walk`` (2, steps, n) is scratch.
+    ``room`` is scratch: a walk (2, steps, n), and what orders rows (k,), and notes of them, twice.
     """
-    most, families = rows[0].shape[0], 0
-    key, gone, asked = np.empty(most), np.zeros(most, np.bool_), np.empty(most, np.bool_)
+    (_, key, gone, _), families = room, 0
     for k in range(count):
+        gone[k] = False
         families += 1 if rows[3][k] != 0 else 0
     if families < 2:
         return count
@@ -123,7 +123,7 @@ def one_of_each_family(chain, T, unit, rows, count, walk):
         if gone[k]:
             continue
         trials = TRIALS if kept - isolated < FAMILIES else 0
-        _mark_members(chain, T, unit, rows, k, count, trials, gone, asked, walk)
+        _mark_members(chain, T, unit, rows, k, count, trials, room)
         move(*rows, k, kept)
         kept += 1
     return kept

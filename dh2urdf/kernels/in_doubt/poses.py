@@ -24,6 +24,9 @@ IN_DOUBT = np.dtype(
         ("first_q", np.float64, (FIRST, 6)),
         ("first_residual", np.float64, FIRST),
         ("walk", np.float64, (2, MOST_STEPS, 6)),
+        ("key", np.float64, WIDTH),
+        ("gone", np.bool_, WIDTH),
+        ("asked", np.bool_, WIDTH),
     ],
     align=True,
 )
@@ -34,7 +37,7 @@ Rooms: TypeAlias = Annotated[Any, IN_DOUBT, "in_doubt", 1]
 Starts: TypeAlias = Annotated[Floats, "starts", 6]
 
 
-def _search(chain, starts, unit, T, deep, within_limits, rows, count, walk):
+def _search(chain, starts, unit, T, deep, within_limits, rows, count, families):
     """Solutions of a pose T (4, 4) from so many candidates, in the rows of which these are first.
 
     Beside all of them others are looked for, from the starts (s, 6) where ``deep``; how many.
@@ -47,7 +50,7 @@ def _search(chain, starts, unit, T, deep, within_limits, rows, count, walk):
     count = search_beside(chain, T, rows[0], count, room)
     count = finish_all(chain, T, False, rows, count, trial, work)
     count = drop_valleys(chain, T, unit, rows, count)
-    count = one_of_each_family(chain, T, unit, rows, count, walk)
+    count = one_of_each_family(chain, T, unit, rows, count, families)
     return finish_all(chain, T, True, rows, count, trial, work) if within_limits else count
 
 
@@ -68,10 +71,11 @@ def search_poses(
     (m,) says. ``unit`` is the size of the arm [m]; ``rooms`` (1,) is scratch.
     """
     q, residual, count, branch, free = outputs
-    walk = rooms[0]["walk"]
+    room = rooms[0]
+    families = room["walk"], room["key"], room["gone"], room["asked"]
     for i in range(Ts.shape[0]):
         rows, some = (q[i], residual[i], branch[i], free[i]), deep[i] != 0
-        count[i] = _search(chain, starts, unit, Ts[i], some, within_limits, rows, count[i], walk)
+        count[i] = _search(chain, starts, unit, Ts[i], some, within_limits, rows, count[i], families)
 
 
 @entry()
@@ -87,9 +91,11 @@ def unite_families(
     ``walk`` (2, steps, n) is scratch.
     """
     q, residual, count, branch, free = outputs
+    most = q.shape[1]
+    room = walk, np.empty(most), np.empty(most, np.bool_), np.empty(most, np.bool_)
     for i in range(Ts.shape[0]):
         rows = q[i], residual[i], branch[i], free[i]
-        count[i] = one_of_each_family(chain, Ts[i], unit, rows, count[i], walk)
+        count[i] = one_of_each_family(chain, Ts[i], unit, rows, count[i], room)
 
 
 @entry(n=6)
@@ -108,6 +114,7 @@ def search_doubtful(
     """
     q, residual, count, branch, free = outputs
     room = rooms[0]
+    families = room["walk"], room["key"], room["gone"], room["asked"]
     wide = room["q"], room["residual"], room["branch"], room["free"]
     for i in range(Ts.shape[0]):
         if count[i] >= 0:
@@ -115,7 +122,7 @@ def search_doubtful(
         some = -1 - count[i]
         for k in range(some):
             wide[0][k] = q[i, k]
-        some = _search(chain, starts, unit, Ts[i], True, within_limits, wide, some, room["walk"])
+        some = _search(chain, starts, unit, Ts[i], True, within_limits, wide, some, families)
         count[i] = copy_rows(wide, some, (q[i], residual[i], branch[i], free[i]))
 
 
@@ -136,6 +143,7 @@ def referee_doubtful(
     """
     q, residual, count, branch, free = outputs
     arm, room = arms[0], rooms[0]
+    families = room["walk"], room["key"], room["gone"], room["asked"]
     make_ready(arm)
     wide, first = (room["q"], room["residual"], room["branch"], room["free"]), room["first_q"]
     for i in range(Ts.shape[0]):
@@ -147,7 +155,6 @@ def referee_doubtful(
         for k in range(-1 - count[i]):
             wide[0][some + k] = q[i, k]
         some += -1 - count[i]
-        some = _search(
-            chain, starts, unit, Ts[i], doubt == 1, within_limits, wide, some, room["walk"]
-        )
+        deep = doubt == 1
+        some = _search(chain, starts, unit, Ts[i], deep, within_limits, wide, some, families)
         count[i] = copy_rows(wide, some, (q[i], residual[i], branch[i], free[i]))

@@ -176,6 +176,7 @@ def search_beside(chain, T, q, count, room):
 def _approach(chain, goal, patience, q, best, dq, damped):
     """Levenberg's steps from q (6,); the residual of the best configuration, which is left in q."""
     (_, joints), least, since = chain, math.inf, 0
+    best[:] = q
     for _ in range(patience * DAMPED):
         residual = error_and_jacobian(chain, goal, q, damped)
         if residual < least:
