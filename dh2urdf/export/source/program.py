@@ -145,14 +145,13 @@ def _made(steps: tuple[Step, ...], again: tuple[Step, ...]) -> list[Array]:
 
 
 def _records(steps: tuple[Step, ...]) -> list[Named]:
-    """Records that kernels keep something in; of a kind of which there are two, each by a number."""
-    names, found = list[str](), list[Named]()
+    """Records that kernels keep something in; of a kind the second has a number, too."""
+    kinds, found = list[str](), list[Named]()
     for a in _arrays(steps):
         if a.dtype.names:
-            name = RECORDS[a.dtype]
-            names.append(name)
-            more = names.count(name) - 1
-            found.append(Named(f"work.{name}{more + 1 if more else ''}", a))
+            kinds.append(RECORDS[a.dtype])
+            number = kinds.count(kinds[-1])
+            found.append(Named(f"work.{kinds[-1]}{number if number > 1 else ''}", a))
     return found
 
 

@@ -75,7 +75,9 @@ def search_poses(
     families = room["walk"], room["key"], room["gone"], room["asked"]
     for i in range(Ts.shape[0]):
         rows, some = (q[i], residual[i], branch[i], free[i]), deep[i] != 0
-        count[i] = _search(chain, starts, unit, Ts[i], some, within_limits, rows, count[i], families)
+        count[i] = _search(
+            chain, starts, unit, Ts[i], some, within_limits, rows, count[i], families
+        )
 
 
 @entry()
