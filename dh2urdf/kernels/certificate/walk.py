@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT
+from dh2urdf.kernels.certificate.certify import ACCEPT, EVERY_JOINT
 from dh2urdf.kernels.certificate.directions import add_step, look_at_some
 from dh2urdf.kernels.newton import make_damped, pose_residual
 from dh2urdf.kernels.numbers import sincos
@@ -21,9 +21,15 @@ LENGTHS = (0.05, 2e-3, 1e-4)
 """Length of the part [rad or m]: solutions on a shorter loop count as isolated. The last two are
 for families that a closed form tells of: beside an arm that is stretched they are short loops."""
 
-PART, ALONE = 0.01, 0.1
-"""The part of ``ACCEPT`` that ``LENGTHS[0]`` may add to the residual of where it begins; and where
-some joints walk alone, without the help of others."""
+PART = 0.01
+"""The part of ``ACCEPT`` that ``LENGTHS[0]`` may add to the residual of where it begins."""
+
+TOLD = 0.025
+"""That part where a closed form tells which joints move, and only these walk: turned all the way
+round an axis that it misses by half of ``ACCEPT``, a point is off by no more than that."""
+
+ALONE = (0.025, 0.1)
+"""That part where some joints walk alone, without the help of others: first, and at least."""
 
 FLAT = 1e-5
 """Singular value, relative to the largest, of a direction in which a walk may go."""
@@ -44,7 +50,7 @@ PARTS = 4
 """Parts in which the way back is looked at: on a family, and not between two solutions, it is
 accepted, too."""
 
-MOVES = (1e-5, 1e-7, 1e-10)
+MOVES = (1e-5, 1e-7, 1e-10, 1e-12)
 """Motion [rad or m] of a joint over the walk that makes it free, the largest by which the joints
 that move walk alone. Where singularities meet, some move by very little, but have to."""
 
@@ -231,14 +237,17 @@ def free_of(chain, T, q, length, mask, alone):
     ``alone``: the others do not move at all, which is tried.
     """
     moved, other, bits = np.empty(q.shape[0]), np.empty(q.shape[0]), 0
-    if not joints_that_move(chain, T, q, length, PART, mask, moved):
+    part = PART if mask == EVERY_JOINT else TOLD
+    if not joints_that_move(chain, T, q, length, part, mask, moved):
         return 0
-    for least in range(len(MOVES)):
-        last, bits = bits, 0
-        for i in range(q.shape[0]):
-            bits |= (1 if moved[i] > MOVES[least] else 0) << i
-        if not alone or bits == mask:
-            return bits
-        if bits != last and joints_that_move(chain, T, q, length, ALONE, bits, other):
-            return bits
+    for asked in range(len(ALONE)):
+        bits = 0
+        for least in range(len(MOVES)):
+            last, bits = bits, 0
+            for i in range(q.shape[0]):
+                bits |= (1 if moved[i] > MOVES[least] else 0) << i
+            if not alone or bits == mask:
+                return bits
+            if bits != last and joints_that_move(chain, T, q, length, ALONE[asked], bits, other):
+                return bits
     return 0

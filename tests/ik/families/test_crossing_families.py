@@ -1,4 +1,4 @@
-"""Families of wrists where two of them cross.
+"""Families of wrists: whole round an axis that is missed by rounding, and where two of them cross.
 
 A slide at zero leaves joint 2 of the Stanford arm free. At one of its angles axes 4 and 6 are in
 line, and joints 4 and 6 turn without it: another family, with one member in common.
@@ -33,6 +33,22 @@ def test_a_wrist_in_line_on_a_family_of_joint_2_is_a_family_of_its_own(side, noi
     q[:, 1], q[:, 4] = side * H, 0.0
     q[:, 3], q[:, 5] = rng.uniform(-3.0, 3.0, (2, 6))
     q += noise * rng.standard_normal(q.shape)
+    assert notes(table, q) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "q"),
+    [
+        (
+            "kuka_kr6_r700",
+            (5.1e-10, 1.5707963260011528, 5.1e-11, -7.1e-11, 4.1061773834182753e-10, H),
+        ),
+        ("vx300s", (-3.1415926467149475, -1.5707963192145122, H, 1.66e-9, 1.57079631946, H)),
+    ],
+)
+def test_an_axis_missed_by_less_than_half_of_what_is_accepted_is_turned_about(name, q):
+    """All the way round the pose is accepted: one family, and no solution is left out of it."""
+    table = dh2urdf.load_table(name)
     assert notes(table, q) == []
 
 
