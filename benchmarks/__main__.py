@@ -21,6 +21,7 @@ WORK = (
     "building",
     "breakdown",
     "limits",
+    "cores",
     "scaling",
     "sweep",
     "memory",

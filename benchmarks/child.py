@@ -71,6 +71,25 @@ def memory(key: str, contestant: str, poses: str) -> dict[str, object]:
     return {"bytes": (after - before) / int(poses), "arrays": arrays / int(poses)}
 
 
+def batch(key: str, poses: str) -> dict[str, object]:
+    """Seconds a pose of a batch on one thread, into arrays that are there; of which level."""
+    import dh2urdf._kernels as kernels
+    import numpy as np
+
+    from benchmarks.arms import arm_named
+    from dh2urdf import Robot
+
+    arm = arm_named(key)
+    robot, (_, T) = Robot.from_dh(arm.table), arm.draw(int(poses), seed=1)
+    asked = {"within_limits": False, "locked": arm.locked, "threads": 1}
+    room, seconds = robot.ik_batch(T, **asked), []
+    for _ in range(40):
+        start = time.perf_counter()
+        robot.ik_batch(T, out=room, **asked)
+        seconds.append((time.perf_counter() - start) / len(T))
+    return {"total": float(np.median(seconds)), "level": kernels.LEVEL}
+
+
 OUTPUTS = ("q", "residual", "count", "branch_code", "free_mask", "joints", "n_solutions")
 """Arrays of answers, ours and py-ikgeo's."""
 
@@ -91,5 +110,5 @@ def _peak() -> int:
 
 if __name__ == "__main__":
     task, *arguments = sys.argv[1:]
-    tasks = {"imports": imports, "first": first, "memory": memory, "work": work}
+    tasks = {"imports": imports, "first": first, "memory": memory, "batch": batch, "work": work}
     print(json.dumps(tasks[task](*arguments)))

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from benchmarks.compare import seconds
+from benchmarks.arms import ARMS
+from benchmarks.compare import seconds, times
+from benchmarks.peers.ours import OURS
 from benchmarks.results import Results
 from benchmarks.target_figures import (
     CLOSED,
@@ -22,6 +24,7 @@ from benchmarks.target_figures import (
     non_pieper,
     one_pose,
 )
+from benchmarks.work.breakdown import BUILT, PLANNED
 
 __all__ = ["TARGETS", "Target", "target_rows"]
 
@@ -55,35 +58,49 @@ def _part(results: Results, arm: str, name: str, work: str = "breakdown") -> str
 
 
 def _why_batch(results: Results) -> str:
-    cached, again, angles, memory = (
-        _part(results, "puma560", name, "limit")
-        for name in ("in the cache", "batch, out", "arctangents", "memory")
-    )
-    return (
-        f"a pose takes {cached} (puma560) where the answers stay in the cache and {again} where "
-        f"they do not; arctangents are {angles} of it and writing them {memory}, the rest is the "
-        "arithmetic of eight solutions and of their residuals"
-    )
+    names = "in the cache", "batch, out", "arctangents", "memory"
+    said = []
+    for arm in (a.key for a in ARMS if a.family in CLOSED):
+        cached, again, angles, memory = (_part(results, arm, name, "limit") for name in names)
+        said.append(
+            f"a pose of {arm} takes {cached} where the answers stay in the cache and {again} where "
+            f"they do not, of which arctangents are {angles} and writing them {memory}"
+        )
+    return "; ".join((*said, "the rest is arithmetic, and fresh memory that a large batch needs"))
 
 
 def _why_threads(results: Results) -> str:
-    one, two = (
-        next((r.seconds for r in results.of("limit", "puma560") if r.contestant == name), None)
-        for name in ("in the cache", "in the cache, two threads")
+    registers, filling = (_times(results, name) for name in ("registers", "filling memory"))
+    cached = _part(results, "puma560", "in the cache", "limit")
+    whole, waking = (
+        _part(results, "puma560", OURS, "ik batch"),
+        _part(results, "", "waking", "cores"),
     )
-    gain = f"{one / two:.2f} times" if one and two else "not measured"
     return (
-        f"batches of 1,000 poses, each on a thread of its caller's, whose answers stay in the "
-        f"cores' own caches, gain {gain} (puma560): it is not memory alone"
+        f"two processes that calculate in registers gain {registers} on this machine, two that "
+        f"fill memory {filling}: of the {whole} of a pose (puma560) what exceeds {cached}, which "
+        f"it takes in the cache, is not shared; a thread that sleeps goes on after {waking}"
     )
+
+
+def _times(results: Results, name: str) -> str:
+    """What two processes gain over one."""
+    found = {r.threads: r.seconds for r in results.of("cores") if r.contestant == name}
+    one, two = found.get(1), found.get(2)
+    return times(one / two) if one and two else "–"
 
 
 def _why_building(results: Results) -> str:
-    arms = ("generic_6r", "ur5e_calibrated")
-    tried = ", ".join(f"{_part(results, arm, 'trying eliminations')} ({arm})" for arm in arms)
+    tried = ", ".join(f"{_part(results, arm, 'trying eliminations')} ({arm})" for arm in PLANNED)
+    robots = ", ".join(
+        f"{_part(results, arm, 'robot, no solver')} ({arm}), of which Pinocchio's model alone "
+        f"{_part(results, arm, 'Pinocchio model')}"
+        for arm in BUILT
+    )
     return (
-        f"the general solver tries twelve eliminations on 24 poses each: {tried}; arms of seven "
-        "joints look for values at which the rest has a joint to spare"
+        f"a robot without a solver takes {robots}; the general solver tries twelve eliminations "
+        f"on 24 poses each: {tried}; arms of seven joints look for values at which the rest has a "
+        "joint to spare"
     )
 
 

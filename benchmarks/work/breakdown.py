@@ -11,6 +11,8 @@ from benchmarks.arms import Arm, arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
 from dh2urdf import Robot
+from dh2urdf.conversions.write.table_chain import link_frames
+from dh2urdf.conversions.write.unfiled_model import table_model
 from dh2urdf.ik.arm import HeldSolver, Outputs
 from dh2urdf.ik.families.general_6r import plan_general_6r
 
@@ -23,7 +25,9 @@ Parts = dict[str, tuple[Callable[[], object], int]]
 QUICK = ("puma560", "ur5", "franka_fer")
 PLANNED = ("generic_6r", "ur5e_calibrated")
 """Arms of which the general solver tries all eliminations when it is built."""
-KEYS = (*QUICK, *PLANNED)
+BUILT = ("so101", "kuka_iiwa14", "flexiv_rizon4")
+"""Arms of which it is said what a robot takes, and Pinocchio's model of it."""
+KEYS = (*QUICK, *PLANNED, *BUILT)
 FRESH = 100_000
 """Poses of the batch whose memory is filled."""
 
@@ -37,6 +41,9 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
         arm = arm_named(key)
         if key in PLANNED:
             _add(results, key, _planned(arm))
+            continue
+        if key in BUILT:
+            _add(results, key, _built(arm))
             continue
         _add(results, key, _held_parts(arm) if arm.held else _inverse_parts(arm))
         if key == "ur5":
@@ -94,6 +101,14 @@ def _held_parts(arm: Arm) -> Parts:
 def _planned(arm: Arm) -> Parts:
     chain = Robot.from_dh(arm.table).chain
     return {"trying eliminations": (lambda: plan_general_6r(chain.links, chain.prismatic), 1)}
+
+
+def _built(arm: Arm) -> Parts:
+    frames = link_frames(arm.table)
+    return {
+        "robot, no solver": (lambda: Robot.from_dh(arm.table), 1),
+        "Pinocchio model": (lambda: table_model(arm.table, frames), 1),
+    }
 
 
 def _forward_parts(arm: Arm) -> Parts:

@@ -1,13 +1,15 @@
 """What no program could do without: the entry, the arctangents, the memory of an answer.
 
 Beside each is our own time of the same work, so that the table can say how far it is from there.
-All on one thread.
+All on one thread but for **two threads**.
 
 * **entry**: a kernel called with no pose: arguments checked, the function found and left.
 * **memory**: the arrays of the answers written once, where they have been written before, and
   where the system has never handed them out; all poses of a batch, 8 bytes at a time.
-* **in the cache**: two batches whose answers fit into a processor's own cache, solved again and
-  again into the same arrays, one after the other on one thread and side by side on two.
+* **two threads**: a batch into the same arrays as before, on two.
+* **in the cache**: a batch whose answers fit into a processor's own cache, solved again and again
+  into the same arrays.
+* **v3**: a batch into the same arrays by the code for processors of level x86-64-v3.
 * **arctangents**: as many as the joint values of all solutions need that are no mirror images of
   others, by NumPy, which has them as vector instructions where the processor does.
 """
@@ -15,14 +17,15 @@ All on one thread.
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 
+import dh2urdf._kernels as kernels
 import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.arms import Arm, arm_named
 from benchmarks.clock import Block, interleaved
 from benchmarks.results import Results, Row
+from benchmarks.work.processes import child
 from dh2urdf import Robot
 from dh2urdf.kernels.blocks import OWN
 from dh2urdf.kernels.chain import chain_fk_batch
@@ -48,7 +51,6 @@ QUICK = ("puma560", "franka_fer")
 MANY = 20_000
 CACHED = 1_000
 """Poses whose answers, some 600 bytes each, fit into the cache of one core."""
-AGAIN = 20
 
 
 def run(results: Results, keys: tuple[str, ...]) -> None:
@@ -61,6 +63,10 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
         budget = 0.3 if results.quick else 4.0
         for name, timing in interleaved(blocks, budget, most=100).items():
             results.add(Row.timed("limit", key, name, timing, size=parts[name][1]))
+        if kernels.LEVEL != "v4":
+            continue
+        found = child("batch", key, str(m), DH2URDF_LEVEL="v3")
+        results.add(Row("limit", key, found["level"], found["total"], size=m))
 
 
 def _block(call: Callable[[], object], units: int) -> Block:
@@ -94,6 +100,7 @@ def _inverse(arm: Arm, m: int) -> dict[str, tuple[Callable[[], object], int]]:
         "entry": (lambda: chain_fk_batch(chain.links, chain.prismatic, no_q, no_T), 1),
         "batch": (lambda: robot.ik_batch(T, threads=1, **asked), m),
         "batch, out": (lambda: robot.ik_batch(T, threads=1, out=room, **asked), m),
+        "batch, out, two threads": (lambda: robot.ik_batch(T, threads=2, out=room, **asked), m),
         "memory": (lambda: again.fill(1.0), m),
         "fresh memory": (lambda: np.full((m, written), 1.0), m),
         "arctangents": (lambda: np.arctan2(y, x, out=target), m),
@@ -101,21 +108,11 @@ def _inverse(arm: Arm, m: int) -> dict[str, tuple[Callable[[], object], int]]:
 
 
 def _cached(arm: Arm) -> dict[str, tuple[Callable[[], object], int]]:
-    """Two batches one after the other, and each on a thread of its own."""
-    robot, pool = Robot.from_dh(arm.table), ThreadPoolExecutor(2)
+    """A batch whose answers are in the cache already."""
+    robot, (_, T) = Robot.from_dh(arm.table), arm.draw(CACHED, seed=1)
     asked = {"within_limits": False, "locked": arm.locked, "threads": 1}
-    poses = [arm.draw(CACHED, seed=seed)[1] for seed in (1, 2)]
-    rooms = [robot.ik_batch(T, **asked) for T in poses]
-
-    def solve(k: int) -> None:
-        for _ in range(AGAIN):
-            robot.ik_batch(poses[k], out=rooms[k], **asked)
-
-    units = 2 * AGAIN * CACHED
-    return {
-        "in the cache": (lambda: [solve(k) for k in (0, 1)], units),
-        "in the cache, two threads": (lambda: list(pool.map(solve, (0, 1))), units),
-    }
+    room = robot.ik_batch(T, **asked)
+    return {"in the cache": (lambda: robot.ik_batch(T, out=room, **asked), CACHED)}
 
 
 def _forward(arm: Arm, m: int) -> dict[str, tuple[Callable[[], object], int]]:

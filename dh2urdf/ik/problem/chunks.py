@@ -15,8 +15,9 @@ from dh2urdf.bounds import THREADS
 FIRST = 64
 """Poses that are solved first, and fewest of a chunk."""
 
-WORTH = 3e-4
-"""Seconds of work for which a thread is woken, which takes a tenth of that."""
+WORTH = 8e-4
+"""Seconds of work for which a thread is woken, which takes a tenth of that, or more where it wakes
+on a processor that is busy: with less, batches may take longer than on one thread."""
 
 LONGEST, LARGEST = 2e-3, 2048
 """Most seconds and poses of a chunk: progress and Ctrl-C are prompt, and what it writes is still in
