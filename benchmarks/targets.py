@@ -100,7 +100,7 @@ def _why_building(results: Results) -> str:
     return (
         f"a robot without a solver takes {robots}; the general solver tries twelve eliminations "
         f"on 24 poses each: {tried}; arms of seven joints look for values at which the rest has a "
-        "joint to spare"
+        f"joint to spare: {_part(results, 'kuka_iiwa14', 'special values')} (kuka_iiwa14)"
     )
 
 

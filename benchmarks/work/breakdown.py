@@ -15,6 +15,7 @@ from dh2urdf.conversions.write.table_chain import link_frames
 from dh2urdf.conversions.write.unfiled_model import table_model
 from dh2urdf.ik.arm import HeldSolver, Outputs
 from dh2urdf.ik.families.general_6r import plan_general_6r
+from dh2urdf.ik.redundant.special_values import HeldAtAnyValue
 
 __all__ = ["KEYS", "QUICK", "run"]
 
@@ -104,11 +105,15 @@ def _planned(arm: Arm) -> Parts:
 
 
 def _built(arm: Arm) -> Parts:
-    frames = link_frames(arm.table)
-    return {
+    frames, solver = link_frames(arm.table), Robot.from_dh(arm.table).solver_for(locked=arm.locked)
+    parts: Parts = {
         "robot, no solver": (lambda: Robot.from_dh(arm.table), 1),
         "Pinocchio model": (lambda: table_model(arm.table, frames), 1),
     }
+    if isinstance(solver, HeldAtAnyValue):
+        inner, task = solver.inner, solver.task
+        parts["special values"] = (lambda: HeldAtAnyValue(inner, task).values, 1)
+    return parts
 
 
 def _forward_parts(arm: Arm) -> Parts:

@@ -129,7 +129,8 @@ class ShortChain(SolverBase):
         cuts = range(CUTS[self.chain.n])
         shapes = np.array([_shape(self.chain.prismatic, s) for s in cuts], np.int64)
         used = np.array([_slots(self.chain.prismatic, shape) for shape in shapes], np.int64)
-        qualities = [self._quality(*cut) for cut in zip(shapes, used, strict=True)]
+        trials = self._trials()
+        qualities = [self._quality(trials, *cut) for cut in zip(shapes, used, strict=True)]
         best = sorted(cuts, key=lambda s: qualities[s])
         plan = [([*shapes[s], qualities[s][1]], used[s]) for s in best]
         return np.array(plan, np.int64).reshape(-1, 2, 8)
@@ -158,32 +159,38 @@ class ShortChain(SolverBase):
         equation = ", a quadratic equation" if self.plan[0, 0, 7] == 2 else ""
         return f"{text}, linear in dual quaternions{equation}"
 
-    def _quality(self, shape: IntArray, used: IntArray) -> tuple[bool, int, float]:
-        """How well a cut of the loop finds random configurations; the smallest is best.
+    def _trials(self) -> list[tuple[Array, Array]]:
+        """Random configurations (n,), and the loops (n, 8) that their poses close."""
+        rng, pose, trials = np.random.default_rng(1), np.empty((4, 4)), []
+        for _ in range(TRIALS):
+            q = np.where(self.chain.prismatic, self.unit, np.pi) * rng.uniform(-1, 1, self.chain.n)
+            loop = self.loop.copy()
+            close_loop(self.ends, self.chain.fk(q), self.unit, pose, loop)
+            trials.append((q, loop))
+        return trials
+
+    def _quality(
+        self, trials: list[tuple[Array, Array]], shape: IntArray, used: IntArray
+    ) -> tuple[bool, int, float]:
+        """How well a cut of the loop finds the configurations of trials; the smallest is best.
 
         Whether the determinant vanishes for every x, the dimension of the null space at a
         solution, and minus the smallest singular value that does not vanish.
         """
-        rng = np.random.default_rng(1)
-        loop, columns = self.loop.copy(), np.empty((12, 8))
-        M, pose = np.empty((8, 8)), np.empty((4, 4))
-        blind, nullity, gap = False, 0, np.inf
-        for _ in range(TRIALS):
-            q = np.where(self.chain.prismatic, self.unit, np.pi) * rng.uniform(-1, 1, self.chain.n)
-            close_loop(self.ends, self.chain.fk(q), self.unit, pose, loop)
+        columns, x, size = np.empty((12, 8)), shape[2], 0
+        at, beside = np.empty((2, TRIALS, 8, 8))
+        for k, (q, loop) in enumerate(trials):
             loop_columns(loop, self.joints, shape, columns)
-            x = shape[2]
             half = 0.0
             if x >= 0:
                 half = np.arctan(0.5 * q[x] / self.unit) if self.chain.prismatic[x] else 0.5 * q[x]
-                u, v = np.cos(half + 1.0), np.sin(half + 1.0)
-                size = loop_matrix(columns, used, u, v, M)
-                blind = blind or bool(np.linalg.svd(M[:size], compute_uv=False)[-1] < VANISHED)
-            size = loop_matrix(columns, used, np.cos(half), np.sin(half), M)
-            sigma = np.linalg.svd(M[:size], compute_uv=False)
-            here = int((sigma < VANISHED).sum())
-            nullity, gap = max(nullity, here), min(gap, float(sigma[size - here - 1]))
-        return blind, nullity, -round(gap, 9)
+                loop_matrix(columns, used, np.cos(half + 1.0), np.sin(half + 1.0), beside[k])
+            size = loop_matrix(columns, used, np.cos(half), np.sin(half), at[k])
+        sigma = np.linalg.svd(at[:, :size], compute_uv=False)
+        blind = x >= 0 and np.linalg.svd(beside[:, :size], compute_uv=False)[:, -1] < VANISHED
+        here = (sigma < VANISHED).sum(axis=1)
+        gap = sigma[np.arange(TRIALS), size - here - 1].min()
+        return bool(np.any(blind)), int(here.max()), -round(float(gap), 9)
 
 
 def _shape(prismatic: NDArray[np.bool_], start: int) -> list[int]:
