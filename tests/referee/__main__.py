@@ -32,8 +32,10 @@ from benchmarks.machine import commit, describe, versions  # noqa: E402
 from dh2urdf.chain import CoupledChain, coupling_of  # noqa: E402
 from dh2urdf.exceptions import NoSolverError  # noqa: E402
 from dh2urdf.ik.arm import Task, spare_joints  # noqa: E402
+from tests.referee import tasks  # noqa: E402
 from tests.referee.arms import CLASSES, shipped, table_of  # noqa: E402
 from tests.referee.search import search, starts  # noqa: E402
+from tests.referee.tasks import TASKS  # noqa: E402
 
 RUNS, PAGE, MARK = HERE / "runs.csv", HERE / "README.md", "<!-- runs -->\n"
 
@@ -69,7 +71,10 @@ def sweep(name: str, arms: int, poses: int, begins: int, seed: int) -> Tally:
     tally = Tally(name)
     for k, table in enumerate(tables(name, arms, seed)):
         try:
-            one_arm(tally, table, poses, begins, [seed, k])
+            if name in TASKS:
+                tasks.one_arm(tally, table, name, poses, begins, [seed, k])
+            else:
+                one_arm(tally, table, poses, begins, [seed, k])
         except NoSolverError:
             tally.count["refused"] += 1
     return tally

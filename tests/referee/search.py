@@ -1,4 +1,7 @@
-"""All solutions that damped Newton steps lead to from random starts, in NumPy alone."""
+"""All solutions that damped Newton steps lead to from random starts, in NumPy alone.
+
+Of a pose, of its position, or of its position and the direction of its z axis.
+"""
 
 import math
 from typing import Any
@@ -17,15 +20,35 @@ APART = 1e-4
 """Joint distance from which on two solutions are two [rad or m]."""
 
 
-def search(arm: Any, T: np.ndarray, q: np.ndarray, moving: np.ndarray) -> np.ndarray:
+def task_errors(T: np.ndarray, T_target: np.ndarray, task: str) -> np.ndarray:
+    """Differences of poses (k, 4, 4) from a target in a task, (k, 3 or 6), 0 at the target."""
+    if task == "pose":
+        return error_vectors(T, T_target)
+    parts = [3] if task == "position" else [3, 2]
+    return np.concatenate([T_target[:3, k] - T[..., :3, k] for k in parts], axis=-1)
+
+
+def task_jacobians(arm: Any, q: np.ndarray, T: np.ndarray, task: str) -> np.ndarray:
+    """The errors' derivatives, but for their sign, (k, 3 or 6, n)."""
+    J = jacobians(arm, q)
+    if task == "position+axis":
+        J[..., 3:, :] = np.cross(J[..., 3:, :], T[..., :3, 2, None], axis=-2)
+    return J[..., :3, :] if task == "position" else J
+
+
+def search(
+    arm: Any, T: np.ndarray, q: np.ndarray, moving: np.ndarray, task: str = "pose"
+) -> np.ndarray:
     """Different solutions (k, n) from starts q (m, n); some joints keep their values."""
     q, weights = q.copy(), np.repeat((1.0 / arm.size, 1.0), 3)
+    weights = weights[: 3 if task == "position" else 6]
     eye = np.eye(int(moving.sum()))
     error = np.inf
     for _ in range(STEPS):
-        e = error_vectors(forward(arm, q), T) * weights
+        tips = forward(arm, q)
+        e = task_errors(tips, T, task) * weights
         error = np.linalg.norm(e, axis=1)
-        J = jacobians(arm, q)[..., moving] * weights[:, None]
+        J = task_jacobians(arm, q, tips, task)[..., moving] * weights[:, None]
         JT = J.swapaxes(-1, -2)
         damped = (DAMPING * np.minimum(error, 1.0) ** 2 + 1e-14)[:, None, None] * eye
         step = np.linalg.solve(JT @ J + damped, JT @ e[..., None])[..., 0]
