@@ -5,7 +5,7 @@ from bisect import bisect_right
 from collections import defaultdict
 from pathlib import Path
 
-SECONDS = 120.0
+SECONDS = 60.0
 """Of all tests that a change is shown to, as long as they took unchanged."""
 
 FIRST = "tests/translate/test_golden.py"
