@@ -17,7 +17,6 @@ from dh2urdf.chain import CoupledChain, Coupling, SerialChain
 from dh2urdf.dh import JointMap
 from dh2urdf.dh.variables import coupled_words
 from dh2urdf.doors import choice, flag, instance, integer
-from dh2urdf.engine import AtOnce, nothing_at_once
 from dh2urdf.exceptions import ArgumentError, ConfigurationError, PoseError
 from dh2urdf.ik.arm import (
     HeldSolver,
@@ -39,15 +38,14 @@ from dh2urdf.ik.problem import (
     IKPath,
     IKSolutions,
     Locked,
+    PlainCalls,
     Problem,
     Progress,
     ScaledProblem,
     SweptProblem,
-    call_of,
     find_path,
     held_joints,
     held_values,
-    seeded_call_of,
 )
 from dh2urdf.ik.redundant import SweptJoint, at_any_value, select_held
 from dh2urdf.transforms import Array
@@ -87,10 +85,7 @@ class InverseKinematics:
         self.own = in_own_unit(chain)
         self.values = chain if coupling is None else coupling.chain_of(chain)
         self._problems: dict[tuple[Any, ...], Problem] = {}
-        self._plain: Problem | None = None
-        self._at_once: list[AtOnce] = [nothing_at_once] * 4
-        self._learnt = [False] * 4
-        self._held = HeldCalls()
+        self._plain, self._held = PlainCalls(), HeldCalls()
 
     def __getstate__(self) -> dict[str, Any]:
         return InverseKinematics(*self._given, self.referee).__dict__
@@ -112,16 +107,17 @@ class InverseKinematics:
     ) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         task, locked, within_limits, samples, nearest = asked
-        plain = task is FULL_POSE and samples is None and tolerance is None
+        plain = task is FULL_POSE and tolerance is None
+        plain = plain and (samples is None or (locked is None and type(samples) is int))
         usual = plain and nearest is False and turns is NEAREST
         if usual and (within_limits is True or within_limits is False):
-            answer = self._in_one_call(T, seed, locked, within_limits)
+            answer = self._in_one_call(T, seed, locked, within_limits, samples)
             if answer is not None:
                 return answer
         inside = flag(within_limits, "within_limits")
         problem = self.problem(task, locked, inside, samples)
         if usual:
-            self._learn(problem, locked, 2 * (seed is not None) + inside)
+            self._learn(problem, locked, samples, 2 * (seed is not None) + inside)
         goal = None if seed is None else as_configuration(seed, self.values.prismatic, "seed")
         most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
         if most is not None and goal is None:
@@ -143,26 +139,31 @@ class InverseKinematics:
         return found
 
     def _in_one_call(
-        self, T: ArrayLike, seed: ArrayLike | None, locked: Locked | None, within_limits: bool
+        self,
+        T: ArrayLike,
+        seed: ArrayLike | None,
+        locked: Locked | None,
+        within_limits: bool,
+        samples: int | None,
     ) -> IKSolutions | None:
         """The answer if all is of the usual kind and there is a function for it."""
-        memory, problem = None, self._plain
-        if locked is None and seed is None:
-            memory = self._at_once[within_limits](T)
-        elif locked is None:
-            memory = self._at_once[2 + within_limits](T, seed)
-        elif held := self._held.answer(T, locked, within_limits, seed):
-            problem, memory = held
-        return None if memory is None or problem is None else IKSolutions(problem, memory)
+        if locked is None:
+            found = self._plain.answer(T, seed, within_limits, samples)
+        else:
+            found = self._held.answer(T, locked, within_limits, seed)
+        if found is None:
+            return None
+        problem, memory = found
+        return None if memory is None else IKSolutions(problem, memory)
 
-    def _learn(self, problem: Problem, locked: Locked | None, way: int) -> None:
+    def _learn(
+        self, problem: Problem, locked: Locked | None, samples: int | None, way: int
+    ) -> None:
         """Make the function that answers in one call what was asked: with a seed, within limits."""
-        if locked is not None:
+        if locked is None:
+            self._plain.learn(problem, samples, way)
+        else:
             self._held.learn(problem, locked, way % 2 == 1)
-        elif not self._learnt[way]:
-            self._plain, make = problem, seeded_call_of if way > 1 else call_of
-            self._at_once[way] = make(problem, way % 2 == 1)
-            self._learnt[way] = True
 
     def solve_batch(
         self,

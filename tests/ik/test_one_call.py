@@ -24,7 +24,7 @@ def taken(robot):
     for seed in (None, zero):
         for inside in (False, True):
             robot.ik(robot.fk(zero), seed=seed, within_limits=inside)
-    both = robot._ik._at_once
+    both = [robot._ik._plain[None, way][1] for way in range(4)]
     return None if engine.nothing_at_once in both else both
 
 
@@ -75,8 +75,7 @@ SEEDED = ["puma560", "ur5", "fanuc_crx10ia", "omron_cobra600", "stanford"]
 def test_one_call_with_a_seed_answers_as_the_calls_in_turn_do(name):
     """Turned and sorted; seeds are arrays, lists, and what only Python takes."""
     robot, rng = Robot.from_dh(name), np.random.default_rng(1)
-    assert taken(robot)
-    some = 0
+    calls, some = taken(robot), 0
     for T in poses(robot, 60):
         seed = rng.uniform(-7.0, 7.0, robot.n)
         for inside in (False, True):
@@ -84,8 +83,24 @@ def test_one_call_with_a_seed_answers_as_the_calls_in_turn_do(name):
             apart = problem.arranged(problem.solve_one(T, inside), seed, inside)
             for given in (seed, seed.tolist(), tuple(seed), np.repeat(seed, 2)[::2]):
                 same_answers(robot.ik(T, seed=given, within_limits=inside), apart)
-            some += robot._ik._at_once[2 + inside](T, seed) is not None
+            some += calls[2 + inside](T, seed) is not None
     assert some > 20
+
+
+@pytest.mark.parametrize("samples", [1, 16, 40])
+def test_one_call_with_samples_answers_as_the_calls_in_turn_do(samples):
+    """As many values of the swept joint as are asked for, with a seed and without."""
+    robot, seed = Robot.from_dh("franka_fer"), np.full(7, 0.2)
+    problem = robot._ik.problem(samples=samples)
+    for T in poses(robot, 10):
+        apart = problem.solve_one(T, True)
+        near = problem.arranged(apart, seed, True)
+        for _ in range(2):  # the first makes the function
+            same_answers(robot.ik(T, samples=samples), apart)
+            same_answers(robot.ik(T, samples=samples, seed=seed), near)
+    assert engine.nothing_at_once not in [call for _, call in robot._ik._plain.values()]
+    with pytest.raises(ConfigurationError, match="swept or locked"):
+        robot.ik(T, samples=samples, locked={6: 0.3})
 
 
 def test_seeds_that_are_none_are_refused_at_the_first_call_and_later():

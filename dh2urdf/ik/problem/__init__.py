@@ -10,7 +10,7 @@ otherwise than the joints do, `turns_together` what turns are then.
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.coupled_problem import CoupledProblem, held_joints
 from dh2urdf.ik.problem.locked import Locked, held_values
-from dh2urdf.ik.problem.one_call import HeldCalls, call_of, seeded_call_of
+from dh2urdf.ik.problem.one_call import HeldCalls, PlainCalls
 from dh2urdf.ik.problem.path import IKPath
 from dh2urdf.ik.problem.problem import ForwardKinematics, Problem, Progress
 from dh2urdf.ik.problem.scaled_problem import ScaledProblem, find_path

@@ -67,6 +67,30 @@ def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
     return arrange_plain, (chain.tables, largest, LIMIT_SLACK, task, *given), True
 
 
+class PlainCalls(dict[tuple[int | None, int], tuple[Problem, AtOnce]]):
+    """The functions for which no joint is held, and their problems.
+
+    By how many samples of a swept joint are asked for, and by a number: 1 within the limits, and 2
+    with a seed.
+    """
+
+    def answer(
+        self, T: ArrayLike, seed: ArrayLike | None, within_limits: bool, samples: int | None
+    ) -> tuple[Problem, bytes | None] | None:
+        """A problem, and the memory of its answer to a pose, if there is a function for it."""
+        if seed is None:
+            made = self.get((samples, within_limits))
+            return made and (made[0], made[1](T))
+        made = self.get((samples, 2 + within_limits))
+        return made and (made[0], made[1](T, seed))
+
+    def learn(self, problem: Problem, samples: int | None, way: int) -> None:
+        """Make one of the functions, if it has not been made."""
+        if (samples, way) not in self:
+            make = seeded_call_of if way > 1 else call_of
+            self[samples, way] = problem, make(problem, way % 2 == 1)
+
+
 class HeldCall(NamedTuple):
     """The function of a pose and the value of one held joint, between two values.
 
