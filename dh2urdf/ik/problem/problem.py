@@ -188,6 +188,12 @@ class Problem:
         """Members (m, n) of the singular family of solution k, on a walk both ways."""
         return self._family(found, k).members()
 
+    def _members(self, found: IKSolutions) -> Array:
+        """Solutions (m, n), and the members of families on walks, in turns near their limits."""
+        families = (self.walked(found, k) for k, free in enumerate(found.free_joints) if free)
+        every = np.concatenate([found.q, *families])
+        return turned_to(self.chain, every, middle(self.chain))
+
     def members_near(
         self, found: IKSolutions, k: int, goals: list[Array], within_limits: bool
     ) -> list[Array]:
@@ -280,10 +286,10 @@ class Problem:
         """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""
         if within_limits:
             anywhere = self.solve_one(T, within_limits=False)
+            if self.solve_one(T, within_limits=True):
+                return ""
             if anywhere:
-                joint, excess = beyond_limits(self.chain, anywhere.q)
-                if excess <= LIMIT_SLACK:
-                    return ""
+                joint, excess = beyond_limits(self.chain, self._members(anywhere))
                 slides = self.chain.prismatic[joint]
                 by = f"{excess * self.chain.unit:.4g} m" if slides else f"{excess:.4g} rad"
                 return (

@@ -11,7 +11,8 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.newton import POLISH, polish, pose_residual
+from dh2urdf.kernels.certificate.directions import add_step, look_at_some
+from dh2urdf.kernels.newton import POLISH, make_damped, polish, pose_residual
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -35,6 +36,10 @@ TWO_PI = 2.0 * math.pi
 
 FAR = 4.0 * math.pi
 """Angle [rad] beyond which full turns round a value by more than the chain rounds a pose."""
+
+WEAK, BACK = 1e-10, 3
+"""Singular value, relative to the largest, of a direction in which joints do not make up for others
+that were put on their bounds; Newton's steps for that."""
 
 
 def principal(angle):
@@ -62,6 +67,29 @@ def is_known(joints, q, count, p):
         if same(joints, q[k], p, CLUSTER, NO_JOINT):
             return True
     return False
+
+
+def _make_up(chain, T, q, free):
+    """Newton's method by the joints of q (n,) that are on no bound; the residual then.
+
+    At a nearly double root others make up for what bounds took off, within the limits.
+    """
+    (_, joints), n, mask = chain, q.shape[0], 0
+    room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
+    for i in range(n):
+        mask |= (1 if joints[i, 1] < q[i] < joints[i, 2] else 0) << i
+    for _ in range(BACK):
+        _, largest = look_at_some(chain, T, q, mask, room)
+        add_step(chain, 1.0, q, room, WEAK * largest, CLUSTER)
+    _onto_bounds(joints, q, free)
+    return pose_residual(chain, T, q)
+
+
+def _onto_bounds(joints, q, free):
+    """Put what of q (n,) is outside its bounds onto them, but joints that are free."""
+    for i in range(q.shape[0]):
+        if not (free >> i) & 1:
+            q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
 
 
 def _into_limits(chain, T, within_limits, q, residual, free):
@@ -93,10 +121,10 @@ def _into_limits(chain, T, within_limits, q, residual, free):
         return math.inf
     if not moved and not far:
         return residual
-    for i in range(q.shape[0]):
-        if moved and not (free >> i) & 1:
-            q[i] = min(max(q[i], joints[i, 1]), joints[i, 2])
-    return pose_residual(chain, T, q)
+    if moved:
+        _onto_bounds(joints, q, free)
+    residual = pose_residual(chain, T, q)
+    return _make_up(chain, T, q, free) if moved and residual > ACCEPT else residual
 
 
 def move(q, residual, branch, free, source, target):

@@ -3,7 +3,8 @@
 Where joints are free, solutions form a curve (seldom a surface) in joint space. The representative
 is moved along it towards the middle of the limits, by the joints that are free, also from where one
 of these is a full turn to either side. If that ends outside, the curve is walked both ways, and the
-members inside that are nearest to the middle are moved on.
+members inside that are nearest to the middle are moved on. If none is inside, it may touch the
+limits at a corner.
 """
 
 import math
@@ -31,6 +32,40 @@ def _is_inside(joints, slack, q):
     return True
 
 
+def _excess(joints, q, i):
+    """How far joint i of q (n,) is beyond its limits; negative inside."""
+    return max(joints[i, 1] - q[i], q[i] - joints[i, 2])
+
+
+def _farthest(joints, q):
+    """The joint of q (n,) that is farthest beyond its limits."""
+    far = 0
+    for i in range(1, q.shape[0]):
+        far = i if _excess(joints, q, i) > _excess(joints, q, far) else far
+    return far
+
+
+def _touch(chain, goal, mask, slack, q, room):
+    """Go along a curve to where it comes to the limits, and no farther, q (n,) in place.
+
+    Whether it does. The joint that is farthest outside is put on its bound, and the others of the
+    mask bring q back onto the curve; then the next one, if that is outside there.
+    """
+    (_, joints), (_, _, rows, damped) = chain, room
+    task, T, unit = goal
+    for _ in range(q.shape[0]):
+        far = _farthest(joints, q)
+        if not mask >> far & 1:
+            return False
+        q[far] = min(max(q[far], joints[far, 1]), joints[far, 2])
+        held = task + STAYING * (1 << far), T, unit
+        if not restore(chain, held, q, rows[0], damped) <= HELD:
+            return False
+        if _is_inside(joints, slack, q):
+            return True
+    return False
+
+
 def _keep_nearest(starts, sizes, count, q, size):
     """Put q (n,) among the starts (k, n), ascending by their sizes; how many there are then."""
     most = starts.shape[0]
@@ -45,10 +80,14 @@ def _keep_nearest(starts, sizes, count, q, size):
 
 
 def _walk_inside(chain, goal, mask, slack, centre, q, room):
-    """Walk both ways from q (n,), and keep the nearest members inside the limits; how many."""
+    """Walk both ways from q (n,), and keep the nearest members inside the limits; how many.
+
+    If there are none, the first of them is the one that is least outside.
+    """
     starts, sizes, rows, damped = room
     at, tangent, guess, scratch, member = rows[0], rows[1], rows[2], rows[3], rows[4]
-    count = 0
+    starts[0] = q
+    count, least = 0, math.inf
     for way in range(2):
         at[:] = q
         some = 0
@@ -69,6 +108,11 @@ def _walk_inside(chain, goal, mask, slack, centre, q, room):
             if _is_inside(chain[1], slack, member):
                 size = math.sqrt(distance2(member, centre))
                 count = _keep_nearest(starts, sizes, count, member, size)
+                continue
+            far = _excess(chain[1], member, _farthest(chain[1], member))
+            if count == 0 and far < least:
+                least = far
+                starts[0] = member
     return count
 
 
@@ -99,6 +143,8 @@ def _enter(chain, goal, mask, slack, centre, q, room):
     if best < math.inf:
         return True
     count = _walk_inside(chain, goal, mask, slack, centre, start, room)
+    if count == 0 and _touch(chain, goal, mask, slack, starts[0], room):
+        count = 1
     for k in range(count):
         go_nearer(chain, goal, True, 0.0, HELD, starts[k], centre, scratch, damped)
         size = distance2(starts[k], centre)
