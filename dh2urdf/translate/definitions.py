@@ -68,7 +68,7 @@ def folded(text: str, indent: int = 0) -> list[str]:
     if text.startswith("/*"):
         return textwrap.wrap(text, WIDTH, initial_indent=pad, subsequent_indent=pad + " * ")
     while len(pad) + len(text) > WIDTH:
-        depths = [*accumulate((x in "([{") - (x in ")]}") for x in text)]
+        depths = [*accumulate((x in "([{") - (x in ")]}") for x in text[: WIDTH + 1])]
         places = [i for i in range(WIDTH // 3 + 1, WIDTH - len(pad) + 1) if text[i] == " "]
         if not places:
             break

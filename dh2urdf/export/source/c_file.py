@@ -18,7 +18,7 @@ from dh2urdf.export.source.c_text import (
     WORK_LINE,
     WORKSPACE,
 )
-from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
+from dh2urdf.export.source.head import LICENCE, branches, complete, joints, one_line, provenance
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.export.source.stack import kept_apart, stack_bytes
@@ -85,6 +85,7 @@ class CProgram:
             work_line=WORK_LINE.format(p=p, size=program.workspace) if works else "",
             example=WORK_EXAMPLE.format(p=p) if works else "",
             branch_line=branches(program),
+            complete=complete(program, "true", "false"),
             stack=self.stack,
         )
 

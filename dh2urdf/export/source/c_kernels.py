@@ -38,6 +38,17 @@ HEAD = """/* A loop whose turns do not depend on one another. */
 
 
 @cache
+def _assigned(home: ModuleType) -> dict[str, ast.expr]:
+    """What a module's names are assigned."""
+    found = dict[str, ast.expr]()
+    for s in ast.parse(inspect.getsource(home)).body:
+        match s:
+            case ast.Assign(targets=[ast.Name(id=target)], value=value):
+                found[target] = value
+    return found
+
+
+@cache
 def _changed(home: ModuleType, name: str, lanes: int) -> int | None:
     """A constant of a module that follows from the sizes of small blocks of some lanes."""
     place = f"{home.__name__}.{name}".removeprefix(f"{kernels.__name__}.")
@@ -45,11 +56,7 @@ def _changed(home: ModuleType, name: str, lanes: int) -> int | None:
         return lanes
     if place in SMALL:
         return SMALL[place]
-    found = None
-    for s in ast.parse(inspect.getsource(home)).body:
-        match s:
-            case ast.Assign(targets=[ast.Name(id=target)], value=value) if target == name:
-                found = value
+    found = _assigned(home).get(name)
     plain = ast.BinOp | ast.operator | ast.Name | ast.expr_context | ast.Constant
     if found is None or not all(isinstance(n, plain) for n in ast.walk(found)):
         return None

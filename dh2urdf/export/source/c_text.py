@@ -23,9 +23,7 @@ row, the last 0 0 0 1. A configuration q is {n} numbers:
 found holds count solutions in its first rows, each with its residual, the larger of its errors of
 position [m] and rotation [rad] on the exact chain; its branch{branch_line}
 and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular: it stands for a family, along which {p}_ik_near does not move it. complete is false
-where there may be more solutions, because the pose is next to one at which solutions meet;
-Robot.ik of dh2urdf searches there.
+singular: it stands for a family, along which {p}_ik_near does not move it. {complete}
 
     {p}_solutions found;
 {example}    {p}_ik(T, {held}true, {work}&found);

@@ -63,6 +63,22 @@ def provenance(robot: Robot, program: Program) -> list[str]:
     return lines
 
 
+SEARCHED = """\
+complete is {true}:
+where solutions meet or nearly do, others are searched for from many starts, which takes some
+milliseconds where other poses take microseconds."""
+
+LEFT = """\
+complete is {false}
+where there may be more solutions, because the pose is next to one at which solutions meet;
+Robot.ik of dh2urdf searches there."""
+
+
+def complete(program: Program, true: str, false: str) -> str:
+    """What is said of all solutions being found, with a language's words for it."""
+    return (SEARCHED if program.searches else LEFT).format(true=true, false=false)
+
+
 def joints(robot: Robot) -> list[str]:
     """Names, kinds and limits of the joints, a line for each."""
     rows = []

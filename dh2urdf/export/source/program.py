@@ -17,7 +17,7 @@ from dh2urdf.engine import Step
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import HeldSolver, Outputs, Room, Solver, SolverBase
 from dh2urdf.kernels.general_6r import ARM_6R
-from dh2urdf.kernels.in_doubt import IN_DOUBT
+from dh2urdf.kernels.in_doubt import IN_DOUBT, referee_doubtful, search_doubtful
 from dh2urdf.transforms import Array
 
 RECORDS = {ARM_6R: "elimination", IN_DOUBT: "search"}
@@ -67,6 +67,11 @@ class Program:
     def workspace(self) -> int:
         """Bytes of the records."""
         return sum(record.like.dtype.itemsize for record in self.records)
+
+    @property
+    def searches(self) -> bool:
+        """Whether poses in doubt are searched, so that none is left."""
+        return any(call.kernel in (search_doubtful, referee_doubtful) for call in self.calls)
 
     @classmethod
     def of(cls, chain: SerialChain, solver: Solver | HeldSolver) -> "Program":

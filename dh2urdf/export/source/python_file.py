@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from dh2urdf.bounds import ANGLE
-from dh2urdf.export.source.head import LICENCE, branches, joints, one_line, provenance
+from dh2urdf.export.source.head import LICENCE, branches, complete, joints, one_line, provenance
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.export.source.python_text import ABOUT, FUNCTIONS, HELD, HELD_REFUSED
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
@@ -72,6 +72,7 @@ class PythonProgram:
             held_line=line,
             held_given=", held" if held else "",
             branch_line=branches(self.program),
+            complete=complete(self.program, "True", "False"),
         )
 
     def _functions(self) -> str:

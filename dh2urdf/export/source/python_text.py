@@ -22,9 +22,7 @@ configuration q is {n} numbers:
 Solutions are lists of the same length: q, residual (the larger of the errors of position [m] and
 rotation [rad] on the exact chain), branch{branch_line}
 and free_joints, whose bit i says that joint i can move while the tip stays, because the solution is
-singular: it stands for a family, along which ik_near does not move it. complete is False where
-there may be more solutions, because the pose is next to one at which solutions meet; Robot.ik of
-dh2urdf searches there.
+singular: it stands for a family, along which ik_near does not move it. {complete}
 
     found = ik(T{held_given}, within_limits=False)
     for q, residual in zip(found.q, found.residual):

@@ -25,7 +25,7 @@ from dh2urdf.ik.arm import (
 from dh2urdf.ik.families.closed_form import STUCK
 from dh2urdf.ik.families.own_record import OwnRecord
 from dh2urdf.ik.families.short_links import screw, short_links
-from dh2urdf.kernels.general_6r import ARM_6R, MOST, finish_general_6r, solve_general_6r
+from dh2urdf.kernels.general_6r import ARM_6R, MOST, WORK, finish_general_6r, solve_general_6r
 from dh2urdf.kernels.in_doubt import search_doubtful
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.transforms import Array, inverse, product
@@ -256,6 +256,8 @@ def plan_general_6r(links: Array, slides: NDArray[np.bool_] | None = None) -> Ar
     """
     arm = blank_general_6r(links, slides)
     _choose(arm, _rank(arm, _random_poses(arm)))
+    for name in WORK:
+        arm[name] = 0.0
     return arm
 
 

@@ -8,7 +8,7 @@ both eliminations, and `joints_of_slides` leads from its roots to seeds.
 """
 
 from dh2urdf.kernels.general_6r.arc_samples import ARC, tables_of
-from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST, record, root_order, root_work
+from dh2urdf.kernels.general_6r.arm import ARM_6R, MOST, WORK, record, root_order, root_work
 from dh2urdf.kernels.general_6r.elimination import (
     HALF_SQRT3,
     INV_SQRT3,

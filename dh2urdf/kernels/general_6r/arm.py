@@ -119,5 +119,8 @@ def record(integers, floats):
     )
 
 
-ARM_6R = record({**_INTEGERS, **root_order(DEGREE)}, {**_ARM, **_WORK, **root_work(DEGREE)})
+WORK = _WORK | root_work(DEGREE)
+"""Fields that hold nothing from one pose to the next."""
+
+ARM_6R = record({**_INTEGERS, **root_order(DEGREE)}, {**_ARM, **WORK})
 """The record; while one is in use, another thread needs a copy."""

@@ -97,3 +97,17 @@ def configurations(robot, rng, m):
     some = ~robot.slides & (rng.random(q.shape) < 0.6)
     q = np.where(some & (kind == 1), grid, np.where(some & (kind == 2), beside, q))
     return np.clip(q, low, high)
+
+
+def edges(robot, rng, m):
+    """Configurations (m, n) at multiples of 90 degrees, with joints at limits, at home, beside."""
+    low, high = robot.bounded(1.0, np.pi)
+    q = rng.uniform(low, high, (m, robot.n))
+    square = 0.5 * np.pi * np.round(q / (0.5 * np.pi))
+    limit = np.where(rng.random(q.shape) < 0.5, low, high)
+    kind, other = np.arange(m)[:, None] % 6, rng.random(q.shape) < 0.4
+    turned = np.where(robot.slides, q, square)
+    at = np.where(kind % 3 == 0, turned, np.where(kind % 3 == 1, np.where(other, limit, q), 0.0))
+    at[2::3] = np.where(other[2::3], turned[2::3], 0.0)
+    beside = at + 1e-9 * rng.choice([-1, 1], q.shape)
+    return np.clip(np.where(kind < 3, at, beside), low, high)

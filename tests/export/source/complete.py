@@ -2,8 +2,8 @@
 
 ``python -m tests.export.source.complete [ARM...]``: each arm's file is compiled and solves 3000
 poses, a third of them random, a third at multiples of 45 degrees, a third beside such, and 300 with
-all joints at multiples of 90 degrees; of arms with a joint to spare that one is held. Poses in
-doubt are those where ``Robot.ik`` searches in Python.
+all joints at multiples of 90 degrees; of arms with a joint to spare that one is held. Others
+are left to ``Robot.ik``.
 """
 
 import sys
