@@ -5,6 +5,7 @@ import resource
 import signal
 import sys
 import tempfile
+import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -12,7 +13,10 @@ from pathlib import Path
 from typing import Any
 
 SECONDS = 10
-"""Longest that a door may take."""
+"""Longest that a door may work."""
+
+PATIENCE = 6
+"""Times as long it may be there: it waits for others, or is stopped."""
 
 GROWTH = 1_000_000
 """Memory by which the process may grow over one input [kB]."""
@@ -131,18 +135,18 @@ sys.addaudithook(_hook)
 @contextmanager
 def watched(folder: Path) -> Iterator[None]:
     """Run what stands inside; a :class:`FaultError` for anything that no input may bring about."""
-    alarms = iter((False, True))
+    begun, worked = time.monotonic(), time.process_time()
 
     def late(*_: object) -> None:
-        if next(alarms, True):
+        waited = time.monotonic() - begun >= PATIENCE * SECONDS
+        if waited or time.process_time() - worked >= SECONDS:
             raise FaultError(f"no end after {SECONDS} s")
 
     was, before = signal.signal(signal.SIGALRM, late), _memory()
     place, there = tempfile.tempdir, set(os.listdir(folder))
     tempfile.tempdir = str(folder)
     _watch.update(folder=os.path.realpath(folder), seen=[])
-    # Other processes have their share; one that was stopped for long finds one alarm.
-    signal.setitimer(signal.ITIMER_REAL, 1.5 * SECONDS, 1.5 * SECONDS)
+    signal.setitimer(signal.ITIMER_REAL, SECONDS, SECONDS)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")

@@ -3,7 +3,8 @@
 Rooms are kernels, certificates and converters. Each of some changes, drawn by ``--seed`` from all
 that there are, is made in a copy of the package, and the tests that reach its line run until one
 fails: the directory is that of a run of ``tests.marked`` with ``-p tests.marked.each``.
-``--record`` adds the outcomes to ``runs.csv`` and writes the table of ``README.md``.
+``--record`` adds the outcomes to ``runs.csv`` and writes the table of ``README.md``; what is there
+is not tried again, so that a run can be gone on with.
 """
 
 import argparse
@@ -131,7 +132,10 @@ def main() -> int:
         if not passes(place, reach):
             print("unchanged, some tests fail", (place / "said.txt").read_text(), file=sys.stderr)
             return 2
+        known = {tuple(row[:7]) for row in kept()} if asked.record else set()
         for file, site in drawn(room, asked.count, asked.seed):
+            if (room, str(asked.seed), file, *map(str, site)) in known:
+                continue
             begin, tests = time.monotonic(), reach.of(file, site.line)
             how = outcome(place, tests, file, site)
             ends[how] += 1

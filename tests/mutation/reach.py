@@ -17,7 +17,10 @@ class Reach:
     def __init__(self, place: Path) -> None:
         places = json.loads((place / "places.json").read_text())
         rows = [json.loads(row) for row in (place / "each.jsonl").read_text().splitlines()]
+        rows = [row for row in rows if "[/" not in row["test"]]  # named by where the copy is
         self.seconds = {row["test"]: row["seconds"] for row in rows if row["passed"]}
+        self.golden = {test for test in self.seconds if test.startswith(FIRST)}
+        """For lines that are no part of what is compiled: tables are made by them."""
         by_place = defaultdict[int, set[str]](set)
         for row in rows:
             for k in row["reached"] if row["passed"] else ():
@@ -34,7 +37,7 @@ class Reach:
         at = bisect_right(lines, line) - 1
         if at < 0:
             return []
-        found = self.tests[file][lines[at]]
+        found = self.tests[file][lines[at]] or self.golden
         order = sorted(found, key=lambda t: (not t.startswith(FIRST), self.seconds[t]))
         total, out = 0.0, list[str]()
         for test in order:

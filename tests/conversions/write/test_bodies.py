@@ -84,3 +84,14 @@ def test_first_drum_stands_on_the_base(name):
     disc = next(b for b in base if b.material == "base")
     between = float(np.linalg.norm(T_base_drum[:3, 3] - disc.pose[:3, 3]))
     assert between == pytest.approx((drum.size[1] + disc.size[1]) / 2, rel=1e-9)
+
+
+@pytest.mark.parametrize("turn", [0.0, math.pi])
+def test_the_foot_of_a_flat_arm_is_under_it_whichever_way_its_axis_points(turn):
+    """The disc is below the joint where axis 1 points up, and where it points down."""
+    rows = tuple(dh2urdf.DHRow(0, 0, 0.3, 0) for _ in range(2))
+    base = dh2urdf.Origin((0, 0, 0), (turn, 0, 0))
+    table = dh2urdf.DHTable(rows, "standard", base=base)
+    foot = bodies_of(table)[0][0]
+    assert foot.material == "base"
+    assert foot.pose[2, 3] < link_frames(table).origins[0][2, 3]
