@@ -182,7 +182,7 @@ class DHTable:
         )
         return cls(tuple(made), convention_of(convention, TableError), name=name)
 
-    @property
+    @cached_property
     def joints(self) -> tuple[DHRow, ...]:
         """The rows that move, in order."""
         return tuple(row for row in self.rows if row.is_joint)
@@ -210,7 +210,7 @@ class DHTable:
         at = [i for i, row in enumerate(self.rows) if row.is_joint]
         return at[-1] - at[0] >= len(at)
 
-    @property
+    @cached_property
     def joint_names(self) -> tuple[str, ...]:
         """Names of the joints; ``joint_i`` where the row has none."""
         return tuple(row.name or f"joint_{i}" for i, row in enumerate(self.joints, 1))
