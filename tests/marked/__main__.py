@@ -45,6 +45,10 @@ MAY = {
     "general_6r/follow.py": LANES,
     "newton/lanes.py": LANES,
     "numbers/lanes.py": LANES,
+    "numbers/trig.py": LANES,
+    "blocks.py": LANES,
+    "parallel_axes/blocks.py": LANES,
+    "certificate/arrange.py": NONE,
     "certificate/directions.py": "the square of a ratio that is infinite: a turn by zero",
 }
 """Files in which floating-point errors may occur, and why."""
