@@ -15,15 +15,18 @@ import subprocess
 import sys
 import sysconfig
 from collections import Counter
+from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from benchmarks.machine import commit
 from tests.marked.python import mark_modules
 from tests.marked.written import KINDS, Place, statements, texts
 
 ROOT = Path(__file__).parents[2]
+PAGE, MARK = Path(__file__).with_name("README.md"), "<!-- run -->\n"
 
 FLAGS = ["-std=gnu99", "-O1", "-ffp-contract=off", "-fno-math-errno", "-fPIC", "-w", "-shared"]
 FLAGS += ["-fsanitize=signed-integer-overflow,shift,integer-divide-by-zero,float-cast-overflow"]
@@ -92,6 +95,7 @@ def prepared(place: Path, modules: str | None = None) -> None:
     if modules:
         mark_modules(place / "dh2urdf", modules, marks)
     (place / "places.json").write_text(json.dumps(marks))
+    (place / "commit").write_text(commit())
     (place / "marks").write_bytes(bytes(KINDS * len(marks)))
 
 
@@ -107,7 +111,7 @@ def run(place: Path, words: list[str]) -> int:
     return subprocess.run(command, cwd=place, env=os.environ | keys, check=False).returncode
 
 
-def told(place: Path, *, missed: bool) -> tuple[float, int]:
+def told(place: Path, *, missed: bool, record: bool) -> tuple[float, int]:
     """Print what was marked; the share of lines that ran, and how many errors must not be."""
     places = [Place(*row) for row in json.loads((place / "places.json").read_text())]
     seen = np.frombuffer((place / "marks").read_bytes(), bool).reshape(len(places), KINDS)
@@ -139,7 +143,14 @@ def told(place: Path, *, missed: bool) -> tuple[float, int]:
     counts = [
         f"{int(column.sum())} {kind}" for kind, column in zip(ERRORS, seen.T[1:], strict=True)
     ]
-    print(f"{len(every) - len(left)} of {len(every)} lines, {share:.1%};", ", ".join(counts))
+    line = f"{len(every) - len(left)} of {len(every)} lines, {share:.1%}; {', '.join(counts)}"
+    print(line)
+    if record:
+        tests = len((place / "each.jsonl").read_text().splitlines()) if each.exists() else "all"
+        made = (
+            f"{datetime.now(UTC):%Y-%m-%d}, commit {(place / 'commit').read_text()}, {tests} tests"
+        )
+        PAGE.write_text(PAGE.read_text().partition(MARK)[0] + f"{MARK}{made}: {line}\n")
     return share, wrong
 
 
@@ -149,13 +160,14 @@ def main() -> int:
     parser.add_argument("place", type=Path)
     parser.add_argument("--missed", action="store_true", help="list lines that were not reached")
     parser.add_argument("--told", action="store_true", help="only tell what was marked before")
+    parser.add_argument("--record", action="store_true", help="write the figures into README.md")
     parser.add_argument("--modules", help="folder of Python modules that mark their lines, too")
     parser.add_argument("--least", type=float, default=0.0, help="1 below this share")
     asked, words = parser.parse_known_args()
     if not (asked.place / "marks").exists():
         prepared(asked.place.resolve(), asked.modules)
     status = 0 if asked.told else run(asked.place.resolve(), words)
-    share, wrong = told(asked.place, missed=asked.missed)
+    share, wrong = told(asked.place, missed=asked.missed, record=asked.record)
     return int(share < asked.least or wrong > 0 or status > 1)
 
 
