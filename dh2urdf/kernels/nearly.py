@@ -13,7 +13,7 @@ direction in which the pose hardly changes.
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, finish_pose
+from dh2urdf.kernels.certificate import ACCEPT, copy_rows, finish_pose
 from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, polish, solve_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.parallel_axes import add_pairs, last_joint, outer_pairs, slope_of_last
@@ -131,6 +131,22 @@ def settle_counts(count: Counts):
         doubt = doubt or count[i] < 0
         count[i] = max(count[i], -1 - count[i])
     return doubt
+
+
+def skip_sure(count: Counts, others: Counts):
+    """Leave no candidates, of which there are ``others`` (m,), to poses that are in no doubt."""
+    for i in range(count.shape[0]):
+        others[i] = others[i] if count[i] < 0 else 0
+
+
+def put_doubtful(others: Outputs, outputs: Outputs):
+    """Put the solutions of others in the place of those of poses in doubt."""
+    more, (q, residual, count, branch, free) = others, outputs
+    for i in range(count.shape[0]):
+        if count[i] < 0:
+            source = more[0][i], more[1][i], more[3][i], more[4][i]
+            rows = q[i], residual[i], branch[i], free[i]
+            count[i] = copy_rows(source, more[2][i], rows)
 
 
 def reverse_all(q: Solutions):

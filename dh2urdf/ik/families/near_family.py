@@ -28,8 +28,16 @@ from dh2urdf.ik.families.closed_form import STUCK, ThreeParallel, not_six_revolu
 from dh2urdf.ik.families.general_6r import Arm, General6R
 from dh2urdf.ik.families.spherical_wrist import SphericalWrist
 from dh2urdf.kernels.certificate import finish_batch
+from dh2urdf.kernels.general_6r import finish_general_6r
 from dh2urdf.kernels.in_doubt import referee_doubtful
-from dh2urdf.kernels.nearly import reverse_all, settle_counts, solve_near_parallel, solve_near_wrist
+from dh2urdf.kernels.nearly import (
+    put_doubtful,
+    reverse_all,
+    settle_counts,
+    skip_sure,
+    solve_near_parallel,
+    solve_near_wrist,
+)
 from dh2urdf.kernels.rigid import invert_poses
 from dh2urdf.transforms import Array
 
@@ -135,11 +143,17 @@ class NearFamily(Refereed):
 
     def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """Those of any pose: what the nominal arm gives is certified, or its candidates are."""
-        if self.far:
-            return self.steps(Ts, within_limits, out)
-        arm = self.general.plan.copy()
-        finish: Step = finish_batch, (self.chain.tables, Ts, within_limits, out), False
-        return *self._by_nominal(Ts, out), finish, self.referee(arm, Ts, within_limits, out)
+        arm, tables = self.general.plan.copy(), self.chain.tables
+        some = Outputs.of(len(Ts), self.kmax, 6) if self.far else out
+        nominal = self._by_nominal(Ts, some)
+        finish: Step = finish_batch, (tables, Ts, within_limits, some), False
+        rest = finish, self.referee(arm, Ts, within_limits, some)
+        if not self.far:
+            return *nominal, *rest
+        first: Step = finish_general_6r, (tables, arm, Ts, within_limits, out), False
+        skip: Step = skip_sure, (out.counts, some.counts), False
+        put: Step = put_doubtful, (some, out), False
+        return first, *nominal, skip, *rest, put
 
     def _by_nominal(self, Ts: Array, out: Outputs) -> tuple[Step, ...]:
         """The kernels that make candidates of what the nominal arm does."""

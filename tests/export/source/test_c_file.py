@@ -91,16 +91,20 @@ def other_arms():
     rng = np.random.default_rng(0)
     rows = Robot.from_dh("ur10e").table.rows
     noise = 2e-4 * rng.standard_normal((6, 3))
-    off = [
-        replace(r, a=r.a + x, d=r.d + y, alpha=r.alpha + z)
-        for r, (x, y, z) in zip(rows, noise, strict=True)
-    ]
+    near, far = (
+        tuple(
+            replace(r, a=r.a + x, d=r.d + y, alpha=r.alpha + z)
+            for r, (x, y, z) in zip(rows, size * noise, strict=True)
+        )
+        for size in (1.0, 10.0)
+    )
     none = rng.uniform((-1, 0.1, -0.4, -1.4), (1, 0.4, 0.4, 1.4), (6, 4))
     general = DHTable.from_array(none, convention="standard")
     slide = replace(general.rows[2], joint_type="prismatic", lower=-0.5, upper=0.5)
     turned = [(0.0, r.d, r.a, r.alpha) for r in Robot.from_dh("puma560").table.rows[::-1]]
     return {
-        "nearly three parallel axes": DHTable(tuple(off), "standard"),
+        "nearly three parallel axes": DHTable(near, "standard"),
+        "nearly three parallel axes, not so near": DHTable(far, "standard"),
         "general 6R": general,
         "general RRPRRR": DHTable((*general.rows[:2], slide, *general.rows[3:]), "standard"),
         "spherical shoulder": DHTable.from_array(turned, convention="modified"),
@@ -111,7 +115,7 @@ def other_arms():
 def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path):
     """Calibrated, general and mirrored arms: the same bits."""
     arm = Arm(Robot.from_dh(table), tmp_path)
-    assert arm.made.solver == solver
+    assert arm.made.solver == solver.partition(",")[0]
     arm.compile(*SAME)
     compare(arm, np.random.default_rng(6).uniform(-3.0, 3.0, (80, 6)))
 
