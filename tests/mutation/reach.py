@@ -35,9 +35,7 @@ class Reach:
         """Tests that reach a line: golden answers first, then the quickest, for so many seconds."""
         lines = sorted(self.tests[file])
         at = bisect_right(lines, line) - 1
-        if at < 0:
-            return []
-        found = self.tests[file][lines[at]] or self.golden
+        found = (at >= 0 and self.tests[file][lines[at]]) or self.golden
         order = sorted(found, key=lambda t: (not t.startswith(FIRST), self.seconds[t]))
         total, out = 0.0, list[str]()
         for test in order:
