@@ -5,7 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 
 from benchmarks.arms import ARMS
-from benchmarks.compare import arm_name, is_peer, most_threads, own, seconds, share, times
+from benchmarks.compare import (
+    arm_name,
+    is_peer,
+    most_threads,
+    own,
+    per_solution,
+    seconds,
+    share,
+    times,
+)
 from benchmarks.peers.ours import OURS
 from benchmarks.results import Results, Row
 
@@ -23,6 +32,7 @@ __all__ = [
     "memory",
     "non_pieper",
     "one_pose",
+    "swept",
 ]
 
 Figure = tuple[str, bool]
@@ -119,6 +129,15 @@ def held_call(results: Results) -> Iterator[Figure]:
         mine = own(results.of("ik one, bare", arm.key))
         theirs = _of(results, "ik one, bare", arm.key, "EAIK")
         yield from _against(mine, theirs, arm_name(arm), 1.0)
+
+
+def swept(results: Results) -> Iterator[Figure]:
+    """Arms of seven joints with nothing held, for each solution; at most 1 us."""
+    for key in dict.fromkeys(r.arm for r in results.of("7R sweep")):
+        rows = [per_solution(r) for r in results.of("7R sweep", key)]
+        mine = own(rows)
+        for words, enough in _against(mine, rows, key, 1.0):
+            yield words, enough and bool(mine and (mine.seconds or 1.0) <= 1e-6)
 
 
 def non_pieper(results: Results) -> Iterator[Figure]:

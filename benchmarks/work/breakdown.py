@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
+from itertools import cycle
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +51,8 @@ def run(results: Results, keys: tuple[str, ...]) -> None:
         _add(results, key, _held_parts(arm) if arm.held else _inverse_parts(arm))
         if key == "ur5":
             _add(results, key, _forward_parts(arm))
+        if key == "puma560":
+            _add(results, key, _table_parts(arm))
 
 
 def _add(results: Results, key: str, parts: Parts) -> None:
@@ -102,6 +106,20 @@ def _held_parts(arm: Arm) -> Parts:
 def _planned(arm: Arm) -> Parts:
     chain = Robot.from_dh(arm.table).chain
     return {"trying eliminations": (lambda: plan_general_6r(chain.links, chain.prismatic), 1)}
+
+
+def _table_parts(arm: Arm) -> Parts:
+    """A robot of a table that differs by a longer first offset."""
+    robot, (first, *others) = Robot.from_dh(arm.table), arm.table.rows
+    tables = cycle(
+        replace(arm.table, rows=(replace(first, d=first.d + 1e-6 * k), *others))
+        for k in range(1, 50)
+    )
+    frames = link_frames(arm.table)
+    return {
+        "with_table": (lambda: robot.with_table(next(tables)), 1),
+        "Pinocchio model": (lambda: table_model(arm.table, frames), 1),
+    }
 
 
 def _built(arm: Arm) -> Parts:
