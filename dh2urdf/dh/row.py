@@ -40,7 +40,7 @@ class Origin:
     @property
     def matrix(self) -> Array:
         """The step as a homogeneous matrix, shape (4, 4)."""
-        return tf.origin_matrix(self.xyz, self.rpy)
+        return np.eye(4) if self.is_identity else tf.origin_matrix(self.xyz, self.rpy)
 
     @property
     def is_identity(self) -> bool:
