@@ -15,6 +15,7 @@ from typing import Annotated, TypeAlias
 
 import numpy as np
 
+from dh2urdf.kernels.counts import how_many
 from dh2urdf.kernels.numbers import entry, few_turns, side_by_side, sincos
 from dh2urdf.kernels.rigid import (
     inverse_pose,
@@ -295,4 +296,4 @@ def insert_held_batch(
     """:func:`insert_held` for a batch."""
     for i in range(q.shape[0]):
         free[i] = free_found[i]
-        insert_held(k, values[i], found[i], q[i], free[i], count[i])
+        insert_held(k, values[i], found[i], q[i], free[i], how_many(count[i]))

@@ -16,8 +16,9 @@ from dh2urdf.export.source.head import LICENCE, branches, complete, joints, one_
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
 from dh2urdf.export.source.python_text import ABOUT, FUNCTIONS, HELD, HELD_REFUSED
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
-from dh2urdf.kernels.certificate import DEEP, arrange_near
+from dh2urdf.kernels.certificate import arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
+from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.numbers import is_pose
 from dh2urdf.kernels.redundant import families_inside

@@ -25,7 +25,8 @@ from dh2urdf.ik.arm import (
     lines_of,
     plain_ranges,
 )
-from dh2urdf.kernels.certificate import DEEP, finish_batch, search_valleys
+from dh2urdf.kernels.certificate import finish_batch, search_valleys
+from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.nearly import parallel_seeds
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 from dh2urdf.transforms import Array

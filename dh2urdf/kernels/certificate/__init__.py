@@ -22,7 +22,6 @@ from dh2urdf.kernels.certificate.arrange import (
 from dh2urdf.kernels.certificate.certify import (
     ACCEPT,
     CLUSTER,
-    DEEP,
     NO_JOINT,
     ROUNDING,
     TWO_PI,

@@ -26,9 +26,6 @@ NO_JOINT = 0
 EVERY_JOINT = (1 << 30) - 1
 """The mask of all joints."""
 
-DEEP = 64
-"""Added to what a closed form counts of a pose in doubt that many starts are to search."""
-
 CLUSTER = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 

@@ -38,7 +38,7 @@ from dh2urdf.kernels.blocks import (
     share,
     sides,
 )
-from dh2urdf.kernels.certificate import DEEP
+from dh2urdf.kernels.counts import how_many
 from dh2urdf.kernels.numbers import entry, side_by_side
 from dh2urdf.kernels.parallel_axes.pairs import pairs_of_meeting
 from dh2urdf.kernels.parallel_axes.poses import finish_pairs, make_scratch
@@ -162,8 +162,7 @@ def _solve_rest(arm, Ts, within_limits, first, n, outputs):
             tool_to_wrist(ends, Ts[i], scratch[0])
             pairs = pairs_of_meeting(form, scratch[0], slack, scratch[1])
             out = q[i], residual[i], branch[i], free[i]
-            found = finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch)
-            count[i] = found if found >= 0 else (-1 - found) % DEEP
+            count[i] = how_many(finish_pairs(arm, 1, pairs, Ts[i], within_limits, out, scratch))
 
 
 @entry(n=6, solutions=8)

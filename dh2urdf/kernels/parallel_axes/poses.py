@@ -14,13 +14,13 @@ import math
 import numpy as np
 
 from dh2urdf.kernels.certificate import (
-    DEEP,
     certify_pose,
     copy_rows,
     name_families,
     side_by_side,
     turn_inside,
 )
+from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.numbers import atan2, entry, hypot
 from dh2urdf.kernels.parallel_axes.pairs import outer_pairs, says_little
 from dh2urdf.kernels.parallel_axes.plane import (

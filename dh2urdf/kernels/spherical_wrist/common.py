@@ -43,7 +43,7 @@ from dh2urdf.kernels.blocks import (
     sides,
     turned_and_tilted,
 )
-from dh2urdf.kernels.certificate import DEEP
+from dh2urdf.kernels.counts import how_many
 from dh2urdf.kernels.numbers import entry, side_by_side, sincos
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist.poses import make_scratch, solve_pose
@@ -210,8 +210,8 @@ def _solve_rest(arm, Ts, within_limits, first, n, outputs):
             # beside a slide at zero joint 2 hardly turns the tool
             if count[i] < 0 and slides:
                 doubts += 1
-            elif count[i] < 0:
-                count[i] = (-1 - count[i]) % DEEP
+            else:
+                count[i] = how_many(count[i])
     return doubts
 
 

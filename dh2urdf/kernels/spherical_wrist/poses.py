@@ -12,7 +12,6 @@ import numpy as np
 from dh2urdf.kernels.certificate import (
     ACCEPT,
     CLUSTER,
-    DEEP,
     ROUNDING,
     certify_pose,
     copy_rows,
@@ -22,6 +21,7 @@ from dh2urdf.kernels.certificate import (
     same,
     turn_inside,
 )
+from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.newton import polish
 from dh2urdf.kernels.numbers import atan2, entry, hypot, root_of_gap, sincos
 from dh2urdf.kernels.shapes import ClosedForm, Outputs, Poses

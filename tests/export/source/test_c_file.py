@@ -74,6 +74,9 @@ def compare(arm, q, whole=1.0):
     locked = {} if held is None else {"locked": {held: q[:, held]}}
     for key, limits in (("inside", True), ("any", False)):
         assert_same(found[key], robot.ik_batch(Ts, within_limits=limits, **locked))
+        rows = np.repeat(np.arange(len(Ts)), found[key]["count"])
+        first = np.arange(found[key]["q"].shape[1]) < found[key]["count"][:, None]
+        assert np.abs(robot.fk(found[key]["q"][first]) - Ts[rows]).max(initial=0.0) < 2e-9
         assert np.mean(found[key]["complete"]) >= whole
 
 
@@ -84,6 +87,16 @@ def test_the_solutions_are_those_of_the_robot(name, tmp_path):
     arm.compile(*SAME)
     compare(arm, configurations(arm.robot, rng, EVERY_DAY), LEFT.get(name, 1.0))
     compare(arm, edges(arm.robot, rng, EVERY_DAY // 3), 0.0 if name in LEFT else 1.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "held", "whole"), [("xarm7", 0, 0.9), ("ur5", 0, 0.4), ("franka_fer", 0, 0.9)]
+)
+def test_what_is_told_with_a_joint_held_at_an_end_are_solutions(name, held, whole, tmp_path):
+    """Also at poses in doubt, of which the rest of the arm counts its solutions below zero."""
+    arm, rng = Arm(Robot.from_dh(name), tmp_path, held), np.random.default_rng(1)
+    arm.compile(*SAME)
+    compare(arm, edges(arm.robot, rng, EVERY_DAY), whole)
 
 
 def other_arms():
