@@ -69,4 +69,6 @@ def test_verb_writes_both_and_keeps_what_it_did_not_write(run, refused, tmp_path
     (tmp_path / "mine.c").write_text("int main(void) { return 0; }")
     assert "mine.c" in refused("export", "planar_rr", "-o", "rr.h", "--tests", "mine.c")
     assert "--tests does nothing without --output" in refused("export", "ur5", "--tests", "a.c")
+    same = refused("export", "ur5", "-o", "t/../ur.h", "--tests", "ur.h")
+    assert "--tests: ur.h is the file of -o" in same
     assert "stands alone" in refused("export", "ur5", "-o", "-", "--tests", "a.c")

@@ -83,6 +83,8 @@ def export_(
     if tests is not None and (language == "python" or output.suffix.lower() == ".py"):
         raise ArgumentError("--tests writes a C program: it does nothing for Python")
     if tests is not None:
+        if tests.resolve() == output.resolve():
+            raise ArgumentError(f"--tests: {tests} is the file of -o; expected another one")
         refuse_unwritable(tests)
         if not force:
             refuse_foreign(tests, MARK)

@@ -98,14 +98,14 @@ static inline int {p}_ik({parameters}, {p}_solutions *found)
     double pose[1][4][4];
 {scratch}    memcpy(pose, T, sizeof pose);
     found->count = 0;
-    found->complete = true;
+    found->complete = false;
     if (!{is_pose}) {{
         return -1;
     }}
 {held_check}{steps}
+    found->complete = found->count >= 0;
     if (found->count < 0) {{
         found->count = (-1 - found->count) % {deep};
-        found->complete = false;
     }}
     if (within_limits) {{
         {inside};
@@ -119,7 +119,7 @@ static inline int {p}_ik_near({near}, {p}_solutions *found)
     double pose[1][4][4], distance[{kmax}];
     int i, count;
     found->count = 0;
-    found->complete = true;
+    found->complete = false;
     for (i = 0; i < {n}; i++) {{
         if (!(seed[i] >= -{angle} && seed[i] <= {angle})) {{
             return -1;

@@ -64,7 +64,7 @@ def provenance(robot: Robot, program: Program) -> list[str]:
 
 
 SEARCHED = """\
-complete is {true}:
+complete is {true} of every pose:
 where solutions meet or nearly do, others are searched for from many starts, which takes some
 milliseconds where other poses take microseconds."""
 

@@ -366,9 +366,11 @@ int main(void)
 
 @pytest.mark.parametrize(("name", "held"), [("puma560", None), ("kuka_iiwa14", 2)])
 def test_seeds_that_are_none_and_held_values_beyond_their_limits_are_refused(name, held, tmp_path):
+    """So is a pose that is none, of which nothing is complete."""
     made = export_solver(Robot.from_dh(name), tmp_path / "arm.h", prefix="arm", held=held)
     assert made
-    more = 'printf("%d", found.count > 0);'
+    more = 'printf("%d ", found.count > 0); T[0] = NAN; printf("%d ", arm_ik(T, true, &found));'
+    more += 'printf("%d", found.complete);'
     if held is not None:
         more = "".join(
             f'printf("%d ", arm_ik(T, {value}, {limits}, &found) < 0);'
@@ -381,7 +383,7 @@ def test_seeds_that_are_none_and_held_values_beyond_their_limits_are_refused(nam
     said = subprocess.run([program], capture_output=True, check=True, text=True).stdout.split()
     assert said[:3] == ["-1"] * 3
     assert int(said[3]) > 0
-    assert said[4:] == (["1"] if held is None else ["1", "1", "0"])
+    assert said[4:] == (["1", "-1", "0"] if held is None else ["1", "1", "0"])
 
 
 @pytest.fixture(scope="module")

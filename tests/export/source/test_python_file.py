@@ -82,6 +82,8 @@ def test_what_is_no_pose_is_refused(tmp_path):
     exec((tmp_path / "arm.py").read_text(), given)
     with pytest.raises(ValueError, match="no pose"):
         given["ik"]([[2.0 * (i == j) for j in range(4)] for i in range(4)])
+    with pytest.raises(ValueError, match="could not convert"):
+        given["ik"]("x")
     with pytest.raises(ValueError, match="expected 16 numbers, got 9"):
         given["ik"]([[1.0, 0.0, 0.0]] * 3)
 
