@@ -1,6 +1,6 @@
 """``python -m benchmarks.held_batch``: random poses with one of seven joints held, in batches.
 
-A few of 50,000 such poses are in doubt and take as long as thousands of others. Each batch has
+A few of 20,000 such poses are in doubt and take as long as thousands of others. Each batch has
 poses of its own; of each arm and joint the time a pose of the fastest batch, the mean of all, and
 how many batches are slower than the fastest by half.
 """
@@ -21,8 +21,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.held_batch", description=__doc__)
     parser.add_argument("arms", nargs="*", default=ARMS)
     parser.add_argument("--joints", type=int, nargs="*", default=(0, 2, 4, 6))
-    parser.add_argument("--poses", type=int, default=50_000)
-    parser.add_argument("--batches", type=int, default=5)
+    parser.add_argument("--poses", type=int, default=20_000)
+    parser.add_argument("--batches", type=int, default=3)
     given = parser.parse_args()
     rows = []
     for name in given.arms:
