@@ -185,6 +185,7 @@ def _keep(out: Outputs, rows: IntArray | list[int]) -> None:
 def unite_families(chain: SerialChain, Ts: Array, within_limits: bool, wide: Outputs) -> None:
     """Keep one member of each family of poses Ts (d, 4, 4), and, then, what is within limits."""
     poses, walk = np.ascontiguousarray(Ts), np.empty((2, MOST_STEPS, chain.n))
-    keep_members(chain.tables, chain.size, poses, walk, wide)
+    key, (gone, asked) = np.empty(wide.q.shape[1]), np.empty((2, wide.q.shape[1]), np.bool_)
+    keep_members(chain.tables, chain.size, poses, walk, key, gone, asked, wide)
     if within_limits:
         finish_batch(chain.tables, poses, True, wide)

@@ -10,7 +10,7 @@ from dh2urdf.kernels.in_doubt.members import MOST_STEPS, drop_valleys, one_of_ea
 from dh2urdf.kernels.in_doubt.search import make_room, search_beside, search_from
 from dh2urdf.kernels.newton import POSE
 from dh2urdf.kernels.numbers import entry
-from dh2urdf.kernels.shapes import AnyChain, Chain, Counts, Floats, Outputs, Poses
+from dh2urdf.kernels.shapes import AnyChain, Chain, Counts, Flagged, Floats, Outputs, Poses, Sizes
 
 WIDTH, FIRST = 128, 16
 """Most candidates of a pose, and those of the general solver."""
@@ -86,15 +86,17 @@ def unite_families(
     unit: float,
     Ts: Poses,
     walk: Annotated[Floats, 2, "steps", "n"],
+    key: Sizes,
+    gone: Flagged,
+    asked: Flagged,
     outputs: Outputs,
 ):
     """Keep one member of each family of poses Ts (m, 4, 4), isolated solutions first, in place.
 
-    ``walk`` (2, steps, n) is scratch.
+    ``walk`` (2, steps, n), ``key``, ``gone`` and ``asked`` (solutions,) are scratch.
     """
     q, residual, count, branch, free = outputs
-    most = q.shape[1]
-    room = walk, np.empty(most), np.empty(most, np.bool_), np.empty(most, np.bool_)
+    room = walk, key, gone, asked
     for i in range(Ts.shape[0]):
         rows = q[i], residual[i], branch[i], free[i]
         count[i] = one_of_each_family(chain, Ts[i], unit, rows, count[i], room)
