@@ -66,7 +66,7 @@ def provenance(robot: Robot, program: Program) -> list[str]:
 SEARCHED = """\
 complete is {true} of every pose:
 where solutions meet or nearly do, others are searched for from many starts, which takes some
-milliseconds where other poses take microseconds."""
+hundred times as long as at other poses."""
 
 LEFT = """\
 complete is {false}
