@@ -15,7 +15,7 @@ from sphinx.util import logging
 import dh2urdf
 from dh2urdf.dh import DHTable, JointType
 from dh2urdf.ik.families import general_6r
-from dh2urdf.kernels.certificate import DEEP
+from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.general_6r import ARM_6R, MOST
 from docs.extensions import wasm
 
