@@ -107,9 +107,9 @@ class InverseKinematics:
     ) -> IKSolutions:
         """All configurations that put the tool at a pose, see :meth:`dh2urdf.Robot.ik`."""
         task, locked, within_limits, samples, nearest = asked
-        plain = task is FULL_POSE and tolerance is None
-        plain = plain and (samples is None or (locked is None and type(samples) is int))
-        usual = plain and nearest is False and turns is NEAREST
+        swept = samples is None or (locked is None and type(samples) is int)
+        plain = task is FULL_POSE and tolerance is None and nearest is False and turns is NEAREST
+        usual = plain and swept
         if usual and (within_limits is True or within_limits is False):
             answer = self._in_one_call(T, seed, locked, within_limits, samples)
             if answer is not None:
@@ -122,8 +122,7 @@ class InverseKinematics:
         most = None if tolerance is None else as_tolerance(tolerance, self.chain.n)
         if most is not None and goal is None:
             raise ArgumentError("seed_tolerance: there is no seed from which to measure it")
-        usual = type(turns) is str and turns == "nearest"
-        every = not usual and choice(turns, "turns", ("nearest", "all")) == "all"
+        every = turns is not NEAREST and choice(turns, "turns", ("nearest", "all")) == "all"
         pose, change = one_pose(T, problem.task, nearest)
         if problem.values is not None:
             _check_held(problem, 1)

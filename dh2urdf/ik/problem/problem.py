@@ -30,7 +30,7 @@ from dh2urdf.ik.arm import (
 )
 from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.chunks import in_chunks
-from dh2urdf.ik.problem.shortfall import beyond_limits, shortfall
+from dh2urdf.ik.problem.shortfall import all_outside, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import RedundantChain
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
@@ -188,12 +188,6 @@ class Problem:
         """Members (m, n) of the singular family of solution k, on a walk both ways."""
         return self._family(found, k).members()
 
-    def _members(self, found: IKSolutions) -> Array:
-        """Solutions (m, n), and the members of families on walks, in turns near their limits."""
-        families = (self.walked(found, k) for k, free in enumerate(found.free_joints) if free)
-        every = np.concatenate([found.q, *families])
-        return turned_to(self.chain, every, middle(self.chain))
-
     def members_near(
         self, found: IKSolutions, k: int, goals: list[Array], within_limits: bool
     ) -> list[Array]:
@@ -284,20 +278,12 @@ class Problem:
 
     def why_none(self, T: Array, within_limits: bool) -> str:
         """Say why a pose T (4, 4) has no solution, and by how much; empty if it has one."""
-        if within_limits:
-            anywhere = self.solve_one(T, within_limits=False)
-            if self.solve_one(T, within_limits=True):
-                return ""
-            if anywhere:
-                joint, excess = beyond_limits(self.chain, self._members(anywhere))
-                slides = self.chain.prismatic[joint]
-                by = f"{excess * self.chain.unit:.4g} m" if slides else f"{excess:.4g} rad"
-                return (
-                    f"all {len(anywhere)} solutions are outside the joint limits, the nearest by "
-                    f"{by} at {self.chain.names[joint]}"
-                )
-        elif self.solve_one(T, within_limits=False):
+        if self.solve_one(T, within_limits):
             return ""
+        if within_limits and (anywhere := self.solve_one(T, within_limits=False)):
+            free = (k for k, joints in enumerate(anywhere.free_joints) if joints)
+            members = [anywhere.q, *(self.walked(anywhere, k) for k in free)]
+            return all_outside(self.chain, len(anywhere), np.concatenate(members))
         if not isinstance(self.solver, HeldSolver) or self.values is None:
             return shortfall(self.chain, T, self.task)
         held = dict(zip(self.solver.held, self.values[0].tolist(), strict=True))

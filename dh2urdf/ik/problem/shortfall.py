@@ -9,7 +9,7 @@ import math
 import numpy as np
 
 from dh2urdf.chain import CoupledChain, SerialChain
-from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, part, tips_at
+from dh2urdf.ik.arm import ACCEPT, AxisLines, Task, middle, part, tips_at, turned_to
 from dh2urdf.ik.redundant import nearly_reaching
 from dh2urdf.transforms import Array, inverse
 
@@ -41,6 +41,19 @@ def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     return (
         f"the tool reaches the point, but not with this {what}; the closest found is "
         f"{math.degrees(turn):.3g} deg away"
+    )
+
+
+def all_outside(chain: SerialChain, count: int, q: Array) -> str:
+    """Say that so many solutions are outside the limits; their joints, and members' of families.
+
+    They are q (k, n), in any turns.
+    """
+    joint, excess = beyond_limits(chain, turned_to(chain, q, middle(chain)))
+    by = f"{excess * chain.unit:.4g} m" if chain.prismatic[joint] else f"{excess:.4g} rad"
+    return (
+        f"all {count} solutions are outside the joint limits, the nearest by {by} at "
+        f"{chain.names[joint]}"
     )
 
 

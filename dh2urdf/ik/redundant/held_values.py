@@ -1,6 +1,6 @@
 """Which solver a chain with held joints gets, and those that are not a spherical triple."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -111,27 +111,21 @@ class HeldEnd(HeldSolver):
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs
     ) -> tuple[Step, ...]:
         """The same in kernels, for values (m,)."""
-        if not isinstance(self.inner, SolverBase):
-            return ()
-        return self._around(self.inner.steps, Ts, values, within_limits, out)
+        return self._around(False, Ts, values, within_limits, out)
 
     def all_steps(
         self, Ts: Array, values: Array, within_limits: bool, out: Outputs
     ) -> tuple[Step, ...]:
         """Those of any pose, as far as the rest has such."""
-        if not isinstance(self.inner, SolverBase):
-            return ()
-        return self._around(self.inner.all_steps, Ts, values, within_limits, out)
+        return self._around(True, Ts, values, within_limits, out)
 
     def _around(
-        self,
-        steps: Callable[..., tuple[Step, ...]],
-        Ts: Array,
-        values: Array,
-        within_limits: bool,
-        out: Outputs,
+        self, whole: bool, Ts: Array, values: Array, within_limits: bool, out: Outputs
     ) -> tuple[Step, ...]:
         """Steps of the rest, between those that move the poses and put the held joint in."""
+        if not isinstance(self.inner, SolverBase):
+            return ()
+        steps = self.inner.all_steps if whole else self.inner.steps
         joint, poses = self.held[0], np.empty_like(Ts)
         q, free = np.empty((len(Ts), self.kmax, self.chain.n - 1)), np.zeros_like(out.free)
         middle = steps(poses, within_limits, out._replace(q=q, free=free))

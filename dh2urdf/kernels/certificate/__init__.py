@@ -46,6 +46,7 @@ from dh2urdf.kernels.certificate.finish import (
     side_by_side,
     turn_back,
 )
+from dh2urdf.kernels.certificate.levenberg import approach
 from dh2urdf.kernels.certificate.numeric import Coupled, find_solutions
 from dh2urdf.kernels.certificate.together import arrange_together, turn_together, values_of_batch
 from dh2urdf.kernels.certificate.valley import search_valleys

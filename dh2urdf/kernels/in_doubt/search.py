@@ -9,17 +9,15 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import CLUSTER, NO_JOINT, null_direction, principal, same
+from dh2urdf.kernels.certificate import CLUSTER, NO_JOINT, approach, null_direction, principal, same
 from dh2urdf.kernels.newton import (
     MAX_TURN,
     POLISH,
     POSE,
-    add_transposed,
     error_and_jacobian,
     make_damped,
     normal_equations,
     pose_residual,
-    solve_damped,
     work_array,
 )
 
@@ -43,21 +41,12 @@ DAMPED = 50
 STUCK = 12
 """Such steps without a better residual after which a start is given up."""
 
-SETTLED = 2
-"""The same where the residual is that of a solution: at a double root it falls on, by halves."""
-
 DONE = 1e-15
 """Residual [m and rad] at which nothing is left to gain."""
 
 SHARP, BESIDE = 4e-15, 100.0
 """Residual [m and rad] above which a solution may be beside a double one, and how far beside
 [rad], in square roots of it."""
-
-DAMPING = 0.5
-"""Their damping, in squares of the error; where there is a solution it vanishes."""
-
-LONGEST = 0.6
-"""The longest of them [rad, or in sizes of the arm]."""
 
 ALMOST = 1e-10
 """Residual [m and rad] at which no plain steps are needed."""
@@ -173,43 +162,15 @@ def search_beside(chain, T, q, count, room):
     return count
 
 
-def _approach(chain, goal, patience, q, best, dq, damped):
-    """Levenberg's steps from q (6,); the residual of the best configuration, which is left in q."""
-    (_, joints), least, since = chain, math.inf, 0
-    best[:] = q
-    for _ in range(patience * DAMPED):
-        residual = error_and_jacobian(chain, goal, q, damped)
-        if residual < least:
-            since = since if residual > 0.9 * least else 0
-            least = residual
-            best[:] = q
-        since += 1
-        if residual <= DONE or since > (SETTLED if least <= POLISH else patience * STUCK):
-            break
-        square = 0.0
-        for a in range(6):
-            square += damped[1][a, 6] * damped[1][a, 6]
-        solve_damped(damped, DAMPING * square)
-        dq[:] = 0.0
-        add_transposed(damped, 1.0, dq)
-        longest = LONGEST
-        for j in range(6):
-            longest = max(longest, abs(dq[j]) / (goal[2] if joints[j, 0] != 0.0 else 1.0))
-        q += dq * (LONGEST / longest)
-    for j in range(6):
-        q[j] = best[j] if joints[j, 0] != 0.0 else principal(best[j])
-    return least
-
-
 def _try_starts(chain, goal, starts, patience, q, count, room):
     """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen."""
-    trial, best, dq, step, A, damped, _ = room
-    least = math.inf
+    (trial, best, dq, step, A, damped, _), least = room, math.inf
+    most = patience * DAMPED, patience * STUCK, POLISH, DONE
     for s in range(starts.shape[0]):
         if s == FEW and least > NEAR and count == 0:
             break
         trial[:] = starts[s]
-        residual = _approach(chain, goal, patience, trial, best, dq, damped)
+        residual = approach(chain, goal, most, trial, best, dq, damped)
         least = min(least, residual)
         found = residual <= ALMOST
         if not found and residual <= NEAR:

@@ -14,7 +14,7 @@ from dh2urdf.kernels.newton import error_and_jacobian, make_damped, restore
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import HELD, dot, first_guess, tangent_near, way_to
 from dh2urdf.kernels.shapes import AnyChain, Counts, Floats, Poses, Solutions
-from dh2urdf.kernels.short_chains import approach
+from dh2urdf.kernels.short_chains import come_near
 
 STEP, MOST_STEPS = 0.15, 500
 """Step along a curve [rad or m], and how many each way."""
@@ -165,7 +165,7 @@ def add_curves(
             if count[i] >= q.shape[1] or (s == FEW and least[i] > NEAR):
                 break
             trial[:] = starts[s]
-            residual = approach(chain, goal, trial, best, dq, damped)
+            residual = come_near(chain, goal, trial, best, dq, damped)
             least[i] = min(least[i], residual)
             if DULL < residual <= NEAR:
                 residual = _sharpen(chain, goal, trial, room, best)

@@ -9,5 +9,5 @@ from dh2urdf.kernels.short_chains.loop import loop_columns, loop_matrix
 from dh2urdf.kernels.short_chains.planar import planar_rr, solve_planar
 from dh2urdf.kernels.short_chains.poses import ShortChain, close_loop, solve_short_chains
 from dh2urdf.kernels.short_chains.position import solve_short_positions
-from dh2urdf.kernels.short_chains.search import approach, search_starts
+from dh2urdf.kernels.short_chains.search import come_near, search_starts
 from dh2urdf.kernels.short_chains.three_slides import solve_three_slides

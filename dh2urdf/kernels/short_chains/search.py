@@ -8,28 +8,16 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, NO_JOINT, principal, same
-from dh2urdf.kernels.newton import (
-    POSE,
-    add_transposed,
-    error_and_jacobian,
-    make_damped,
-    solve_damped,
-)
+from dh2urdf.kernels.certificate import ACCEPT, NO_JOINT, approach, same
+from dh2urdf.kernels.newton import POSE, make_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.shapes import AnyChain, Counts, Floats, Poses
 
-STEPS, STUCK, SETTLED = 50, 8, 2
-"""Steps from a start, and how many without a better residual end them; near a solution, too."""
+STEPS, STUCK = 50, 8
+"""Steps from a start, and how many without a better residual end them."""
 
 DONE = 1e-14
 """Residual [m and rad] at which nothing is left to gain."""
-
-DAMPING = 0.5
-"""Damping in squares of the error: it vanishes where there is a solution."""
-
-LONGEST = 0.6
-"""The longest step [rad, or in sizes of the arm]."""
 
 NEAR = 0.01
 """Residual [m and rad] of what comes near."""
@@ -41,31 +29,9 @@ FEW = 24
 """Starts after which a pose is given up that nothing came near to."""
 
 
-def approach(chain, goal, q, best, dq, damped):
+def come_near(chain, goal, q, best, dq, damped):
     """Levenberg's steps from q (n,); the least residual, and in q the configuration that has it."""
-    (_, joints), least, since = chain, math.inf, 0
-    for _ in range(STEPS):
-        residual = error_and_jacobian(chain, goal, q, damped)
-        if residual < least:
-            since = since if residual > 0.9 * least else 0
-            least = residual
-            best[:] = q
-        since += 1
-        if residual <= DONE or since > (SETTLED if least <= ACCEPT else STUCK):
-            break
-        square = 0.0
-        for a in range(6):
-            square += damped[1][a, 6] * damped[1][a, 6]
-        solve_damped(damped, DAMPING * square)
-        dq[:] = 0.0
-        add_transposed(damped, 1.0, dq)
-        longest = LONGEST
-        for j in range(q.shape[0]):
-            longest = max(longest, abs(dq[j]) / (goal[2] if joints[j, 0] != 0.0 else 1.0))
-        q += dq * (LONGEST / longest)
-    for j in range(q.shape[0]):
-        q[j] = best[j] if joints[j, 0] != 0.0 else principal(best[j])
-    return least
+    return approach(chain, goal, (STEPS, STUCK, ACCEPT, DONE), q, best, dq, damped)
 
 
 @entry()
@@ -89,7 +55,7 @@ def search_starts(
             if s == FEW and least > NEAR and many[i] == 0:
                 break
             trial[:] = starts[s]
-            residual = approach(chain, goal, trial, best, dq, damped)
+            residual = come_near(chain, goal, trial, best, dq, damped)
             least = min(least, residual)
             if not residual <= NEAR or many[i] >= seeds.shape[1]:
                 continue
