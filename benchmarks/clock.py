@@ -72,13 +72,19 @@ def _per_call(call: Callable[[Any], Any], items: Sequence[Any]) -> float:
 
 
 def interleaved(
-    blocks: Mapping[str, Block], budget: float, *, least: int = 5, most: int = 60
+    blocks: Mapping[str, Block],
+    budget: float,
+    *,
+    least: int = 5,
+    most: int = 60,
+    before: Callable[[], object] = int,
 ) -> dict[str, Timing]:
     """Time blocks in turn until the budget [s] is spent.
 
     A block is named for its contestant, with more behind a bar where there are several. Each runs
-    once before it counts. At least ``least`` rounds are made, whatever the budget, but
-    a block that alone has taken more than the budget in three rounds gets three.
+    once before it counts; ``before`` precedes every turn and does not count. At least ``least``
+    rounds are made, whatever the budget, but a block that alone has taken more than the budget in
+    three rounds gets three.
     """
     wall: dict[str, list[float]] = {name: [] for name in blocks}
     processor: dict[str, list[float]] = {name: [] for name in blocks}
@@ -96,6 +102,7 @@ def interleaved(
             if k >= 3 and sum(wall[name]) * units[name] > budget:
                 continue
             at_work(owner(name))
+            before()
             begin, processed = time.perf_counter(), worked()
             done = blocks[name]()
             processor[name].append((worked() - processed) / done)

@@ -105,8 +105,11 @@ def load_average() -> list[float]:
     return [round(v, 2) for v in os.getloadavg()]
 
 
-def touch_memory(size: int = 1 << 30) -> None:
-    """Write to some memory and give it back: what a virtual machine never had is slow at first."""
+def touch_memory(size: int = 1 << 27) -> None:
+    """Write to some memory and give it back: what a virtual machine has not got is slow at first.
+
+    Seconds after it was given back, the host may take it again.
+    """
     np.full(size // 8, 1.0)
 
 

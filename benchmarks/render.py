@@ -46,7 +46,9 @@ def speed(results: Results) -> str:
     parts = [
         "## Speed",
         "All solutions of a random reachable pose; medians of interleaved runs, per pose, with the "
-        f"fastest peer that finds at least nine in ten of the known solutions. {_kind(results)}",
+        "fastest peer that finds at least nine in ten of the known solutions. One call is "
+        "`robot.ik(T).q` and what the peer's user does for the same array; found is the share of "
+        f"all known solutions, ours and the peer's of one call. {_kind(results)}",
         table(
             ("class", "arm", "one call", "fastest peer", "batch", "fastest peer", "found"),
             sections.ik_rows(results),

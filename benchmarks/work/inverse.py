@@ -119,8 +119,8 @@ def _batch(results: Results, arm: Arm, entrants: Sequence[BatchContestant]) -> N
         for threads in c.threads:
             blocks[f"{c.name}|{threads}"] = _batch_block(c, T[:share], threads)
     known = referee.truth(list(verdicts.values()), q[:2_000])
-    touch_memory()
-    for key, timing in interleaved(blocks, 0.5 if results.quick else 15.0, most=15).items():
+    budget = 0.5 if results.quick else 15.0
+    for key, timing in interleaved(blocks, budget, most=15, before=touch_memory).items():
         name, threads = key.split("|")
         own = next(c for c in entrants if c.name == name)
         judged = _judged(verdicts[name], known, arm, own)
