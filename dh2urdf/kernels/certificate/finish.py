@@ -43,6 +43,10 @@ ASIDE = 0.05
 """How far that may move the middle, in parts of the distance between the two: a way bends by less,
 and to a third solution it is farther."""
 
+ALIKE = 1e-4
+"""Distance [rad or m] of joints that are not free between members of one family; they hardly move
+along it."""
+
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
 
@@ -115,14 +119,16 @@ def name_batch(chain: AnyChain, Ts: Poses, outputs: Outputs):
 def one_of_each_family(joints, rest, q, residual, branch, free, count):
     """Keep one representative of each singular family; the new count.
 
-    Solutions with the same free joints are taken for one family. The one whose first free joint
-    is at rest stays; without one, the first.
+    Solutions with the same free joints, and the others alike, are taken for one family. The one
+    whose first free joint is at rest stays; without one, the first.
     """
     kept = 0
     for k in range(count):
         keep = True
         for j in range(count):
             if j == k or free[k] == 0 or free[j] != free[k]:
+                continue
+            if not same(joints, q[j], q[k], ALIKE, free[k]):
                 continue
             mine = _at_rest(joints, rest, q[k], free[k])
             other = _at_rest(joints, rest, q[j], free[k])

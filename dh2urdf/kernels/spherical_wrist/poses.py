@@ -32,6 +32,7 @@ from dh2urdf.kernels.spherical_wrist.position_arm import (
     NICE,
     SHOULDER_FREE,
     UPPER_FREE,
+    WRIST_MASK,
     tool_to_wrist,
 )
 
@@ -42,6 +43,9 @@ MEETING = 1e-5
 IN_LINE = 3e-5
 """Sine of the angle between axes 4 and 6 below which a wrist is in doubt: an angle that was rounded
 to five digits weighs as much."""
+
+AWAY = 1.0
+"""Turn [rad] of a free joint 1 or 2 away from where axes 4 and 6 are in line and families cross."""
 
 DULL = 1e-12
 """Residual [m and rad] of a solution that Newton's method did not make sharp: it is singular."""
@@ -136,6 +140,15 @@ def append_wrist(form, values, R, slack, q, residual, branch, free, count):
     return count
 
 
+def add_wrist_aside(form, D, values, R, slack, rows, count):
+    """:func:`add_wrist`; a free joint 1 or 2 is turned where the wrist is in line."""
+    found, mask = add_wrist(form, D, values, R, slack, *rows, count), int(max(values[4], 0.0))
+    if mask & ~WRIST_MASK == 0 or hypot(R[0, 2], R[1, 2]) > IN_LINE:
+        return found
+    values[0 if mask == SHOULDER_FREE else 1] += AWAY
+    return add_wrist(form, D, values, R, slack, *rows, count)
+
+
 def roots_meet(joints, arm, rows):
     """Whether two position solutions nearly coincide: rounding may have parted a double root.
 
@@ -158,7 +171,7 @@ def add_merged(arm, places, T, scratch):
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
     (_, joints), (q, residual, _, free), kept = chain, rows, 0
     for k in range(places):
-        found = add_wrist(form, D, place[k], R, slack, *rows, kept)
+        found = add_wrist_aside(form, D, place[k], R, slack, rows, kept)
         for j in range(kept, found):
             residual[j] = polish(chain, T, q[j], work)
             for i in range(6):
@@ -218,7 +231,7 @@ def finish_wrists(arm, places, found, meet, T, within_limits, out, scratch):
     (chain, form, _, slack), (D, R, place, work, rows) = arm, scratch
     (_, joints), merged, doubt, deep = chain, found, False, False
     for k in range(places):
-        parted = add_wrist(form, D, place[k], R, slack, *rows, found)
+        parted = add_wrist_aside(form, D, place[k], R, slack, rows, found)
         in_line = hypot(R[0, 2], R[1, 2])
         doubt = doubt or FREE < in_line < IN_LINE
         deep = deep or place[k, 4] < 0.0

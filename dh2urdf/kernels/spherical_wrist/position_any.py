@@ -120,8 +120,9 @@ def _two_turns(form, Y, V, free, slack, pairs):
 
 
 def _nearest(columns, slides, c, s):
-    """The value of a joint, as a row has it, at which its point is nearest to axis 2; the distance.
+    """The value of a joint, as a row has it, at which its point is nearest to axis 2.
 
+    Returned are the distance, and the height along the axis, too.
     For a point that is next to the axis: there its root is double, and rounding parts it by 1e-8.
     """
     _, C, S = columns
@@ -134,8 +135,8 @@ def _nearest(columns, slides, c, s):
     else:
         f, e = sincos(move)
         c, s = c * e - s * f, s * e + c * f
-    x, y, _ = point_at(columns, c, s)
-    return c, s, hypot(x, y)
+    x, y, height = point_at(columns, c, s)
+    return c, s, hypot(x, y), height
 
 
 def _write_rows(form, Y, V, free, slack, count, pairs, arm):
@@ -149,9 +150,9 @@ def _write_rows(form, Y, V, free, slack, count, pairs, arm):
             rough = (s if form[0, 5] != 0.0 else f if form[2, 5] != 0.0 else 0.0) != 0.0
             arm[k, 4] = VAGUE if rough or vx * vx + vy * vy <= BESIDE * BESIDE else 0.0
             if vx * vx + vy * vy <= ON_AXIS * ON_AXIS:
-                near_c, near_s, off = _nearest(Y, form[0, 5] != 0.0, c, s)
-                near_e, near_f, miss = _nearest(V, form[2, 5] != 0.0, e, f)
-                off = max(off, miss)
+                near_c, near_s, off, high = _nearest(Y, form[0, 5] != 0.0, c, s)
+                near_e, near_f, miss, low = _nearest(V, form[2, 5] != 0.0, e, f)
+                off = max(off, miss, abs(high - low))
                 if off <= ACCEPT or (slack > 0.0 and off <= ON_AXIS):
                     c, s, e, f, arm[k, 1] = near_c, near_s, near_e, near_f, form[1, 4]
                     arm[k, 4] = UPPER_FREE if off <= ACCEPT else VAGUE

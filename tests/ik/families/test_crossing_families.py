@@ -4,6 +4,8 @@ A slide at zero leaves joint 2 of the Stanford arm free. At one of its angles ax
 line, and joints 4 and 6 turn without it: another family, with one member in common.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from dh_arm import arm_of
@@ -61,6 +63,36 @@ def test_a_slide_near_zero_of_rounded_angles_loses_no_solution(decimals):
     q[:, 1] = np.where(q[:, 1] > 0.0, H, -H) + 1e-5 * rng.standard_normal(12)
     q[:, 2] = 10.0 ** rng.uniform(-5.0, -2.5, 12) * rng.choice((-1.0, 1.0), 12)
     assert notes(table, q) == []
+
+
+@pytest.mark.parametrize("decimals", [None, 4, 9])
+@pytest.mark.parametrize(
+    ("lengths", "q"),
+    [
+        (  # the wrist centre 8e-7 m from axis 2, of which joint 1 alone comes no nearer
+            {0: {"d": 0.58, "a": 0.1}, 1: {"d": 0.11}, 5: {"d": 0.21}},
+            "-1.570795992689485 1.570795123261662 8.432998331509622e-07 "
+            "1.832595876713885 2.094393617526178 1.83259587604543",
+        ),
+        (  # on it, with the wrist in line where joint 2 is at rest
+            {0: {"d": 0.3}, 1: {"d": 0.13}, 2: {"alpha": H}, 5: {"d": 0.33}},
+            "1.5707963270573557 -1.5707963274595282 5.632247615960988e-10 "
+            "1.5707963263027187 1.5707963272437029 3.1415926539061716",
+        ),
+    ],
+)
+def test_a_wrist_centre_next_to_axis_2_loses_no_solution(lengths, q, decimals):
+    """Whether that is a family or four solutions, what the configuration is on is found."""
+    table = dh2urdf.load_table("stanford")
+    rows = [replace(row, **lengths.get(i, {})) for i, row in enumerate(table.rows)]
+    table = rounded(replace(table, rows=tuple(rows)), decimals)
+    assert notes(table, [float(x) for x in q.split()]) == []
+
+
+@pytest.mark.parametrize("decimals", [None, 9])
+def test_five_joints_keep_a_family_of_each_elbow(decimals):
+    """Axis 5 along axis 1, but for what rounding leaves: neither family has a member at rest."""
+    assert notes(rounded(dh2urdf.load_table("vx300"), decimals), (-H, H, H, H, -H)) == []
 
 
 def test_the_referee_arrives_at_a_configuration_that_is_accepted_and_beside_the_curve():
