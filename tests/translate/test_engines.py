@@ -37,6 +37,9 @@ POSES, PARTS = 10_000, 50
 """Poses of each family, in parts whose calls fit into memory."""
 
 SLOW = {
+    "finish_followers_48": 1,
+    "referee_doubtful": 4,
+    "search_poses": 4,
     "search_valleys": 1,
     "search_starts": 1,
     "add_curves": 1,
