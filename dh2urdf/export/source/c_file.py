@@ -12,7 +12,7 @@ from dh2urdf.export.source.c_text import (
     FUNCTIONS,
     HELD,
     HELD_REFUSED,
-    NOINLINE,
+    INLINING,
     SOLUTIONS,
     WORK_EXAMPLE,
     WORK_LINE,
@@ -21,7 +21,7 @@ from dh2urdf.export.source.c_text import (
 from dh2urdf.export.source.head import LICENCE, branches, complete, joints, one_line, provenance
 from dh2urdf.export.source.names import hidden
 from dh2urdf.export.source.program import Call, Named, Program, definition, names_of
-from dh2urdf.export.source.stack import kept_apart, stack_bytes
+from dh2urdf.export.source.stack import apart_or_part, stack_bytes
 from dh2urdf.ik.arm import LIMIT_SLACK, middle
 from dh2urdf.kernels.certificate import arrange_near
 from dh2urdf.kernels.chain import chain_fk, chain_jacobian
@@ -52,14 +52,14 @@ class CProgram:
         """The whole file."""
         p, functions = self.prefix, self._functions()
         kernels = self.file.text()
-        kernels = kept_apart(kernels, f"{p.upper()}_NOINLINE")
+        kernels = apart_or_part(kernels, p.upper())
         body = hidden(f"{kernels}\n\n{functions}", p)
         self.stack = -(-stack_bytes(self._solutions(0) + body, f"{p}_ik_near") // 256) * 256
         guard = f"{p.upper()}_H"
         includes = [f"#include <{name}.h>" for name in ("math", "stdbool", "stdint", "string")]
         parts = [_comment(self._about()), _comment(LICENCE), f"#ifndef {guard}\n#define {guard}\n"]
-        apart = NOINLINE.format(P=p.upper())
-        parts += ["\n".join([*includes, ""]), apart, self._solutions(self.stack), body]
+        inlining = INLINING.format(P=p.upper())
+        parts += ["\n".join([*includes, ""]), inlining, self._solutions(self.stack), body]
         return "\n".join([*parts, f"#endif /* {guard} */\n"])
 
     def _about(self) -> str:

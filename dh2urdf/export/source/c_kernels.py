@@ -69,8 +69,8 @@ def _changed(home: ModuleType, name: str, lanes: int) -> int | None:
 
 
 TAKEN = """
-fk jacobian ik ik_near solutions workspace prepare H JOINTS SOLUTIONS STACK NOINLINE HAS_WORKSPACE
-LOWER UPPER
+fk jacobian ik ik_near solutions workspace prepare H JOINTS SOLUTIONS STACK NOINLINE INLINE
+HAS_WORKSPACE LOWER UPPER
 """
 """Names of what the file offers."""
 

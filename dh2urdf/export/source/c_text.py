@@ -68,14 +68,19 @@ typedef struct {{
 }} {p}_solutions;
 """
 
-NOINLINE = """\
-/* What keeps the frames of functions apart, so that they do not add up on the stack. */
+INLINING = """\
+/* What keeps the frames of functions apart, so that they do not add up on the stack; and what makes
+ * those that return many numbers a part of their callers, where these need not go through memory.
+ */
 #if defined(__GNUC__)
 #define {P}_NOINLINE __attribute__((noinline))
+#define {P}_INLINE inline __attribute__((always_inline))
 #elif defined(_MSC_VER)
 #define {P}_NOINLINE __declspec(noinline)
+#define {P}_INLINE __forceinline
 #else
 #define {P}_NOINLINE
+#define {P}_INLINE inline
 #endif
 """
 

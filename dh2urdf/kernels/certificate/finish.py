@@ -50,6 +50,10 @@ along it."""
 SINGULAR = 1e-10
 """Smallest eigenvalue of J^T J, relative to the trace, at which a walk is tried."""
 
+SURE = 10.0
+"""How many times that a bound from below has to be, for the eigenvalue itself not to be looked for:
+rounding makes 1e-6 of it."""
+
 
 def null_direction(work):
     """Eigenvector of the smallest eigenvalue of ``work[:, 8:]`` (lower triangle), by iteration.
@@ -57,15 +61,42 @@ def null_direction(work):
     Inverse iteration on a Cholesky factor with a shift of 1e-14; the vector is written to
     ``work[:, 6]``. Returns the eigenvalue relative to the trace.
     """
-    n = work.shape[0]
-    trace = 0.0
-    for i in range(n):
-        trace += work[i, 8 + i]
+    n, trace = work.shape[0], _factor_shifted(work)
     if trace <= 0.0:
         for i in range(n):
             work[i, 6] = 1.0 / math.sqrt(n)
         return 0.0
-    factor(work, 1e-14 * trace)
+    return _least_eigenvalue(work, trace)
+
+
+def is_singular(work):
+    """Whether :func:`null_direction` of ``work[:, 8:]`` is at most ``SINGULAR``.
+
+    Of most regular solutions the determinant says so, which is in the factor: the other eigenvalues
+    are at most the (n - 1)-th part of the trace, in the mean.
+    """
+    n, trace = work.shape[0], _factor_shifted(work)
+    if trace <= 0.0:
+        return True
+    inverse, bound = 1.0 / trace, 1.0
+    for i in range(n):
+        bound *= work[i, 8 + i] * work[i, 8 + i] * inverse * (n - 1 if i > 0 else 1)
+    return not bound > SURE * SINGULAR and not _least_eigenvalue(work, trace) > SINGULAR
+
+
+def _factor_shifted(work):
+    """Cholesky factor of ``work[:, 8:]``, in place, with a shift of 1e-14; its trace."""
+    trace = 0.0
+    for i in range(work.shape[0]):
+        trace += work[i, 8 + i]
+    if not trace <= 0.0:
+        factor(work, 1e-14 * trace)
+    return trace
+
+
+def _least_eigenvalue(work, trace):
+    """That of which the factor is in ``work[:, 8:]``, over the trace; see `null_direction`."""
+    n = work.shape[0]
     for i in range(n):
         work[i, 6] = 1.0 + 0.3 * i
     size = 1.0
@@ -87,7 +118,7 @@ def free_joints(chain, T, q, mask, alone, work):
     A regular solution costs little.
     """
     normal_equations(chain, T, q, work)
-    if null_direction(work) > SINGULAR:
+    if not is_singular(work):
         return 0
     moving = free_of(chain, T, q, LENGTHS[0], mask, alone)
     if moving == 0 and mask != EVERY_JOINT:
@@ -181,7 +212,7 @@ def _one(chain, T, q, p, accuracy, middle, start, work):
         return False
     if _is_aside(middle, start, ASIDE * longest):  # at a third solution, if that is regular
         normal_equations(chain, T, middle, work)
-        if null_direction(work) > SINGULAR:
+        if not is_singular(work):
             return False
     return not _is_aside(middle, start, 0.25 * longest)
 
@@ -192,7 +223,7 @@ def side_by_side(chain, T, q, count, work):
         for j in range(k):
             if same(chain[1], q[j], q[k], NEAR, NO_JOINT):
                 normal_equations(chain, T, q[k], work)
-                if null_direction(work) <= SINGULAR:
+                if is_singular(work):
                     return True
     return False
 
