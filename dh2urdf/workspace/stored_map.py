@@ -110,7 +110,7 @@ def map_cut(
     choice(variable, "variable", VARIABLES)
     chosen = PLANES[choice(plane, "plane", PLANES)] if plane else _plane_of(found)
     flat = _plane_of(found)
-    axes = [np.asarray(found[axis].values, float) for axis in "xyz"]
+    axes = [_read(found[axis]) for axis in "xyz"]
     if len(axes[flat.normal]) == 1 and chosen != flat:
         raise ArgumentError(
             f"plane: {chosen.name} cuts a map of one layer to a line; it lies in {flat.name}"
@@ -121,6 +121,8 @@ def map_cut(
     k = int(np.abs(across - height).argmin())
     if abs(float(across[k]) - height) > step:
         raise UnreachedError(f"the map ends before the plane {'xyz'[chosen.normal]} = {height:g} m")
+    if variable not in found or set(found[variable].dims) != set("xyz"):
+        raise ArgumentError(f"the map has no {variable} of its voxels")
     layer = found[variable].isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen))
     values = _read(layer)
     share = _whole(found.share.isel({"xyz"[chosen.normal]: k}).transpose(*_names(chosen)))
@@ -167,12 +169,12 @@ def _names(plane: Any) -> tuple[str, str]:
 def same_grid(first: xarray.Dataset, second: xarray.Dataset) -> None:
     """Refuse two maps on different grids, or of which something else was asked."""
     for axis in "xyz":
-        a, b = (np.asarray(found[axis].values, float) for found in (first, second))
+        a, b = (_read(found[axis]) for found in (first, second))
         if a.shape != b.shape or not np.allclose(a, b, rtol=0.0, atol=1e-9):
             raise ArgumentError(
                 f"the maps are on different grids along {axis}: make both with one region and step"
             )
-    was, now = (dict(found.attrs.get(SETTINGS, {})) for found in (first, second))
+    was, now = (_settings(found) for found in (first, second))
     for key, words in ASKED.items():
         if was and now and was.get(key) != now.get(key):
             both = f": {_told(was.get(key))} and {_told(now.get(key))}"
@@ -180,12 +182,20 @@ def same_grid(first: xarray.Dataset, second: xarray.Dataset) -> None:
             raise ArgumentError(f"the maps differ in their {words}{told}; make both with the same")
 
 
+def _settings(found: xarray.Dataset) -> dict[str, Any]:
+    """The settings of a map; none where a file holds anything else in their place."""
+    settings = found.attrs.get(SETTINGS)
+    return settings if isinstance(settings, dict) else {}
+
+
 def _told(value: Any) -> str:
     """A setting in a message: of orientations how many, with their spins."""
-    if isinstance(value, list | tuple):
-        count, spins = value
-        return f"{count}" if spins == 1 else f"{count} in {spins} spins"
-    return {True: "kept", False: "ignored"}.get(value, str(value))
+    match value:
+        case [count, spins]:
+            return f"{count}" if spins == 1 else f"{count} in {spins} spins"
+        case bool():
+            return "kept" if value else "ignored"
+    return str(value)
 
 
 def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.int64]]:
@@ -199,7 +209,7 @@ def map_surface(found: xarray.Dataset, level: float) -> tuple[Array, NDArray[np.
     """
     level = number(level, "level", 0.0, 1.0)
     share = _whole(found.share.transpose("x", "y", "z"))
-    lines = [np.asarray(found[axis].values, float) for axis in "xyz"]
+    lines = [_read(found[axis]) for axis in "xyz"]
     if not (share > level).any():
         raise UnreachedError(f"the share of orientations is nowhere above {level:g}")
     field = np.pad(share, 1) - level

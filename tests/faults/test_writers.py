@@ -1,11 +1,12 @@
 """Writing verbs that are killed, that find the disk full, or may not write."""
 
+import random
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-from writers import VERBS
+from writers import VERBS, killed_at_work
 
 WRITERS = Path(__file__).parents[1] / "helpers" / "writers.py"
 
@@ -24,6 +25,21 @@ def test_a_file_is_the_old_one_or_the_new_whatever_befalls_its_writer(tmp_path):
     A map that is killed ends, begun again, as one that never was.
     """
     assert tried(tmp_path, 1) == len(VERBS) + 1
+
+
+@pytest.mark.parametrize("took", [0.01, 0.1, 10.0])
+def test_kills_come_while_a_verb_is_at_work_whatever_its_first_run_took(took):
+    """Where others had the processor then, later moments are sooner, and still anywhere."""
+    moments = []
+
+    def one(seconds):
+        at_work = seconds < 0.1
+        moments.extend([seconds] * at_work)
+        return at_work
+
+    assert killed_at_work(one, took, 20, random.Random(0)) == len(moments) == 20
+    assert min(moments) < 0.3 * min(took, 0.1)
+    assert max(moments) > 0.7 * min(took, 0.1)
 
 
 @pytest.mark.exhaustive

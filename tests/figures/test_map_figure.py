@@ -59,6 +59,17 @@ def test_maps_of_other_questions_are_not_compared(maps, change, words):
         map_figure(maps[0], other)
 
 
+@pytest.mark.parametrize("settings", ["none", 3, {"orientations": [1, 2, 3], "task": [[]]}])
+def test_a_map_whose_settings_are_damaged_is_compared_or_refused_in_words(maps, settings):
+    """What is no setting counts as none; another shape of one is told as it is."""
+    damaged = maps[0].assign_attrs(dh2urdf_map=settings)
+    if isinstance(settings, dict):
+        with pytest.raises(ArgumentError, match=r"the maps differ in their task"):
+            map_figure(maps[0], damaged)
+    else:
+        assert picture_bytes(map_figure(maps[0], damaged), "svg")
+
+
 def test_maps_of_one_arm_are_told_apart_by_their_files(maps, tmp_path):
     """Titles say which is less which, by names or, where those are equal, too, by paths."""
     for name in ("a.zarr", "b.zarr", "sub/a.zarr"):

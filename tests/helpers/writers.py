@@ -14,6 +14,7 @@ import shutil
 import signal
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from dh2urdf.cli import main
@@ -71,6 +72,32 @@ def wait(process: int) -> int:
     return os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
 
 
+def killed_after(seconds: float, process: int) -> bool:
+    """Kill a process after so long; whether it was still at work."""
+    time.sleep(seconds)
+    os.kill(process, signal.SIGKILL)
+    return wait(process) == -signal.SIGKILL
+
+
+def killed_at_work(
+    one: Callable[[float], bool], took: float, times: int, rng: random.Random
+) -> int:
+    """Try to kill at random moments of what took so long, so many times; how often it was at work.
+
+    Where others had the processor when the time was taken, it is over sooner: then it took less.
+    """
+    at_work = 0
+    for _ in range(10 * times):
+        if at_work == times:
+            break
+        seconds = rng.uniform(0.0, took)
+        if one(seconds):
+            at_work += 1
+        else:
+            took = max(seconds, 0.5 * took)
+    return at_work
+
+
 def held() -> dict[str, bytes]:
     """Files below the folder, but for messages and what a killed run leaves beside its target."""
     paths = [path for path in Path().rglob("*") if path.is_file() and path.name != "stderr"]
@@ -107,17 +134,14 @@ class Writer:
 
     def killed(self, times: int, rng: random.Random) -> int:
         """Kill it at random moments until it was so often still at work; how often it was."""
-        at_work = 0
-        for _ in range(4 * times):
-            if at_work == times:
-                break
+
+        def one(wait_for: float) -> bool:
             self.older()
-            process = start(self.line)
-            time.sleep(rng.uniform(0.0, self.took))
-            os.kill(process, signal.SIGKILL)
-            at_work += wait(process) == -signal.SIGKILL
+            at_work = killed_after(wait_for, start(self.line))
             self.whole("old", "new")
-        return at_work
+            return at_work
+
+        return killed_at_work(one, self.took, times, rng)
 
     def refused(self, what: str, first) -> None:
         """Run it where it cannot write: one message, status 2, everything as it was."""
@@ -136,20 +160,18 @@ def gone_on_with(times: int, rng: random.Random) -> int:
     """Kill a map at random moments while it is at work; begun again, it ends as if it never was."""
     begin = time.monotonic()
     assert wait(start(MAP)) == 0, Path("stderr").read_text()
-    took, whole, at_work = time.monotonic() - begin, held(), 0
-    for _ in range(4 * times):
-        if at_work == times:
-            break
+    took, whole = time.monotonic() - begin, held()
+
+    def one(wait_for: float) -> bool:
         shutil.rmtree("a.zarr")
-        process = start(MAP)
-        time.sleep(rng.uniform(0.0, took))
-        os.kill(process, signal.SIGKILL)
-        at_work += wait(process) == -signal.SIGKILL
+        at_work = killed_after(wait_for, start(MAP))
         assert wait(start(MAP)) == 0, f"map: {Path('stderr').read_text()}"
-        other = {
-            name for name in whole.keys() | held().keys() if whole.get(name) != held().get(name)
-        }
+        now = held()
+        other = {name for name in whole.keys() | now.keys() if whole.get(name) != now.get(name)}
         assert not other, f"map: {sorted(other)}"
+        return at_work
+
+    at_work = killed_at_work(one, took, times, rng)
     shutil.rmtree("a.zarr")
     return at_work
 

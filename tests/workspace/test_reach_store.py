@@ -21,6 +21,7 @@ import dh2urdf
 from dh2urdf import Robot
 from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
 from dh2urdf.workspace import map_summary, open_map, reach_map
+from dh2urdf.workspace.stored_map import map_cut
 from dh2urdf.workspace.reach import job, provenance, store
 
 GIVEN = {"step": 0.1, "orientations": 2800, "region": ((0.0, 0.8), (-0.4, 0.4), (0.0, 0.8))}
@@ -339,6 +340,32 @@ def test_a_damaged_map_is_not_drawn_and_is_mended(ur5e, tmp_path, run, fault):
     assert words[fault] in err
     reach_map(ur5e, **GIVEN, store=path)
     assert files(path) == before
+
+
+@pytest.mark.parametrize("change", [
+    {"settings": None}, {"settings": "none"}, {"block": 0}, {"block": "4"}, {"refine": "1"},
+    {"refine": -(10**12)}, {"step": "wide"}, {"orientations": [30]},
+])  # fmt: skip
+def test_settings_that_are_none_are_told_by_one_error(whole, change):
+    """A map whose attribute holds anything else is not summed up."""
+    attrs = dict(whole.attrs)
+    attrs["dh2urdf_map"] = change.get("settings", attrs["dh2urdf_map"] | change)
+    with pytest.raises(ArgumentError, match="its settings are no settings of a map"):
+        map_summary(whole.assign_attrs(attrs))
+
+
+@pytest.mark.parametrize("fault", ["other axes", "missing", "words"])
+def test_what_a_map_has_not_of_its_voxels_is_not_drawn(whole, fault):
+    """A measure that lies on other axes, or is gone, and centres that are no numbers."""
+    other = whole.solutions_mean.rename(x="block_x", y="block_y", z="block_z")
+    changed = {
+        "other axes": lambda: whole.assign(solutions_mean=other.drop_vars(other.coords)),
+        "missing": lambda: whole.drop_vars("solutions_mean"),
+        "words": lambda: whole.assign_coords(x=[f"{x} m" for x in whole.x.values]),
+    }
+    words = "map's x cannot be read" if fault == "words" else "has no solutions_mean of its voxels"
+    with pytest.raises(ArgumentError, match=words):
+        map_cut(changed[fault](), "solutions_mean")
 
 
 def test_urls_go_to_fsspec(ur5e, whole, tmp_path, run):

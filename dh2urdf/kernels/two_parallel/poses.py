@@ -129,15 +129,6 @@ def _roots_meet(form, seen, count, largest, arm):
     return False
 
 
-def _keep(lanes, converged, found, out_q, out_residual, arm):
-    """Polish seeds in lanes and append the solutions; their number."""
-    if lanes > 0:
-        polish_lanes(lanes, 0, converged, arm)
-    for k in range(lanes):
-        found, _ = keep_lane(k, found, out_q, out_residual, arm)
-    return found
-
-
 def _follow(form, seen, values, count, wide, converged, found, out_q, out_residual, arm, branches):
     """Append the solutions that ``count`` values of joint 1 lead to; their number.
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dh2urdf.exceptions import MissingExtraError
+from dh2urdf.exceptions import ArgumentError, MissingExtraError
 from dh2urdf.workspace.reach.block import Values
 from dh2urdf.workspace.reach.measured import MEASURES
 from dh2urdf.workspace.reach.settings import MapSettings
@@ -133,17 +134,20 @@ def map_summary(found: xarray.Dataset) -> MapSummary:
     Raises
     ------
     ArgumentError
-        No map, or one that is not finished.
+        No map, one that is not finished, or whose settings are damaged.
     """
     found = open_map(found)
-    return summary_of(found.attrs[KEY], found["share"])
+    try:
+        return summary_of(found.attrs[KEY], found["share"])
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as fault:
+        raise ArgumentError(f"map: its settings are no settings of a map: {fault!r}") from None
 
 
 def summary_of(settings: dict[str, Any], share: Any) -> MapSummary:
     """The numbers of a map's settings, as they are stored, and its shares, sliced by layers."""
     layer = settings["block"]
     nx, ny, nz = share.shape
-    step = settings["step"] / 2 ** settings["refine"]
+    step = math.ldexp(settings["step"], -settings["refine"])
     parts = (np.asarray(share[k : k + layer]) for k in range(0, nx, layer))
     seen = [(int((part > 0.0).sum()), float(part.max())) for part in parts]
     k, spins = settings["orientations"]

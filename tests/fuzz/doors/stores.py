@@ -14,7 +14,7 @@ from unittest.mock import patch
 from hostile import outcome
 
 from dh2urdf import Robot
-from dh2urdf.workspace import reach_map
+from dh2urdf.workspace import map_summary, map_surface, reach_map
 from dh2urdf.workspace.stored_map import VARIABLES, map_cut, open_map
 from tests.fuzz.door import Door
 from tests.fuzz.guard import unwatched
@@ -92,6 +92,8 @@ def _use(robot: Robot, store: Path) -> None:
     if not isinstance(found, Exception):
         for variable in VARIABLES[:2]:
             outcome(map_cut, found, variable)
+        outcome(map_surface, found, 0.5)
+        outcome(map_summary, found)
         found.close()
     outcome(lambda: reach_map(robot, step=1.0, store=store).close())
 
