@@ -77,7 +77,7 @@ def open_map(source: Any) -> xarray.Dataset:
     if not isinstance(found, xr.Dataset) or not _is_map(found):
         raise ArgumentError(f"{where}: holds no map of a reach")
     if not found.attrs.get("complete", 1):
-        part = float(found.share.notnull().mean())
+        part = float(_read(found.share.notnull().mean()))
         raise ArgumentError(
             f"{where}: is not finished, {part:.0%} of its voxels are worked out; the call that "
             "began it goes on with the rest"

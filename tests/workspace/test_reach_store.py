@@ -21,8 +21,8 @@ import dh2urdf
 from dh2urdf import Robot
 from dh2urdf.exceptions import ArgumentError, OutputError, OutputExistsError
 from dh2urdf.workspace import map_summary, open_map, reach_map
-from dh2urdf.workspace.stored_map import map_cut
 from dh2urdf.workspace.reach import job, provenance, store
+from dh2urdf.workspace.stored_map import map_cut
 
 GIVEN = {"step": 0.1, "orientations": 2800, "region": ((0.0, 0.8), (-0.4, 0.4), (0.0, 0.8))}
 """Eight blocks of 4 x 4 x 4 voxels."""
@@ -338,6 +338,9 @@ def test_a_damaged_map_is_not_drawn_and_is_mended(ur5e, tmp_path, run, fault):
     assert (code, out, err.count("\n")) == (2, "", 1)
     words = {"truncated": "cannot be read", "gone": "lacks 64 of 64", "no array": "holds no map"}
     assert words[fault] in err
+    if fault == "truncated":
+        with pytest.raises(ArgumentError, match="shares cannot be read"):
+            map_summary(xarray.open_zarr(path))
     reach_map(ur5e, **GIVEN, store=path)
     assert files(path) == before
 
@@ -350,7 +353,7 @@ def test_settings_that_are_none_are_told_by_one_error(whole, change):
     """A map whose attribute holds anything else is not summed up."""
     attrs = dict(whole.attrs)
     attrs["dh2urdf_map"] = change.get("settings", attrs["dh2urdf_map"] | change)
-    with pytest.raises(ArgumentError, match="its settings are no settings of a map"):
+    with pytest.raises(ArgumentError, match="its settings or shares cannot be read"):
         map_summary(whole.assign_attrs(attrs))
 
 

@@ -23,6 +23,17 @@ KEY = SETTINGS
 COMPLETE = "complete"
 """Attribute: 1 once all blocks are worked out, 0 before."""
 
+DAMAGED = (
+    LookupError,
+    TypeError,
+    ValueError,
+    ArithmeticError,
+    AttributeError,
+    RuntimeError,  # of a codec
+    OSError,
+)
+"""What is raised where a file holds anything."""
+
 PURPOSE = "a map of the reach"
 
 WORDS = {
@@ -134,13 +145,13 @@ def map_summary(found: xarray.Dataset) -> MapSummary:
     Raises
     ------
     ArgumentError
-        No map, one that is not finished, or whose settings are damaged.
+        No map, one that is not finished, or whose settings or shares are damaged.
     """
     found = open_map(found)
     try:
         return summary_of(found.attrs[KEY], found["share"])
-    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as fault:
-        raise ArgumentError(f"map: its settings are no settings of a map: {fault!r}") from None
+    except DAMAGED as fault:
+        raise ArgumentError(f"map: its settings or shares cannot be read: {fault!r}") from None
 
 
 def summary_of(settings: dict[str, Any], share: Any) -> MapSummary:
