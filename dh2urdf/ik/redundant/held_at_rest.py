@@ -58,6 +58,10 @@ rounding by one of the searches."""
 OFF = 1e-4
 """The same after damped least squares from many starts, which come close to rims, too."""
 
+HARDLY, PATIENCE = 1e-5, 8
+"""Error, in sizes of the arm and radians, to which starts come without a solution, as of an arm
+that is folded and hardly moves, and then how many times as many steps they may take."""
+
 SURE = 1e-11
 """Residual [m and rad] of a solution beside which a walk decides whether there is a family."""
 
@@ -164,11 +168,12 @@ class RedundantChain(SolverBase):
         """Configurations (``CURVES``, n) from which curves are looked for."""
         return random_configurations(self.chain, CURVES)
 
-    def _add_curves(self, Ts: Array, out: Outputs) -> NDArray[np.bool_]:
-        """Add members of curves that no held value has met; which poses nothing comes near to."""
+    def _add_curves(self, Ts: Array, out: Outputs, patience: int = 1) -> Array:
+        """Add members of curves that no held value has met; how near starts come to poses, (m,)."""
         chain, number, before = self.chain, self.task.number, out.counts.copy()
         least, residual = np.empty(len(Ts)), np.empty_like(out.residual)
-        add_curves(chain.tables, number, chain.size, Ts, self._starts, out.q, out.counts, least)
+        how = number, chain.size, patience
+        add_curves(chain.tables, *how, Ts, self._starts, out.q, out.counts, least)
         measure_all(chain.tables, number, Ts, out.q, out.counts, residual)
         for i in np.flatnonzero(out.counts > before):
             new = slice(before[i], out.counts[i])
@@ -176,8 +181,7 @@ class RedundantChain(SolverBase):
             out.residual[i, new] = residual[i, new]
         dull = (np.arange(self.kmax) < before[:, None]) & (out.residual > DULL)
         out.residual[dull] = residual[dull]
-        hopeless: NDArray[np.bool_] = least > FAR
-        return hopeless
+        return least
 
     def _hold_at(
         self, values: Values, Ts: Array, within_limits: bool, out: Outputs, rows: IntArray
@@ -195,10 +199,12 @@ class RedundantChain(SolverBase):
         """Solve poses Ts (m, 4, 4) into the caller's arrays, held value by held value."""
         out.counts[:] = 0
         self._hold_at(self.values[:ENOUGH], Ts, within_limits, out, np.arange(len(Ts)))
+        least = np.full(len(Ts), np.inf)
         if self.alone:
             hopeless = np.ones(len(Ts), np.bool_)
         elif len(self.held) == 1:
-            hopeless = self._add_curves(Ts, out)
+            least = self._add_curves(Ts, out)
+            hopeless = least > FAR
         else:
             none = [k == 0 and self._far_from(T) for k, T in zip(out.counts, Ts, strict=True)]
             hopeless = np.array(none, np.bool_)
@@ -209,6 +215,10 @@ class RedundantChain(SolverBase):
             )
             k = out.counts[i] = len(some)
             out.q[i, :k], out.residual[i, :k] = some.q, some.residual
+        if len(rows := np.flatnonzero((out.counts == 0) & (least <= HARDLY))):
+            found = out.rows(rows)
+            self._add_curves(np.ascontiguousarray(Ts[rows]), found, PATIENCE)
+            out.put(rows, found)
         used = np.arange(self.kmax) < out.counts[:, None]
         out.free[:] = 0
         out.free[used] = self.idle | moving_joints(self.chain, self.task, out.q[used])

@@ -139,6 +139,7 @@ def add_curves(
     chain: AnyChain,
     task: int,
     unit: float,
+    patience: int,
     Ts: Poses,
     starts: Annotated[Floats, "starts", "n"],
     q: Solutions,
@@ -148,7 +149,7 @@ def add_curves(
     """Append to q (m, K, n) a member of each curve of solutions of poses Ts (m, 4, 4) without one.
 
     The first ``count[i]`` are known. ``unit`` is the size of the arm [m]; how near the starts
-    (s, n) come to a pose goes to ``least`` (m,).
+    (s, n) come to a pose, in ``patience`` times as many steps as usual, goes to ``least`` (m,).
     """
     n = starts.shape[1]
     damped, scratch, trail = make_damped(n), np.empty((4, n)), np.empty((POINTS, n))
@@ -165,7 +166,7 @@ def add_curves(
             if count[i] >= q.shape[1] or (s == FEW and least[i] > NEAR):
                 break
             trial[:] = starts[s]
-            residual = come_near(chain, goal, trial, best, dq, damped)
+            residual = come_near(chain, goal, patience, trial, best, dq, damped)
             least[i] = min(least[i], residual)
             if DULL < residual <= NEAR:
                 residual = _sharpen(chain, goal, trial, room, best)

@@ -29,9 +29,13 @@ FEW = 24
 """Starts after which a pose is given up that nothing came near to."""
 
 
-def come_near(chain, goal, q, best, dq, damped):
-    """Levenberg's steps from q (n,); the least residual, and in q the configuration that has it."""
-    return approach(chain, goal, (STEPS, STUCK, ACCEPT, DONE), q, best, dq, damped)
+def come_near(chain, goal, patience, q, best, dq, damped):
+    """Levenberg's steps from q (n,); the least residual, and in q the configuration that has it.
+
+    ``patience``: how many times as many steps as usual there may be.
+    """
+    most = patience * STEPS, patience * STUCK, ACCEPT, DONE
+    return approach(chain, goal, most, q, best, dq, damped)
 
 
 @entry()
@@ -55,7 +59,7 @@ def search_starts(
             if s == FEW and least > NEAR and many[i] == 0:
                 break
             trial[:] = starts[s]
-            residual = come_near(chain, goal, trial, best, dq, damped)
+            residual = come_near(chain, goal, 1, trial, best, dq, damped)
             least = min(least, residual)
             if not residual <= NEAR or many[i] >= seeds.shape[1]:
                 continue

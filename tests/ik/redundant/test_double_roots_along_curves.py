@@ -38,6 +38,14 @@ def test_a_configuration_of_two_planar_groups_is_on_a_named_family(table, row):
     assert faults(*posed(table, row)) == []
 
 
+@pytest.mark.parametrize("noise", [1e-2, 1e-3])
+def test_an_arm_that_is_folded_in_both_halves_is_found_on_its_short_loop(noise):
+    """Two planar groups at right angles, each next to its fold; the loop is short as the noise."""
+    table, rng = random_tables(60)[57], np.random.default_rng(0)
+    q = np.radians([90, -90, -180, -45, 90, -45]) + noise * rng.standard_normal((6, 6))
+    assert faults(table, q) == []
+
+
 @pytest.mark.parametrize(("table", "row"), [(26, 6), (47, 18), (57, 17)])
 def test_an_arm_that_can_hardly_move_names_what_a_walk_confirms(table, row):
     """A joint is to spare, but here its curve is short, or a point."""
