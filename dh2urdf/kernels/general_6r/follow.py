@@ -171,7 +171,8 @@ def follow(e, count, found, out_q, out_residual, arm):
             led = place >= 0 and seen[place] == 0.0 and slopes[lane] > 0.0
             led = led and at_root(roots[lane], _hidden_value(e, out_q[place], arm))
             if copies == 2 or led:
-                worst = max(worst, arm["seeded"][lane])
+                error = arm["seeded"][lane]
+                worst = max(worst, error) if error < math.inf else math.inf
             else:
                 doubles[again] = roots[lane]
                 again += 1
