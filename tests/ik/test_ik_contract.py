@@ -152,10 +152,11 @@ def test_5_out_of_reach_is_empty(name):
     assert "outside the reach" in robot.why_unreachable(T, within_limits=False)
 
 
+@pytest.mark.parametrize("name", ["ur5", "puma560", "kinova_jaco2"])
 @pytest.mark.parametrize("distance", [1e3, 1e9, 1e200, 1e308])
-def test_5_out_of_reach_is_explained_at_any_distance(distance):
+def test_5_out_of_reach_is_explained_at_any_distance(name, distance):
     """A target as far as floats go gives the distance, and no overflow."""
-    robot = robot_of("ur5")
+    robot = robot_of(name)
     T = robot.fk(np.zeros(6))
     T[1, 3] = -distance
     assert not robot.ik(T)

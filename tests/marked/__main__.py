@@ -18,10 +18,13 @@ from collections import Counter
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from benchmarks.machine import commit
+from tests.marked.may import MAY
 from tests.marked.python import mark_modules
 from tests.marked.written import KINDS, Place, statements, texts
 
@@ -34,27 +37,6 @@ FLAGS += ["-fsanitize=signed-integer-overflow,shift,integer-divide-by-zero,float
 
 ERRORS = "outside", "invalid", "divided", "overflow"
 """After whether a statement ran, what its mark holds."""
-
-LANES = "candidates side by side, of which some are no numbers and go no further"
-
-NONE = "joint values and poses of callers that are no numbers, or huge: the answer is none either"
-
-MAY = {
-    "chain.py": NONE,
-    "rigid.py": NONE,
-    "numbers/elementary.py": NONE,
-    "numbers/poses.py": NONE,
-    "general_6r/resultant.py": LANES,
-    "general_6r/follow.py": LANES,
-    "newton/lanes.py": LANES,
-    "numbers/lanes.py": LANES,
-    "numbers/trig.py": LANES,
-    "blocks.py": LANES,
-    "parallel_axes/blocks.py": LANES,
-    "certificate/arrange.py": NONE,
-    "certificate/directions.py": "the square of a ratio that is infinite: a turn by zero",
-}
-"""Files in which floating-point errors may occur, and why."""
 
 
 def copied(place: Path) -> None:
@@ -111,14 +93,33 @@ def run(place: Path, words: list[str]) -> int:
     return subprocess.run(command, cwd=place, env=os.environ | keys, check=False).returncode
 
 
+def marked(place: Path, count: int) -> tuple[NDArray[np.bool_], dict[tuple[int, int], str]]:
+    """What was marked of each place, and a test that marked an error, by place and kind.
+
+    What each test marked counts, too: of a run that was cut off nothing else may be left.
+    """
+    seen = np.frombuffer((place / "marks").read_bytes(), bool).reshape(count, KINDS).copy()
+    tests: dict[tuple[int, int], str] = {}
+    for row in each(place):
+        seen[row["reached"], 0] = True
+        for k, kind in row["errors"]:
+            seen[k, 1 + kind] = True
+            tests.setdefault((k, kind), row["test"])
+    return seen, tests
+
+
+def each(place: Path) -> list[dict[str, Any]]:
+    """What the plugin ``each`` wrote, a test that ran twice once."""
+    path = place / "each.jsonl"
+    rows = map(json.loads, path.read_text().splitlines()) if path.exists() else ()
+    return list({row["test"]: row for row in rows}.values())
+
+
 def told(place: Path, *, missed: bool, record: bool) -> tuple[float, int]:
     """Print what was marked; the share of lines that ran, and how many errors must not be."""
     places = [Place(*row) for row in json.loads((place / "places.json").read_text())]
-    seen = np.frombuffer((place / "marks").read_bytes(), bool).reshape(len(places), KINDS)
+    seen, tests = marked(place, len(places))
     reached = {p for p, row in zip(places, seen, strict=True) if row[0]}
-    if (each := place / "each.jsonl").exists():
-        rows = map(json.loads, each.read_text().splitlines())
-        reached |= {places[k] for row in rows for k in row["reached"]}
     functions = {(p.file, p.function) for p in places}
     whole = statements(place / "dh2urdf/kernels")
     every = [p for p in whole if (p.file, p.function) in functions]
@@ -132,10 +133,11 @@ def told(place: Path, *, missed: bool, record: bool) -> tuple[float, int]:
     wrong = 0
     for kind, column in zip(ERRORS, seen.T[1:], strict=True):
         for k in np.flatnonzero(column[1:]) + 1:
-            may = MAY.get(places[k].file, "") if kind != "outside" else ""
+            may = kind in MAY.get(f"{places[k].file} {places[k].function}", "")
             wrong += not may
             at = f"{places[k].file}:{places[k].line} {places[k].function}"
-            print(f"{kind}{' (may be)' * bool(may)}: {at}")
+            by = tests.get((int(k), ERRORS.index(kind)), "")
+            print(f"{kind}{' (may be)' * may}: {at} {by}")
     for path in sorted(place.glob("undefined.*")):
         wrong += 1
         print(path.read_text())
@@ -146,11 +148,9 @@ def told(place: Path, *, missed: bool, record: bool) -> tuple[float, int]:
     line = f"{len(every) - len(left)} of {len(every)} lines, {share:.1%}; {', '.join(counts)}"
     print(line)
     if record:
-        tests = len((place / "each.jsonl").read_text().splitlines()) if each.exists() else "all"
-        made = (
-            f"{datetime.now(UTC):%Y-%m-%d}, commit {(place / 'commit').read_text()}, {tests} tests"
-        )
-        PAGE.write_text(PAGE.read_text().partition(MARK)[0] + f"{MARK}{made}: {line}\n")
+        made = f"{datetime.now(UTC):%Y-%m-%d}, commit {(place / 'commit').read_text()}"
+        made = f"{MARK}{made}, {len(each(place)) or 'all'} tests: {line}\n"
+        PAGE.write_text(PAGE.read_text().partition(MARK)[0] + made)
     return share, wrong
 
 

@@ -1,7 +1,8 @@
 """A plugin (``-p tests.marked.each``): which statements each test marks, and how long it takes.
 
-Added to ``each.jsonl`` beside the file of marks, a line a test. Tests that run at once would mix:
-no ``-n``.
+Added to ``each.jsonl`` beside the file of marks, a line a test, with the lines of kernels that it
+runs interpreted. Tests that passed there are not run again, so that a run can be gone on with.
+Tests that run at once would mix: no ``-n``.
 """
 
 import json
@@ -14,8 +15,10 @@ import numpy as np
 import pytest
 
 from tests.marked.written import KINDS
+from tests.translate import probes
 
 FILE = Path(os.environ["KERNEL_MARKS"])
+EACH = FILE.with_name("each.jsonl")
 
 
 class _Marks:
@@ -28,9 +31,32 @@ class _Marks:
         self.all = self.now.copy()
         self.now[:] = 0
 
+    def taken(self) -> dict[str, list]:
+        """What was marked since the last time."""
+        lines = probes.reached()
+        row = {
+            "reached": np.flatnonzero(self.now[:, 0]).tolist(),
+            "errors": np.argwhere(self.now[:, 1:]).tolist(),
+            "interpreted": [[key.partition(":")[0], n] for key in lines for n in lines[key]],
+        }
+        self.all |= self.now
+        self.now[:] = 0
+        probes.forget()
+        return row
+
 
 _marks = _Marks()
 _failed = set[str]()
+
+
+def pytest_collection_modifyitems(config, items):
+    """Leave out what an earlier run has told."""
+    rows = map(json.loads, EACH.read_text().splitlines()) if EACH.exists() else ()
+    known = {row["test"] for row in rows if row["passed"]}
+    config.hook.pytest_deselected(items=[item for item in items if item.nodeid in known])
+    items[:] = [item for item in items if item.nodeid not in known]
+    probes.mark_all()
+    _marks.taken()
 
 
 def pytest_runtest_logreport(report):
@@ -44,12 +70,9 @@ def pytest_runtest_protocol(item):
     """A test with its fixtures: those of more than one test count for the first."""
     begin = time.process_time()
     yield
-    reached = np.flatnonzero(_marks.now[:, 0]).tolist()
-    _marks.all |= _marks.now
-    _marks.now[:] = 0
-    row = {"test": item.nodeid, "seconds": time.process_time() - begin, "reached": reached}
+    row = {"test": item.nodeid, "seconds": time.process_time() - begin, **_marks.taken()}
     row["passed"] = item.nodeid not in _failed
-    with FILE.with_name("each.jsonl").open("a") as file:
+    with EACH.open("a") as file:
         file.write(json.dumps(row) + "\n")
     return True
 

@@ -2,6 +2,7 @@
 
 import ctypes
 import inspect
+import json
 import subprocess
 from typing import Annotated
 
@@ -11,7 +12,8 @@ from numpy.typing import NDArray
 
 from dh2urdf.translate.build import compiler
 from dh2urdf.translate.entries import argument_types
-from tests.marked.__main__ import FLAGS, ROOT
+from tests.marked.__main__ import FLAGS, ROOT, each, marked
+from tests.marked.may import MAY
 from tests.marked.python import NAME, mark_modules
 from tests.marked.written import KINDS, RUNTIME, MarkedFile, statements
 
@@ -121,3 +123,26 @@ def test_every_statement_of_the_kernels_is_counted_once():
     """By file, function and line; docstrings are none."""
     every = statements(ROOT / "dh2urdf/kernels")
     assert len(every) == len(set(every)) > 5000
+
+
+def test_what_tests_marked_is_joined_with_the_file_of_marks(tmp_path):
+    """Of a run that was cut off, and went on; a test that ran twice counts once, as the last."""
+    marks = np.zeros((3, KINDS), np.uint8)
+    marks[1, 0] = 1
+    (tmp_path / "marks").write_bytes(marks.tobytes())
+    assert marked(tmp_path, 3)[0].sum() == len(each(tmp_path)) + 1 == 1
+    rows = [("a", [0], []), ("b", [0, 2], [[2, 3]]), ("a", [0], [[0, 1]])]
+    keys = "test", "reached", "errors"
+    text = "\n".join(json.dumps(dict(zip(keys, row, strict=True))) for row in rows)
+    (tmp_path / "each.jsonl").write_text(text)
+    seen, tests = marked(tmp_path, 3)
+    assert np.argwhere(seen).tolist() == [[0, 0], [0, 2], [1, 0], [2, 0], [2, 4]]
+    assert tests == {(0, 1): "a", (2, 3): "b"}
+    assert [row["test"] for row in each(tmp_path)] == ["a", "b"]
+
+
+def test_errors_may_be_only_in_functions_that_there_are():
+    """Each is a kernel, and has a kind of error that is told."""
+    there = {f"{place.file} {place.function}" for place in statements(ROOT / "dh2urdf/kernels")}
+    assert set(MAY) <= there
+    assert {kind for kinds in MAY.values() for kind in kinds} <= {"invalid", "divided", "overflow"}

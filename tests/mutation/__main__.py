@@ -3,6 +3,7 @@
 Rooms are kernels, certificates and converters. Each of some changes, drawn by ``--seed`` from all
 that there are, is made in a copy of the package, and the tests that reach its line run until one
 fails: the directory is that of a run of ``tests.marked`` with ``-p tests.marked.each``.
+``again`` makes those anew that survived and are seen since by a test that was added, and runs it.
 ``--record`` adds the outcomes to ``runs.csv`` and writes the table of ``README.md``; what is there
 is not tried again, so that a run can be gone on with.
 """
@@ -11,12 +12,15 @@ import argparse
 import csv
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
 import sys
 import time
 from collections import Counter
+from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -37,16 +41,30 @@ ROOMS = {
 
 PYTEST = ["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", "-p", "tests.mutation.limits"]
 
+USAGE, NOTHING = 4, 5
+"""How pytest ends where a test is not there, and where none is."""
 
-def drawn(room: str, count: int, seed: int) -> list[tuple[str, Site]]:
-    """Changes of a room, each as likely as another."""
-    every = [
+BROKEN = "ERROR collecting", "ImportError while loading"
+"""What it says where a module of tests, which a change may break, cannot be imported."""
+
+SINCE, SAME = "seen since by ", "the same: "
+"""How reasons begin of what survived: a test was added, or the program does the same."""
+
+
+@cache
+def every(room: str) -> list[tuple[str, Site]]:
+    """All changes of a room, by files."""
+    return [
         (str(path.relative_to(ROOT)), site)
         for path in sorted((ROOT / ROOMS[room]).rglob("*.py"))
         if path.name not in ("shapes.py", "__init__.py")
         for site in sites(path.read_text())
     ]
-    return random.Random(seed).sample(every, count)
+
+
+def drawn(room: str, count: int, seed: int) -> list[tuple[str, Site]]:
+    """Changes of a room, each as likely as another."""
+    return random.Random(seed).sample(every(room), count)
 
 
 def outcome(place: Path, tests: list[str], file: str, site: Site) -> str:
@@ -61,6 +79,9 @@ def outcome(place: Path, tests: list[str], file: str, site: Site) -> str:
         for how, some in {"answers": golden, "tests": tests[len(golden) :]}.items():
             (place / "some.txt").write_text("\n".join(some))
             status = run(place, *PYTEST, "@some.txt") if some else 0
+            said = (place / "said.txt").read_text()
+            if status == NOTHING or (status == USAGE and not any(x in said for x in BROKEN)):
+                raise ValueError(f"tests that are not there: {said[-1000:]}")
             if status:
                 return "time" if status == -signal.SIGPROF else how
         return "survived"
@@ -98,15 +119,19 @@ def kept() -> list[list[str]]:
 def page() -> str:
     """The table, and the changes that survived."""
     rows = kept()
-    lines = ["| room | changes | seen by answers | by tests | by time | survived | share |"]
-    lines.append("| - |" + " -: |" * 6)
+    names = "seen by answers", "by tests", "by time", "survived", "seen since", "the same", "left"
+    lines = [f"| room | changes | {' | '.join(names)} | share |"]
+    lines.append("| - |" + " -: |" * (len(names) + 2))
     for room in ROOMS:
-        found = Counter(row[7] for row in rows if row[0] == room and row[7] != "none")
-        if total := found.total():
-            counts = [found[key] for key in ("answers", "tests", "time", "survived")]
-            share = f"{found['survived'] / total:.1%}"
-            cells = " | ".join(map(str, [total, *counts, share]))
-            lines.append(f"| {room} | {cells} |")
+        found = [row for row in rows if row[0] == room and row[7] != "none"]
+        if found:
+            how = Counter(row[7] for row in found)
+            why = [row[8] for row in found if row[7] == "survived"]
+            since, same = (sum(x.startswith(word) for x in why) for word in (SINCE, SAME))
+            counts = [how[key] for key in ("answers", "tests", "time", "survived")]
+            counts += [since, same, how["survived"] - since - same]
+            share = f"{(how['survived'] - since) / len(found):.1%}"
+            lines.append(f"| {room} | {' | '.join(map(str, [len(found), *counts, share]))} |")
     lines += ["", "| survived | was | became | why |", "| - | - | - | - |"]
     for _, _, file, line, _, old, new, how, why in rows:
         if how == "survived":
@@ -115,24 +140,45 @@ def page() -> str:
     return "\n".join([*lines, ""])
 
 
+def again(place: Path) -> Iterator[str]:
+    """Make changes again that tests were added for: those that they still do not see."""
+    for _, _, file, line, _, old, new, how, why in kept():
+        if how != "survived" or not why.startswith(SINCE):
+            continue
+        alike = [s for s in sites((ROOT / file).read_text()) if (s.old, s.new) == (old, new)]
+        if not alike:
+            print(f"is no more: {file}:{line}: {old!r}", flush=True)
+            continue
+        site = min(alike, key=lambda s: abs(s.line - int(line)))
+        seen = outcome(place, re.findall("`(.+?)`", why), file, site)
+        print(f"{seen}: {file}:{site.line}: {old!r} -> {new!r}", flush=True)
+        if seen in ("survived", "none"):
+            yield file
+
+
 def main() -> int:
     """Draw changes, and tell what became of them."""
     parser = argparse.ArgumentParser(prog="python -m tests.mutation", description=__doc__)
-    parser.add_argument("room", choices=ROOMS)
-    parser.add_argument("marks", type=Path, metavar="DIRECTORY")
+    parser.add_argument("room", choices=[*ROOMS, "again"])
+    parser.add_argument("marks", type=Path, metavar="DIRECTORY", nargs="?")
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--record", action="store_true")
     asked = parser.parse_args()
-    room, ends, reach = asked.room, Counter[str](), Reach(asked.marks)
     with TemporaryDirectory() as folder:
         place = Path(folder)
         copied(place)
         shutil.copy2(PLACE, place / "dh2urdf")
-        if not passes(place, reach):
+        if asked.room == "again":
+            return int(any([*again(place)]))
+        if asked.marks is None:
+            parser.error("the directory of a run of tests.marked")
+        room, ends, reach = asked.room, Counter[str](), Reach(asked.marks)
+        known = {tuple(row[:7]) for row in kept()} if asked.record else set()
+        begun = any(row[:2] == (room, str(asked.seed)) for row in known)
+        if not begun and not passes(place, reach):
             print("unchanged, some tests fail", (place / "said.txt").read_text(), file=sys.stderr)
             return 2
-        known = {tuple(row[:7]) for row in kept()} if asked.record else set()
         for file, site in drawn(room, asked.count, asked.seed):
             if (room, str(asked.seed), file, *map(str, site)) in known:
                 continue

@@ -5,6 +5,8 @@ from bisect import bisect_right
 from collections import defaultdict
 from pathlib import Path
 
+from tests.marked.written import statements
+
 SECONDS = 60.0
 """Of all tests that a change is shown to, as long as they took unchanged."""
 
@@ -17,19 +19,19 @@ class Reach:
     def __init__(self, place: Path) -> None:
         places = json.loads((place / "places.json").read_text())
         rows = [json.loads(row) for row in (place / "each.jsonl").read_text().splitlines()]
-        rows = [row for row in rows if "[/" not in row["test"]]  # named by where the copy is
-        self.seconds = {row["test"]: row["seconds"] for row in rows if row["passed"]}
+        rows = [row for row in rows if row["passed"] and "[/" not in row["test"]]
+        # those with a path are named by where the copy is
+        self.seconds = {row["test"]: row["seconds"] for row in rows}
         self.golden = {test for test in self.seconds if test.startswith(FIRST)}
         """For lines that are no part of what is compiled: tables are made by them."""
-        by_place = defaultdict[int, set[str]](set)
-        for row in rows:
-            for k in row["reached"] if row["passed"] else ():
-                by_place[k].add(row["test"])
         self.tests = defaultdict[str, dict[int, set[str]]](dict)
         """Of each file, by the line at which a statement begins."""
-        for k, (file, _, line) in enumerate(places):
-            name = file if file.startswith("dh2urdf/") else f"dh2urdf/kernels/{file}"
-            self.tests[name].setdefault(line, set()).update(by_place[k])
+        for file, _, line in [*places, *statements(place / "dh2urdf/kernels")]:
+            self.tests[_path(file)].setdefault(line, set())
+        for row in rows:
+            compiled = ((places[k][0], places[k][2]) for k in row["reached"])
+            for file, line in [*compiled, *row["interpreted"]]:
+                self.tests[_path(file)].setdefault(line, set()).add(row["test"])
 
     def of(self, file: str, line: int) -> list[str]:
         """Tests that reach a line: golden answers first, then the quickest, for so many seconds."""
@@ -43,3 +45,8 @@ class Reach:
             if total < SECONDS:
                 out.append(test)
         return out
+
+
+def _path(file: str) -> str:
+    """Files of kernels are named by where they are below these."""
+    return file if file.startswith("dh2urdf/") else f"dh2urdf/kernels/{file}"

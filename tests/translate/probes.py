@@ -129,6 +129,12 @@ def reached() -> dict[str, list[int]]:
     return {":".join(key): sorted(one.reached) for key, one in _MARKED.items() if one.reached}
 
 
+def forget() -> None:
+    """Begin anew: nothing was reached."""
+    for hits in _HITS:
+        hits[:] = bytes(len(hits))
+
+
 def add(file: Path) -> None:
     """Join what ran with what a file has, under a lock: several processes may."""
     with file.open("a+") as handle:

@@ -15,7 +15,7 @@ from dh2urdf.kernels.general_6r.roots import place_target
 
 @pytest.mark.parametrize("lost", [math.nan, math.inf])
 def test_seeds_that_are_no_numbers_count_as_far_off(monkeypatch, lost):
-    """A double root whose seeds are lost, as a plane of null vectors that has no two, is in doubt."""
+    """A double root whose seeds are lost, as where null vectors are no two, is in doubt."""
     arm = plan_general_6r(links_of(ARMS["ur5"]))[0]
     make_ready(arm)
     place_target(forward(ARMS["ur5"], np.full((1, 6), 0.4))[0], arm)
