@@ -1,5 +1,6 @@
 """``dh2urdf export``: the arm for other programs to build with."""
 
+import re
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -77,7 +78,7 @@ def export_(
 
     robot = robot_of(arm, base, tip, reading)
     joint: int | str | None = held
-    if held is not None and held not in robot.joint_names and held.isascii() and held.isdigit():
+    if held is not None and held not in robot.joint_names and re.fullmatch(r"[+-]?[0-9]+", held):
         joint = int(held)
     to_stdout = str(output) == "-"
     if tests is not None and (language == "python" or output.suffix.lower() == ".py"):

@@ -8,8 +8,10 @@ kernels as they are written, with `arrays.py.in` for what of NumPy they use.
 
 from __future__ import annotations
 
+import keyword
 import os
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,7 +19,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dh2urdf.dh_io.atomic import atomic_write, refuse_foreign, refuse_unwritable
-from dh2urdf.dh_io.files import shown
+from dh2urdf.dh_io.files import path_of, shown
 from dh2urdf.doors import choice, flag, found, instance, integer
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
 
@@ -105,7 +107,7 @@ def export_solver(
     >>> export_solver(Robot.from_dh("ur5"), path).solver
     'three parallel axes'
     """
-    target = Path(path)
+    target = path_of(path)
     refuse_unwritable(target)
     made = exported(robot, language=language, prefix=prefix, held=held, path=target)
     if not flag(force, "force"):
@@ -131,6 +133,8 @@ def exported(
 
     instance(robot, "robot", Robot)
     spoken = _language(language, path)
+    if spoken == "python" and path is not None:
+        _refuse_unimportable(path)
     name = _prefix(robot, prefix, path)
     if robot.is_coupled:
         raise NoSolverError(_not_exported(robot))
@@ -178,6 +182,17 @@ def _language(language: str | None, path: Path | None) -> str:
             f"{shown(path or '')}: the suffix tells the language: {known}; or --language does"
         )
     return SUFFIXES[suffix]
+
+
+def _refuse_unimportable(path: Path) -> None:
+    """Refuse a Python file that no program could import, or only in the place of a module."""
+    name = path.stem
+    if not name.isidentifier() or keyword.iskeyword(name):
+        raise ArgumentError(f"{shown(path)}: Python imports no module of the name {found(name)}")
+    if name in sys.stdlib_module_names:
+        raise ArgumentError(
+            f"{shown(path)}: the file would stand in the place of Python's own module {name}"
+        )
 
 
 def _prefix(robot: Robot, prefix: str | None, path: Path | None) -> str:

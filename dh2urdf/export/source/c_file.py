@@ -85,7 +85,7 @@ class CProgram:
             work="&work, " if works else "",
             work_line=WORK_LINE.format(p=p, size=program.workspace) if works else "",
             example=WORK_EXAMPLE.format(p=p) if works else "",
-            branch_line=branches(program),
+            branch_line=branches(self.robot, program),
             complete=complete(program, "true", "false"),
             stack=self.stack,
         )
@@ -163,7 +163,7 @@ class CProgram:
                     sets.append(f"    memcpy(work->{place}.{field}, {field}, sizeof {field});")
                 else:
                     sets.append(f"    work->{place}.{field} = {number(values)};")
-        lines = (x and "\n".join([*x, ""]) for x in (parts, consts, sets))
+        lines = ("\n".join([*x, ""]) if x else "" for x in (parts, consts, sets))
         return WORKSPACE.format(self.prefix, *lines)
 
     def _declared(self, array: Named) -> str:

@@ -4,9 +4,11 @@ import hashlib
 import textwrap
 from pathlib import Path
 
+import numpy as np
+
 from dh2urdf import __version__, engine
 from dh2urdf.export.source.program import Program
-from dh2urdf.ik.arm import branch_words_of
+from dh2urdf.ik.arm import TRIALS, HeldSolver, Outputs, branch_words_of
 from dh2urdf.robot import Robot
 
 LICENCE = """\
@@ -70,13 +72,17 @@ hundred times as long as at other poses."""
 
 LEFT = """\
 complete is {false}
-where there may be more solutions, because the pose is next to one at which solutions meet;
+where there may be more solutions, because the pose is next to one at which solutions meet{held};
 Robot.ik of dh2urdf searches there."""
+
+LINED_UP = """,
+or has several singularities, or the held joint lines up two others"""
 
 
 def complete(program: Program, true: str, false: str) -> str:
     """What is said of all solutions being found, with a language's words for it."""
-    return (SEARCHED if program.searches else LEFT).format(true=true, false=false)
+    held = LINED_UP if program.held else ""
+    return (SEARCHED if program.searches else LEFT).format(true=true, false=false, held=held)
 
 
 def joints(robot: Robot) -> list[str]:
@@ -84,14 +90,36 @@ def joints(robot: Robot) -> list[str]:
     rows = []
     for i, name in enumerate(robot.joint_names):
         kind, unit = ("slides", "m") if robot.slides[i] else ("turns", "rad")
-        low, high = robot.lower[i], robot.upper[i]
-        rows.append(f"q[{i}]  {one_line(name)}, {kind}, {low:.6g} to {high:.6g} {unit}")
+        ends = _limits(robot.lower[i], robot.upper[i], unit)
+        rows.append(f"q[{i}]  {one_line(name)}, {kind}, {ends}")
     return rows
 
 
-def branches(program: Program) -> str:
-    """What the bits of a branch say, a line for each, between commas."""
-    words = branch_words_of(program.solver)
+def _limits(low: float, high: float, unit: str) -> str:
+    """From where to where a joint moves."""
+    if low == -np.inf and high == np.inf:
+        return "without limits"
+    if low == -np.inf:
+        return f"up to {high:.6g} {unit}"
+    return f"from {low:.6g} {unit} on" if high == np.inf else f"{low:.6g} to {high:.6g} {unit}"
+
+
+def branches(robot: Robot, program: Program) -> str:
+    """What the bits of a branch say, a line for each, between commas.
+
+    Nothing, where the solver names no branch of a solution of some poses.
+    """
+    low, high = robot.bounded(1.0, np.pi)
+    q = np.random.default_rng(0).uniform(low, high, (TRIALS, robot.n))
+    out = Outputs.of(TRIALS, program.solver.kmax, robot.n)
+    if isinstance(program.solver, HeldSolver):
+        values = np.ascontiguousarray(q[:, list(program.held)])
+        program.solver.solve_held(robot.fk(q), values, False, out)
+    else:
+        program.solver.solve_batch(robot.fk(q), False, out)
+    listed = np.arange(program.solver.kmax) < out.counts[:, None]
+    named = bool((out.branch[listed] >= 0).any())
+    words = branch_words_of(program.solver) if named else ()
     bits = [f"    bit {i}: 0 {w[0]}, 1 {w[1]}" for i, w in enumerate(words) if w]
     return "\n".join([", or -1,", "", *bits, ""]) if bits else ", -1 as they have none;"
 

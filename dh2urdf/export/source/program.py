@@ -17,11 +17,21 @@ from dh2urdf.engine import Step
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import HeldSolver, Outputs, Room, Solver, SolverBase
 from dh2urdf.kernels.general_6r import ARM_6R
-from dh2urdf.kernels.in_doubt import IN_DOUBT, referee_doubtful, search_doubtful
+from dh2urdf.kernels.in_doubt import (
+    IN_DOUBT,
+    VALLEYS,
+    referee_doubtful,
+    search_doubtful,
+    widen_parallel,
+    widen_wrists,
+)
 from dh2urdf.transforms import Array
 
-RECORDS = {ARM_6R: "elimination", IN_DOUBT: "search"}
+RECORDS = {ARM_6R: "elimination", IN_DOUBT: "search", VALLEYS: "valleys"}
 """What an arm's workspace has, by what kernels take."""
+
+SEARCHES = search_doubtful, referee_doubtful, widen_wrists, widen_parallel
+"""Kernels that leave no pose in doubt."""
 
 
 class Switch(int):
@@ -71,7 +81,7 @@ class Program:
     @property
     def searches(self) -> bool:
         """Whether poses in doubt are searched, so that none is left."""
-        return any(call.kernel in (search_doubtful, referee_doubtful) for call in self.calls)
+        return any(call.kernel in SEARCHES for call in self.calls)
 
     @classmethod
     def of(cls, chain: SerialChain, solver: Solver | HeldSolver) -> "Program":

@@ -72,7 +72,7 @@ class PythonProgram:
             held_refused=HELD_REFUSED if held else "",
             held_line=line,
             held_given=", held" if held else "",
-            branch_line=branches(self.program),
+            branch_line=branches(self.robot, self.program),
             complete=complete(self.program, "True", "False"),
         )
 
@@ -182,8 +182,8 @@ class PythonProgram:
 
 
 OWN = """
-fk jacobian ik ik_near Solutions JOINTS LOWER UPPER math NamedTuple elimination search held T J q
-residual count branch free_joints complete pose seed distance within_limits
+fk jacobian ik ik_near Solutions JOINTS LOWER UPPER math NamedTuple elimination search valleys held
+T J q residual count branch free_joints complete pose seed distance within_limits
 """
 
 RESERVED = {*re.findall(r"^(?:def |class )?(\w+)(?=\(|:| =)", ARRAYS, re.MULTILINE), *OWN.split()}

@@ -11,7 +11,7 @@ from dh2urdf.ik.arm.singular_families import Family
 from dh2urdf.ik.arm.solver import IntArray, Outputs
 from dh2urdf.ik.arm.task import Task
 from dh2urdf.kernels.certificate import finish_batch, name_batch
-from dh2urdf.kernels.in_doubt import IN_DOUBT, MOST_STEPS, search_poses
+from dh2urdf.kernels.in_doubt import IN_DOUBT, MOST_STEPS, search_known, search_poses
 from dh2urdf.kernels.in_doubt import unite_families as keep_members
 from dh2urdf.kernels.redundant import WELL
 from dh2urdf.transforms import Array
@@ -80,25 +80,11 @@ def from_starts(chain: SerialChain, T: Array, found: Outputs, known: Outputs) ->
 
     Candidates are ``found``. Solutions that are known keep their branch.
     """
-    wide = search_in_doubt(chain, T, found, np.zeros(1, np.int64), False)
-    _name_again(chain, T, wide)
-    keep_sharp(wide, known.q[0, : known.counts[0]])
-    unite_families(chain, T, False, wide)
-    for p, branch in zip(known.q[0], known.branch[0, : known.counts[0]], strict=False):
-        away = far(chain, wide.q[0, : wide.counts[0]], p)
-        wide.branch[0, : len(away)][away <= SAME] = branch
+    wide = Outputs.of(1, WIDTH, chain.n)
+    wide.q[:, : found.q.shape[1]], wide.counts[:] = found.q, found.counts
+    given = known.q, known.branch, known.counts, wide
+    search_known(chain.tables, starts_of(chain), chain.size, room_in_doubt(), T, *given)
     return wide
-
-
-def _name_again(chain: SerialChain, T: Array, wide: Outputs) -> None:
-    """Name families of a pose (1, 4, 4) by their joints alone, but surfaces not by a curve's."""
-    before = wide.free[0].copy()
-    name_batch(chain.tables, T, wide)
-    for k, (all_, some) in enumerate(zip(before, wide.free[0, : wide.counts[0]], strict=False)):
-        if some != all_ and some and not some & ~all_:
-            families = (family_of(chain, T[0], wide.q[0, k], mask) for mask in (all_, some))
-            more, fewer = (family.dimensions() for family in families)
-            wide.free[0, k] = all_ if more > fewer else some
 
 
 def family_of(chain: SerialChain, T: Array, q: Array, mask: int) -> Family:

@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from dh2urdf.chain import SerialChain
+from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
     BRANCH_WORDS,
     NOMINAL,
@@ -19,35 +20,19 @@ from dh2urdf.ik.arm import (
     Outputs,
     SolverBase,
     Task,
-    far,
     form_of,
-    from_starts,
     lines_of,
     plain_ranges,
+    room_in_doubt,
+    starts_of,
 )
-from dh2urdf.kernels.certificate import finish_batch, search_valleys
 from dh2urdf.kernels.counts import DEEP
-from dh2urdf.kernels.nearly import parallel_seeds
+from dh2urdf.kernels.in_doubt import FOUND, VALLEYS, WIDE, follow_parallel, widen_parallel
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 from dh2urdf.transforms import Array
 
-SEEDS, WIDTH = 32, 40
-"""Most candidates of a pose in doubt, and most solutions that they lead to."""
-
-WIDE = 0.1
-"""Relative amount by which an equation may miss its rim where a seed is looked for."""
-
-SHARP = 1e-11
-"""Residual [m and rad] of what is added; one that was put onto a limit has more."""
-
-SAME = 1e-6
-"""Joint distance [rad or m] at which two solutions are one."""
-
 UPSIDE_DOWN = (BRANCH_WORDS[0], BRANCH_WORDS[1][::-1], BRANCH_WORDS[2])
 """Names of the branches where axis 1 points down in the base, from where the kernels look up."""
-
-NEAR = 0.01
-"""Joint distance [rad] within which solutions may have been united; the certificate's own."""
 
 STUCK = "the arm cannot move its tool in all six directions"
 
@@ -61,8 +46,12 @@ class ClosedForm(SolverBase):
 
     kmax = 8
     if_spare = STUCK
-    seeds: BatchKernel
-    """The kernel that gives candidates as they are before certification."""
+    doubts: bool
+    """Whether the kernel leaves poses in doubt."""
+    widen: BatchKernel
+    """The kernel that looks for more solutions of these."""
+    follow: BatchKernel
+    """The kernel that finds what lies along valleys beside them."""
 
     def __init__(
         self,
@@ -79,68 +68,34 @@ class ClosedForm(SolverBase):
         self.constants = chain.tables, self.form.rows, self.form.ends, slack
 
     def look_wider(self, Ts: Array, rows: IntArray, within_limits: bool, out: Outputs) -> None:
-        """Look for more solutions of poses Ts[rows]: along valleys, or from many starts."""
-        coded = -1 - out.counts[rows]
-        out.counts[rows] = coded % DEEP
-        poses = np.ascontiguousarray(Ts[rows])
-        known, found = self.before_search(poses)
-        deep = coded >= DEEP
-        for i, row in enumerate(rows):
-            mine = slice(i, i + 1)
-            if deep[i]:
-                wide = from_starts(self.chain, poses[mine], found.rows(mine), known.rows(mine))
-                if within_limits:
-                    finish_batch(self.chain.tables, poses[mine], True, wide)
-                out.put(np.array([row]), wide)
-            elif found.counts[i] > known.counts[i]:
-                one = found.rows(mine)
-                finish_batch(self.chain.tables, poses[mine], within_limits, one)
-                self._add_new(one, known.q[i, : known.counts[i]], out.rows(slice(row, row + 1)))
+        """Look for more solutions of poses in doubt: along valleys, or from many starts."""
+        kernel, arguments, _ = self._widen(Ts, within_limits, out)
+        kernel(*arguments)
+
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The kernel, and what looks for more where it is in doubt."""
+        more = (self._widen(Ts, within_limits, out),) if self.doubts else ()
+        return *self.steps(Ts, within_limits, out), *more
+
+    def _widen(self, Ts: Array, within_limits: bool, out: Outputs) -> Step:
+        """The kernel that looks for more, and its arguments."""
+        starts, size = starts_of(self.chain), self.chain.size
+        given = starts, size, room_in_doubt(), np.zeros(1, VALLEYS), Ts, within_limits, out
+        return self.widen, (self.constants, *given), False
 
     def before_search(self, Ts: Array) -> tuple[Outputs, Outputs]:
         """What the equations find; and, where it is in doubt, what lies along valleys, too."""
         known = Outputs.of(len(Ts), self.kmax, 6)  # those outside the limits, too
         self.kernel(self.constants, Ts, False, known)
         doubt = known.counts < 0
+        if not doubt.any():
+            return known, known
         known.counts[doubt] = (-1 - known.counts[doubt]) % DEEP
-        return known, self._along_valleys(Ts, known) if doubt.any() else known
-
-    def _along_valleys(self, poses: Array, known: Outputs) -> Outputs:
-        """What lies along valleys beside candidates of poses (d, 4, 4), after what is known."""
-        chain, k, d = self.chain, self.kmax, len(poses)
-        raw, many = np.empty((d, SEEDS, 6)), np.empty(d, np.int64)
-        self.seeds((*self.constants[:3], WIDE), poses, raw, many)
-        found, seeds = Outputs.of(d, WIDTH, 6), np.empty((d, k + SEEDS, 6))
-        found.q[:, :k], found.counts[:] = known.q, known.counts
-        for i, count in enumerate(known.counts):
-            seeds[i, :count], seeds[i, count : count + many[i]] = (
-                known.q[i, :count],
-                raw[i, : many[i]],
-            )
-        many += known.counts
-        search_valleys(chain.tables, chain.size, poses, seeds, many, found.q, found.counts)
-        return found
-
-    def _add_new(self, found: Outputs, known: Array, out: Outputs) -> None:
-        """Add solutions of one pose that are not known (k, 6) yet.
-
-        One that is known, and was united with a sharper one, is replaced by that.
-        """
-        q = found.q[0, : found.counts[0]]
-        for k, p in enumerate(q):
-            count = out.counts[0]
-            if found.residual[0, k] > SHARP or (far(self.chain, known, p) <= SAME).any():
-                continue
-            near = np.flatnonzero(far(self.chain, out.q[0, :count], p) <= NEAR)
-            gone = [j for j in near if not (far(self.chain, q, out.q[0, j]) <= SAME).any()]
-            if not gone and count == self.kmax:
-                continue
-            row = gone[0] if gone else count
-            out.q[0, row], out.residual[0, row] = p, found.residual[0, k]
-            out.free[0, row] = found.free[0, k]
-            if not gone:
-                out.branch[0, row] = -1
-                out.counts[0] += 1
+        found, valleys = Outputs.of(len(Ts), FOUND, 6), np.zeros(1, VALLEYS)
+        found.counts[:] = known.counts
+        beside = Ts, known.q, found.q, found.counts
+        self.follow((*self.constants[:3], WIDE), self.chain.size, valleys, *beside)
+        return known, found
 
 
 def not_six_revolute(chain: SerialChain) -> str | None:
@@ -155,7 +110,7 @@ class ThreeParallel(ClosedForm):
     name = "three parallel axes"
     needs = "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel"
 
-    seeds = staticmethod(parallel_seeds)
+    widen, follow = staticmethod(widen_parallel), staticmethod(follow_parallel)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
@@ -166,6 +121,11 @@ class ThreeParallel(ClosedForm):
         if not (lines.three_parallel(0) or lines.three_parallel(1)):
             return "no three neighbouring axes are parallel"
         return None
+
+    @property
+    def doubts(self) -> bool:  # type: ignore[override]
+        """Not where the geometry is common."""
+        return self.kernel is solve_three_parallel
 
     def details(self) -> str:
         """Name the axes and the subproblems."""

@@ -4,6 +4,7 @@ Reversed, the chain ``T_tool_base`` has the same joints in the opposite order, a
 shoulder becomes a spherical wrist.
 """
 
+from collections.abc import Callable
 from typing import ClassVar
 
 import numpy as np
@@ -58,10 +59,20 @@ class ReversedSolver(SolverBase):
 
     def steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
         """As :meth:`solve_batch`."""
+        return self._around(self.inner.steps, Ts, within_limits, out)
+
+    def all_steps(self, Ts: Array, within_limits: bool, out: Outputs) -> tuple[Step, ...]:
+        """The same with what is done of poses in doubt."""
+        return self._around(self.inner.all_steps, Ts, within_limits, out)
+
+    def _around(
+        self, steps: Callable[..., tuple[Step, ...]], Ts: Array, within_limits: bool, out: Outputs
+    ) -> tuple[Step, ...]:
+        """Steps of the reversed chain, between those that invert the poses and turn back."""
         inverse_poses = np.empty_like(Ts)
         invert: Step = invert_poses, (Ts, inverse_poses), False
         back: Step = turn_back, (self.chain.tables, Ts, within_limits, out), False
-        return (invert, *self.inner.steps(inverse_poses, False, out), back)
+        return invert, *steps(inverse_poses, False, out), back
 
 
 class SphericalShoulder(ReversedSolver):

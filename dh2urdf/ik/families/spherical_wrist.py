@@ -8,7 +8,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import REGULAR, BatchKernel, DHForm, form_of, lines_of, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm
 from dh2urdf.kernels.chain import chain_jacobian_batch
-from dh2urdf.kernels.nearly import wrist_seeds
+from dh2urdf.kernels.in_doubt import follow_wrists, widen_wrists
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
 
 
@@ -18,7 +18,7 @@ class SphericalWrist(ClosedForm):
     name = "spherical wrist"
     needs = "six joints, the last three revolute with axes through one point"
 
-    seeds = staticmethod(wrist_seeds)
+    widen, follow = staticmethod(widen_wrists), staticmethod(follow_wrists)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:
@@ -31,6 +31,11 @@ class SphericalWrist(ClosedForm):
         if not _places_wrist(form_of(chain, tolerance)):
             return "joints 1, 2 and 3 cannot move the wrist centre in all directions"
         return None
+
+    @property
+    def doubts(self) -> bool:  # type: ignore[override]
+        """Not where all joints turn and the geometry is common."""
+        return self.kernel is solve_wrist_arm or bool(self.chain.prismatic[2])
 
     def details(self) -> str:
         """Name the subproblems of the position arm and of the wrist."""

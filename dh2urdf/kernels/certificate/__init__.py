@@ -49,4 +49,4 @@ from dh2urdf.kernels.certificate.finish import (
 from dh2urdf.kernels.certificate.levenberg import approach
 from dh2urdf.kernels.certificate.numeric import Coupled, find_solutions
 from dh2urdf.kernels.certificate.together import arrange_together, turn_together, values_of_batch
-from dh2urdf.kernels.certificate.valley import search_valleys
+from dh2urdf.kernels.certificate.valley import MOST_POINTS, follow_valleys, search_valleys

@@ -32,6 +32,9 @@ ON_IT = 1e-12
 STEP, MOST_STEPS = 0.1, 160
 """Step along a valley [rad, or in sizes of the arm], and how many each way."""
 
+MOST_POINTS = 8 * MOST_STEPS
+"""Points of valleys of a pose that are remembered."""
+
 HALVINGS, NEWTON = 40, 12
 """Most steps by which a least error is brought to its place, and of Newton's method then."""
 
@@ -158,6 +161,33 @@ def _walk(chain, goal, start, side, room, trail, passed, found, count):
     return passed, count
 
 
+def follow_valleys(chain, goal, seeds, many, trail, q, count):
+    """Append to q (K, n) the solutions that valleys lead to; the new count.
+
+    The valleys are those beside the first ``many`` seeds (s, n). ``trail`` (``MOST_POINTS``, n) is
+    scratch.
+    """
+    joints, n, passed = chain[1], q.shape[1], 0
+    room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n), np.empty((7, n))
+    start = np.empty(n)
+    for s in range(many):
+        start[:] = seeds[s]
+        known = False
+        for k in range(passed):
+            known = known or same(joints, trail[k], start, 0.6 * STEP, 0)
+        if known:
+            continue
+        left, weak, largest = _settle(chain, goal, start, room)
+        if not left <= ROUGH or room[2][weak] > WEAK * largest:
+            continue
+        room[4][1] = start
+        count = _emit(chain, goal, room[4][1], room, q, count)
+        for side in range(2):
+            way = 1.0 - 2.0 * side
+            passed, count = _walk(chain, goal, start, way, room, trail, passed, q, count)
+    return count
+
+
 @entry()
 def search_valleys(
     chain: AnyChain,
@@ -172,24 +202,7 @@ def search_valleys(
 
     The valleys are those beside the first ``many[i]`` seeds (m, s, n) of a pose.
     """
-    joints, n = chain[1], q.shape[2]
-    room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n), np.empty((7, n))
-    start, trail = np.empty(n), np.empty((8 * MOST_STEPS, n))
+    trail = np.empty((MOST_POINTS, q.shape[2]))
     for i in range(Ts.shape[0]):
-        goal, passed = (POSE, Ts[i], unit), 0
-        for s in range(many[i]):
-            start[:] = seeds[i, s]
-            known = False
-            for k in range(passed):
-                known = known or same(joints, trail[k], start, 0.6 * STEP, 0)
-            if known:
-                continue
-            left, weak, largest = _settle(chain, goal, start, room)
-            if not left <= ROUGH or room[2][weak] > WEAK * largest:
-                continue
-            room[4][1] = start
-            count[i] = _emit(chain, goal, room[4][1], room, q[i], count[i])
-            for side in range(2):
-                passed, count[i] = _walk(
-                    *(chain, goal, start, 1.0 - 2.0 * side, room, trail, passed), q[i], count[i]
-                )
+        goal = POSE, Ts[i], unit
+        count[i] = follow_valleys(chain, goal, seeds[i], many[i], trail, q[i], count[i])

@@ -79,7 +79,7 @@ def _isolated_first(rows, count, key):
     return isolated
 
 
-def _dimensions(chain, goal, q, mask, room):
+def dimensions(chain, goal, q, mask, room):
     """In how many directions a family by the joints of a mask leaves a solution q (n,)."""
     _, largest = look(chain, goal, q, room)
     directions = 0
@@ -100,7 +100,7 @@ def _mark_members(chain, T, unit, rows, k, count, trials, room):
         return
     looked = make_damped(n), np.empty((n, n)), np.empty(n)
     goal = POSE + STAYING * ((1 << n) - 1 - mask), T, unit
-    straight = trials if _dimensions(chain, goal, q[k], mask, looked) > 1 else 0
+    straight = trials if dimensions(chain, goal, q[k], mask, looked) > 1 else 0
     members_among(chain, goal, STEP, HELD, q[k], q, straight, asked, walk)
     for j in range(k + 1, count):
         gone[j] = gone[j] or asked[j]

@@ -27,6 +27,7 @@ IN_DOUBT = np.dtype(
         ("key", np.float64, WIDTH),
         ("gone", np.bool_, WIDTH),
         ("asked", np.bool_, WIDTH),
+        ("named", np.int64, WIDTH),
     ],
     align=True,
 )
@@ -37,7 +38,7 @@ Rooms: TypeAlias = Annotated[Any, IN_DOUBT, "in_doubt", 1]
 Starts: TypeAlias = Annotated[Floats, "starts", 6]
 
 
-def _search(chain, starts, unit, T, deep, within_limits, rows, count, families):
+def search_pose(chain, starts, unit, T, deep, within_limits, rows, count, families):
     """Solutions of a pose T (4, 4) from so many candidates, in the rows of which these are first.
 
     Beside all of them others are looked for, from the starts (s, 6) where ``deep``; how many.
@@ -75,7 +76,7 @@ def search_poses(
     families = room["walk"], room["key"], room["gone"], room["asked"]
     for i in range(Ts.shape[0]):
         rows, some = (q[i], residual[i], branch[i], free[i]), deep[i] != 0
-        count[i] = _search(
+        count[i] = search_pose(
             chain, starts, unit, Ts[i], some, within_limits, rows, count[i], families
         )
 
@@ -126,7 +127,7 @@ def search_doubtful(
         some = -1 - count[i]
         for k in range(some):
             wide[0][k] = q[i, k]
-        some = _search(chain, starts, unit, Ts[i], True, within_limits, wide, some, families)
+        some = search_pose(chain, starts, unit, Ts[i], True, within_limits, wide, some, families)
         count[i] = copy_rows(wide, some, (q[i], residual[i], branch[i], free[i]))
 
 
@@ -160,5 +161,5 @@ def referee_doubtful(
             wide[0][some + k] = q[i, k]
         some += -1 - count[i]
         deep = doubt == 1
-        some = _search(chain, starts, unit, Ts[i], deep, within_limits, wide, some, families)
+        some = search_pose(chain, starts, unit, Ts[i], deep, within_limits, wide, some, families)
         count[i] = copy_rows(wide, some, (q[i], residual[i], branch[i], free[i]))

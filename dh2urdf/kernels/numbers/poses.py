@@ -1,5 +1,7 @@
 """Check of target poses, cheap enough for every call."""
 
+import math
+
 from dh2urdf.engine import entry
 from dh2urdf.kernels.shapes import Codes, Counts, Outputs, Pose, Poses
 
@@ -8,9 +10,6 @@ ORTHONORMAL = 1e-6
 
 LAST_ROW = 1e-12
 """Largest deviation of the last row from 0 0 0 1."""
-
-FINITE = 1e300
-"""Bound of a coordinate [m]."""
 
 BLOCK = 64
 """Poses that are looked at together."""
@@ -32,7 +31,7 @@ def _rigid(T):
     determinant = (x1 * y2 - x2 * y1) * z0 + (x2 * y0 - x0 * y2) * z1 + (x0 * y1 - x1 * y0) * z2
     rigid = (xx <= ORTHONORMAL) & (yy <= ORTHONORMAL) & (zz <= ORTHONORMAL)
     rigid &= (xy <= ORTHONORMAL) & (xz <= ORTHONORMAL) & (yz <= ORTHONORMAL)
-    rigid &= (determinant > 0.0) & (p0 < FINITE) & (p1 < FINITE) & (p2 < FINITE)
+    rigid &= (determinant > 0.0) & (p0 < math.inf) & (p1 < math.inf) & (p2 < math.inf)
     rigid &= (abs(r0) <= LAST_ROW) & (abs(r1) <= LAST_ROW)
     return rigid & (abs(r2) <= LAST_ROW) & (abs(r3) <= LAST_ROW)
 

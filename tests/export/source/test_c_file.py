@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from dh2urdf import DHTable, Robot, export_solver
+from dh2urdf.cli import main
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
 from dh2urdf.export.source import exported
 from dh2urdf.export.source.head import LICENCE
@@ -25,20 +26,16 @@ puma560 ur5 planar_rr omron_cobra600 px100 rpr_new_frame xarm5 stanford xarm6 cr
 """An arm of each kind of kernels."""
 
 LEFT = {
-    "cylindrical_wrist": 0.95,
     "franka_fer": 0.88,
     "franka_fr3": 0.88,
-    "gantry_wrist": 0.95,
     "kinova_gen3": 0.95,
     "kuka_iiwa14": 0.92,
     "kuka_iiwa7": 0.92,
-    "stanford": 0.95,
-    "stanford_modified": 0.95,
     "xarm7": 0.9,
 }
 """Arms whose files leave poses to ``Robot.ik``, two in three of these singular or beside such, and
-what share they do not leave: wrists behind a slide, and seven joints of which one is held. All
-others find all solutions at every pose."""
+what share they do not leave: seven joints of which one is held. All others find all solutions at
+every pose."""
 
 EVERY_DAY = 300
 
@@ -119,12 +116,22 @@ def other_arms():
     general = DHTable.from_array(none, convention="standard")
     slide = replace(general.rows[2], joint_type="prismatic", lower=-0.5, upper=0.5)
     turned = [(0.0, r.d, r.a, r.alpha) for r in Robot.from_dh("puma560").table.rows[::-1]]
+    behind = Robot.from_dh("stanford").table.rows
+    skew = [
+        (0, d, a, alpha) for d, a, alpha in rng.uniform((0.1, 0.1, 0.5), (0.4, 0.4, 1.3), (6, 3))
+    ]
+    skew[3:] = (0, 0.3, 0, -1.2), (0, 0, 0, 1.3), (0, 0.1, 0, 0)
+    leaning = [(0, 0.3, 0.05, 1.3), (0, 0.02, 0.4, 0), (0, 0.01, 0.35, 0), (0, 0.1, 0.03, 1.2)]
+    leaning += [(0, 0.1, 0.02, -1.1), (0, 0.08, 0, 0)]
     return {
         "nearly three parallel axes": DHTable(near, "standard"),
         "nearly three parallel axes, not so near": DHTable(far, "standard"),
         "general 6R": general,
         "general RRPRRR": DHTable((*general.rows[:2], slide, *general.rows[3:]), "standard"),
         "spherical shoulder": DHTable.from_array(turned, convention="modified"),
+        "spherical shoulder, a slide behind it": DHTable(behind[::-1], "modified"),
+        "spherical wrist, skew axes": DHTable.from_array(skew, convention="standard"),
+        "three parallel axes, others lean": DHTable.from_array(leaning, convention="standard"),
     }
 
 
@@ -134,7 +141,9 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
     arm = Arm(Robot.from_dh(table), tmp_path)
     assert arm.made.solver == solver.partition(",")[0]
     arm.compile(*SAME)
-    compare(arm, np.random.default_rng(6).uniform(-3.0, 3.0, (80, 6)))
+    rng = np.random.default_rng(6)
+    compare(arm, rng.uniform(-3.0, 3.0, (80, 6)))
+    compare(arm, edges(arm.robot, rng, 60))
 
 
 KINDS = dict.fromkeys([*FAMILIES.split(), *HELD])
@@ -252,11 +261,15 @@ def test_a_seed_sorts_and_turns_as_the_robot_does(tmp_path):
 
 
 def test_what_is_no_pose_has_no_solutions(tmp_path):
-    """NaN and a matrix that is no rotation are refused."""
+    """NaN and a matrix that is no rotation are refused; what is far away is a pose, out of reach."""
     arm = Arm(Robot.from_dh("puma560"), tmp_path)
     arm.compile("-O1")
-    Ts = np.stack([np.full((4, 4), np.nan), 2.0 * np.eye(4)])
-    assert (arm.run(np.zeros((2, 6)), Ts)["any"]["count"] == 0).all()
+    Ts = np.stack([np.full((4, 4), np.nan), 2.0 * np.eye(4), *[np.eye(4)] * 3])
+    Ts[2:, 0, 3] = 1e150, 1e300, np.inf
+    found = arm.run(np.zeros((5, 6)), Ts)["any"]
+    assert (found["count"] == 0).all()
+    assert found["complete"].tolist() == [False, False, True, True, False]
+    assert [len(arm.robot.ik(T)) for T in Ts[2:4]] == [0, 0]
 
 
 @pytest.mark.parametrize("name", KINDS)
@@ -471,7 +484,11 @@ REFUSED = {
     "prefix": ({"prefix": "1x"}, ArgumentError, "a name of C"),
     "joint": ({"held": "nothing"}, NameNotFoundError, "no joint named"),
     "index": ({"held": 7}, ArgumentError, "from 0 to 5"),
+    "no index": ({"held": -1}, ArgumentError, "from 0 to 5, got -1"),
     "force": ({"force": 1}, ArgumentError, "True or False"),
+    "word of Python": ({"path": "class.py"}, ArgumentError, "no module of the name 'class'"),
+    "no word": ({"path": "ur-5.py"}, ArgumentError, "no module of the name 'ur-5'"),
+    "module": ({"path": "math.py"}, ArgumentError, "the place of Python's own module math"),
 }
 
 
@@ -486,11 +503,30 @@ def test_what_makes_no_sense_is_refused(case, tmp_path):
     assert not target.exists()
 
 
+def test_what_is_no_path_or_joint_is_refused(tmp_path, capsys):
+    """Nothing in place of a path, and a number below that of the first joint on the command line."""
+    with pytest.raises(ArgumentError, match="path: expected a path, got None"):
+        export_solver(Robot.from_dh("ur5"), None)
+    with pytest.raises(SystemExit) as ended:
+        main(["export", "ur5", "-o", str(tmp_path / "ur5.h"), "--held", "-1"])
+    assert ended.value.code == 2
+    assert "held: expected a whole number from 0 to 5, got -1" in capsys.readouterr().err
+
+
 def test_an_arm_of_one_joint_is_exported(tmp_path):
     """Fewer joints than directions that singular families are looked for in."""
     table = DHTable.from_array([(0.1, 0.3, 0.2, -1.0)], convention="standard")
     made = export_solver(Robot.from_dh(table), tmp_path / "one.h")
     assert (made.solver, made.prefix) == ("short chain", "robot")
+
+
+def test_the_head_says_no_more_than_there_is():
+    """A joint that turns on and on has no limits there, a solver that names no branch no bits."""
+    for name, limits in (("stanford", 0), ("kinova_jaco2", 3)):
+        text = exported(Robot.from_dh(name), language="c").text.partition("#include")[0]
+        assert text.count(", without limits") == limits
+        assert not re.search(r"\binf\b|bit 0", text)
+        assert "its branch, -1 as they have none;" in text
 
 
 def test_where_nothing_can_be_written_nothing_is_worked_out(tmp_path):
