@@ -261,7 +261,7 @@ def test_a_seed_sorts_and_turns_as_the_robot_does(tmp_path):
 
 
 def test_what_is_no_pose_has_no_solutions(tmp_path):
-    """NaN and a matrix that is no rotation are refused; what is far away is a pose, out of reach."""
+    """NaN and a matrix that is no rotation are refused; what is far away is a pose."""
     arm = Arm(Robot.from_dh("puma560"), tmp_path)
     arm.compile("-O1")
     Ts = np.stack([np.full((4, 4), np.nan), 2.0 * np.eye(4), *[np.eye(4)] * 3])
@@ -504,7 +504,7 @@ def test_what_makes_no_sense_is_refused(case, tmp_path):
 
 
 def test_what_is_no_path_or_joint_is_refused(tmp_path, capsys):
-    """Nothing in place of a path, and a number below that of the first joint on the command line."""
+    """Nothing in place of a path, and a number below that of the first joint."""
     with pytest.raises(ArgumentError, match="path: expected a path, got None"):
         export_solver(Robot.from_dh("ur5"), None)
     with pytest.raises(SystemExit) as ended:
@@ -522,8 +522,8 @@ def test_an_arm_of_one_joint_is_exported(tmp_path):
 
 def test_the_head_says_no_more_than_there_is():
     """A joint that turns on and on has no limits there, a solver that names no branch no bits."""
-    for name, limits in (("stanford", 0), ("kinova_jaco2", 3)):
-        text = exported(Robot.from_dh(name), language="c").text.partition("#include")[0]
+    for table, limits in (("stanford", 0), (KINDS["general 6R"], 6)):
+        text = exported(Robot.from_dh(table), language="c").text.partition("#include")[0]
         assert text.count(", without limits") == limits
         assert not re.search(r"\binf\b|bit 0", text)
         assert "its branch, -1 as they have none;" in text
