@@ -73,7 +73,8 @@ class RobotIK(RobotConfigurations):
             What of the pose has to be reached; axis is the tip's z.
         turns : {"nearest", "all"}
             For ranges wider than a turn: the turn nearest to the seed (to the middle of the range
-            without one), or all of them as separate solutions.
+            without one), or all of them as separate solutions. Without limits, the turn nearest to
+            the seed of all; values that move joints together are turned inside first even then.
         samples : int, optional
             For an arm of seven joints: number of values, equally spaced in its range, of the
             joint that is swept (``solver`` names it); 16 without it. With a seed, the first

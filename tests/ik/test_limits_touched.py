@@ -55,3 +55,60 @@ def test_a_double_root_on_two_limits_is_found_with_any_joint_held(robot, joint):
     found = robot.ik(robot.fk(q), locked={joint: q[joint]})
     assert gaps(robot.chain, found.q, q).min() < 1e-7
     assert (found.q <= robot.upper).all()
+
+
+SINGULAR_CORNERS = [
+    *(("kinova_jaco2", end) for end in ("lower", "upper")),
+    *(("fanuc_crx10ia", end) for end in ("lower", "upper")),
+    ("xarm6", (2.0 * math.pi, 0.0, 0.0, -math.pi, math.pi, math.pi)),
+]
+"""Singular configurations on limits, of which the roots are off by the root of rounding."""
+
+
+@pytest.mark.parametrize(("name", "end"), SINGULAR_CORNERS)
+@pytest.mark.parametrize("ask", [{}, {"turns": "all"}], ids=["nearest", "all"])
+def test_a_singular_seed_on_limits_is_the_first_answer(name, end, ask):
+    """No joint is a full turn away because its root is over the limit by 1e-7."""
+    arm = dh2urdf.Robot.from_dh(name)
+    q = np.array(getattr(arm, end) if isinstance(end, str) else end)
+    for _ in range(2):  # by Python first, then in one call
+        found = arm.ik(arm.fk(q), seed=q, **ask)
+        assert np.abs(found.q[0] - q).max() < 1e-6
+        assert (found.q >= arm.lower).all()
+        assert (found.q <= arm.upper).all()
+        assert (found.verify() <= 1e-9).all()
+
+
+@pytest.mark.parametrize("name", ["kinova_jaco2", "fanuc_crx10ia"])
+def test_all_turns_of_a_singular_solution_on_limits_have_those_on_the_limits(name):
+    """Without a seed, too: what rounding took over a limit is put onto it."""
+    arm = dh2urdf.Robot.from_dh(name)
+    for q in (arm.lower, arm.upper):
+        found = arm.ik(arm.fk(q), turns="all").q
+        assert np.abs(found - q).max(axis=1).min() < 1e-6
+
+
+@pytest.mark.parametrize("name", ["puma560", "ur5", "franka_fer", "stanford", "abb_irb4600_track"])
+def test_without_limits_full_turns_are_those_nearest_to_the_seed(name):
+    """Be they inside the limits or not: of one pose, of a batch, of families, of a path."""
+    arm = dh2urdf.Robot.from_dh(name)
+    turning = ~arm.slides
+    for q in (0.3 + 0.1 * np.arange(arm.n), np.where(np.arange(arm.n) == 4, 0.0, 0.7)):
+        far = q + 2.0 * math.pi * np.where(np.arange(arm.n) % 2, 1.0, -1.0) * turning
+        T = arm.fk(far)
+        for _ in range(2):
+            found = arm.ik(T, seed=far, within_limits=False)
+            assert np.abs(found.q[0] - far).max() < 1e-6
+        one = arm.ik_batch(T[None], within_limits=False).nearest(far, within_limits=False)
+        assert np.abs(one.q[0, 0] - far).max() < 1e-6
+
+
+def test_a_path_without_limits_goes_on_where_it_leaves_them():
+    """No joint jumps by a full turn to be inside."""
+    arm = dh2urdf.Robot.from_dh("puma560")
+    way = np.array([0.3, 0.4, 0.2, 0.5, 0.6, 0.7]) + np.linspace(0.0, 6.0, 60)[:, None] * [
+        *(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ]
+    found = arm.ik_path(arm.fk(way), start=way[0], within_limits=False)
+    assert found.breaks == ()
+    assert np.abs(found.q - way).max() < 1e-6

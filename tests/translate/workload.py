@@ -191,7 +191,7 @@ def _towards_seed(robot: dh2urdf.Robot, k: int) -> Answer:
     out = found.q[None].copy(), found.residual[None].copy(), np.array([len(found)])
     out += tuple(code[None].copy() for code in found.codes)
     largest, distance = np.full(6, 1e5), np.zeros(len(found))
-    done = arrange_plain(robot.chain.tables, largest, 1e-12, 0, T[None], seed, out, distance)
+    done = arrange_plain(robot.chain.tables, True, largest, 1e-12, 0, T[None], seed, out, distance)
     return [np.array([done]), *out, distance]
 
 

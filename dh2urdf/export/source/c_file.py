@@ -111,7 +111,8 @@ class CProgram:
         T, J = Named("T", np.empty((4, 4))), Named("J", np.empty((6, n)))
         pose, seed = Named("pose", np.empty((1, 4, 4))), Named("seed", np.empty(n))
         distance = Named("distance", np.empty(program.solver.kmax))
-        near = tables, LIMIT_SLACK, POSE, pose, seed, out, distance
+        inside_or_not = Named("within_limits", True)
+        near = tables, inside_or_not, LIMIT_SLACK, POSE, pose, seed, out, distance
         size, centre = float(program.chain.size), middle(program.chain)
         inside = tables, LIMIT_SLACK, POSE, size, centre, pose, out
         parameters = ["const double T[16]", *["double held"] * len(program.held)]

@@ -82,7 +82,8 @@ class PythonProgram:
         links, table = tables = program.chain.tables
         q, slides = Named("q", None), table[:, 0] != 0.0
         pose, seed, distance = Named("pose", None), Named("seed", None), Named("distance", None)
-        near = tables, LIMIT_SLACK, POSE, pose, seed, program.out, distance
+        inside_or_not = Named("within_limits", True)
+        near = tables, inside_or_not, LIMIT_SLACK, POSE, pose, seed, program.out, distance
         size, centre = float(program.chain.size), middle(program.chain)
         inside = tables, LIMIT_SLACK, POSE, size, centre, pose, program.out
         scratch = [f"{x.name} = {self._blank(x.like)}" for x in program.scratch]

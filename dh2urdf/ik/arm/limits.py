@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm.shared_tolerances import LIMIT_SLACK
-from dh2urdf.kernels.certificate import turn_to
+from dh2urdf.kernels.certificate import CLUSTER, turn_to
 from dh2urdf.transforms import Array
 
 TWO_PI = 2.0 * math.pi
@@ -56,12 +56,15 @@ def plain_ranges(chain: SerialChain) -> bool:
     return bool((whole & (np.abs(middle(chain)) < TWO_PI)).all())
 
 
-def turned_to(chain: SerialChain, q: Array, reference: Array) -> Array:
+def turned_to(chain: SerialChain, q: Array, reference: Array, within_limits: bool = True) -> Array:
     """Configurations q (..., n) with each angle in the turn nearest to the reference.
 
-    A turn inside the limits goes before a nearer one outside; where no turn is inside, the
+    Within limits, a turn inside goes before a nearer one outside; where no turn is inside, the
     nearest one is kept. The reference (..., n) is broadcast to the same shape.
     """
+    if not within_limits:
+        turns = np.rint((reference - q) / TWO_PI)
+        return q + TWO_PI * np.where(chain.prismatic, 0.0, turns)
     shape = np.broadcast_shapes(q.shape, reference.shape)
     out = np.array(np.broadcast_to(q, shape), order="C")
     goal = np.ascontiguousarray(np.broadcast_to(reference, shape))
@@ -84,12 +87,13 @@ def seed_gaps(chain: SerialChain, q: Array, seed: Array) -> Array:
 def _turns(chain: SerialChain, q: Array) -> tuple[Array, Array]:
     """First and last full turn of configurations q (..., n) inside the limits, shape (..., n).
 
-    A joint without both bounds has infinitely many turns; it keeps the one it has.
+    A joint without both bounds has infinitely many turns; it keeps the one it has. Where rounding
+    took the root of a singular solution over a bound, by ``CLUSTER`` at most, that is inside.
     """
     fixed = chain.prismatic | ~np.isfinite(chain.lower) | ~np.isfinite(chain.upper)
     lower, upper = np.where(fixed, q, chain.lower), np.where(fixed, q, chain.upper)
-    first = np.ceil((lower - LIMIT_SLACK - q) / TWO_PI)
-    last = np.floor((upper + LIMIT_SLACK - q) / TWO_PI)
+    first = np.ceil((lower - CLUSTER - q) / TWO_PI)
+    last = np.floor((upper + CLUSTER - q) / TWO_PI)
     return first, last
 
 
@@ -106,4 +110,4 @@ def all_turns(chain: SerialChain, q: Array) -> Array:
     choices = [value + TWO_PI * k for value, k in zip(q, turns, strict=True)]
     every = np.array(list(itertools.product(*choices)), float).reshape(-1, chain.n)
     on = np.clip(every, chain.lower, chain.upper)  # what rounding took over a limit
-    return np.where(np.abs(on - every) <= LIMIT_SLACK, on, every)
+    return np.where(np.abs(on - every) <= CLUSTER, on, every)

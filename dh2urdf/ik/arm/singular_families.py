@@ -47,7 +47,7 @@ class Family:
 
         ``full_turns``: start also from where a free joint is a turn to either side.
         """
-        start = limits.turned_to(self.chain, self.q, seed)
+        start = limits.turned_to(self.chain, self.q, seed, within_limits)
         turns = np.diag(np.where(self.moving.prismatic, 0.0, limits.TWO_PI)) * full_turns
         starts = start[self.free] + np.concatenate([turns[:1] * 0.0, turns, -turns])
         members = self._slide(np.unique(starts, axis=0), seed, within_limits=False)
@@ -186,7 +186,7 @@ def slide_to_seed(
     family is enough.
     """
     chain = next(iter(families.values())).chain
-    goal = limits.turned_to(chain, seed, seed)
+    goal = limits.turned_to(chain, seed, seed, within_limits)
     reachable = not within_limits or bool(limits.inside(chain, goal))
     around = [k for k, family in families.items() if reachable and family.holds(goal)]
     for k, family in families.items():

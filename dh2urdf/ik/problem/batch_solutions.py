@@ -85,7 +85,7 @@ class IKBatch:
                 rows = found.q, found.residual, *found.codes
                 k, best = len(found), 0
             elif k:
-                near = problem.turned(self.q[i, :k], goal)
+                near = problem.turned(self.q[i, :k], goal, within_limits)
                 rows = near, self.residual[i], self.branch_code[i], self.free_mask[i]
                 best = int(np.square(near - goal).sum(axis=1).argmin())
             out.counts[i] = min(k, 1)

@@ -92,7 +92,7 @@ class CoupledProblem(Problem):
         """As :meth:`Problem.joints_at`."""
         return self.inner.joints_at(self.coupling.joints(q))
 
-    def turned(self, q: Array, reference: Array) -> Array:
+    def turned(self, q: Array, reference: Array, within_limits: bool) -> Array:
         """As :meth:`Problem.turned`."""
         return self.turns.nearest(self.coupling.joints(q), reference)[0]
 
@@ -114,6 +114,10 @@ class CoupledProblem(Problem):
         """As :meth:`Problem.turn_numbers`: of the joints."""
         both = self.coupling.joints(q), self.coupling.joints(reference)
         return self.inner.turn_numbers(*both)
+
+    def _settled(self, found: IKSolutions, q: Array) -> IKSolutions:
+        """As :meth:`Problem._settled`, where the values are."""
+        return self._at(found, q)
 
     def solve_one(self, T: Array, within_limits: bool) -> IKSolutions:
         """All solutions of one checked pose T (4, 4)."""

@@ -41,7 +41,7 @@ def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
     steps = _steps(problem, room, within_limits)
     if not steps or isinstance(problem.solver, RedundantChain):
         return nothing_at_once
-    return _call(room, (*steps, _arrange(problem, room, seed)), seed)
+    return _call(room, (*steps, _arrange(problem, room, seed, within_limits)), seed)
 
 
 def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) -> AtOnce:
@@ -56,7 +56,7 @@ def _swept_call_of(problem: Problem, solver: SweptJoint, within_limits: bool) ->
     return _call(room, (*steps, families, *arrange), seed)
 
 
-def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
+def _arrange(problem: Problem, room: Room, seed: Array, within_limits: bool) -> Step:
     """Turn and sort what has been found towards a seed (n,)."""
     chain, distance = problem.chain, np.empty(problem.solver.kmax)
     largest, task = np.where(chain.prismatic, LENGTH, ANGLE), problem.task.number
@@ -64,7 +64,7 @@ def _arrange(problem: Problem, room: Room, seed: Array) -> Step:
     if isinstance(problem, CoupledProblem):
         tables = problem.inner.chain.tables, problem.turns.anywhere
         return arrange_together, (*tables, largest, LIMIT_SLACK, task, *given), True
-    return arrange_plain, (chain.tables, largest, LIMIT_SLACK, task, *given), True
+    return arrange_plain, (chain.tables, within_limits, largest, LIMIT_SLACK, task, *given), True
 
 
 class PlainCalls(dict[tuple[int | None, int], tuple[Problem, AtOnce]]):
@@ -116,7 +116,7 @@ class HeldCall(NamedTuple):
             (chain.lower[joint], chain.upper[joint]) if within_limits else (-bound, bound)
         )
         low, high = max(low, float(lower), -bound), min(high, float(upper), bound)
-        arranged = (*steps, _arrange(problem, room, seed)) if steps else ()
+        arranged = (*steps, _arrange(problem, room, seed, within_limits)) if steps else ()
         call = _call(room, _into_limits(problem, room, steps, within_limits), held)
         return cls(call, _call(room, arranged, held, seed), low, high, problem)
 

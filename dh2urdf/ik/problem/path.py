@@ -182,7 +182,7 @@ class PathFinder:
     def next(self, last: Stage, pose: int) -> Stage:
         """Every way on from the last stage; for each configuration the cheapest."""
         targets = self.targets(last, pose)
-        q = self.problem.turned(targets[None], last.q[:, None])
+        q = self.problem.turned(targets[None], last.q[:, None], self.within_limits)
         cost = last.cost[:, None] + self.step_costs(q - last.q[:, None])
         order = np.argsort(cost, axis=None, kind="stable")
         keys = _turn_keys(self.problem.turn_numbers(q, targets))

@@ -33,7 +33,7 @@ from dh2urdf.ik.problem.chunks import in_chunks
 from dh2urdf.ik.problem.shortfall import all_outside, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
 from dh2urdf.ik.redundant import RedundantChain
-from dh2urdf.kernels.certificate import measure_all, measure_and_sort, turn_to
+from dh2urdf.kernels.certificate import measure_all, measure_and_sort, settle_on_bounds, turn_all
 from dh2urdf.kernels.numbers import pad_solutions
 from dh2urdf.kernels.redundant import families_inside
 from dh2urdf.transforms import Array, length
@@ -163,9 +163,9 @@ class Problem:
         """The chain in metres, and its joints at values q (..., n)."""
         return self.chain, q
 
-    def turned(self, q: Array, reference: Array) -> Array:
+    def turned(self, q: Array, reference: Array, within_limits: bool) -> Array:
         """Configurations q (..., n) in the turns nearest to a reference, see :func:`turned_to`."""
-        return turned_to(self.chain, q, reference)
+        return turned_to(self.chain, q, reference, within_limits)
 
     def gaps(self, q: Array, seed: Array) -> Array:
         """How far each value of q (k, n) is from a seed (n,), see :func:`seed_gaps`."""
@@ -203,7 +203,8 @@ class Problem:
         """Turn to the seed (n,), resolve singular families nearest to it, sort by distance."""
         q, residual = found.q.copy(), found.residual.copy()
         branch, free = (codes.copy() for codes in found.codes)
-        turn_to(self.chain.tables[1][: self.chain.n], LIMIT_SLACK, seed[None], q)
+        how = within_limits, LIMIT_SLACK, self.task.number
+        turn_all(self.chain.tables, *how, found.T, seed, q)
         families = {
             k: Family(self.chain, self.task, found.T, joints_of_mask(mask), q[k].copy())
             for k, mask in enumerate(free.tolist())
@@ -254,7 +255,7 @@ class Problem:
             return found
         turns = [self.all_turns(q) for q in found.q]
         rows = np.repeat(np.arange(len(found)), [len(t) for t in turns])
-        all_of_them = self._accepted(self._at(found.select(rows), np.concatenate(turns)))
+        all_of_them = self._accepted(self._settled(found.select(rows), np.concatenate(turns)))
         if seed is None:
             return all_of_them
         distance = np.linalg.norm(all_of_them.q - seed, axis=1)
@@ -264,6 +265,12 @@ class Problem:
         """The solutions at other members or turns q, with the residuals there."""
         residual = np.empty(len(q))
         self.measured(found.T[None], q[None], np.array([len(q)]), residual[None])
+        return IKSolutions.of(self, found.T, q, residual, *found.codes)
+
+    def _settled(self, found: IKSolutions, q: Array) -> IKSolutions:
+        """The solutions in other turns q, of which joints were put onto their bounds."""
+        residual = np.empty(len(q))
+        settle_on_bounds(self.chain.tables, self.task.number, found.T, q, residual)
         return IKSolutions.of(self, found.T, q, residual, *found.codes)
 
     @staticmethod

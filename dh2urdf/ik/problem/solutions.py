@@ -45,7 +45,7 @@ class Answering(Protocol):
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The solutions towards a seed, nearest first."""
 
-    def turned(self, q: Array, reference: Array) -> Array:
+    def turned(self, q: Array, reference: Array, within_limits: bool) -> Array:
         """Configurations (..., n) in the turns nearest to a reference."""
 
     def gaps(self, q: Array, seed: Array) -> Array:

@@ -196,7 +196,7 @@ def towards_seed(
     chain, most = solver.chain, out.q.shape[1]
     steps, starts, nearest = _nearest_steps(solver, Ts[0], seed, within_limits)
     largest = np.where(chain.prismatic, LENGTH, ANGLE)
-    known = chain.tables, Ts, largest, LIMIT_SLACK, seed, starts, nearest, found, out
+    known = chain.tables, Ts, within_limits, largest, LIMIT_SLACK, seed, starts, nearest, found, out
     room = np.empty(most), np.empty(most, np.int64)
     return (*steps, (arrange_members, (*known, *room), True))
 

@@ -15,7 +15,10 @@ from dh2urdf.kernels.certificate.arrange import (
     measure,
     measure_all,
     measure_and_sort,
+    settle_on_bounds,
     swap,
+    turn_all,
+    turn_by,
     turn_one,
     turn_to,
 )

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate.certify import ACCEPT, TWO_PI
+from dh2urdf.kernels.certificate.certify import ACCEPT, CLUSTER, NO_JOINT, TWO_PI, make_up
 from dh2urdf.kernels.newton import POSE, error_and_jacobian, make_damped, pose_residual
 from dh2urdf.kernels.numbers import any_family, entry
 from dh2urdf.kernels.shapes import (
@@ -41,23 +41,94 @@ def turn_to(joints: Joints, slack: float, reference: Annotated[Floats, "referenc
 
 
 def turn_one(joints, slack, reference, q):
-    """Bring each angle of q (n,) into the turn nearest to the reference (n,), in place."""
+    """Bring each angle of q (n,) into the turn nearest to the reference (n,), in place.
+
+    As :func:`turn_to`; returned is whether a nearer turn of one is outside by ``CLUSTER`` only.
+    """
+    beside = False
     for i in range(len(q)):
         lower, upper = joints[i, 1], joints[i, 2]
         if lower <= q[i] <= upper and abs(reference[i] - q[i]) < HALF:
             continue
         if joints[i, 0] == 0.0:
             value = q[i]
-            turns = np.rint((reference[i] - value) / TWO_PI)
+            wanted = np.rint((reference[i] - value) / TWO_PI)
+            turns = wanted
             most = np.floor((upper + slack - value) / TWO_PI)
             least = np.ceil((lower - slack - value) / TWO_PI)
             if least <= most:
-                turns = min(max(turns, least), most)
+                turns = min(max(wanted, least), most)
+                nearer = value + TWO_PI * (turns + min(max(wanted - turns, -1.0), 1.0))
+                clipped = min(max(nearer, lower), upper)
+                beside = beside or (turns != wanted and abs(nearer - clipped) <= CLUSTER)
             q[i] = value + TWO_PI * turns
         if q[i] > upper and q[i] - upper <= slack:
             q[i] = upper
         elif q[i] < lower and lower - q[i] <= slack:
             q[i] = lower
+    return beside
+
+
+def turn_by(joints, within_limits, slack, reference, q):
+    """:func:`turn_one`; without the limits, the nearest turn of all."""
+    if within_limits:
+        return turn_one(joints, slack, reference, q)
+    for i in range(len(q)):
+        if joints[i, 0] == 0.0:
+            q[i] += TWO_PI * np.rint((reference[i] - q[i]) / TWO_PI)
+    return False
+
+
+def turn_near(chain, within_limits, slack, task, T, seed, q, trial, damped):
+    """Bring each angle of q (n,) into the turn nearest to a seed (n,), inside the limits or not.
+
+    At a singular solution rounding may take a root over a bound that is a solution, too: then it
+    is put there if the pose is reached, and the joints on no bound make up for it. ``trial`` (n,).
+    """
+    trial[:] = q
+    if not turn_by(chain[1], within_limits, slack, seed, q):
+        return
+    turn_one(chain[1], CLUSTER, seed, trial)
+    if put_on_bounds(chain, task, T, trial, damped) <= ACCEPT:
+        q[:] = trial
+
+
+def put_on_bounds(chain, task, T, q, damped):
+    """Residual of q (n,), of which joints were put onto bounds; others make up for that."""
+    residual = measure(chain, task, T, q, damped)
+    if task == POSE and residual > ACCEPT:
+        return make_up(chain, T, q, NO_JOINT)
+    return residual
+
+
+@entry()
+def turn_all(
+    chain: AnyChain,
+    within_limits: bool,
+    slack: float,
+    task: int,
+    T: Pose,
+    seed: Configuration,
+    q: Some,
+):
+    """Bring each angle of solutions q (k, n) of a pose T (4, 4) into the turn nearest to a seed.
+
+    ``slack`` is that of :func:`turn_to`.
+    """
+    trial, damped = np.empty(len(seed)), make_damped(len(seed))
+    for k in range(q.shape[0]):
+        turn_near(chain, within_limits, slack, task, T, seed, q[k], trial, damped)
+
+
+@entry()
+def settle_on_bounds(chain: AnyChain, task: int, T: Pose, q: Some, residual: Sizes):
+    """Residuals (k,) of configurations q (k, n), of which joints were put onto their bounds.
+
+    Those that miss the pose T (4, 4) are brought back by the joints that are on none, in place.
+    """
+    damped = make_damped(q.shape[1])
+    for k in range(q.shape[0]):
+        residual[k] = put_on_bounds(chain, task, T, q[k], damped)
 
 
 def swap(rows, distance, a, b):
@@ -122,6 +193,7 @@ def _sort_in(chain, task, T, seed, found, distance, k, damped):
 
 def arrange_near(
     chain: AnyChain,
+    within_limits: bool,
     slack: float,
     task: int,
     Ts: Poses,
@@ -134,10 +206,10 @@ def arrange_near(
     Returns whether all have the residual of a solution. ``slack`` is that of :func:`turn_to`.
     """
     q, residual, counts, branch, free = outputs
-    damped = make_damped(len(seed))
+    damped, trial = make_damped(len(seed)), np.empty(len(seed))
     well = True
     for k in range(counts[0]):
-        turn_one(chain[1], slack, seed, q[0, k])
+        turn_near(chain, within_limits, slack, task, Ts[0], seed, q[0, k], trial, damped)
         _sort_in(
             chain, task, Ts[0], seed, (q[0], residual[0], branch[0], free[0]), distance, k, damped
         )
@@ -149,6 +221,7 @@ def arrange_near(
 @entry()
 def arrange_plain(
     chain: AnyChain,
+    within_limits: bool,
     largest: Configuration,
     slack: float,
     task: int,
@@ -168,4 +241,4 @@ def arrange_plain(
             return False
     if any_family(counts, free):
         return False
-    return arrange_near(chain, slack, task, Ts, seed, outputs, distance)
+    return arrange_near(chain, within_limits, slack, task, Ts, seed, outputs, distance)

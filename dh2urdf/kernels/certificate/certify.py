@@ -66,7 +66,7 @@ def is_known(joints, q, count, p):
     return False
 
 
-def _make_up(chain, T, q, free):
+def make_up(chain, T, q, free):
     """Newton's method by the joints of q (n,) that are on no bound; the residual then.
 
     At a nearly double root others make up for what bounds took off, within the limits.
@@ -121,7 +121,7 @@ def _into_limits(chain, T, within_limits, q, residual, free):
     if moved:
         _onto_bounds(joints, q, free)
     residual = pose_residual(chain, T, q)
-    return _make_up(chain, T, q, free) if moved and residual > ACCEPT else residual
+    return make_up(chain, T, q, free) if moved and residual > ACCEPT else residual
 
 
 def move(q, residual, branch, free, source, target):

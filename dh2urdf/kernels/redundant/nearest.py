@@ -5,7 +5,7 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import ACCEPT, Coupled, distance2, find_solutions, turn_one
+from dh2urdf.kernels.certificate import ACCEPT, Coupled, distance2, find_solutions, turn_by
 from dh2urdf.kernels.newton import make_damped, pose_residual
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import HELD, enter, go_nearer
@@ -142,6 +142,7 @@ class Samples(NamedTuple):
 def arrange_members(
     chain: Chain,
     Ts: Annotated[Floats, "poses", 4, 4],
+    within_limits: bool,
     largest: Configuration,
     slack: float,
     seed: Configuration,
@@ -166,7 +167,7 @@ def arrange_members(
         if k < count:
             size = math.sqrt(distance2(members[k], seed))
         else:
-            turn_one(chain[1], slack, seed, some[0, k - count])
+            turn_by(chain[1], within_limits, slack, seed, some[0, k - count])
             size = math.sqrt(distance2(some[0, k - count], seed))
         place = k
         while place > 0 and size < distance[place - 1]:

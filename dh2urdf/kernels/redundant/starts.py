@@ -11,7 +11,7 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import TWO_PI, distance2, principal, turn_one
+from dh2urdf.kernels.certificate import TWO_PI, distance2, principal, turn_by
 from dh2urdf.kernels.newton import make_damped
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.nearest import Starts, is_alike, keep
@@ -58,7 +58,7 @@ def find_starts(
     rows, sizes = np.empty((MOST_STARTS, 3), np.int64), np.empty(MOST_STARTS)
     for i in range(q.shape[0]):
         for k in range(count[i]):
-            turn_one(joints, slack, seed, q[i, k])
+            turn_by(joints, within_limits, slack, seed, q[i, k])
             size[i, k] = _size(joints, slack, within_limits, q[i, k], seed)
     counts[0], counts[1] = 0, 0
     for sweep in range(ends.shape[0]):
