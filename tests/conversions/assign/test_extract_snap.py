@@ -12,6 +12,7 @@ from example_robots import example, fk_between
 from hypothesis import given, settings
 
 from dh2urdf import extract_dh, load_table, urdf_text
+from dh2urdf.conversions.assign.snap import _above
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.transforms import pose_error
 
@@ -77,6 +78,15 @@ def test_the_offered_tolerance_is_enough():
     found = extract_dh(TIAGO, snap=tolerance)
     again = extract_dh(dh_to_chain(found.table)).warnings
     assert not [text for text in again if "nearly round" in text]
+
+
+@pytest.mark.parametrize(
+    ("off", "offered"),
+    [(1e-6, 2e-6), (1.9e-6, 2e-6), (2.1e-6, 5e-6), (4.9e-4, 5e-4), (5.1e-4, 1e-3), (0.3, 0.5)],
+)
+def test_the_offered_tolerance_is_the_next_round_one(off, offered):
+    """The least of 1, 2 and 5 times powers of ten that is larger."""
+    assert _above(off) == pytest.approx(offered, rel=1e-15)
 
 
 @BOTH

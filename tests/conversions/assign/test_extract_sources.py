@@ -347,6 +347,8 @@ def test_screws_points_and_frames_agree(convention):
         ([[0, 0, 1, 0, 0, math.nan]], {}, "joint 1: NaN"),
         ([[0, 0, 1, 0, 0, 0], [0, 0, 1e200, 0, 0, 0]], {}, "joint 2: NaN"),
         ([[0, 0, 0, 0, 0, 0]], {}, "joint 1: a zero axis"),
+        ([[0, 0, 0.9e-9, 0, 0, 0]], {}, "joint 1: a zero axis"),
+        ([[[0, 0.9e-9, 0], [0, 0, 0]]], {}, "joint 1: a zero axis"),
         ([[0, 0, 1, 0, 0, 1]], {}, "joint 1: a screw of pitch 1 "),
         ([[[0, 0, 1], [0, 0, 0]]], {"joint_types": "RR"}, "joint_types: 2 for 1 joints"),
         ([[[0, 0, 1], [0, 0, 0]]], {"joint_types": "X"}, "joint_types: 'X' is not R, P"),
@@ -360,6 +362,14 @@ def test_axes_that_make_no_arm(source, options, message):
     """Each slip of the pen is one message."""
     with pytest.raises(UrdfError, match=message):
         extract_dh(source, **options)
+
+
+def test_an_axis_of_a_nanometre_is_one():
+    """Screws and axes that are a little longer than what counts as zero are as long ones."""
+    one = extract_dh([[[0, 1, 0], [0, 0, 0.3]]]).table
+    for short in ([[[0, 1.1e-9, 0], [0, 0, 0.3]]], [[0, 1.1e-9, 0, -0.33e-9, 0, 0]]):
+        found = extract_dh(short).table
+        assert difference(dh_frames(found, [0.7])[-1], dh_frames(one, [0.7])[-1]) <= 1e-15
 
 
 def test_every_shipped_file_is_read_as_it_was_written():
