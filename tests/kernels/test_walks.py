@@ -8,7 +8,7 @@ walk = importlib.import_module("dh2urdf.kernels.certificate.walk")
 
 
 def test_walks_begin_both_ways_in_each_direction_once(monkeypatch):
-    """In directions in which the tool stays, and against them; where none arrives, nothing moved."""
+    """In directions in which the tool stays, and against them; where none arrives nothing moves."""
     ways, began, moved = np.array([[1.0, 0.0], [0.6, 0.8], [9.0, 9.0]]), [], np.zeros(2)
 
     def nowhere(chain, T, q, way, *rest):

@@ -9,7 +9,8 @@ from dh2urdf.conversions.assign.explain import angle_words, length_words
 
 @pytest.mark.parametrize(("twelfths", "words"), [
     (0, "0"), (1, "pi/12"), (-2, "-pi/6"), (6, "pi/2"), (8, "2 pi/3"), (-9, "-3 pi/4"),
-    (12, "pi"), (-12, "-pi"), (18, "3 pi/2"), (-24, "-2 pi"), (3.0001, "0.785424 rad (45.0015 deg)"),
+    (12, "pi"), (-12, "-pi"), (18, "3 pi/2"), (-24, "-2 pi"),
+    (3.0001, "0.785424 rad (45.0015 deg)"),
 ])  # fmt: skip
 def test_an_angle_is_written_as_a_person_writes_it(twelfths, words):
     """Parts of pi down to a twelfth in lowest terms, everything else in both units."""
