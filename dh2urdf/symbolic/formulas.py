@@ -8,7 +8,11 @@ import sympy as sp
 
 from dh2urdf.symbolic.letters import Link
 
+Pair = tuple[Any, Any]
 Vector = tuple[Any, Any, Any]
+
+NONE = sp.Float("1e-9")
+"""Distance [m] of a point from an axis at which rounding says in which direction it is."""
 
 
 class Kind(Enum):
@@ -54,6 +58,15 @@ class Formulas:
             return value
         self.steps.append(Step(Kind.LET, name, value))
         return sp.Symbol(name)
+
+    def unless_none(self, link: Link, one: Pair, other: Pair) -> Pair:
+        """Two numbers for the angle of a link, or others where they are zero but for rounding."""
+        none = sp.sqrt(one[0] ** 2 + one[1] ** 2) < NONE
+        x, y = (
+            self.let(f"{letter}_{link.label}", sp.Piecewise((b, none), (a, True)))
+            for letter, a, b in zip("xy", one, other, strict=True)
+        )
+        return x, y
 
     def choice(self, name: str) -> Any:
         """A sign that is 1 in one solution and -1 in another."""

@@ -45,7 +45,8 @@ def second_parallel(F: Formulas, arm: Letters) -> str | None:
     if n == 6:
         height += together.ca * rest[0].d
     F.heading("Joint 1 puts it as far along axis 2 as the offsets say")
-    X, Y = first_of_parallel(F, one, centre, height if n > 4 else height - ways[1] * four.d)
+    height -= ways[1] * four.d if n == 4 else 0
+    X, Y = first_of_parallel(F, one, centre, height, _beside(n, together, after))
     F.heading("The orientation gives the sum of joints 2, 3, 4 and those after them")
     if n == 6:
         orient(F, (together, *rest), one.rotation, after)
@@ -55,6 +56,13 @@ def second_parallel(F: Formulas, arm: Letters) -> str | None:
     x, y, _ = together.turned(tail) if n > 4 else (0, 0, 0)
     _elbow(F, (two, three, four), together, X - x, Y - y)
     return None
+
+
+def _beside(n: int, together: Link, after: Any) -> tuple[Any, Any] | None:
+    """What the orientation of an arm of few joints says of the plane of axis 1 that it moves in."""
+    if n == 4:
+        return after[1, 2], -after[0, 2]
+    return (after[0, 2], after[1, 2]) if n == 5 and together.ca == 0 else None
 
 
 _POINTS = {

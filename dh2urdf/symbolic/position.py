@@ -38,14 +38,18 @@ def _square(*parts: Any) -> Any:
     return sum(part**2 for part in parts)
 
 
-def first_of_parallel(F: Formulas, one: Link, centre: Vector, height: Any) -> tuple[Any, Any]:
+def first_of_parallel(
+    F: Formulas, one: Link, centre: Vector, height: Any, beside: tuple[Any, Any] | None = None
+) -> tuple[Any, Any]:
     """Joint 1 where axis 2 and those after it are parallel; the point in their plane.
 
     ``sin(alpha_1) (s_1 x_c - c_1 y_c) = u_z - cos(alpha_1) z``, u_z the height of the point
-    along axis 2.
+    along axis 2. ``beside`` is a direction in that plane, for a point on axis 1.
     """
     x, y, z = centre[0], centre[1], centre[2] - one.d
-    F.turn(one, -one.sa * y, one.sa * x, height - one.ca * z)
+    off = height - one.ca * z
+    seen = (x, y) if beside is None or tidy(off) != 0 else F.unless_none(one, (x, y), beside)
+    F.turn(one, -one.sa * seen[1], one.sa * seen[0], off)
     w = one.back((x, y, z))
     X = F.let("X", w[0] - one.a)
     return X, F.let("Y", one.ca * w[1] + one.sa * z)

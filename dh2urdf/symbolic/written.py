@@ -33,6 +33,10 @@ class _Text(StrPrinter):  # type: ignore[misc]
 
     _as_ordered_terms = _plus_first
 
+    def _print_Piecewise(self, value: Any) -> str:
+        (other, condition), (usual, _) = value.args
+        return f"{self._print(usual)}, or {self._print(other)} if {self._print(condition)}"
+
 
 class _Latex(LatexPrinter):  # type: ignore[misc]
     """Expressions of LaTeX."""

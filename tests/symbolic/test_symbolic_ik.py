@@ -259,6 +259,19 @@ def test_every_branch_reaches_a_pose_with_axes_4_and_6_in_one_line(name):
     assert max(errors) < 1e-12
 
 
+@pytest.mark.parametrize("name", ["px100", "px150", "vx250"])
+def test_few_joints_with_their_point_on_axis_1_take_joint_1_from_the_orientation(name):
+    """An arm of four or five joints stands upright: each solution of the robot is a branch."""
+    robot = dh2urdf.Robot.from_dh(name)
+    solve, upright, rng = symbolic_ik(name).function, 0, np.random.default_rng(0)
+    for _ in range(60):
+        T = robot.fk(rng.choice([-RIGHT, 0.0, RIGHT, math.pi], robot.n))
+        errors = [np.abs(robot.fk(q) - T).max() for q in solve(T.tolist())]
+        assert min(errors) < CLOSE
+        upright += np.hypot(*T[:2, 3]) < CLOSE
+    assert upright > 0
+
+
 def test_latex_is_balanced():
     """Every align* that begins ends, and braces pair up."""
     latex = symbolic_ik("puma560").latex
