@@ -74,7 +74,8 @@ def look(chain, goal, q, room):
 def look_at_some(chain, T, q, mask, room):
     """The same for the joints of a mask and a target T, a pose (4, 4) or a point (3,), in metres.
 
-    The other joints stay: theirs are the unit vectors of the same index.
+    The other joints stay: theirs are the unit vectors of the same index. Returned in place of the
+    largest singular value is what the fastest of all joints does, where that is more.
     """
     damped, V, sigma = room[0], room[1], room[2]
     J, e = damped
@@ -83,11 +84,16 @@ def look_at_some(chain, T, q, mask, room):
     e[3, 6], e[4, 6], e[5, 6] = 0.0, 0.0, 0.0
     if T.ndim == 2:
         e[3, 6], e[4, 6], e[5, 6], _ = turn_between(r, T)
+    fastest = 0.0
     for i in range(q.shape[0]):
+        speed = 0.0
         for k in range(6):
-            if not mask >> i & 1 or (k > 2 and T.ndim == 1):
-                J[i, k] = 0.0
-    return decompose(damped, V, sigma)
+            J[i, k] = 0.0 if k > 2 and T.ndim == 1 else J[i, k]
+            speed += J[i, k] * J[i, k]
+            J[i, k] = J[i, k] if mask >> i & 1 else 0.0
+        fastest = max(fastest, speed)
+    least, largest = decompose(damped, V, sigma)
+    return least, max(largest, math.sqrt(fastest))
 
 
 def _along(U, e, k, sigma):

@@ -16,10 +16,10 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import copy_rows, finish_all
+from dh2urdf.kernels.certificate import ACCEPT, copy_rows, finish_all
 from dh2urdf.kernels.newton import work_array
 from dh2urdf.kernels.numbers import atan2, entry, sincos, trig_roots
-from dh2urdf.kernels.rigid import applied, applied_inverse, dot, minus
+from dh2urdf.kernels.rigid import applied, applied_inverse, dot, minus, turned
 from dh2urdf.kernels.shapes import Chain, Floats, Outputs, Poses, Three
 from dh2urdf.kernels.short_chains.loop import SAMPLE_ANGLE, SAMPLES, add_sample, vanishes
 
@@ -34,6 +34,10 @@ WRONG = 0.05
 
 TINY = 1e-13
 """Length relative to the arm, or sine, that is rounding."""
+
+BESIDE, ON_AXIS = 1e-4, 1e-6
+"""Distances [m] of the point from axis 2 at which it may be on it, as roots of multiplicity four
+and two are rounded, and at which it is taken to be nowhere else."""
 
 STEEP = 0.1
 """Cosine between a slide and the axis before it from which the height alone gives the slide."""
@@ -158,6 +162,25 @@ def _third(slides, B, tip, cosine, sine):
     return applied(B, (cosine * x - sine * y, sine * x + cosine * y, z))
 
 
+def _onto_axis(slides, B, tip, v, cosine, sine):
+    """Whether joint 3 can put a point v beside axis 2 onto it, so that joint 2 is free.
+
+    Not for one that slides. Returned are the cosine and sine of joint 3, and the point, too.
+    """
+    if slides[1] or v[0] * v[0] + v[1] * v[1] > BESIDE * BESIDE:
+        return False, cosine, sine, v
+    way = (-sine * tip[0] - cosine * tip[1], cosine * tip[0] - sine * tip[1], 0.0)
+    dx, dy, _ = turned(B, (0.0, 0.0, 1.0) if slides[2] else way)
+    square = dx * dx + dy * dy
+    move = -(v[0] * dx + v[1] * dy) / square if square > 0.0 else 0.0
+    s, c = sincos(move)
+    near_c, near_s = cosine * c - sine * s, sine * c + cosine * s
+    if slides[2]:
+        near_c, near_s = cosine, sine + move * cosine
+    x, y, z = _third(slides[2], B, tip, near_c, near_s)
+    return x * x + y * y <= ACCEPT * ACCEPT, near_c, near_s, (0.0, 0.0, z)
+
+
 def _third_joint(slides, frames, tip, p, rest, unit, roots):
     """Values of joint 3, as cosine and sine in rows 1 and 2 of roots; how many."""
     series = roots[0]
@@ -191,19 +214,30 @@ def _candidates(slides, frames, tip, target, rest, unit, roots, pairs, q):
     found = _third_joint(slides, frames, tip, p, rest, unit, roots) if n == 3 else 1
     count = 0
     for k in range(found):
-        value, v = 0.0, tip
-        if n == 3:
-            c, s = roots[1, k], roots[2, k]
-            if slides[2] and abs(c) < 1e-9:
-                continue
-            v = _third(slides[2], frames[2], tip, c, s)
+        if n < 3:
+            count = _add_pairs(slides, frames[1], p, tip, rest, unit, 0.0, pairs, q, count)
+            continue
+        c, s = roots[1, k], roots[2, k]
+        if slides[2] and abs(c) < 1e-9:
+            continue
+        v = _third(slides[2], frames[2], tip, c, s)
+        on_axis, near_c, near_s, near = _onto_axis(slides, frames[2], tip, v, c, s)
+        if not on_axis or v[0] * v[0] + v[1] * v[1] > ON_AXIS * ON_AXIS:
             value = s / c if slides[2] else atan2(s, c)
-        rows = _pair(slides, frames[1], p, v, rest, unit, pairs)
-        for row in range(rows):
-            q[count, 0], q[count, 1] = pairs[row, 0], pairs[row, 1]
-            if n == 3:
-                q[count, 2] = value
-            count += 1
+            count = _add_pairs(slides, frames[1], p, v, rest, unit, value, pairs, q, count)
+        if on_axis:
+            value = near_s / near_c if slides[2] else atan2(near_s, near_c)
+            count = _add_pairs(slides, frames[1], p, near, rest, unit, value, pairs, q, count)
+    return count
+
+
+def _add_pairs(slides, A, p, v, rest, unit, value, pairs, q, count):
+    """Add configurations q (FEW, n) with joint 3 at a value, if there is one; how many."""
+    for row in range(_pair(slides, A, p, v, rest, unit, pairs)):
+        q[count, 0], q[count, 1] = pairs[row, 0], pairs[row, 1]
+        if q.shape[1] == 3:
+            q[count, 2] = value
+        count += 1
     return count
 
 

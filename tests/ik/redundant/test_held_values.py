@@ -184,3 +184,21 @@ def test_a_value_that_no_solver_covers_is_searched_in_a_batch():
         robot.ik(robot.fk(Q[1]), locked={1: np.pi}, within_limits=False)
     found = robot.ik_batch(robot.fk(Q), locked={1: Q[:, 1]}, within_limits=False)
     assert_margin(lost(robot, found, Q), 1e-6)
+
+
+@pytest.mark.parametrize("name", ["wx250s", "denso_vs6556", "abb_irb140", "stanford"])
+def test_a_position_whose_middle_joint_of_three_is_free_is_a_family_that_a_seed_enters(name):
+    """With joint 5 straight, joint 4 does not move the tool's origin: a root of multiplicity four.
+
+    Three joints are held at where they are, so that joints 4 and 5 and one before them are left.
+    """
+    robot, rng = Robot.from_dh(name), np.random.default_rng(0)
+    for _ in range(25):
+        q = rng.uniform(*robot.bounded(1.0, np.pi))
+        right = ~robot.slides & (rng.random(6) < 0.4)
+        q = np.where(right, np.round(q / (np.pi / 2)) * np.pi / 2, q)
+        q[4] = 0.0
+        moving = {3, 4, int(rng.choice([0, 1, 2]))}
+        held = {k: q[k] for k in range(6) if k not in moving}
+        found = robot.ik(robot.fk(q), seed=q, locked=held, task="position", within_limits=False)
+        assert np.abs(found.q - q).max(axis=1).min() < 1e-6
