@@ -107,14 +107,21 @@ def keep_known(chain: SerialChain, T: Array, known: Outputs, wide: Outputs) -> N
     curves, surfaces = _curves(chain, T[0], wide)
     for k in np.flatnonzero(sharp | surfaces):
         p, count = known.q[0, k], int(wide.counts[0])
-        if (far(chain, wide.q[0, :count], p) <= SAME).any() or count == wide.q.shape[1]:
+        twins = np.flatnonzero(far(chain, wide.q[0, :count], p) <= SAME)
+        if len(twins):
+            place = int(twins[0])
+            if not known.free[0, k] or not sharp[k] or wide.free[0, twins].any():
+                continue
+        elif count < wide.q.shape[1] and not any(
+            curve.contains(p[None], held=WELL)[0] for curve in curves
+        ):
+            place, wide.counts[0] = count, count + 1
+        else:
             continue
-        if not any(curve.contains(p[None], held=WELL)[0] for curve in curves):
-            for array, source in zip(wide, known, strict=True):
-                if array.ndim > 1:
-                    array[0, count] = source[0, k]
-            wide.counts[0] += 1
-            curves += _curves(chain, T[0], wide, count)[0]
+        for array, source in zip(wide, known, strict=True):
+            if array.ndim > 1:
+                array[0, place] = source[0, k]
+        curves += _curves(chain, T[0], wide, place)[0]
     count = wide.counts[0]
     _keep(wide, np.argsort(wide.residual[0, :count] > SHARP, kind="stable"))
 

@@ -161,3 +161,19 @@ def test_of_rounded_twists_surfaces_are_named_whole_and_families_as_a_walk_confi
     judge(tally, table, q[None], held, held=(joint,))
     assert tally.failures() == []
     assert tally.count["singular lost"] == 0
+
+
+@pytest.mark.parametrize(
+    ("joint", "q"),
+    [
+        (2, (0.3, 0.8, 0.0, 0.0, 1.2, 0.0, 0.5)),
+        (0, (0.3, 0.8, -0.7, 0.0, 1.2, 0.0, 0.5)),
+        (2, (0.0, 2.3, 0.0, 0.0, np.pi, 0.0, -np.pi / 2)),
+    ],
+)
+def test_with_elbow_and_wrist_straight_a_seed_enters_the_family_of_the_wrist(joint, q):
+    """Axes 5 and 7 are one line, and rounding parts the elbow's double root from it."""
+    robot = dh2urdf.Robot.from_dh("kinova_gen3")
+    found = robot.ik(robot.fk(q), seed=q, locked={joint: q[joint]})
+    assert found.free_joints[0] == (4, 6)
+    assert np.abs(found.q[0] - q).max() < 1e-9
