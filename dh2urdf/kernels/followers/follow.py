@@ -1,5 +1,7 @@
 """From roots to solutions: seeds, Newton's method on the exact chain, a list without doubles."""
 
+import math
+
 from dh2urdf.kernels.certificate import ACCEPT, principal
 from dh2urdf.kernels.followers.elimination import joint_of
 from dh2urdf.kernels.followers.roots import block_resultants
@@ -117,13 +119,16 @@ def read_lane(e, root, lane, arm):
 
 
 def scaled_determinant(chain, T, q, size, work):
-    """Determinant of the Jacobian at q (6,), in parts of size cubed, up to its sign."""
+    """Determinant of the Jacobian at q (6,), in parts of size cubed, up to its sign.
+
+    Where several directions are lost, the factor's entries leave the range: then it is zero.
+    """
     normal_equations(chain, T, q, work)
     factor(work, 1e-300)
     product = 1.0
     for i in range(6):
         product *= work[i, 8 + i]
-    return product / (size * size * size)
+    return product / (size * size * size) if product < math.inf else 0.0
 
 
 def keep(chain, T, found, q, residual, arm, work):
