@@ -94,8 +94,7 @@ def solve_near_parallel(arm: ClosedForm, trust: Three, Ts: Poses, outputs: Outpu
         count[i] = _settle(chain, Ts[i], trust, doubt, rows, found, start, work, damped)
 
 
-@entry(n=6)
-def wrist_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
+def wrist_seeds(arm, Ts, q, count):
     """Candidates of poses Ts (m, 4, 4) as they are before certification, with a wide slack."""
     _, form, ends, slack = arm
     D, R, places, _, rows = wrist_scratch()
@@ -109,8 +108,7 @@ def wrist_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
             q[i, k] = rows[0][k]
 
 
-@entry(n=6)
-def parallel_seeds(arm: ClosedForm, Ts: Poses, q: Solutions, count: Counts):
+def parallel_seeds(arm, Ts, q, count):
     """The same of an arm with three parallel axes."""
     _, form, ends, slack = arm
     scratch = parallel_scratch()

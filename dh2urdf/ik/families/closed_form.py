@@ -27,7 +27,7 @@ from dh2urdf.ik.arm import (
     starts_of,
 )
 from dh2urdf.kernels.counts import DEEP
-from dh2urdf.kernels.in_doubt import FOUND, VALLEYS, WIDE, follow_parallel, widen_parallel
+from dh2urdf.kernels.in_doubt import FOUND, VALLEYS, follow_candidates, widen_parallel
 from dh2urdf.kernels.parallel_axes import solve_common_parallel, solve_three_parallel
 from dh2urdf.transforms import Array
 
@@ -50,8 +50,6 @@ class ClosedForm(SolverBase):
     """Whether the kernel leaves poses in doubt."""
     widen: BatchKernel
     """The kernel that looks for more solutions of these."""
-    follow: BatchKernel
-    """The kernel that finds what lies along valleys beside them."""
 
     def __init__(
         self,
@@ -93,8 +91,8 @@ class ClosedForm(SolverBase):
         known.counts[doubt] = (-1 - known.counts[doubt]) % DEEP
         found, valleys = Outputs.of(len(Ts), FOUND, 6), np.zeros(1, VALLEYS)
         found.counts[:] = known.counts
-        beside = Ts, known.q, found.q, found.counts
-        self.follow((*self.constants[:3], WIDE), self.chain.size, valleys, *beside)
+        beside = self.chain.size, valleys, Ts, known.q, found.q, found.counts
+        follow_candidates(self.constants, self.widen is widen_parallel, *beside)
         return known, found
 
 
@@ -110,7 +108,7 @@ class ThreeParallel(ClosedForm):
     name = "three parallel axes"
     needs = "six revolute joints, axes 1, 2, 3 or 2, 3, 4 parallel"
 
-    widen, follow = staticmethod(widen_parallel), staticmethod(follow_parallel)
+    widen = staticmethod(widen_parallel)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

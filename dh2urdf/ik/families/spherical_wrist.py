@@ -8,7 +8,7 @@ from dh2urdf.chain import SerialChain
 from dh2urdf.ik.arm import REGULAR, BatchKernel, DHForm, form_of, lines_of, plain_ranges
 from dh2urdf.ik.families.closed_form import ClosedForm
 from dh2urdf.kernels.chain import chain_jacobian_batch
-from dh2urdf.kernels.in_doubt import follow_wrists, widen_wrists
+from dh2urdf.kernels.in_doubt import widen_wrists
 from dh2urdf.kernels.spherical_wrist import solve_common_wrist, solve_wrist_arm
 
 
@@ -18,7 +18,7 @@ class SphericalWrist(ClosedForm):
     name = "spherical wrist"
     needs = "six joints, the last three revolute with axes through one point"
 
-    widen, follow = staticmethod(widen_wrists), staticmethod(follow_wrists)
+    widen = staticmethod(widen_wrists)
 
     @classmethod
     def misfit(cls, chain: SerialChain, tolerance: float) -> str | None:

@@ -8,9 +8,7 @@
 from dh2urdf.kernels.in_doubt.closed_forms import (
     FOUND,
     VALLEYS,
-    WIDE,
-    follow_parallel,
-    follow_wrists,
+    follow_candidates,
     widen_parallel,
     widen_wrists,
 )

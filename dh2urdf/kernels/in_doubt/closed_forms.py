@@ -126,8 +126,9 @@ def _widen(chain, starts, unit, T, deep, within_limits, out, count, rooms):
 
 
 @entry(n=6)
-def follow_wrists(
+def follow_candidates(
     arm: ClosedForm,
+    parallel: bool,
     unit: float,
     valleys: Valleys,
     Ts: Poses,
@@ -137,42 +138,20 @@ def follow_wrists(
 ):
     """What lies along valleys beside poses Ts (m, 4, 4), after what is known (m, k, 6), to q.
 
-    ``count`` (m,) are those of what is known, then of q; ``unit`` is the size of the arm [m].
+    ``count`` (m,) are those of what is known, then of q; ``unit`` is the size of the arm [m];
+    ``parallel``: its form is that of three parallel axes, not of a spherical wrist.
     """
-    chain, form, ends, _ = arm
-    beside = valleys[0]
+    (chain, form, ends, _), beside = arm, valleys[0]
+    wide = chain, form, ends, WIDE
     for i in range(Ts.shape[0]):
-        _remember(known[i], count[i], beside)
-        wide = chain, form, ends, WIDE
-        wrist_seeds(wide, Ts[i : i + 1], beside["raw"], beside["raw_count"])
+        beside["known_count"][0] = count[i]
+        for k in range(count[i]):
+            beside["known_q"][0, k] = known[i, k]
+        if parallel:
+            parallel_seeds(wide, Ts[i : i + 1], beside["raw"], beside["raw_count"])
+        else:
+            wrist_seeds(wide, Ts[i : i + 1], beside["raw"], beside["raw_count"])
         count[i] = _along_valleys(chain, unit, Ts[i], beside, q[i])
-
-
-@entry(n=6)
-def follow_parallel(
-    arm: ClosedForm,
-    unit: float,
-    valleys: Valleys,
-    Ts: Poses,
-    known: Known,
-    q: Solutions,
-    count: Counts,
-):
-    """:func:`follow_wrists` of an arm with three parallel axes."""
-    chain, form, ends, _ = arm
-    beside = valleys[0]
-    for i in range(Ts.shape[0]):
-        _remember(known[i], count[i], beside)
-        wide = chain, form, ends, WIDE
-        parallel_seeds(wide, Ts[i : i + 1], beside["raw"], beside["raw_count"])
-        count[i] = _along_valleys(chain, unit, Ts[i], beside, q[i])
-
-
-def _remember(known, count, beside):
-    """Keep the first of what is known (k, 6) of a pose, in doubt or not."""
-    beside["known_count"][0] = count
-    for k in range(how_many(count)):
-        beside["known_q"][0, k] = known[k]
 
 
 @entry(n=6, solutions=8)
