@@ -44,7 +44,7 @@ SLOW = {
     "search_starts": 1,
     "search_known": 1,
     "follow_candidates": 1,
-    "widen_wrists": 2,
+    "widen_wrists": 1,
     "widen_parallel": 1,
     "add_curves": 1,
     "onward": 1,
