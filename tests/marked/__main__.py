@@ -148,9 +148,11 @@ def told(place: Path, *, missed: bool, record: bool) -> tuple[float, int]:
     line = f"{len(every) - len(left)} of {len(every)} lines, {share:.1%}; {', '.join(counts)}"
     print(line)
     if record:
-        made = f"{datetime.now(UTC):%Y-%m-%d}, commit {(place / 'commit').read_text()}"
-        made = f"{MARK}{made}, {len(each(place)) or 'all'} tests: {line}\n"
-        PAGE.write_text(PAGE.read_text().partition(MARK)[0] + made)
+        made = f"- {datetime.now(UTC):%Y-%m-%d}, commit {(place / 'commit').read_text()}, "
+        text, _, runs = PAGE.read_text().partition(MARK)
+        kept = [run for run in runs.splitlines() if not run.startswith(made)]
+        runs = "\n".join([f"{made}{len(each(place)) or 'all'} tests: {line}", *kept])
+        PAGE.write_text(f"{text}{MARK}{runs}\n")
     return share, wrong
 
 
