@@ -5,7 +5,10 @@ import importlib
 import numpy as np
 import pytest
 
+from dh2urdf.engine import INTERPRETED
+
 members = importlib.import_module("dh2urdf.kernels.in_doubt.members")
+valley = importlib.import_module("dh2urdf.kernels.certificate.valley")
 
 
 @pytest.mark.parametrize(("slides", "best", "left"), [
@@ -20,3 +23,30 @@ def test_dull_points_beside_exact_solutions_of_slides_are_dropped(monkeypatch, s
     monkeypatch.setattr(members, "_hardly_moves", lambda *_: True)
     count = members.drop_valleys((None, joints), None, 1.0, rows, 3)
     assert q[:count, 0].tolist() == [2.0 * k for k in left]
+
+
+@pytest.mark.parametrize(
+    ("left", "sigma", "emitted"), [(0.0, 0.0, 1), (0.0, 0.9, 0), (1.0, 0.0, 0)]
+)
+def test_a_valley_begins_where_a_seed_comes_near_and_one_direction_is_weak(
+    monkeypatch, left, sigma, emitted
+):
+    """Seeds that stay far off, or whose Jacobian is as strong in every direction, begin none."""
+    seen = []
+
+    def settle(chain, goal, start, room):
+        room[2][:], room[3][:] = (1.0, sigma), 1.0 - sigma
+        return left, 1, 1.0
+
+    def emit(chain, goal, start, room, q, count):
+        seen.append(start.tolist())
+        return count
+
+    monkeypatch.setattr(valley, "_settle", settle)
+    monkeypatch.setattr(valley, "_emit", emit)
+    monkeypatch.setattr(valley, "_walk", lambda *given: (given[6], given[8]))
+    search = INTERPRETED["dh2urdf.kernels.certificate.valley.search_valleys"]
+    seeds, count = np.full((1, 1, 2), 0.4), np.zeros(1, int)
+    q, many = np.zeros((1, 4, 2)), np.ones(1, int)
+    search((None, np.zeros((2, 3))), 1.0, np.eye(4)[None], seeds, many, q, count)
+    assert seen == [[0.4, 0.4]] * emitted

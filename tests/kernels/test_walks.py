@@ -1,8 +1,10 @@
 """Walks from a solution to see whether others are next to it: where they begin."""
 
 import importlib
+import math
 
 import numpy as np
+import pytest
 
 walk = importlib.import_module("dh2urdf.kernels.certificate.walk")
 
@@ -20,3 +22,23 @@ def test_walks_begin_both_ways_in_each_direction_once(monkeypatch):
     assert not walk._walks_turned(None, None, np.zeros(2), ways, 2, 0.1, 1.0, 3, some, (), moved)
     assert began == [[1.0, 0.0], [-1.0, -0.0], [0.6, 0.8], [-0.6, -0.8]]
     assert not moved.any()
+
+
+@pytest.mark.parametrize("lowest", [0.1, 0.7, 1.5, 2.9])
+def test_a_walk_between_two_directions_begins_where_the_pose_is_kept_best(monkeypatch, lowest):
+    """In the direction, and against it, in which a point is least off, of all angles."""
+    began = []
+
+    def off(chain, T, q, ways, angle, *rest):
+        ways[2] = math.cos(angle), math.sin(angle)
+        return abs(math.sin(angle - lowest))
+
+    monkeypatch.setattr(walk, "_off", off)
+    monkeypatch.setattr(walk, "_walks", lambda *given: began.append(given[3].copy()))
+    ways, moved = np.eye(3, 2), np.zeros(2)
+    assert not walk._walks_between(
+        *(None, None, np.zeros(2), ways, 0.1, 1.0, 3, np.zeros((3, 2)), (), moved)
+    )
+    best = np.array([math.cos(lowest), math.sin(lowest)])
+    for way, expected in zip(began, (best, -best), strict=True):
+        np.testing.assert_allclose(way, expected, atol=1e-2)
