@@ -8,8 +8,17 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import copy_rows, finish_families, finish_pose
-from dh2urdf.kernels.newton import work_array
+from dh2urdf.kernels.certificate import (
+    NO_JOINT,
+    copy_rows,
+    finish_families,
+    finish_pose,
+    is_known,
+    null_direction,
+    same,
+    turn_inside,
+)
+from dh2urdf.kernels.newton import normal_equations, polish, work_array
 from dh2urdf.kernels.numbers import atan2, dual_conjugate, dual_of_pose, entry, sincos, trig_roots
 from dh2urdf.kernels.rigid import joint_times_link, load_pose, store_pose
 from dh2urdf.kernels.shapes import Chain, Floats, Integers, Outputs, Pose, Poses
@@ -35,6 +44,17 @@ roots of the determinant are known to the square root of rounding."""
 CLOSE = 1e-3
 """Distance of roots x [rad] that are one; if they are more than its null vectors, solutions may be
 hidden. Arms whose poses have two null vectors at each root have roots that are double."""
+
+FOLDED = 1e-11
+"""Smallest eigenvalue of J^T J, relative to the trace, of an isolated solution beside which there
+may be another one, as of a folded elbow: seeds of both may lead Newton's method to one of them."""
+
+BESIDE, FARTHER, WAYS = 4e-4, 2.5, 8
+"""How far along that direction Newton's method starts [rad or m], the nearest and by which factor
+the next, and how many, by turns either way."""
+
+ENDED, NEARBY = 1e-12, 0.05
+"""Residual [m and rad] of a solution that it leads to, and how far that may be."""
 
 ZERO = 1e-11
 """Determinant, relative to unit columns, that vanishes for every x within rounding."""
@@ -109,6 +129,31 @@ def _candidates(loop, cut, scratch, order, roots, q, count):
     return count, doubt
 
 
+def _add_beside(chain, T, rows, count, trial, work):
+    """Append what lies beside isolated solutions that are nearly singular; the new count."""
+    (q, residual, branch, free), (_, joints), known = rows, chain, count
+    for k in range(known):
+        normal_equations(chain, T, q[k], work)
+        if free[k] != 0 or null_direction(work) > FOLDED:
+            continue
+        way = BESIDE
+        for w in range(WAYS):
+            for j in range(q.shape[1]):
+                trial[1, j] = work[j, 6]
+                trial[0, j] = q[k, j] + way * work[j, 6]
+            ends = polish(chain, T, trial[0], work) <= ENDED
+            for j in range(q.shape[1]):
+                work[j, 6] = trial[1, j]
+            way = -way if w % 2 == 0 else -FARTHER * way
+            if not (ends and same(joints, q[k], trial[0], NEARBY, NO_JOINT)):
+                continue
+            if count < q.shape[0] and not is_known(joints, q, count, trial[0]):
+                q[count] = trial[0]
+                residual[count], branch[count], free[count] = -1.0, -1, 0
+                count += 1
+    return count
+
+
 class ShortChain(NamedTuple):
     """Up to five joints, and how the loop that they close with the pose is cut."""
 
@@ -156,7 +201,13 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
             found = finish_pose(chain, T, False, *many, found, work)
             if not doubt:
                 break
-        found = finish_families(chain, T, rest, within_limits, many, found, trial, work)
+        found = finish_families(chain, T, rest, False, many, found, trial, work)
+        more = _add_beside(chain, T, many, found, trial, work)
+        if more > found:
+            found = finish_pose(chain, T, False, *many, more, work)
+            found = finish_families(chain, T, rest, False, many, found, trial, work)
+        if within_limits:
+            found = turn_inside(chain, T, True, *many, found)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))
         if doubt:
             count[i] = -1 - count[i]

@@ -137,3 +137,12 @@ def test_a_chain_that_is_redundant_but_for_a_hair_loses_no_configuration(poses):
     assert_nothing_is_lost(table, structured_configurations(arm_of(table), poses, 0))
     anyhow = np.random.default_rng(0).uniform(-2.0, 2.0, (poses, 5))
     assert_nothing_is_lost(table, anyhow * np.array([0.2, 1.0, 1.0, 1.0, 1.0]))
+
+
+def test_an_elbow_beside_its_fold_is_there_both_ways():
+    """Up and down are 1e-5 rad apart; axes 5 and 6 are one line, and joint 6 is held at rest."""
+    h = math.pi / 2
+    rows = [(0, 0.24, 0, h), (0, 0, -0.73, 0), (0, 0, -0.54, 0), (0, 0.16, 0, h), (0, 0.16, 0, 0)]
+    table = DHTable.from_array([*rows, (0, 0.07, 0, 0)], "standard", "theta d a alpha")
+    q = [0.7854166940104598, 0.7854097538946704, -3.141587616426078, -4.802019773822565e-06]
+    assert_nothing_is_lost(table, np.array([[*q, -1.5707929340229096, 2.356205897246559]]))
