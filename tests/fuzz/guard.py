@@ -16,7 +16,7 @@ SECONDS = 10
 """Longest that a door may work."""
 
 PATIENCE = 6
-"""Times as long it may be there: it waits for others, or is stopped."""
+"""Times as long it may be there, beside when others have the processor."""
 
 GROWTH = 1_000_000
 """Memory by which the process may grow over one input [kB]."""
@@ -135,10 +135,10 @@ sys.addaudithook(_hook)
 @contextmanager
 def watched(folder: Path) -> Iterator[None]:
     """Run what stands inside; a :class:`FaultError` for anything that no input may bring about."""
-    begun, worked = time.monotonic(), time.process_time()
+    begun, worked = time.monotonic() - starved(), time.process_time()
 
     def late(*_: object) -> None:
-        waited = time.monotonic() - begun >= PATIENCE * SECONDS
+        waited = time.monotonic() - starved() - begun >= PATIENCE * SECONDS
         if waited or time.process_time() - worked >= SECONDS:
             raise FaultError(f"no end after {SECONDS} s")
 
@@ -173,6 +173,14 @@ def unwatched() -> Iterator[None]:
         yield
     finally:
         _watch["folder"], tempfile.tempdir = folder, place
+
+
+def starved() -> float:
+    """For how long others had the processor that this process could have used [s], on Linux."""
+    try:
+        return int(Path("/proc/self/schedstat").read_text(encoding="ascii").split()[1]) * 1e-9
+    except OSError:
+        return 0.0
 
 
 def _memory() -> int:

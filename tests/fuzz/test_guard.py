@@ -49,6 +49,20 @@ def test_what_no_input_may_bring_about_is_a_fault(says, tmp_path, monkeypatch):
         BREACHES[says](tmp_path)
 
 
+@pytest.mark.parametrize("others", [True, False])
+def test_waiting_is_a_fault_but_not_for_the_processor(tmp_path, monkeypatch, others):
+    """A door that waits for anything hangs; time that others have is not its own."""
+    monkeypatch.setattr(guard, "SECONDS", 0.05)
+    monkeypatch.setattr(guard, "PATIENCE", 2)
+    if others:
+        monkeypatch.setattr(guard, "starved", time.monotonic)
+        with watched(tmp_path):
+            time.sleep(0.3)
+    else:
+        with pytest.raises(FaultError, match="no end"), watched(tmp_path):
+            time.sleep(10.0)
+
+
 def test_a_warning_is_an_error_under_guard(tmp_path):
     """No door warns."""
     with pytest.raises(UserWarning), watched(tmp_path):
