@@ -118,8 +118,11 @@ def free_joints(chain, T, q, mask, alone, work):
     A regular solution costs little.
     """
     normal_equations(chain, T, q, work)
-    if not is_singular(work):
-        return 0
+    return _free_where_singular(chain, T, q, mask, alone) if is_singular(work) else 0
+
+
+def _free_where_singular(chain, T, q, mask, alone):
+    """The same of a singular solution."""
     moving = free_of(chain, T, q, LENGTHS[0], mask, alone)
     if moving == 0 and mask != EVERY_JOINT:
         moving = free_of(chain, T, q, LENGTHS[0], EVERY_JOINT, alone)
@@ -257,13 +260,16 @@ def merge_solutions(chain, T, q, residual, branch, free, count, trial, work):
 def merge_families(chain, T, rows, count, trial, work):
     """Solutions of :func:`.certify.finish_pose` without limits, merged, with their free joints.
 
-    ``trial`` (2, n) is scratch.
+    How many, and whether one that is isolated is singular. ``trial`` (2, n) is scratch.
     """
     q, _, _, free = rows
-    count = merge_solutions(chain, T, *rows, count, trial, work)
+    count, lonely = merge_solutions(chain, T, *rows, count, trial, work), False
     for k in range(count):
-        free[k] = free_joints(chain, T, q[k], EVERY_JOINT, True, work)
-    return count
+        normal_equations(chain, T, q[k], work)
+        singular = is_singular(work)
+        free[k] = _free_where_singular(chain, T, q[k], EVERY_JOINT, True) if singular else 0
+        lonely = lonely or (singular and free[k] == 0)
+    return count, lonely
 
 
 def finish_all(chain, T, within_limits, rows, count, trial, work):
@@ -272,15 +278,20 @@ def finish_all(chain, T, within_limits, rows, count, trial, work):
     for k in range(count):
         residual[k], branch[k], free[k] = -1.0, -1, 0
     count = finish_pose(chain, T, False, *rows, count, work)
-    count = merge_families(chain, T, rows, count, trial, work)
+    count, _ = merge_families(chain, T, rows, count, trial, work)
     return turn_inside(chain, T, True, *rows, count) if within_limits else count
 
 
 def finish_families(chain, T, rest, within_limits, rows, count, trial, work):
-    """Merge solutions and keep of each family the member at the rest values (n,), in the limits."""
-    count = merge_families(chain, T, rows, count, trial, work)
+    """Merge solutions and keep of each family the member at the rest values (n,), in the limits.
+
+    How many, and whether one that is isolated is singular.
+    """
+    count, lonely = merge_families(chain, T, rows, count, trial, work)
     count = one_of_each_family(chain[1], rest, *rows, count)
-    return turn_inside(chain, T, True, *rows, count) if within_limits else count
+    if within_limits:
+        count = turn_inside(chain, T, True, *rows, count)
+    return count, lonely
 
 
 @entry()

@@ -201,11 +201,11 @@ def solve_short_chains(arm: ShortChain, Ts: Poses, within_limits: bool, outputs:
             found = finish_pose(chain, T, False, *many, found, work)
             if not doubt:
                 break
-        found = finish_families(chain, T, rest, False, many, found, trial, work)
-        more = _add_beside(chain, T, many, found, trial, work)
+        found, lonely = finish_families(chain, T, rest, False, many, found, trial, work)
+        more = _add_beside(chain, T, many, found, trial, work) if lonely else found
         if more > found:
             found = finish_pose(chain, T, False, *many, more, work)
-            found = finish_families(chain, T, rest, False, many, found, trial, work)
+            found, _ = finish_families(chain, T, rest, False, many, found, trial, work)
         if within_limits:
             found = turn_inside(chain, T, True, *many, found)
         count[i] = copy_rows(many, found, (q[i], residual[i], branch[i], free[i]))

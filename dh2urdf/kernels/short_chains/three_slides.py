@@ -197,7 +197,7 @@ def solve_three_slides(arm: SlidingArm, Ts: Poses, within_limits: bool, outputs:
         for k in range(found):
             residual[i, k], branch[i, k], free[i, k] = -1.0, -1, 0
         found = finish_pose(chain, T, False, *rows, found, work)
-        count[i] = finish_families(chain, T, rest, within_limits, rows, found, trial, work)
+        count[i], _ = finish_families(chain, T, rest, within_limits, rows, found, trial, work)
         if doubt:
             count[i] = -1 - count[i]
             doubts += 1
