@@ -114,6 +114,16 @@ def sliding_tables(count, seed=0):
     return tables
 
 
+def bent_tables(count, seed=0):
+    """Such tables with slides, each with a twist that is no right angle."""
+    rng, tables = np.random.default_rng(seed + 2), []
+    for table in sliding_tables(count, seed):
+        rows, i = list(table.rows), int(rng.integers(6))
+        rows[i] = replace(rows[i], alpha=float(rng.choice((0.8, 1.65, -2.2, math.pi / 4))))
+        tables.append(replace(table, rows=tuple(rows), name=f"bent {table.name}"))
+    return tables
+
+
 def table_line(table):
     """The rows of a table in one line, angles in degrees, for a report."""
     cells = []

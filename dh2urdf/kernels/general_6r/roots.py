@@ -12,7 +12,7 @@ from dh2urdf.kernels.general_6r.arc_samples import (
 )
 from dh2urdf.kernels.general_6r.arc_shapes import CENTRE, LEFT, RIGHT
 from dh2urdf.kernels.general_6r.resultant import sample_resultants
-from dh2urdf.kernels.general_6r.two_slides import sample_two_slides, says_nothing
+from dh2urdf.kernels.general_6r.two_slides import hides_solutions, sample_two_slides, says_nothing
 from dh2urdf.kernels.numbers import sincos
 from dh2urdf.kernels.rigid import dot, load_pose, times_link, turned, turned_back
 
@@ -176,6 +176,8 @@ def add_roots(k, middle, half_tan, pairs, count, arm):
 def find_roots(arm):
     """Roots of the six equations' resultant, or of what two slides have, as by `add_roots`."""
     count, k = 0, 0
+    if arm["two_slides"] != 0 and hides_solutions(arm):
+        return -1
     # a slide is sampled neither at infinity nor next to it
     start = 0.5 * ARC if arm["loop_slides"][2] != 0 else 0.0
     while count >= 0 and (k == 0 or k <= arm["spans"][0, 0]):

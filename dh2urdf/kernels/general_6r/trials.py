@@ -62,5 +62,7 @@ def is_last(trial, count, solutions, seeded, arm):
     apart = before > 0 and trial >= trials and how_many_below(kept, found, CROWDED) == 0
     clear = arm["spans"][1, 0] == 0.0 and (whole or apart)
     sure = seeded < COARSE if before == 0 else found == before
-    fits = found % 2 == 0 and found >= simple and found + trial > 0
+    # without any solution, not even a span of doubt is left to look into
+    none = trial > 0 and arm["spans"][0, 0] == 0.0
+    fits = found % 2 == 0 and found >= simple and (found > 0 or none)
     return clear and sure and fits and how_many_below(kept, found, SINGULAR) == 0

@@ -19,8 +19,11 @@ f is linear in each of two points on the circle that become infinite where k_x^2
 all in one direction; so F, the product over the sign of w, is a trigonometric polynomial. Where
 the slides are at right angles to a turn between them, its axis is in place of their product.
 
-c must not be parallel to b nor to e. Where both slides are parallel f vanishes, too.
+c must not be parallel to b nor to e. Where b and e are parallel and ``A = B = C = 0`` every e suits
+the orientation, and F need not vanish. Where both slides are parallel f vanishes, too.
 """
+
+import math
 
 from dh2urdf.kernels.numbers import side_by_side
 from dh2urdf.kernels.rigid import dot
@@ -31,8 +34,15 @@ WAY, FIRST, SECOND, NORMAL, F, SQUARE, TIMES, SIZE, PAIRS = 50, 56, 62, 68, 74, 
 """Rows of the workspace: pairs of numbers, pairs of vectors, ``w^2``, ``k_x^2 + k_y^2``, what F
 is as large as where its factors are not at right angles."""
 
-VANISHED = 1e-13
-"""F, in parts of that, which is rounding: if it is so all round, every a carries a solution."""
+VANISHED = 1e-10
+"""F, in parts of that, which is too little: if it is so all round, every a carries a solution, or
+nearly."""
+
+PARALLEL = 1e-4
+"""Sine between axes below which they are taken for parallel: F loses twice as many digits."""
+
+LOOSE = 1e-6
+"""Such a sine, and distance of C from 0, below which every e is taken to suit."""
 
 TINY = 1e-300
 
@@ -268,6 +278,26 @@ def sample_two_slides(n, arm):
         determinant[k] = (p * p - square * q * q) * factor
         size = (dot(across, across) + w2 * dot(also, also)) * factor
         pairs[SIZE, k] = size * (dot(way, way) + w2 * dot(other, other))
+
+
+def hides_solutions(arm):
+    """Whether axes are parallel, or nearly, so that F may have no root at some solutions."""
+    segments, least = arm["segments"], PARALLEL * PARALLEL
+    D, S, R, Q = segments[0], segments[1], segments[2], segments[3]
+    before = S[0, 2] * S[0, 2] + S[1, 2] * S[1, 2]
+    after = R[2, 0] * R[2, 0] + R[2, 1] * R[2, 1]
+    if before < least or after < least:
+        return True
+    # b and e are at their least angle, or their largest one, where a turns them into one plane
+    b = math.sqrt(D[0, 2] * D[0, 2] + D[1, 2] * D[1, 2])
+    e = math.sqrt(Q[2, 0] * Q[2, 0] + Q[2, 1] * Q[2, 1])
+    for turn in range(2):
+        sign = 1.0 if turn == 0 else -1.0
+        sine, k_z = b * Q[2, 2] - sign * D[2, 2] * e, Q[2, 2] * D[2, 2] + sign * b * e
+        C = S[2, 2] - k_z * R[2, 2]
+        if sine * sine * after + C * C < LOOSE * LOOSE:
+            return True
+    return False
 
 
 def says_nothing(n, arm):
