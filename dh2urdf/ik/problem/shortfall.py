@@ -36,7 +36,12 @@ def shortfall(chain: SerialChain, T: Array, task: Task) -> str:
     gap, _ = closest(chain, T, Task.POSITION)
     if gap > ACCEPT:
         return f"the point lies {_metres(gap * chain.unit)} outside the reach of the tool"
-    _, turn = closest(chain, T, task)
+    gap, turn = closest(chain, T, task)
+    if max(gap, turn) <= ACCEPT:
+        return (
+            "the pose is not out of reach: a configuration comes to within "
+            f"{math.degrees(turn):.3g} deg of it, but no solution is listed; ik_numeric may find it"
+        )
     what = "axis" if task is Task.POSITION_AXIS else "orientation"
     return (
         f"the tool reaches the point, but not with this {what}; the closest found is "

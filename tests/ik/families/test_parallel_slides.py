@@ -13,6 +13,7 @@ from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHRow, DHTable
 from dh2urdf.exceptions import NoSolverError
 from dh2urdf.ik.arm import Outputs, Task, select_solver, spare_joints
+from dh2urdf.ik.problem.shortfall import shortfall
 
 H = pi / 2
 
@@ -104,6 +105,13 @@ def test_elimination_says_that_it_is_in_doubt_at_a_singular_pose_of_two_slides(n
     out = Outputs.of(1, 16, 6)
     doubtful = select_solver(robot.chain).solve_sure(robot.fk(q)[None], False, out)
     assert doubtful.tolist() == [0]
+
+
+def test_a_pose_that_a_configuration_reaches_is_not_called_unreachable():
+    """Where a miss is below what is certified, no reason says how far away the pose is."""
+    robot = dh2urdf.Robot.from_dh(table_of(*SPREAD))
+    T = robot.fk([0.3, 0.2, 0.4, -0.7, 0.1, 1.1])
+    assert shortfall(robot.chain, T, Task.POSE).startswith("the pose is not out of reach")
 
 
 def test_random_poses_of_two_slides_are_not_in_doubt():
