@@ -85,9 +85,9 @@ def turn_near(chain, within_limits, slack, task, T, seed, q, trial, damped):
     At a singular solution rounding may take a root over a bound that is a solution, too: then it
     is put there if the pose is reached, and the joints on no bound make up for it. ``trial`` (n,).
     """
-    trial[:] = q
     if not turn_by(chain[1], within_limits, slack, seed, q):
         return
+    trial[:] = q
     turn_one(chain[1], CLUSTER, seed, trial)
     if put_on_bounds(chain, task, T, trial, damped) <= ACCEPT:
         q[:] = trial
