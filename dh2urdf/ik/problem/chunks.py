@@ -1,7 +1,8 @@
 """A batch in chunks, on the threads of a pool that stays.
 
 The calling thread works too. It asks others for help only where there is work for longer than it
-takes to wake them: how long a pose takes is measured on the first ones.
+takes to wake them: how long a pose takes is measured on the first ones, and where that decides,
+on the next ones too, since the first ones wait for memory.
 """
 
 import os
@@ -15,9 +16,10 @@ from dh2urdf.bounds import THREADS
 FIRST = 64
 """Poses that are solved first, and fewest of a chunk."""
 
-WORTH = 8e-4
-"""Seconds of work for which a thread is woken, which takes a tenth of that, or more where it wakes
-on a processor that is busy: with less, batches may take longer than on one thread."""
+WORTH = 1.6e-3
+"""Seconds of work for which a thread is woken. That takes a twentieth of it, or more where the
+processor is busy or the thread's code has left the caches: with half of it, small batches take
+longer than on one thread (``benchmarks.threads --cold``)."""
 
 LONGEST, LARGEST = 2e-3, 2048
 """Most seconds and poses of a chunk: progress and Ctrl-C are prompt, and what it writes is still in
@@ -35,17 +37,20 @@ def in_chunks(
     """Work on all slices of m poses, and tell how many are done; what a thread raises is raised."""
     if not m:
         return
-    begin = perf_counter()
-    work(slice(0, min(FIRST, m)))
-    each, rest = (perf_counter() - begin) / FIRST, m - FIRST
-    tell(min(FIRST, m))
-    if rest <= 0:
-        return
     most = os.cpu_count() or 1 if threads is None else threads
+    first, each = 0, 0.0
+    while first < m and (not first or (first == FIRST and 1 <= each * (m - first) / WORTH < 4)):
+        begin = perf_counter()
+        work(slice(first, min(first + FIRST, m)))
+        each = (perf_counter() - begin) / FIRST
+        first = min(first + FIRST, m)
+        tell(first)
+    if not (rest := m - first):
+        return
     helpers = min(most - 1, int(each * rest / WORTH))
     even = rest // (4 * helpers + 4)
     step = max(FIRST, min(int(LONGEST / each), LARGEST, even if helpers else rest))
-    starts, done = iter(range(FIRST, m, step)), [FIRST]  # which threads can share
+    starts, done = iter(range(first, m, step)), [first]  # which threads can share
 
     def help_out(told: Callable[[int], None]) -> None:
         try:
