@@ -9,6 +9,7 @@ import time
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -135,10 +136,11 @@ sys.addaudithook(_hook)
 @contextmanager
 def watched(folder: Path) -> Iterator[None]:
     """Run what stands inside; a :class:`FaultError` for anything that no input may bring about."""
-    begun, worked = time.monotonic() - starved(), time.process_time()
+    begun, worked, asked = time.monotonic() - starved(), time.process_time(), count(1)
 
     def late(*_: object) -> None:
         waited = time.monotonic() - starved() - begun >= PATIENCE * SECONDS
+        waited &= next(asked) >= PATIENCE  # a process that is stopped meanwhile is asked once
         if waited or time.process_time() - worked >= SECONDS:
             raise FaultError(f"no end after {SECONDS} s")
 

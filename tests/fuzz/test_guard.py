@@ -63,6 +63,15 @@ def test_waiting_is_a_fault_but_not_for_the_processor(tmp_path, monkeypatch, oth
             time.sleep(10.0)
 
 
+def test_a_process_that_was_stopped_does_not_hang(tmp_path, monkeypatch):
+    """Time in which a process was stopped, such as on a machine that sleeps, is not its own."""
+    monkeypatch.setattr(guard, "SECONDS", 0.5)
+    clock = iter([0.0])
+    monkeypatch.setattr(guard.time, "monotonic", lambda: next(clock, 1000.0))
+    with watched(tmp_path):
+        time.sleep(0.6)
+
+
 def test_a_warning_is_an_error_under_guard(tmp_path):
     """No door warns."""
     with pytest.raises(UserWarning), watched(tmp_path):
