@@ -1,4 +1,7 @@
-"""Whole processes: imports, first calls, the command line."""
+"""Whole processes: imports, first calls, the command line.
+
+Their bytecode is cached, as installing a package leaves it, whatever the environment says.
+"""
 
 from __future__ import annotations
 
@@ -52,8 +55,11 @@ def child(*arguments: str, **env: str) -> dict[str, Any]:
 
 def run(results: Results, keys: tuple[str, ...]) -> None:
     """Imports, first calls, the command line, of which the keys name some."""
-    for key in keys:
-        TASKS[key](results)
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    with TemporaryDirectory() as cache:
+        os.environ["PYTHONPYCACHEPREFIX"] = cache
+        for key in keys:
+            TASKS[key](results)
 
 
 def _imports(results: Results) -> None:
