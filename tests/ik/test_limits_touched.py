@@ -4,6 +4,7 @@ The cross slide's first two joints are at their upper ends, 1.5 m and 0.4 m.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -112,3 +113,45 @@ def test_a_path_without_limits_goes_on_where_it_leaves_them():
     found = arm.ik_path(arm.fk(way), start=way[0], within_limits=False)
     assert found.breaks == ()
     assert np.abs(found.q - way).max() < 1e-6
+
+
+SINGULAR_HELD = [
+    ("abb_irb4600_track", 5, (7.7901182782100795, 0.0, 0.0, "upper", -H, "upper", -math.pi)),
+    ("kuka_iiwa14", 3, (-H, "upper", 0.0, "lower", H, H, -H / 2)),
+    (
+        "mycobot_280",
+        None,
+        ("upper", -4.6e-6, 1.267e-5, "upper", -1.5708000239728597, -0.38887369492496154),
+    ),
+]
+"""Configurations on limits where more than two solutions meet, or a family turns back: with the
+joint that is held."""
+
+
+@pytest.mark.parametrize(("name", "joint", "values"), SINGULAR_HELD)
+@pytest.mark.parametrize("seeded", [False, True])
+def test_solutions_that_meet_on_limits_are_found_there(name, joint, values, seeded):
+    """Their roots are off by 1e-5 or 1e-4; one of six joints that move is put where it is known."""
+    arm = dh2urdf.Robot.from_dh(name)
+    q = np.array([getattr(arm, x)[i] if isinstance(x, str) else x for i, x in enumerate(values)])
+    T, locked = arm.fk(q), {} if joint is None else {joint: q[joint]}
+    found = arm.ik(T, seed=q if seeded else None, locked=locked)
+    assert gaps(arm.chain, found.q, q).min() < 1e-6
+    assert (found.verify() <= 1e-9).all()
+    batch = arm.ik_batch(T[None], locked={i: np.array([x]) for i, x in locked.items()})
+    assert gaps(arm.chain, batch.q[0, : batch.count[0]], q).min() < 1e-6
+    assert arm.why_unreachable(T, locked=locked) == ""
+
+
+def test_a_regular_solution_beyond_a_limit_is_not_put_onto_it():
+    """A micrometre or less beyond, the others make up for it; farther, the pose is not reached."""
+    table = dh2urdf.load_table("puma560")
+    q = 0.3 * np.arange(1, 7)
+    for over in (1e-5, 1e-4, 5e-4):
+        rows = list(table.rows)
+        rows[3] = replace(rows[3], lower=q[3] - 0.5, upper=q[3] - over)
+        arm = dh2urdf.Robot.from_dh(replace(table, rows=tuple(rows)))
+        found = arm.ik(arm.fk(q), within_limits=False)
+        assert gaps(arm.chain, found.q, q).min() < 1e-9
+        found = arm.ik(arm.fk(q))
+        assert gaps(arm.chain, found.q, q).min(initial=9.0) > 0.1

@@ -97,7 +97,7 @@ def put_on_bounds(chain, task, T, q, damped):
     """Residual of q (n,), of which joints were put onto bounds; others make up for that."""
     residual = measure(chain, task, T, q, damped)
     if task == POSE and residual > ACCEPT:
-        return make_up(chain, T, q, NO_JOINT)
+        return make_up(chain, T, q, NO_JOINT, CLUSTER)
     return residual
 
 

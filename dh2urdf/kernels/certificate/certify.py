@@ -38,6 +38,13 @@ WEAK, BACK = 1e-10, 3
 """Singular value, relative to the largest, of a direction in which joints do not make up for others
 that were put on their bounds; Newton's steps for that."""
 
+OVER = 1e-3
+"""How far [rad or m] rounding takes the root of a solution over a bound at most: three that meet
+are known to the cube root of it, four to the fourth."""
+
+EXACT = 40.0 * ROUNDING
+"""Residual [m and rad] on the bound of one that was farther over it than ``CLUSTER``."""
+
 
 def principal(angle):
     """Bring an angle into [-pi, pi]."""
@@ -66,10 +73,11 @@ def is_known(joints, q, count, p):
     return False
 
 
-def make_up(chain, T, q, free):
+def make_up(chain, T, q, free, most):
     """Newton's method by the joints of q (n,) that are on no bound; the residual then.
 
-    At a nearly double root others make up for what bounds took off, within the limits.
+    At a nearly double root others make up for what bounds took off, within the limits, by steps of
+    at most so much.
     """
     (_, joints), n, mask = chain, q.shape[0], 0
     room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
@@ -77,7 +85,7 @@ def make_up(chain, T, q, free):
         mask |= (1 if joints[i, 1] < q[i] < joints[i, 2] else 0) << i
     for _ in range(BACK):
         _, largest = look_at_some(chain, T, q, mask, room)
-        add_step(chain, 1.0, q, room, WEAK * largest, CLUSTER)
+        add_step(chain, 1.0, q, room, WEAK * largest, most)
     _onto_bounds(joints, q, free)
     return pose_residual(chain, T, q)
 
@@ -94,11 +102,12 @@ def _into_limits(chain, T, within_limits, q, residual, free):
 
     A joint that overshoots its bound by less than ``CLUSTER`` is put on the bound if the pose is
     still reached there: at a double root (straight elbow, bound 0) rounding takes the root over.
+    One that overshoots by up to ``OVER`` is put there if that is as exact: more solutions meet.
     Nothing is put on a bound where the limits do not count. A free joint may be outside: another
-    member of its family may not.
+    member of its family may not. Returned, too, is whether a joint was put on a bound.
     """
     _, joints = chain
-    inside, moved, far = True, False, False
+    over, moved, far = 0.0, False, False
     for i in range(q.shape[0]):
         lower, upper = joints[i, 1], joints[i, 2]
         bounded = lower > -math.inf and upper < math.inf
@@ -111,17 +120,18 @@ def _into_limits(chain, T, within_limits, q, residual, free):
                 q[i] -= TWO_PI * np.ceil((q[i] - upper - CLUSTER) / TWO_PI)
             far = far or abs(q[i]) > FAR
         if within_limits and (q[i] < lower or q[i] > upper) and not (free >> i) & 1:
-            if q[i] < lower - CLUSTER or q[i] > upper + CLUSTER:
-                inside = False
-            moved = True
-    if not inside:
-        return math.inf
+            over, moved = max(over, lower - q[i], q[i] - upper), True
+    if over > OVER:
+        return math.inf, False
     if not moved and not far:
-        return residual
+        return residual, False
     if moved:
         _onto_bounds(joints, q, free)
     residual = pose_residual(chain, T, q)
-    return make_up(chain, T, q, free) if moved and residual > ACCEPT else residual
+    if over > CLUSTER:
+        residual = make_up(chain, T, q, free, OVER)
+        return residual if residual <= EXACT else math.inf, True
+    return make_up(chain, T, q, free, CLUSTER) if moved and residual > ACCEPT else residual, moved
 
 
 def move(q, residual, branch, free, source, target):
@@ -187,8 +197,8 @@ def turn_inside(chain, T, within_limits, q, residual, branch, free, count):
     """Turn solutions by full turns, near or into their limits; how many are left."""
     solutions = 0
     for k in range(count):
-        residual[k] = _into_limits(chain, T, within_limits, q[k], residual[k], free[k])
-        if residual[k] <= ACCEPT:
+        residual[k], moved = _into_limits(chain, T, within_limits, q[k], residual[k], free[k])
+        if residual[k] <= ACCEPT and not (moved and is_known(chain[1], q, solutions, q[k])):
             move(q, residual, branch, free, k, solutions)
             solutions += 1
     return solutions

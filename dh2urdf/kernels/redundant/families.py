@@ -14,7 +14,13 @@ import numpy as np
 from dh2urdf.kernels.certificate import TWO_PI, distance2, measure, move, turn_one
 from dh2urdf.kernels.newton import STAYING, make_damped, restore
 from dh2urdf.kernels.numbers import any_family, entry
-from dh2urdf.kernels.redundant.self_motion import HELD, go_nearer, tangent_near
+from dh2urdf.kernels.redundant.self_motion import (
+    ARRIVED,
+    HELD,
+    first_guess,
+    go_nearer,
+    tangent_near,
+)
 from dh2urdf.kernels.shapes import AnyChain, Configuration, Outputs, Poses
 
 STEP, MOST_STEPS = 0.1, 200
@@ -22,6 +28,10 @@ STEP, MOST_STEPS = 0.1, 200
 
 STARTS = 8
 """Members inside the limits, nearest to the middle first, that are moved on towards it."""
+
+SECANTS, TOUCHING = 12, 1e-6
+"""Steps to where a joint turns back along a curve; how far inside its bound [rad or m] it does so
+where the curve touches that: others are far enough apart for Newton's method on the bound."""
 
 
 def _is_inside(joints, slack, q):
@@ -45,22 +55,52 @@ def _farthest(joints, q):
     return far
 
 
+def _turn_back(chain, goal, far, q, room):
+    """Go along a curve to where one joint turns back, q (n,) in place, by the secant method."""
+    (_, _, rows, damped) = room
+    tangent, guess, scratch, trial = rows[0], rows[1], rows[2], rows[3]
+    first_guess(guess, goal[0] // STAYING)
+    step, before = 0.1 * STEP, 0.0
+    for k in range(SECANTS):
+        if not tangent_near(chain, goal, q, guess, tangent, damped):
+            return
+        guess[:] = tangent
+        change = tangent[far] - before
+        if k > 0:
+            step = -step * tangent[far] / change if change != 0.0 else 0.0
+            step = min(max(step, -STEP), STEP)
+        if abs(step) <= ARRIVED:
+            return
+        before = tangent[far]
+        trial[:] = q + step * tangent
+        if not restore(chain, goal, trial, scratch, damped) <= HELD:
+            return
+        q[:] = trial
+
+
 def _touch(chain, goal, mask, slack, q, room):
     """Go along a curve to where it comes to the limits, and no farther, q (n,) in place.
 
-    Whether it does. The joint that is farthest outside is put on its bound, and the others of the
-    mask bring q back onto the curve; then the next one, if that is outside there.
+    Whether it does. The joint that is farthest outside goes to where it turns back, or is put on
+    its bound, and the others of the mask bring q back onto the curve; then the next one, if that is
+    outside there.
     """
     (_, joints), (_, _, rows, damped) = chain, room
-    task, T, unit = goal
+    (task, T, unit), start = goal, rows[4]
     for _ in range(q.shape[0]):
         far = _farthest(joints, q)
         if not mask >> far & 1:
             return False
+        start[:] = q
+        _turn_back(chain, goal, far, q, room)
+        over = _excess(joints, q, far)
+        if over < -TOUCHING or over > slack:
+            q[:] = start
+            q[far] = min(max(q[far], joints[far, 1]), joints[far, 2])
+            held = task + STAYING * (1 << far), T, unit
+            if not restore(chain, held, q, rows[0], damped) <= HELD:
+                return False
         q[far] = min(max(q[far], joints[far, 1]), joints[far, 2])
-        held = task + STAYING * (1 << far), T, unit
-        if not restore(chain, held, q, rows[0], damped) <= HELD:
-            return False
         if _is_inside(joints, slack, q):
             return True
     return False
