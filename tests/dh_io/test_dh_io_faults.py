@@ -209,6 +209,11 @@ def test_a_fault_of_another_kind_of_row(row: str, says: str) -> None:
     assert all("joints[2]" in p for p in found)
 
 
+def test_a_row_that_is_a_list_is_one_fault() -> None:
+    """Nothing is missing in it."""
+    assert len(row_problems(ROW, "[0, 1, 2, 3]")) == 1
+
+
 def test_a_table_needs_a_joint_and_its_joints_different_names() -> None:
     """Only fixed rows, or two joints of one name, are refused at their place."""
     assert "no revolute or prismatic row" in row_problems("{type: fixed, xyz: [0, 0, 1]}")[0]

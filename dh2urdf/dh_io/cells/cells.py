@@ -209,6 +209,7 @@ class Cells:
         if not isinstance(node, Keys):
             keys = ", ".join(allowed)
             report.fault(node.mark, path, f"found {found(node)}; expected the keys {keys}")
+            self.meant.update(allowed)
             return
         for key, cell in node.pairs:
             name, content = canonical(key.text), cell
@@ -258,7 +259,7 @@ class Cells:
             return Origin()
 
     def is_missing(self, key: str) -> bool:
-        """Tell whether a cell is absent, and not merely under a misspelt key (a fault already)."""
+        """Tell whether a cell is absent, and this not a fault already (misspelt, no mapping)."""
         return key not in self.cells and key not in self.meant
 
     def mark_of(self, key: str) -> Mark:
