@@ -43,15 +43,18 @@ class Found(NamedTuple):
         return self.q[i, :k], self.residual[i, :k], self.branch[i, :k], self.free[i, :k]
 
 
+table_of = cache(dh2urdf.load_table)
+
+
 @cache
 def shipped(name):
-    return dh_to_chain(dh2urdf.load_table(name))
+    return dh_to_chain(table_of(name))
 
 
 CLOSED_FORMS = [
     name
     for name in dh2urdf.list_tables()
-    if not dh2urdf.Robot.from_dh(name).is_coupled
+    if table_of(name).joint_map is None
     and shipped(name).n == 6
     and not shipped(name).prismatic.any()
     and not isinstance(select_solver(shipped(name)), General6R)
@@ -120,36 +123,47 @@ def with_limits(chain, lower, upper):
 
 def forward(chain, q):
     """Poses of configurations (..., n) by the product of the chain."""
+    return frames(chain, q)[-1]
+
+
+def frames(chain, q):
+    """Poses of the joints at configurations (..., n), then of the tip: n + 1 of shape (..., 4, 4).
+
+    A joint's is what its motion starts from. Of a coupled chain they are those of its serial one.
+    """
     if isinstance(chain, CoupledChain):
-        return forward(chain.serial, q @ chain.matrix.T)
-    T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
+        return frames(chain.serial, q @ chain.matrix.T)
+    moves = joint_matrices(chain, q)
+    T = [np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))]
     for i in range(chain.n):
-        T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
+        T.append(T[-1] @ moves[..., i, :, :] @ chain.links[i + 1])
     return T
 
 
-def joint_matrix(chain, i, q):
-    Z = np.zeros((*q.shape, 4, 4))
-    Z[..., [0, 1, 2, 3], [0, 1, 2, 3]] = 1.0
-    if chain.prismatic[i]:
-        Z[..., 2, 3] = q
-    else:
-        Z[..., 0, 0], Z[..., 1, 1] = np.cos(q), np.cos(q)
-        Z[..., 1, 0], Z[..., 0, 1] = np.sin(q), -np.sin(q)
+def joint_matrices(chain, q):
+    """Motions of all joints at configurations (..., n), (..., n, 4, 4)."""
+    Z, angle = np.zeros((*q.shape, 4, 4)), np.where(chain.prismatic, 0.0, q)
+    Z[..., 0, 0] = Z[..., 1, 1] = np.cos(angle)
+    Z[..., 1, 0] = np.sin(angle)
+    Z[..., 0, 1] = -Z[..., 1, 0]
+    Z[..., 2, 2] = Z[..., 3, 3] = 1.0
+    Z[..., 2, 3] = np.where(chain.prismatic, q, 0.0)
     return Z
+
+
+FOLLOWING, LAST = np.array([1, 2, 0]), np.array([2, 0, 1])
 
 
 def cross(a, b):
     """The vector product of the last axes, as np.cross, sooner."""
-    following, last = [1, 2, 0], [2, 0, 1]
-    return a[..., following] * b[..., last] - a[..., last] * b[..., following]
+    return a.take(FOLLOWING, -1) * b.take(LAST, -1) - a.take(LAST, -1) * b.take(FOLLOWING, -1)
 
 
 def error_vectors(T, T_target):
     """Position difference and rotation vector (sine long) from T to T_target, (..., 6)."""
-    R, R_target = (np.swapaxes(X[..., :3, :3], -1, -2) for X in (T, T_target))
-    turn = 0.5 * cross(R, R_target).sum(-2)
-    behind = (T[..., :3, :3] * T_target[..., :3, :3]).sum((-1, -2)) < 1.0
+    R, R_target = T[..., :3, :3], T_target[..., :3, :3]
+    turn = 0.5 * cross(R.swapaxes(-1, -2), R_target.swapaxes(-1, -2)).sum(-2)
+    behind = (R * R_target).sum((-1, -2)) < 1.0
     turn[behind] = math.pi
     return np.concatenate([T_target[..., :3, 3] - T[..., :3, 3], turn], axis=-1)
 
@@ -160,8 +174,13 @@ def residuals(chain, q, T_target):
 
 def pose_errors(T, T_target):
     """Larger of distance and sine of the angle between poses, (...)."""
-    e = error_vectors(T, T_target)
-    return np.maximum(np.linalg.norm(e[..., :3], axis=-1), np.linalg.norm(e[..., 3:], axis=-1))
+    return larger_of(error_vectors(T, T_target))
+
+
+def larger_of(errors):
+    """The longer one of both halves of error vectors (..., 6), (...)."""
+    halves = errors.reshape(*errors.shape[:-1], 2, 3)
+    return np.sqrt((halves * halves).sum(-1)).max(-1)
 
 
 def by_pinocchio(robot, q):
@@ -171,19 +190,20 @@ def by_pinocchio(robot, q):
 
 def jacobians(chain, q):
     """Geometric Jacobians at the tip in base axes, (..., 6, n)."""
+    return jacobians_at(chain, frames(chain, q))
+
+
+def jacobians_at(chain, placed):
+    """The same from the :func:`frames` of configurations."""
     if isinstance(chain, CoupledChain):
-        return jacobians(chain.serial, q @ chain.matrix.T) @ chain.matrix
-    T = np.broadcast_to(chain.links[0], (*q.shape[:-1], 4, 4))
-    tip = forward(chain, q)[..., :3, 3]
-    columns = []
-    for i in range(chain.n):
-        z, p = T[..., :3, 2], T[..., :3, 3]
-        if chain.prismatic[i]:
-            columns.append(np.concatenate([z, np.zeros_like(z)], -1))
-        else:
-            columns.append(np.concatenate([cross(z, tip - p), z], -1))
-        T = T @ joint_matrix(chain, i, q[..., i]) @ chain.links[i + 1]
-    return np.stack(columns, -1)
+        return jacobians_at(chain.serial, placed) @ chain.matrix
+    T = np.stack(placed[:-1], -3)
+    z, p, tip = T[..., :3, 2], T[..., :3, 3], placed[-1][..., None, :3, 3]
+    slides = chain.prismatic[:, None]
+    J = np.empty((*z.shape[:-2], 6, chain.n))
+    J[..., :3, :] = np.where(slides, z, cross(z, tip - p)).swapaxes(-1, -2)
+    J[..., 3:, :] = np.where(slides, 0.0, z).swapaxes(-1, -2)
+    return J
 
 
 def gaps(chain, q, p):
@@ -246,8 +266,8 @@ def search(chain, T, seed, starts=400, steps=40):
     """All solutions that damped Newton finds from random starts, (k, n)."""
     q = draw(chain, starts, seed)
     for step in range(steps):
-        e = error_vectors(forward(chain, q), T)
-        J = jacobians(chain, q)
+        placed = frames(chain, q)
+        e, J = error_vectors(placed[-1], T), jacobians_at(chain, placed)
         damping = 1e-2 if step < steps // 2 else 1e-14
         A = J @ J.swapaxes(-1, -2) + damping * np.eye(6)
         dq = (J.swapaxes(-1, -2) @ np.linalg.solve(A, e[..., None]))[..., 0]
@@ -281,10 +301,11 @@ def same_to_rounding(chain, found, q, T, moving=slice(None)):
             return False
         p = p + step * min(1.0, 0.05 / np.abs(step).max())
         for _ in range(6):
-            if residuals(chain, p, T) < 4e-15:
+            placed = frames(chain, p)
+            e = error_vectors(placed[-1], T)
+            if larger_of(e) < 4e-15:
                 break
-            e = error_vectors(forward(chain, p), T)
-            p[moving] += np.linalg.pinv(jacobians(chain, p)[:, moving], rcond=1e-5) @ e
+            p[moving] += np.linalg.pinv(jacobians_at(chain, placed)[:, moving], rcond=1e-5) @ e
         if residuals(chain, p, T) > 4e-15:
             return False
     return False

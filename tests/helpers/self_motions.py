@@ -6,7 +6,7 @@ which nothing moves, as at a double root all along a family, Newton's method end
 """
 
 import numpy as np
-from ik_referee import error_vectors, forward, gaps, jacobians, residuals
+from ik_referee import error_vectors, frames, gaps, jacobians, jacobians_at, larger_of, residuals
 
 ACCEPT = 1e-9
 """Residual [m and rad] of a point of a family."""
@@ -59,24 +59,29 @@ def back(arm, p, T, free, goal=1e-14):
 
     Across the flat directions; by all, where these leave a residual and that ends near by.
     """
-    p = newton(arm, p, T, free, FLAT, 8, goal)
-    whole = newton(arm, p, T, free, LEAST, 30, goal) if residuals(arm, p, T) > 10.0 * goal else p
-    most = 0.3 * STEP if residuals(arm, p, T) > ACCEPT else FINE
-    if gaps(arm, whole, p) <= most and residuals(arm, whole, T) < residuals(arm, p, T):
-        p = whole
-    return p, residuals(arm, p, T)
+    p, off = newton(arm, p, T, free, FLAT, 8, goal)
+    if off > 10.0 * goal:
+        whole, rest = newton(arm, p, T, free, LEAST, 30, goal)
+        if gaps(arm, whole, p) <= (0.3 * STEP if off > ACCEPT else FINE) and rest < off:
+            return whole, rest
+    return p, off
 
 
 def newton(arm, p, T, free, least, most, goal):
-    """Newton's method from p by directions of singular values above ``least`` of the largest."""
-    for _ in range(most):
-        if residuals(arm, p, T) < goal:
+    """Newton's method from p by directions of singular values above ``least`` of the largest.
+
+    Where it comes to, and the residual there.
+    """
+    for k in range(most + 1):
+        placed = frames(arm, p)
+        error = error_vectors(placed[-1], T)
+        residual = larger_of(error)
+        if residual < goal or k == most:
             break
-        J = jacobians(arm, p)[:, free]
-        step = np.linalg.pinv(J, rcond=least) @ error_vectors(forward(arm, p), T)
+        step = np.linalg.pinv(jacobians_at(arm, placed)[:, free], rcond=least) @ error
         p = p.copy()
         p[free] += np.clip(step, -0.1, 0.1)
-    return p
+    return p, residual
 
 
 def walks_to(arm, p, q, T, free, tolerance, accept=ACCEPT):
@@ -163,14 +168,14 @@ def on_curve(arm, p, q, T, free, tolerance):
         for k in range(4 * MOST):
             sigma, V = directions(arm, at, free)
             ahead = V[-1] * (side if ahead is None else np.sign(V[-1] @ ahead))
-            at = sharpened(arm, at + 0.5 * STEP * ahead, T, free)
-            if sigma[-1] > FLATTEST * sigma[-2] or residuals(arm, at, T) > SHARP:
+            at, residual = sharpened(arm, at + 0.5 * STEP * ahead, T, free)
+            if sigma[-1] > FLATTEST * sigma[-2] or residual > SHARP:
                 break
             foot = at
             for _ in range(4 if gaps(arm, at, q) < STEP else 0):
                 way = directions(arm, foot, free)[1][-1]
-                foot = sharpened(arm, foot + (way @ wrapped(arm, q - foot)) * way, T, free)
-                if gaps(arm, foot, q) <= tolerance and residuals(arm, foot, T) <= SHARP:
+                foot, rest = sharpened(arm, foot + (way @ wrapped(arm, q - foot)) * way, T, free)
+                if gaps(arm, foot, q) <= tolerance and rest <= SHARP:
                     return True
             if k > 3 and gaps(arm, at, p) < 0.3 * STEP:
                 break
@@ -178,8 +183,11 @@ def on_curve(arm, p, q, T, free, tolerance):
 
 
 def sharpened(arm, p, T, free):
-    """The solution next to p, across strong directions first and then by all but the flattest."""
-    return newton(arm, newton(arm, p, T, free, FLAT, 8, 1e-14), T, free, 1e-11, 12, 1e-15)
+    """The solution next to p, across strong directions first and then by all but the flattest.
+
+    And its residual.
+    """
+    return newton(arm, newton(arm, p, T, free, FLAT, 8, 1e-14)[0], T, free, 1e-11, 12, 1e-15)
 
 
 def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS, crossing=True):
@@ -210,7 +218,7 @@ def crossing_ways(arm, p, T, free, length):
 
     def off(angle):
         way = np.cos(angle) * flat[0] + np.sin(angle) * flat[1]
-        return residuals(arm, newton(arm, p + length * way, T, free, FLAT, 8, 1e-14), T)
+        return newton(arm, p + length * way, T, free, FLAT, 8, 1e-14)[1]
 
     angles = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
     least = np.array([off(angle) for angle in angles])

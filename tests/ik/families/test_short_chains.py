@@ -224,12 +224,7 @@ def over_axis_1():
     q = np.array([0.4, 0.5, 0.7, 0.2, -0.3])
 
     def off(x):
-        T = np.eye(4)
-        frames = []
-        for i in range(5):
-            T = T @ chain.links[i]
-            frames.append(T)
-            T = T @ referee.joint_matrix(chain, i, x[i])
+        frames = referee.frames(chain, x)
         first, last = frames[0], frames[4]
         local = np.linalg.inv(first) @ last
         return np.array([local[0, 2], local[1, 2], local[0, 3], local[1, 3]])
@@ -312,8 +307,7 @@ def elbows(power):
 
 def straight(chain):
     """The elbow angle at which axes 1, 2 and 4 lie in one plane, whatever joint 1 is."""
-    still = referee.joint_matrix(chain, 0, np.array(0.0))
-    elbow = chain.links[0] @ still @ chain.links[1]
+    elbow = chain.links[0] @ chain.links[1]
     z, hand = elbow[:3, 2], elbow @ chain.links[2]
     out, arm = hand[:3, 3] - elbow[:3, 3], elbow[:3, 3] - chain.points[0]
     out, arm = out - z * (z @ out), arm - z * (z @ arm)

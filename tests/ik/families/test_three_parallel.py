@@ -156,9 +156,7 @@ def test_beyond_the_rims_there_is_nothing():
     form = ThreeParallel(chain).form
     q = np.array([0.3, -1.0, 0.0, 0.4, 0.5, 0.6])
     T = ref.forward(chain, q)
-    frames = [chain.links[0]]
-    for i in range(6):
-        frames.append(frames[-1] @ ref.joint_matrix(chain, i, q[i]) @ chain.links[i + 1])
+    frames = ref.frames(chain, q)
     shoulder, wrist = frames[1][:3, 3], frames[4][:3, 3]
     axis = frames[1][:3, 2]
     away = wrist - shoulder
