@@ -121,8 +121,9 @@ def page() -> str:
     """The table, and the changes that survived."""
     rows = kept()
     names = "seen by answers", "by tests", "by time", "survived", "seen since", "the same", "left"
-    lines = [f"| room | changes | {' | '.join(names)} | share |"]
-    lines.append("| - |" + " -: |" * (len(names) + 2))
+    shares = "share of all", "of those that differ"
+    lines = [f"| room | changes | {' | '.join([*names, *shares])} |"]
+    lines.append("| - |" + " -: |" * (1 + len(names) + len(shares)))
     for room in ROOMS:
         found = [row for row in rows if row[0] == room and row[7] != "none"]
         if found:
@@ -130,9 +131,10 @@ def page() -> str:
             why = [row[8] for row in found if row[7] == "survived"]
             since, same = (sum(x.startswith(word) for x in why) for word in (SINCE, SAME))
             counts = [how[key] for key in ("answers", "tests", "time", "survived")]
-            counts += [since, same, how["survived"] - since - same]
-            share = f"{(how['survived'] - since) / len(found):.1%}"
-            lines.append(f"| {room} | {' | '.join(map(str, [len(found), *counts, share]))} |")
+            left = how["survived"] - since - same
+            rates = [(same + left) / len(found), left / max(len(found) - same, 1)]
+            cells = [room, len(found), *counts, since, same, left, *(f"{x:.1%}" for x in rates)]
+            lines.append(f"| {' | '.join(map(str, cells))} |")
     lines += ["", "| survived | was | became | why |", "| - | - | - | - |"]
     for _, _, file, line, _, old, new, how, why in rows:
         if how == "survived":

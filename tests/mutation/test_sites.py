@@ -40,12 +40,12 @@ def test_changes_of_the_package_are_programs():
 
 
 def test_the_share_is_of_changes_that_no_test_sees_now(monkeypatch):
-    """Those that a test was added for count as seen; those that change nothing are left."""
-    seen = ["", "seen since by `a.py`", "the same: as long"]
+    """Those that a test was added for count as seen; those that change nothing are told apart."""
+    seen = ["", "seen since by `a.py`", "the same: as long", "why"]
     rows = [["kernels", "1", "f.py", "3", "0", "<", "<=", "survived", why] for why in seen]
     rows += [["kernels", "1", "f.py", "4", "0", "1", "2", how, ""] for how in ("answers", "none")]
     monkeypatch.setattr(tool, "kept", lambda: rows)
-    assert "| kernels | 4 | 1 | 0 | 0 | 3 | 1 | 1 | 1 | 50.0% |" in tool.page()
+    assert "| kernels | 5 | 1 | 0 | 0 | 4 | 1 | 1 | 2 | 60.0% | 50.0% |" in tool.page()
 
 
 def test_a_line_is_shown_to_tests_that_run_it_compiled_or_interpreted(tmp_path):
