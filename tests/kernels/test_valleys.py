@@ -31,8 +31,11 @@ def test_dull_points_beside_exact_solutions_of_slides_are_dropped(monkeypatch, s
 def test_a_valley_begins_where_a_seed_comes_near_and_one_direction_is_weak(
     monkeypatch, left, sigma, emitted
 ):
-    """Seeds that stay far off, or whose Jacobian is as strong in every direction, begin none."""
-    seen = []
+    """Seeds that stay far off, or whose Jacobian is as strong in every direction, begin none.
+
+    It is walked along by steps as long both ways.
+    """
+    seen, ways = [], []
 
     def settle(chain, goal, start, room):
         room[2][:], room[3][:] = (1.0, sigma), 1.0 - sigma
@@ -44,9 +47,14 @@ def test_a_valley_begins_where_a_seed_comes_near_and_one_direction_is_weak(
 
     monkeypatch.setattr(valley, "_settle", settle)
     monkeypatch.setattr(valley, "_emit", emit)
-    monkeypatch.setattr(valley, "_walk", lambda *given: (given[6], given[8]))
+    def walk(*given):
+        ways.append(given[3])
+        return given[6], given[8]
+
+    monkeypatch.setattr(valley, "_walk", walk)
     search = INTERPRETED["dh2urdf.kernels.certificate.valley.search_valleys"]
     seeds, count = np.full((1, 1, 2), 0.4), np.zeros(1, int)
     q, many = np.zeros((1, 4, 2)), np.ones(1, int)
     search((None, np.zeros((2, 3))), 1.0, np.eye(4)[None], seeds, many, q, count)
     assert seen == [[0.4, 0.4]] * emitted
+    assert ways == [1.0, -1.0] * emitted
