@@ -47,6 +47,7 @@ def test_a_valley_begins_where_a_seed_comes_near_and_one_direction_is_weak(
 
     monkeypatch.setattr(valley, "_settle", settle)
     monkeypatch.setattr(valley, "_emit", emit)
+
     def walk(*given):
         ways.append(given[3])
         return given[6], given[8]
@@ -58,3 +59,20 @@ def test_a_valley_begins_where_a_seed_comes_near_and_one_direction_is_weak(
     search((None, np.zeros((2, 3))), 1.0, np.eye(4)[None], seeds, many, q, count)
     assert seen == [[0.4, 0.4]] * emitted
     assert ways == [1.0, -1.0] * emitted
+
+
+def test_a_valley_is_walked_as_long_as_it_goes_on(monkeypatch):
+    """Each step's end is remembered, until no direction leads on."""
+    begun, room = [], (None, np.eye(2), np.array([1.0, 0.0]), None, np.empty((7, 2)))
+
+    def goes_on(*_):
+        begun.append(True)
+        return len(begun) <= 3
+
+    monkeypatch.setattr(valley, "_settle", lambda *_: (0.0, 1, 1.0))
+    monkeypatch.setattr(valley, "_ahead", goes_on)
+    chain, goal = (None, np.zeros((2, 3))), (0, np.eye(4), 1.0)
+    trail, found = np.zeros((9, 2)), np.zeros((4, 2))
+    passed, count = valley._walk(chain, goal, np.zeros(2), -1.0, room, trail, 0, found, 0)
+    assert (passed, count) == (3, 0)
+    np.testing.assert_allclose(trail[:3], [[0.0, -k * valley.STEP] for k in (1, 2, 3)])

@@ -42,3 +42,19 @@ def test_a_walk_between_two_directions_begins_where_the_pose_is_kept_best(monkey
     best = np.array([math.cos(lowest), math.sin(lowest)])
     for way, expected in zip(began, (best, -best), strict=True):
         np.testing.assert_allclose(way, expected, atol=1e-2)
+
+
+@pytest.mark.parametrize(("floor", "arrives"), [(walk.FLAT, True), (walk.NOTHING, False)])
+def test_a_walk_that_all_directions_lead_back_far_aside_does_not_arrive(
+    monkeypatch, floor, arrives
+):
+    """It ends on another family; led back across the flat directions alone it stays on its own."""
+
+    def aside(chain, T, q, way, length, floor, mask, trial, room):
+        trial[:] = q + length * way + [0.0, 0.6 * length]
+        return True
+
+    monkeypatch.setattr(walk, "_come_back", aside)
+    monkeypatch.setattr(walk, "pose_residual", lambda *_: 0.0)
+    given = None, None, np.zeros(2), np.array([1.0, 0.0]), 0.05, 1.0
+    assert walk._arrives(*given, floor, 3, np.zeros(2), ()) == arrives
