@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 walk = importlib.import_module("dh2urdf.kernels.certificate.walk")
+finish = importlib.import_module("dh2urdf.kernels.certificate.finish")
+
+EVERY = finish.EVERY_JOINT
 
 
 def test_walks_begin_both_ways_in_each_direction_once(monkeypatch):
@@ -58,3 +61,21 @@ def test_a_walk_that_all_directions_lead_back_far_aside_does_not_arrive(
     monkeypatch.setattr(walk, "pose_residual", lambda *_: 0.0)
     given = None, None, np.zeros(2), np.array([1.0, 0.0]), 0.05, 1.0
     assert walk._arrives(*given, floor, 3, np.zeros(2), ()) == arrives
+
+
+@pytest.mark.parametrize(
+    ("mask", "tries"), [(3, [(0, 3), (0, EVERY), (1, 3), (2, 3)]), (EVERY, [(0, EVERY)])]
+)
+def test_what_a_closed_form_tells_of_is_walked_by_shorter_lengths_in_the_end(
+    monkeypatch, mask, tries
+):
+    """After all joints have been, by the longest; shorter walks of all joints tell nothing."""
+    tried = []
+
+    def nowhere(chain, T, q, length, mask, alone):
+        tried.append((walk.LENGTHS.index(length), mask))
+        return 0
+
+    monkeypatch.setattr(finish, "free_of", nowhere)
+    assert finish._free_where_singular(None, None, np.zeros(2), mask, True) == 0
+    assert tried == tries
