@@ -76,3 +76,18 @@ def test_a_valley_is_walked_as_long_as_it_goes_on(monkeypatch):
     passed, count = valley._walk(chain, goal, np.zeros(2), -1.0, room, trail, 0, found, 0)
     assert (passed, count) == (3, 0)
     np.testing.assert_allclose(trail[:3], [[0.0, -k * valley.STEP] for k in (1, 2, 3)])
+
+
+@pytest.mark.parametrize(("residual", "most", "count"), [(0.0, 2, 2), (0.0, 1, 1), (1e-9, 2, 1)])
+def test_a_valley_gives_a_solution_that_is_sharp_while_there_is_room(
+    monkeypatch, residual, most, count
+):
+    """Where Newton's method ends beside the pose there is none."""
+    monkeypatch.setattr(valley, "pose_residual", lambda *_: residual)
+    monkeypatch.setattr(valley, "look", lambda *_: (1, 1.0))
+    monkeypatch.setattr(valley, "add_step", lambda *_: (0.0, 0.0, 0.0))
+    chain, goal, room = (None, np.zeros((2, 3))), (0, np.eye(4), 1.0), (None,) * 4 + (np.eye(7, 2),)
+    found = np.full((most, 2), 2.0)
+    assert valley._emit(chain, goal, np.array([0.5, 7.0]), room, found, 1) == count
+    if count == 2:
+        np.testing.assert_allclose(found[1], [0.5, 7.0 - 2.0 * np.pi])
