@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 plane = importlib.import_module("dh2urdf.kernels.parallel_axes.plane")
 
@@ -27,3 +28,24 @@ def test_the_common_direction_leaves_axis_5_as_joint_4_turns(c4, e):
     start = 0.0 if c4 > 0.0 else math.pi
     added = seen_after_joint_4(alpha, start + e) - seen_after_joint_4(alpha, start)
     np.testing.assert_allclose(plane._common_direction(form, c4, e), added, atol=1e-15)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_levels_are_those_of_the_arm_at_every_angle_of_joint_4(seed):
+    """Height and slope along the common axes, by rotations about x and z."""
+    rng = np.random.default_rng(seed)
+    a, d, alpha = rng.uniform(-1.0, 1.0, (3, 6))
+    form = np.column_stack([a, np.cos(alpha), np.sin(alpha), d])
+    D, t4 = rng.uniform(-1.0, 1.0, (3, 4)), rng.uniform(-3.0, 3.0)
+    rise, slope = np.empty((2, 3))
+    plane.levels(form, D, rise, slope)
+    to_4 = _about("x", alpha[2]) @ _about("z", t4)
+    axis_5 = (to_4 @ _about("x", alpha[3]))[2, 2]
+    height = d[:3].sum() + math.cos(alpha[2]) * d[3] + to_4[2, 0] * a[3] + axis_5 * d[4]
+    by_joint_4 = 1.0, math.cos(t4), math.sin(t4)
+    assert math.isclose(rise @ by_joint_4, D[2, 3] - height, abs_tol=1e-14)
+    assert math.isclose(slope @ by_joint_4, D[2, 2] - math.cos(alpha[4]) * axis_5, abs_tol=1e-14)
+
+
+def _about(axis, angle):
+    return Rotation.from_euler(axis, angle).as_matrix()

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from dh2urdf.kernels.spherical_wrist.position_any import elbow_on_axis
 from dh2urdf.kernels.spherical_wrist.position_arm import FREE, SHOULDER_FREE, place_wrist_in_plane
 
 
@@ -35,3 +36,16 @@ def test_beside_axis_1_both_shoulders_are_found():
         out = 0.5 * (math.cos(q2) + math.cos(q2 + q3))
         up = 0.5 * (math.sin(q2) + math.sin(q2 + q3))
         np.testing.assert_allclose([out * math.cos(q1), up], [1e-3, 0.8], atol=1e-12)
+
+
+@pytest.mark.parametrize("which", [0, 1])
+def test_of_two_equations_of_the_elbow_the_one_that_says_more_gives_both(which):
+    """The centre on axis 1, where the other equation is empty: both angles, at the nice joint 1."""
+    N, d, pairs = np.zeros((2, 2)), np.zeros(2), np.empty((4, 4))
+    N[which], d[which] = (0.8, 0.6), 0.5
+    assert elbow_on_axis(N, d, 0.3, 1e-12, pairs) == 2
+    assert abs(pairs[0, 2:] - pairs[1, 2:]).max() > 0.1
+    for c1, s1, c3, s3 in pairs[:2]:
+        np.testing.assert_allclose(
+            [0.8 * c3 + 0.6 * s3, c1, s1], [0.5, math.cos(0.3), math.sin(0.3)]
+        )

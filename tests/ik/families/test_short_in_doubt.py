@@ -13,6 +13,8 @@ from sweep import Tally, judge
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
 from dh2urdf.dh import DHRow, DHTable
+from dh2urdf.ik.families.short import ThreeSlides
+from dh2urdf.kernels.shapes import Outputs
 
 HALF, PI = math.pi / 2, math.pi
 
@@ -146,3 +148,17 @@ def test_an_elbow_beside_its_fold_is_there_both_ways():
     table = DHTable.from_array([*rows, (0, 0.07, 0, 0)], "standard", "theta d a alpha")
     q = [0.7854166940104598, 0.7854097538946704, -3.141587616426078, -4.802019773822565e-06]
     assert_nothing_is_lost(table, np.array([[*q, -1.5707929340229096, 2.356205897246559]]))
+
+
+def test_poses_of_three_slides_are_searched_beside_singular_ones_alone():
+    """Where two angles of the middle turning joint meet, or nearly; elsewhere equations say all."""
+    rows = [(0.3, 0, 0.1, 0.4), (0.2, 0, 0.2, 1.3), (-0.5, 0, 0, -0.9), (0, 0.1, 0.2, 0.7)]
+    table = table_of([*rows, (0, 0.2, 0, 1.1), (0, 0.1, 0.3, -1.2)], "PPPRRR")
+    solver = ThreeSlides(dh_to_chain(table))
+    q = np.tile([0.1, -0.2, 0.3, 0.5, 1.0, -0.7], (2, 1))
+    q[1, 4] = 1e-6
+    found = Outputs.of(2, solver.kmax, 6)
+    doubts = solver.kernel(solver.constants, forward(solver.chain, q), False, found)
+    assert doubts == 1
+    assert found.counts[0] == 2
+    assert found.counts[1] < 0
