@@ -165,3 +165,14 @@ def test_the_notes_arm_is_explained_like_the_notes():
     cases = [str(step.case) for step in found.steps[1:6]]
     assert cases == ["skew", "parallel", "skew", "intersecting", "intersecting"]
     assert "it is frame 6" in found.steps[-1].text
+
+
+@BOTH
+def test_frames_are_explained_by_the_names_of_the_joints_on_their_axes(convention):
+    """Standard frame i has the axis of joint i + 1, modified frame i that of joint i."""
+    found = extract_dh(urdf_text(load_table("denso_vs6556")), embedded=False, convention=convention)
+    names = [row.name for row in found.table.rows]
+    assert len(set(names)) == 6
+    for i, step in enumerate(found.steps[1:6], 1):
+        joint = i + 1 if convention == "standard" else i
+        assert f"is the axis of joint {joint} ({names[joint - 1]})." in step.text

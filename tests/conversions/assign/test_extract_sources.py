@@ -400,6 +400,14 @@ def test_homework_in_a_file(written):
     assert extract_dh(written("screws.json", screws)).table.n == 3
 
 
+def test_a_typed_axis_without_a_point_goes_through_the_origin(written):
+    """The same table as with the origin typed as its point."""
+    text = "axes: [{axis: [0, 0, 1]}, {axis: [0, 1, 0]}]\ntool: {xyz: [0.5, 0.2, 0.3]}\n"
+    whole = text.replace("]}", "], point: [0, 0, 0]}", 2)
+    left_out, typed = (extract_dh(written(f"{len(x)}.yaml", x)).table for x in (text, whole))
+    assert left_out.rows == typed.rows
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
