@@ -42,6 +42,7 @@ from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,
     finish_families,
+    merge_solutions,
     name_batch,
     name_families,
     null_direction,

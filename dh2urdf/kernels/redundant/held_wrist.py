@@ -26,6 +26,7 @@ import numpy as np
 from dh2urdf.kernels.certificate import (
     ACCEPT,
     certify_pose,
+    merge_solutions,
     name_families,
     null_direction,
     reverse_joints,
@@ -34,7 +35,7 @@ from dh2urdf.kernels.certificate import (
 from dh2urdf.kernels.chain import held_links, held_pose, insert_held
 from dh2urdf.kernels.newton import POLISH, POSE, normal_equations, pose_residual, restore
 from dh2urdf.kernels.numbers import entry, sincos
-from dh2urdf.kernels.redundant.held_wrist_place import place_held
+from dh2urdf.kernels.redundant.held_wrist_place import place_held, put_in_line
 from dh2urdf.kernels.redundant.one_family import keep_one_of_each
 from dh2urdf.kernels.rigid import invert_pose, turned_back
 from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
@@ -147,7 +148,7 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
 
     It is -1 minus that of a pose in doubt: equations are void, or singularities meet, or nearly.
     """
-    (frames, which, _, joints, _), (q, residual, branch, free) = arm, out
+    (frames, which, form, joints, _), (q, residual, branch, free) = arm, out
     work, links, rest = scratch[5], scratch[6], (scratch[7], residual, branch, free)
     found, vague = held_candidates(arm, value, T, rest, scratch)
     residual[:found] = -1.0
@@ -158,6 +159,9 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
     doubt = doubt or (vague == ALL and left < found)
     flat = not doubt and vague != NOTHING and _is_flat(chain, T, scratch[7], free, left, work)
     doubt, named = doubt or (flat and left < MOST), flat and left == MOST
+    if vague != NOTHING:
+        put_in_line(chain, T, form, which[REVERSED] != 0, rest, left)
+        left = merge_solutions(chain, T, *rest, left, np.empty((2, 6)), work)
     left = turn_inside(chain, T, within_limits, *rest, left)
     if named:  # no branch is missing; families are not led into the limits, which takes accuracy
         name_families(chain, T, rest, left, True, work)

@@ -6,6 +6,10 @@ see :mod:`dh2urdf.kernels.redundant.held_wrist` for the links S.
 
 import math
 
+import numpy as np
+
+from dh2urdf.kernels.certificate import add_step, look_at_some
+from dh2urdf.kernels.newton import make_damped, pose_residual
 from dh2urdf.kernels.numbers import atan2, circle_pair, hypot, linear_trig, root_of_gap
 from dh2urdf.kernels.rigid import applied, applied_inverse, cross, dot, turned, turned_back
 from dh2urdf.kernels.spherical_wrist import FREE, SHOULDER_FREE, UPPER_FREE, elbow_on_axis
@@ -22,6 +26,16 @@ MEET = 1e-14
 
 NOTHING = 1e-11
 """The same [m] at which nothing but rounding is left of it, and joints 1 and 2 are free."""
+
+IN_LINE, EXACT = 1e-5, 4e-14
+"""How far a wrist may be out of line [rad] that is put there, and the residual then [m and rad]."""
+
+WEAK, BACK = 1e-10, 3
+"""Singular value, relative to the largest, of a direction in which the others do not make up for
+that; Newton's steps by them."""
+
+OTHERS = 0b111111
+"""The mask of the joints that move."""
 
 
 def place_held(form, D, S, slack, scratch):
@@ -125,3 +139,26 @@ def _volume(S0, S1, y, v):
     )
     third = c * third[0] - s * third[1], s * third[0] + c * third[1], third[2]
     return abs(dot(first, cross(second, third)))
+
+
+def put_in_line(chain, T, form, reversed_, rows, count):
+    """Put wrists that are in line but for rounding there, where the pose is reached as well.
+
+    Where the elbow is straight, too, such an angle is known to the root of rounding, and on either
+    side of it is a solution, from which nothing is free.
+    """
+    (q, residual, _, free), middle = rows, 1 if reversed_ else 4
+    room, trial = (make_damped(6), np.empty((6, 6)), np.empty(6), np.empty(6)), np.empty(6)
+    for k in range(count):
+        bent = form[4, 6] * q[k, middle] + form[4, 4]
+        off = math.pi * np.rint(bent / math.pi) - bent
+        if free[k] != 0 or abs(off) > IN_LINE:
+            continue
+        trial[:] = q[k]
+        trial[middle] += form[4, 6] * off
+        for _ in range(BACK):
+            _, largest = look_at_some(chain, T, trial, OTHERS - (1 << middle), room)
+            add_step(chain, 1.0, trial, room, WEAK * largest, IN_LINE)
+        there = pose_residual(chain, T, trial)
+        if there <= max(EXACT, residual[k]):
+            q[k], residual[k] = trial, there
