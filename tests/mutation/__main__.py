@@ -121,7 +121,7 @@ def page() -> str:
     """The table, and the changes that survived."""
     rows = kept()
     names = "seen by answers", "by tests", "by time", "survived", "seen since", "the same", "left"
-    shares = "share of all", "of those that differ"
+    shares = "share of all", "of those that differ", "of these when drawn"
     lines = [f"| room | changes | {' | '.join([*names, *shares])} |"]
     lines.append("| - |" + " -: |" * (1 + len(names) + len(shares)))
     for room in ROOMS:
@@ -132,7 +132,8 @@ def page() -> str:
             since, same = (sum(x.startswith(word) for x in why) for word in (SINCE, SAME))
             counts = [how[key] for key in ("answers", "tests", "time", "survived")]
             left = how["survived"] - since - same
-            rates = [(same + left) / len(found), left / max(len(found) - same, 1)]
+            differ = max(len(found) - same, 1)
+            rates = [(same + left) / len(found), left / differ, (since + left) / differ]
             cells = [room, len(found), *counts, since, same, left, *(f"{x:.1%}" for x in rates)]
             lines.append(f"| {' | '.join(map(str, cells))} |")
     lines += ["", "| survived | was | became | why |", "| - | - | - | - |"]

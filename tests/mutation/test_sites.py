@@ -45,7 +45,7 @@ def test_the_share_is_of_changes_that_no_test_sees_now(monkeypatch):
     rows = [["kernels", "1", "f.py", "3", "0", "<", "<=", "survived", why] for why in seen]
     rows += [["kernels", "1", "f.py", "4", "0", "1", "2", how, ""] for how in ("answers", "none")]
     monkeypatch.setattr(tool, "kept", lambda: rows)
-    assert "| kernels | 5 | 1 | 0 | 0 | 4 | 1 | 1 | 2 | 60.0% | 50.0% |" in tool.page()
+    assert "| kernels | 5 | 1 | 0 | 0 | 4 | 1 | 1 | 2 | 60.0% | 50.0% | 75.0% |" in tool.page()
 
 
 def test_a_line_is_shown_to_tests_that_run_it_compiled_or_interpreted(tmp_path):
