@@ -1,9 +1,13 @@
-"""Singular poses of arms that rounding of their tables makes nearly redundant."""
+"""Singular poses of arms that rounding of their tables, or of a held value, makes redundant."""
+
+import math
 
 import numpy as np
 import pytest
 from structured import random_tables, rounded
 from sweep import Tally, judge
+
+from dh2urdf.dh import DHRow, DHTable
 
 TABLES = random_tables(54)
 
@@ -107,3 +111,27 @@ def test_a_singular_pose_of_an_arm_that_hardly_moves_is_searched(table, decimals
     tally = Tally("rounded")
     judge(tally, rounded(TABLES[table], decimals), np.array([q]), anywhere)
     assert tally.notes == []
+
+
+LENGTHS = (0.26, 0.0, 0.55, 0.0, 0.31, 0.0, 0.1)
+TWISTS = (0.0, -90.0, 90.0, 90.0, 0.0, -90.0, 90.0)
+
+BESIDE = [
+    (1.28e-06, 1.218e-05, 1.570785, -1.570802, 1.5707886, 1.5707814, 1.570806),
+    (-1.5707965, -1.62e-07, 1.5707963, -1.5707962, 1.5707963, -6e-08, -1.5707964),
+]
+"""Configurations of seven joints with joint 2 next to the value at which axes 1 and 3 line up."""
+
+
+@pytest.mark.parametrize("q", BESIDE)
+def test_a_held_value_beside_a_special_one_keeps_families(q):
+    """What a search finds beside it does not take their place."""
+    rows = (DHRow(0.0, d, 0.0, math.radians(t)) for d, t in zip(LENGTHS, TWISTS, strict=True))
+    table, values = DHTable(tuple(rows), "modified", name="seven"), np.array(q)
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={1: values[1:2]})
+
+    tally = Tally("held")
+    judge(tally, table, values[None], held, held=(1,))
+    assert not tally.count["singular lost"]
