@@ -14,6 +14,7 @@ from sphinx.util import logging
 
 import dh2urdf
 from dh2urdf.dh import DHTable, JointType
+from dh2urdf.ik.arm import LIMIT_SLACK, Task
 from dh2urdf.ik.families import general_6r
 from dh2urdf.kernels.counts import DEEP
 from dh2urdf.kernels.general_6r import ARM_6R, MOST
@@ -29,7 +30,7 @@ SCRIPTS += [
 ]
 
 KERNELS = ["solve_wrist_arm", "solve_three_parallel", "solve_general_6r", "solve_planar"]
-KERNELS += ["finish_batch", "turn_back"]
+KERNELS += ["finish_batch", "turn_back", "families_inside"]
 
 SOLVED = ("spherical wrist", "three parallel axes", "two parallel axes", "general 6R", "planar arm")
 """The package's solvers whose arms the page has to begin with."""
@@ -93,7 +94,8 @@ def _data() -> dict[str, Any]:
     }
     presets = [preset(name) for name in dh2urdf.list_tables() if _is_solved(name)]
     kernels = {"code": base64.b64encode(code).decode(), "entries": entries}
-    return {"kernels": kernels, "deep": DEEP, "general": general, "presets": presets}
+    numbers = {"deep": DEEP, "slack": LIMIT_SLACK, "tasks": {t.value: t.number for t in Task}}
+    return {"kernels": kernels, **numbers, "general": general, "presets": presets}
 
 
 def _is_solved(name: str) -> bool:

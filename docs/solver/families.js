@@ -16,6 +16,9 @@ const CLOSED = [
   [isParallel, "solve_three_parallel", "three parallel axes", "three parallel axes, from the tool"],
 ];
 
+// Middle of each range; where a bound is infinite, the allowed value nearest to zero.
+const middleOf = ({lower, upper}) => lower.map((low, i) => Number.isFinite(upper[i] - low) ? 0.5 * (low + upper[i]) : Math.min(Math.max(0, low), upper[i]));
+
 // What solves poses of a table: {name, n, size, solve(T, withinLimits)}, or {refused}. Thresholds are
 // meant for arms of about a metre: others are solved in a unit of their own, a power of two.
 function solverOf(table) {
@@ -53,7 +56,7 @@ function metreSolverOf(table) {
   const chain = standardRows(table), {rows} = chain, n = rows.length, links = linksOf(chain), size = sizeOf(chain);
   const joints = rows.map((row, i) => [row.slides ? 1 : 0, chain.lower[i], chain.upper[i]]);
   const tables = [floats(16 * (n + 1), links), floats(3 * n, joints)];
-  const solver = {n, links, rows, size, tables, pose: floats(16)};
+  const solver = {n, links, rows, size, tables, pose: floats(16), middle: floats(n, middleOf(chain))};
   if (axesParallel(links, n) && n < 6) return planarSolver(solver, chain);
   if (n !== 6) return {...solver, refused: `${n} joints: ${n > 6 ? "one to spare, so that solutions are curves" : "other than parallel ones"}; the package solves it, this page does not`};
   if (!movesEverywhere(solver)) return {...solver, refused: "the arm cannot move its tool in all six directions"};
@@ -67,6 +70,7 @@ function metreSolverOf(table) {
     solver.pose.set(T);
     kernels.solve_general_6r(1, arm, solver.pose, out.q, out.residual, out.count, doubt);
     kernels.finish_batch(n + 1, n, n, 1, 16, ...tables, solver.pose, within, ...handed(out));
+    bringInside(solver, out, within);
     return {found: solutionsOf(out), doubt: doubt[0] !== 0n};
   }});
 }
@@ -83,6 +87,7 @@ function closedSolver(solver, chain, form, kernel, name, back) {
     kernels[kernel](1, ...arm, SLACK, back ? turned : pose, within && !back, ...handed(out));
     const doubt = settle(out);
     if (back) kernels.turn_back(n + 1, n, n, 1, 8, ...tables, pose, within, ...handed(out));
+    bringInside(solver, out, within);
     return {found: solutionsOf(out), doubt};
   }});
 }
@@ -112,7 +117,9 @@ function planarSolver(solver, chain) {
   return Object.assign(solver, {name: whole ? "planar arm" : "planar arm, for the position", pointOnly: !whole, solve(T, within) {
     pose.set(T);
     kernels.solve_planar(n, 1, ...tables, where, plane, form, whole, pose, within, ...handed(out));
-    return {found: solutionsOf(out), doubt: settle(out)};
+    const doubt = settle(out);
+    bringInside(solver, out, within);
+    return {found: solutionsOf(out), doubt};
   }});
 }
 

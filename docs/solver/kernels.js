@@ -42,6 +42,11 @@ function outputs(kmax, n) {
 
 const handed = out => [out.q, out.residual, out.count, out.branch, out.free];
 
+// Members of singular families inside the limits, for those that are outside of them.
+function bringInside({n, tables, pose, size, middle, pointOnly}, out, within) {
+  if (within) kernels.families_inside(n + 1, n, n, 1, out.kmax, ...tables, page.slack, page.tasks[pointOnly ? "position" : "pose"], size, middle, pose, ...handed(out));
+}
+
 function solutionsOf(out) {
   return Array.from({length: Number(out.count[0])}, (_, k) => ({
     q: Array.from(out.q.subarray(out.n * k, out.n * (k + 1))),

@@ -49,7 +49,10 @@ function showTable() {
     };
     const cells = Object.keys(LETTERS).map(key => field(row[key], KINDS[key], v => { row[key] = v; }, `${LETTERS[key]} of row ${i + 1}`));
     const kind = kindOf(row), bounds = [[lower, -Infinity, "lower"], [upper, Infinity, "upper"]].map(([all, none, name]) =>
-      Object.assign(field(all[i], kind, v => { all[i] = v; }, `${name} limit of row ${i + 1}`, none), {className: "limit", placeholder: "none"}));
+      Object.assign(field(all[i], kind, v => {
+        if (name === "lower" ? v > upper[i] : v < lower[i]) throw new Error("the lower limit would lie above the upper one");
+        all[i] = v;
+      }, `${name} limit of row ${i + 1}`, none), {className: "limit", placeholder: "none"}));
     return element("tr", [element("th", String(i + 1)), ...[joint, ...cells, ...bounds].map(made => element("td", made))]);
   });
   const head = element("tr", [element("th", "i"), element("th", "joint"), ...heads, element("th", "lower"), element("th", "upper")]);

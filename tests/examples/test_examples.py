@@ -2,13 +2,17 @@
 
 import importlib.util
 import os
+import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import nbformat
 import pytest
+
+import dh2urdf
 
 FOLDER = Path(__file__).parents[2] / "examples"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
@@ -100,6 +104,39 @@ def test_notebooks_use_what_is_public(path):
             assert "._" not in line, line
 
 
+def does(*line):
+    """A command that ends with 0."""
+    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done
+
+
+def configured(arm, folder):
+    """The build folder of the CMake project with an arm."""
+    command, build = folder / "dh2urdf", folder / "build"
+    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m dh2urdf "$@"\n')
+    command.chmod(0o755)
+    words = [f"-DDH2URDF={command}", f"-DARM={arm}", "-DCMAKE_BUILD_TYPE=Debug"]
+    does("cmake", "-S", FOLDER / "cmake_solver", "-B", build, *words)
+    return build
+
+
+@pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake: apt-get install cmake")
+def test_the_cmake_project_writes_the_solver_of_a_file_that_changed_anew(tmp_path):
+    """The header is that of the table as it is, not as it was when it was first built."""
+    table = tmp_path / "arm.yaml"
+    dh2urdf.save_table(dh2urdf.load_table("planar_rr"), table)
+    build = configured(table, tmp_path)
+    does("cmake", "--build", build, "--target", "solve")
+    before = (build / "arm.h").read_text()
+    other = replace(dh2urdf.load_table(table), tool=dh2urdf.Origin((0.325, 0.0, 0.0)))
+    dh2urdf.save_table(other, table)
+    does("cmake", "--build", build, "--target", "solve")
+    after = (build / "arm.h").read_text()
+    sums = [re.search("links and joints: ([0-9a-f]{64})", text)[1] for text in (before, after)]
+    assert sums[0] != sums[1]
+
+
 @pytest.mark.skipif(not shutil.which("cmake"), reason="no cmake: apt-get install cmake")
 @pytest.mark.parametrize(("arm", "solutions"), [("puma560", 8), ("xarm6", 10)])
 def test_the_cmake_project_builds_and_its_tests_pass(arm, solutions, tmp_path):
@@ -107,15 +144,9 @@ def test_the_cmake_project_builds_and_its_tests_pass(arm, solutions, tmp_path):
 
     Of an arm with and of one without a workspace.
     """
-    command = tmp_path / "dh2urdf"
-    command.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m dh2urdf "$@"\n')
-    command.chmod(0o755)
-    build = tmp_path / "build"
-    words = ["-S", FOLDER / "cmake_solver", "-B", build, f"-DDH2URDF={command}", f"-DARM={arm}"]
-    words.append("-DCMAKE_BUILD_TYPE=Debug")
-    for line in (["cmake", *words], ["cmake", "--build", build], ["ctest", "--test-dir", build]):
-        done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=120)
-        assert done.returncode == 0, done.stdout + done.stderr
+    build = configured(arm, tmp_path)
+    does("cmake", "--build", build)
+    done = does("ctest", "--test-dir", build)
     assert "100% tests passed, 0 tests failed out of 2" in done.stdout
     solved = subprocess.run([build / "solve"], capture_output=True, text=True, check=True)
     assert solved.stdout.count("residual") == solutions

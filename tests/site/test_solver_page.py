@@ -199,6 +199,21 @@ def test_limits_leave_out_what_they_forbid(page):
     assert [len(answer["found"]) for answer in found] == [len(robot.ik(T)) for T in Ts]
 
 
+def test_families_are_shown_inside_the_limits(page):
+    """Within limits, singular solutions too, each a member of its family that is inside."""
+    robot, rng = dh2urdf.Robot.from_dh("mycobot_280"), np.random.default_rng(0)
+    q = 0.5 * np.pi * rng.integers(-1, 2, (60, robot.n))
+    q[:, 5] = rng.uniform(-3.1, 3.1, 60)
+    Ts = robot.fk(np.clip(q, robot.lower, robot.upper))
+    given = [solver_page.preset("mycobot_280"), Ts.reshape(-1, 16).tolist(), True]
+    found = [s for answer in page.evaluate(SOLVE, given)["found"] for s in answer["found"]]
+    assert sum(bool(s["free"]) for s in found) > 30
+    for s in found:
+        assert s["residual"] <= 1e-9
+        assert (robot.lower - SAME <= s["q"]).all(), s
+        assert (s["q"] <= robot.upper + SAME).all(), s
+
+
 def test_what_the_page_does_not_cover_it_refuses(page):
     """Seven joints, and three that are not parallel, have no solver here, and the page says so."""
     for name, why in (("kuka_iiwa14", "one to spare"), ("cylindrical", "other than parallel")):
@@ -227,6 +242,15 @@ def test_a_typed_table_is_the_arm_that_is_solved(page):
     assert np.allclose(rows, [[np.pi / 4, 0, 0.45, 0], [0, 0, 0.2, 0], [0, 0, 0.1, 0]])
     assert page.locator("#count").inner_text() == "2 solutions"
     picture(page, "solver_planar")
+
+
+def test_limits_that_exclude_each_other_are_refused(page):
+    """The cell is marked, one line says why, and the arm keeps its limits."""
+    before = page.evaluate("JSON.stringify(state.table)")
+    typed(page, "upper limit of row 1", "-1000")
+    says = "upper limit of row 1: the lower limit would lie above the upper one"
+    assert page.locator("#fault").inner_text() == says
+    assert page.evaluate("JSON.stringify(state.table)") == before
 
 
 @pytest.mark.parametrize("text", ["", "1+", "(2", "2)", "alert(1)", "1e99", "90kg", "3m", "1/0"])

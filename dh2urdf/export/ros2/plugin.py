@@ -1,8 +1,10 @@
 """The arm's own solver as a kinematics plugin of MoveIt 2, in the package of the arm."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from dh2urdf.conversions.write import default_limits
 from dh2urdf.dh import DHTable
 from dh2urdf.doors import found
 from dh2urdf.exceptions import ArgumentError, NoSolverError
@@ -50,6 +52,16 @@ def plugin_blanks(name: str) -> dict[str, str]:
     }
 
 
+def _with_limits(table: DHTable) -> DHTable:
+    """The table whose joints have the limits that they have in the URDF."""
+    ends = (default_limits(table, i) for i in range(table.n))
+    rows = []
+    for row in table.rows:
+        lower, upper = next(ends) if row.is_joint else (row.lower, row.upper)
+        rows.append(replace(row, lower=lower, upper=upper))
+    return replace(table, rows=tuple(rows))
+
+
 def plugin_files(table: DHTable, blanks: Mapping[str, str]) -> dict[str, str]:
     """The solver, the plugin and its description, by their paths in the package.
 
@@ -72,7 +84,7 @@ def plugin_files(table: DHTable, blanks: Mapping[str, str]) -> dict[str, str]:
             "MoveIt asks its plugins with no joint held, and this arm has a joint to spare: leave "
             "out the plugin (--plugin), and the package is written with KDL's"
         )
-    made = exported(robot, language="c")
+    made = exported(Robot.from_dh(_with_limits(table)), language="c")
     joints = ", ".join(f'"{name}"' for name in table.joint_names)
     works = has_workspace(made)
     both = {

@@ -33,7 +33,9 @@ singular: it stands for a family, along which {p}_ik_near does not move it. {com
 
 No function allocates or keeps anything between calls, and each may run in many threads at once.
 {stack} bytes of the stack, {P}_STACK, are enough for any of them. With contraction off (gcc and
-clang: -ffp-contract=off) results are those of dh2urdf to the last bit."""
+clang: -ffp-contract=off) results are those of dh2urdf to the last bit. Sums have to stay in their
+order: -ffast-math, -Ofast and /fp:fast are refused below, and -fassociative-math, which no compiler
+tells of, makes all numbers wrong."""
 
 HELD_REFUSED = """,
         or held is outside its limits within_limits"""
@@ -69,6 +71,10 @@ typedef struct {{
 """
 
 INLINING = """\
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST)
+#error "compile without -ffast-math, -Ofast and /fp:fast: these sums have to stay in their order"
+#endif
+
 /* What keeps the frames of functions apart, so that they do not add up on the stack; and what makes
  * those that return many numbers a part of their callers, where these need not go through memory.
  */

@@ -102,7 +102,10 @@ class Program:
             take = partial(solver.all_steps, room.Ts, inside, room.out)
         steps = take()
         if not steps:
-            raise NoSolverError(f"{solver}: its solutions need more than kernels; not exported")
+            left = "with that joint held, what is left is a " if joints else ""
+            raise NoSolverError(
+                f"{left}{solver}: its solutions need more than kernels; not exported"
+            )
         named: dict[str, Any] = {
             "pose": room.Ts,
             "held": held,

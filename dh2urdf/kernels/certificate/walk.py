@@ -203,7 +203,7 @@ def joints_that_move(chain, T, q, length, part, mask, moved):
     """
     n, found = q.shape[0], False
     room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
-    ways, floors, trial = np.empty((n + 2, n)), np.empty(n), np.empty((PARTS, n))
+    ways, floors, trial = np.empty((n + 2, n)), np.zeros(n), np.empty((PARTS, n))
     trial[0] = q
     moved[:] = 0.0
     _, largest = look_at_some(chain, T, trial[0], mask, room)

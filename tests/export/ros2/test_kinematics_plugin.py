@@ -5,6 +5,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 from lxml import etree
 
@@ -94,6 +95,18 @@ def test_package_names_its_plugin_everywhere_alike():
     for place, text in package.files.items():
         assert not re.search(r"@[A-Z]+@", text), place
     assert "moveit_core" not in "".join(plain.files.values())
+
+
+def test_plugin_keeps_to_the_limits_of_the_urdf():
+    """Those that a joint has only there, too, within which MoveIt plans."""
+    rows = tuple(DHRow(a=0.3, alpha=0.5, d=0.1, lower=low) for low in (None, -1.0, None))
+    files = ros2_package(DHTable(rows, "standard", name="arm"), "arm_moveit", plugin=True).files
+    joints = etree.fromstring(files["urdf/arm.urdf"].encode()).iter("limit")
+    ends = [(float(x.get("lower")), float(x.get("upper"))) for x in joints]
+    head = files["include/arm_moveit/arm.h"]
+    texts = (re.search(rf"ARM_{k}\[ARM_JOINTS\] = {{(.*?)}};", head)[1] for k in ("LOWER", "UPPER"))
+    own = [[float(number) for number in text.split(",")] for text in texts]
+    assert np.allclose(np.transpose(own), ends, atol=1e-12)
 
 
 def test_arms_without_a_plugin_are_refused_with_the_reason(refused, tmp_path):

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dh2urdf import DHTable, Robot, export_solver
+from dh2urdf import DHRow, DHTable, JointType, Robot, export_solver
 from dh2urdf.cli import main
 from dh2urdf.exceptions import ArgumentError, NameNotFoundError, NoSolverError
 from dh2urdf.export.source import exported
@@ -185,6 +185,20 @@ def test_compilers_have_nothing_to_say(name, compiler, tmp_path):
         pytest.skip(f"no {compiler}; .ci/run installs it")
     arm = Arm(Robot.from_dh(name), tmp_path)
     arm.compile("-O2", compiler=compiler)
+
+
+def test_a_single_joint_is_compiled_without_a_warning(tmp_path):
+    """The smallest arms of either kind, optimised."""
+    for kind in (JointType.REVOLUTE, JointType.PRISMATIC):
+        table = DHTable((DHRow(a=0.3, alpha=0.4, joint_type=kind),), "standard")
+        Arm(Robot.from_dh(table), tmp_path).compile("-O2")
+
+
+def test_options_that_reorder_sums_are_refused(tmp_path):
+    """With them forward kinematics would be wrong, and the inverse would agree with it."""
+    arm = Arm(Robot.from_dh("puma560"), tmp_path)
+    with pytest.raises(AssertionError, match="compile without -ffast-math"):
+        arm.compile("-O2", "-ffast-math")
 
 
 def whole_arm(name, folder):
@@ -543,6 +557,8 @@ def test_a_joint_to_spare_has_to_be_held():
     """An arm of seven joints says which joint to hold."""
     with pytest.raises(NoSolverError, match="hold one, such as"):
         exported(Robot.from_dh("kuka_iiwa14"), language="c")
+    with pytest.raises(NoSolverError, match="with that joint held, what is left is a short chain"):
+        exported(Robot.from_dh("ur5"), language="c", held=2)
 
 
 def test_the_verb_writes_the_file(tmp_path):
