@@ -78,13 +78,13 @@ def plugin_files(table: DHTable, blanks: Mapping[str, str]) -> dict[str, str]:
         raise ArgumentError(f"{found(odd[0])}: a plugin has joints of letters, digits, _ and -")
     from dh2urdf.ik.redundant import SweptJoint
 
-    robot = Robot.from_dh(table)
+    robot = Robot.from_dh(_with_limits(table))
     if isinstance(robot.solver, SweptJoint):
         raise NoSolverError(
             "MoveIt asks its plugins with no joint held, and this arm has a joint to spare: leave "
             "out the plugin (--plugin), and the package is written with KDL's"
         )
-    made = exported(Robot.from_dh(_with_limits(table)), language="c")
+    made = exported(robot, language="c")
     joints = ", ".join(f'"{name}"' for name in table.joint_names)
     works = has_workspace(made)
     both = {

@@ -21,6 +21,9 @@ WORTH = 1.6e-3
 processor is busy or the thread's code has left the caches: with half of it, small batches take
 longer than on one thread (``benchmarks.threads --cold``)."""
 
+NEAR = 4.0
+"""So many times that are not sure to be it, by poses that waited for memory: half of it is that."""
+
 LONGEST, LARGEST = 2e-3, 2048
 """Most seconds and poses of a chunk: progress and Ctrl-C are prompt, and what it writes is still in
 the processor's cache when it is padded."""
@@ -31,22 +34,30 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_pool.clear)  # where its threads do not live on
 
 
+def _begun(
+    work: Callable[[slice], object], m: int, tell: Callable[[int], None]
+) -> tuple[int, float]:
+    """Work on the first poses of m; how many they were, and the seconds that one took."""
+    done, each = 0, 0.0
+    while not done or (done == FIRST and 1.0 <= each * (m - done) / WORTH < NEAR):
+        rows = slice(done, min(done + FIRST, m))
+        begin = perf_counter()
+        work(rows)
+        done, each = rows.stop, (perf_counter() - begin) / FIRST
+        tell(done)
+    return done, each
+
+
 def in_chunks(
     work: Callable[[slice], object], m: int, threads: int | None, tell: Callable[[int], None]
 ) -> None:
     """Work on all slices of m poses, and tell how many are done; what a thread raises is raised."""
     if not m:
         return
-    most = os.cpu_count() or 1 if threads is None else threads
-    first, each = 0, 0.0
-    while first < m and (not first or (first == FIRST and 1 <= each * (m - first) / WORTH < 4)):
-        begin = perf_counter()
-        work(slice(first, min(first + FIRST, m)))
-        each = (perf_counter() - begin) / FIRST
-        first = min(first + FIRST, m)
-        tell(first)
+    first, each = _begun(work, m, tell)
     if not (rest := m - first):
         return
+    most = os.cpu_count() or 1 if threads is None else threads
     helpers = min(most - 1, int(each * rest / WORTH))
     even = rest // (4 * helpers + 4)
     step = max(FIRST, min(int(LONGEST / each), LARGEST, even if helpers else rest))
