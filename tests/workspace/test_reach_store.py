@@ -220,6 +220,18 @@ def test_a_block_whose_mark_cannot_be_read_is_one_message(ur5e, small, tmp_path)
         reach_map(ur5e, **SMALL, store=tmp_path / "arm.zarr")
 
 
+@pytest.mark.parametrize("name", ["progress/done", "share"])
+def test_an_array_of_another_shape_is_one_message(ur5e, small, tmp_path, name):
+    """Marks of no block at all, or fewer voxels than the grid has, are told before any work."""
+    shutil.copytree(small, tmp_path / "arm.zarr")
+    place = tmp_path / "arm.zarr" / name / "zarr.json"
+    told = json.loads(place.read_text())
+    told["shape"][2] = 0
+    place.write_text(json.dumps(told))
+    with pytest.raises(OutputError, match=rf"arm\.zarr: is damaged \({name} has the shape .*, 0\)"):
+        reach_map(ur5e, **SMALL, store=tmp_path / "arm.zarr")
+
+
 class Touches(NamedTuple):
     """What makes a file where it is unpickled."""
 

@@ -68,8 +68,22 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
         elif KEY not in group.attrs:
             raise _other(path)
         _refuse_others(path, dict(group.attrs), said)
-        if any(name not in group for name in (*variables(settings), DONE)):
-            _make(zarr, group, settings)
+        shapes = _shapes(settings)
+        if any(name not in group for name in shapes):
+            _make(zarr, group, settings, shapes)
+        for name, shape in shapes.items():
+            if group[name].shape != shape:
+                raise ValueError(f"{name} has the shape {group[name].shape}, not {shape}")
+
+
+def _shapes(settings: MapSettings) -> dict[str, tuple[int, ...]]:
+    """The shape of each variable, and of the marks of blocks."""
+    turns = len(settings.turns)
+    shapes = {
+        name: (*settings.grid.shape, *[turns] * (len(axes) - 3))
+        for name, axes in variables(settings).items()
+    }
+    return {**shapes, DONE: settings.counts}
 
 
 def _opened(zarr: Any, path: str) -> Any:
@@ -141,7 +155,7 @@ def _other_part(here: dict[str, Any], asked: dict[str, Any]) -> tuple[str, Any, 
     raise AssertionError("chains of another digest are the same")
 
 
-def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
+def _make(zarr: Any, group: Any, settings: MapSettings, shapes: dict[str, tuple[int, ...]]) -> None:
     """All arrays, nothing in them but coordinates."""
     for name, (axes, values, attrs) in coordinates(settings).items():
         array = group.create_array(
@@ -153,13 +167,11 @@ def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
             overwrite=True,
         )
         array[...] = values
-    side, k = settings.side, len(settings.turns)
     for name, axes in variables(settings).items():
-        each = [k] * (len(axes) - 3)
         group.create_array(
             name,
-            shape=(*settings.grid.shape, *each),
-            chunks=(side, side, side, *each),
+            shape=shapes[name],
+            chunks=(*[settings.side] * 3, *shapes[name][3:]),
             dtype="float32",
             fill_value=np.nan,
             dimension_names=axes,
@@ -168,7 +180,7 @@ def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
         )
     group.create_array(
         DONE,
-        shape=settings.counts,
+        shape=shapes[DONE],
         chunks=(1, 1, 1),
         dtype="bool",
         fill_value=False,
