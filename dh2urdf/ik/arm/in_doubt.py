@@ -122,8 +122,20 @@ def keep_known(chain: SerialChain, T: Array, known: Outputs, wide: Outputs) -> N
             if array.ndim > 1:
                 array[0, place] = source[0, k]
         curves += _curves(chain, T[0], wide, place)[0]
+    _drop_members(chain, T[0], wide)
     count = wide.counts[0]
     _keep(wide, np.argsort(wide.residual[0, :count] > SHARP, kind="stable"))
+
+
+def _drop_members(chain: SerialChain, T: Array, out: Outputs) -> None:
+    """Drop solutions that no walk leaves, but one along a family comes to, in place."""
+    q, free = out.q[0, : out.counts[0]], out.free[0]
+    kept = np.ones(len(q), np.bool_)
+    for k in np.flatnonzero(free[: len(q)]):
+        alone = np.flatnonzero(kept & (free[: len(q)] == 0))
+        if len(alone):
+            kept[alone] = ~family_of(chain, T, q[k], free[k]).contains(q[alone])
+    _keep(out, np.flatnonzero(kept))
 
 
 def _curves(

@@ -16,11 +16,12 @@ from dh2urdf.ik.arm import (
     branch_words_of,
     hold,
     select_solver,
+    spare_joints,
     without_end,
 )
 from dh2urdf.ik.families import SLIDES, General6R
 from dh2urdf.ik.redundant.held_wrist import TRIAL_VALUE, HeldWrist
-from dh2urdf.ik.redundant.searched import Search
+from dh2urdf.ik.redundant.searched import Search, SearchedSolver
 from dh2urdf.kernels.chain import held_poses, insert_held_batch
 from dh2urdf.transforms import Array
 
@@ -38,6 +39,9 @@ class HeldJoints:
             raise ConfigurationError(f"locked: all {chain.n} joints are held, none is left to move")
         self.chain, self.held = chain, dict(held)
         self.inner: Solver = inner or select_solver(hold(chain, held), task)
+        if isinstance(self.inner, SearchedSolver):
+            # families beside a special value, with a joint to spare, are looked for by others
+            self.inner.at_singular &= not spare_joints(self.inner.chain, task)
         self.moving = np.array([i for i in range(chain.n) if i not in held])
         self.kmax = self.inner.kmax
         self.branch_words = branch_words_of(self.inner)

@@ -15,21 +15,30 @@ from dh2urdf.ik.arm import (
     Task,
     branch_words_of,
     inside,
+    keep_known,
     middle,
     moving_joints,
+    scaled_jacobian,
+    search_in_doubt,
+    spare_joints,
     task_error,
     task_jacobian,
     tips_at,
     turned_to,
 )
 from dh2urdf.ik.families import search_short
+from dh2urdf.kernels.certificate import finish_batch
 from dh2urdf.transforms import Array
 
 STARTS = 64
 STEPS = 60
 
 SIX = 6
-"""Joints of an arm of which only poses without a solution are searched."""
+"""Joints of an arm of which poses without a solution are searched, and singular ones."""
+
+WEAK = 1e-5
+"""Singular value, relative to the largest, of a second direction in which a solution hardly moves:
+curves of nearly exact solutions come close to each other, and held values meet some of them."""
 
 LESS = 0.05
 """Damping after a good step; in a valley it has to fall below the square of its slope."""
@@ -65,18 +74,22 @@ class SearchedSolver:
     def __init__(self, inner: Solver) -> None:
         self.inner, self.chain, self.kmax, self.name = inner, inner.chain, inner.kmax, inner.name
         self.branch_words = branch_words_of(inner)
+        self.at_singular = inner.chain.n == SIX and spare_joints(inner.chain, Task.POSE) <= 1
 
     def explain(self) -> str:
         """Name the solver, and that it is helped."""
+        what = "a pose that is not found, and a singular one," if self.at_singular else ""
         return (
-            f"{self.inner.explain()}\nsome joints hardly move the tool together; a pose that is "
-            "not found is searched for from many starts"
+            f"{self.inner.explain()}\nsome joints hardly move the tool together; "
+            f"{what or 'a pose that is not found'} is searched for from many starts"
         )
 
     def solve_batch(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
         """Solve poses Ts (m, 4, 4), and search: of six joints where there is no solution."""
         always = self.chain.n < SIX
         self.inner.solve_batch(Ts, within_limits and not always, out)
+        if self.at_singular:
+            self._look_at_singular(Ts, within_limits, out)
         rows = np.flatnonzero((out.counts == 0) | always)
         if not len(rows):
             return
@@ -84,6 +97,26 @@ class SearchedSolver:
         if within_limits and not always:
             self.inner.solve_batch(poses, False, known)
         out.put(rows, search_short(self.chain, poses, known, within_limits))
+
+    def _look_at_singular(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
+        """Search at poses where solutions hardly move in two directions, along curves or across."""
+        used = np.arange(out.q.shape[1]) < out.counts[:, None]
+        J, weak = scaled_jacobian(self.chain, Task.POSE, out.q[used]), np.zeros_like(used)
+        sigma = np.linalg.svd(J, compute_uv=False)
+        weak[used] = sigma[:, SIX - 2] <= WEAK * sigma[:, 0]
+        rows = np.flatnonzero(weak.any(axis=1))
+        if not len(rows):
+            return
+        poses, known = np.ascontiguousarray(Ts[rows]), out.rows(rows)
+        if within_limits:
+            self.inner.solve_batch(poses, False, known)
+        wide = search_in_doubt(self.chain, poses, known, np.arange(len(rows)), False)
+        for i in range(len(rows)):
+            row = slice(i, i + 1)
+            keep_known(self.chain, poses[row], known.rows(row), wide.rows(row))
+        if within_limits:
+            finish_batch(self.chain.tables, poses, True, wide)
+        out.put(rows, wide)
 
     def __str__(self) -> str:
         return self.name
