@@ -40,6 +40,9 @@ WEAK = 1e-5
 """Singular value, relative to the largest, of a second direction in which a solution hardly moves:
 curves of nearly exact solutions come close to each other, and held values meet some of them."""
 
+STILL = 1e-9
+"""That of a direction in which an isolated solution may move on: it may be on a family."""
+
 LESS = 0.05
 """Damping after a good step; in a valley it has to fall below the square of its slope."""
 
@@ -99,11 +102,12 @@ class SearchedSolver:
         out.put(rows, search_short(self.chain, poses, known, within_limits))
 
     def _look_at_singular(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Search at poses where solutions hardly move in two directions, along curves or across."""
+        """Search where solutions hardly move in two directions, or not at all in one and are isolated."""
         used = np.arange(out.q.shape[1]) < out.counts[:, None]
         J, weak = scaled_jacobian(self.chain, Task.POSE, out.q[used]), np.zeros_like(used)
         sigma = np.linalg.svd(J, compute_uv=False)
-        weak[used] = sigma[:, SIX - 2] <= WEAK * sigma[:, 0]
+        still = (sigma[:, SIX - 1] <= STILL * sigma[:, 0]) & (out.free[used] == 0)
+        weak[used] = still | (sigma[:, SIX - 2] <= WEAK * sigma[:, 0])
         rows = np.flatnonzero(weak.any(axis=1))
         if not len(rows):
             return

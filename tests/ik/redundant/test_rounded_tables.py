@@ -96,9 +96,21 @@ POSES = [
             1.570796332536979,
         ),
     ),
+    (
+        52,
+        4,
+        (
+            -0.6799472889044181,
+            0.07551397151046442,
+            -1.6694386563052166,
+            -3.1421158652466845,
+            -2.349598254870131,
+            -2.5677590628317013,
+        ),
+    ),
 ]
 """Which table, how many decimals its angles have, and a configuration, which hardly moves the tool
-in two directions or more."""
+in two directions or more; of the last, in one, along which it is on a family."""
 
 
 @pytest.mark.parametrize(("table", "decimals", "q"), POSES)
