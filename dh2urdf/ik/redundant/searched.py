@@ -102,7 +102,7 @@ class SearchedSolver:
         out.put(rows, search_short(self.chain, poses, known, within_limits))
 
     def _look_at_singular(self, Ts: Array, within_limits: bool, out: Outputs) -> None:
-        """Search where solutions hardly move in two directions, or not at all in one and are isolated."""
+        """Search where solutions hardly move in two directions, or isolated ones not in one."""
         used = np.arange(out.q.shape[1]) < out.counts[:, None]
         J, weak = scaled_jacobian(self.chain, Task.POSE, out.q[used]), np.zeros_like(used)
         sigma = np.linalg.svd(J, compute_uv=False)
