@@ -56,14 +56,16 @@ class Tally:
             f"{c['regular']} regular: {c['regular lost']} lost; "
             f"{c['singular']} singular: {c['singular lost']} lost, "
             f"{c['no answer']} without answer; {c['wrong']} wrong, {c['twice']} twice, "
-            f"{c['no family']} families that are none, {c['unnamed']} not named; {micro:.0f} us"
+            f"{c['no family']} families that are none, {c['unnamed']} not named; "
+            f"{c['beyond']} found by their seed alone; {micro:.0f} us"
         )
 
     def failures(self):
         """What may not be, in words."""
         c = self.count
         few = c["singular lost"] <= SINGULAR_LOST * c["singular"]
-        return [note for note in self.notes if not (few and note.startswith("singular lost"))]
+        told = ("beyond", "singular lost") if few else ("beyond",)
+        return [note for note in self.notes if not note.startswith(told)]
 
 
 def smallest(arm, q, moving):
@@ -104,11 +106,22 @@ def judge(tally, table, q, solve, robot=None, held=()):
     ``solve`` takes the robot and poses (m, 4, 4) and returns a batch; some joints may be held.
     """
     arm, robot = arm_of(table), robot or dh2urdf.Robot.from_dh(table)
-    judge_arm(tally, (table, arm), q, lambda Ts: solve(robot, Ts), held)
+
+    def from_seed(T, p):
+        found = robot.ik(T, seed=p, within_limits=False)
+        return found.partial and len(found) and gaps(arm, found.q[:1], p)[0] <= MOST
+
+    judge_arm(
+        tally, (table, arm), q, lambda Ts: solve(robot, Ts), held, None if held else from_seed
+    )
 
 
-def judge_arm(tally, named, q, solve, held=()):
-    """The same of an arm, before which stands its table, or its name."""
+def judge_arm(tally, named, q, solve, held=(), from_seed=None):
+    """The same of an arm, before which stands its table, or its name.
+
+    Where two joints or more are to spare answers are members of a part, and say so: then
+    ``from_seed`` tells whether a configuration (n,) as the seed finds itself.
+    """
     table, arm = named
     moving = np.isin(np.arange(arm.n), held, invert=True)
     Ts = np.ascontiguousarray(forward(arm, q))
@@ -127,7 +140,8 @@ def judge_arm(tally, named, q, solve, held=()):
         if k == 0:
             tally.note("no answer", table, q[i])
         if k == 0 or not contains(arm, found, masks, q[i], T, tolerance[i], moving):
-            tally.note(f"{kind} lost", table, q[i])
+            beyond = k > 0 and from_seed is not None and from_seed(T, q[i])
+            tally.note("beyond" if beyond else f"{kind} lost", table, q[i])
         if k > 0:
             _check_solutions(tally, table, arm, (found, masks, moving), T, q[i])
 

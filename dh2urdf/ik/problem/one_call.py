@@ -16,7 +16,7 @@ from dh2urdf.ik.problem.coupled_problem import CoupledProblem
 from dh2urdf.ik.problem.locked import Locked
 from dh2urdf.ik.problem.problem import Problem
 from dh2urdf.ik.problem.swept_problem import SweptProblem
-from dh2urdf.ik.redundant import MOST_MEMBERS, RedundantChain, SweptJoint, towards_seed
+from dh2urdf.ik.redundant import MOST_MEMBERS, SweptJoint, towards_seed
 from dh2urdf.kernels.certificate import arrange_plain, arrange_together, values_of_batch
 from dh2urdf.kernels.numbers import any_family, is_pose
 from dh2urdf.kernels.redundant import families_inside
@@ -39,7 +39,7 @@ def seeded_call_of(problem: Problem, within_limits: bool) -> AtOnce:
         return _swept_call_of(problem, problem.solver, within_limits)
     room, seed = _room(problem), np.empty(problem.chain.n)
     steps = _steps(problem, room, within_limits)
-    if not steps or isinstance(problem.solver, RedundantChain):
+    if not steps or problem.spare is not None:
         return nothing_at_once
     return _call(room, (*steps, _arrange(problem, room, seed, within_limits)), seed)
 

@@ -32,7 +32,7 @@ from dh2urdf.ik.problem.batch_solutions import IKBatch
 from dh2urdf.ik.problem.chunks import in_chunks
 from dh2urdf.ik.problem.shortfall import all_outside, shortfall
 from dh2urdf.ik.problem.solutions import IKSolutions, joints_of_mask
-from dh2urdf.ik.redundant import RedundantChain
+from dh2urdf.ik.redundant import RedundantChain, SearchedSolver
 from dh2urdf.kernels.certificate import measure_all, measure_and_sort, settle_on_bounds, turn_all
 from dh2urdf.kernels.numbers import pad_solutions
 from dh2urdf.kernels.redundant import families_inside
@@ -81,13 +81,20 @@ class Problem:
         self.chain, self.solver, self.task = chain, solver, task
         self.referee = referee
         self.branch_words = branch_words_of(solver)
+        inner = solver.inner if isinstance(solver, SearchedSolver) else solver
+        self.spare = inner if isinstance(inner, RedundantChain) else None
         self._rooms: list[Room] = []
         self._solve: Any = None if isinstance(solver, HeldSolver) else solver.solve_batch
 
     @property
     def sampled(self) -> bool:
         """Whether there are solutions between those that are listed."""
-        return isinstance(self.solver, RedundantChain)
+        return self.spare is not None
+
+    @property
+    def partial(self) -> bool:
+        """Whether there may be solutions that those that are listed do not lead to."""
+        return self.spare is not None and self.spare.partial
 
     def at(self, values: Array) -> "Problem":
         """The same problem with its joints held at other values."""
@@ -219,9 +226,9 @@ class Problem:
 
     def _with_nearer(self, found: IKSolutions, seed: Array, within_limits: bool) -> IKSolutions:
         """With a nearer solution of an arm with joints to spare, on a curve of its own or not."""
-        if not isinstance(self.solver, RedundantChain):
+        if self.spare is None:
             return found
-        for q, mask in zip(*self.solver.beside_seed(found.T, seed, within_limits), strict=True):
+        for q, mask in zip(*self.spare.beside_seed(found.T, seed, within_limits), strict=True):
             family = Family(self.chain, self.task, found.T, joints_of_mask(int(mask)), q)
             member = family.nearest(seed, within_limits)
             gaps = np.linalg.norm(found.q - seed, axis=1)

@@ -29,6 +29,8 @@ def joints_of_mask(mask: int) -> tuple[int, ...]:
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
 
 
+PARTIAL = "members of a part of the solutions; a seed finds its own"
+
 _NUMBER = Struct("=q").unpack_from
 
 
@@ -41,6 +43,10 @@ class Answering(Protocol):
     @property
     def sampled(self) -> bool:
         """Whether there are solutions between those that are listed."""
+
+    @property
+    def partial(self) -> bool:
+        """Whether there may be solutions that those that are listed do not lead to."""
 
     def arranged(self, found: IKSolutions, seed: Array, within_limits: bool = True) -> IKSolutions:
         """The solutions towards a seed, nearest first."""
@@ -71,6 +77,9 @@ class IKSolutions:
         ``shoulder left, elbow up, wrist flip``; empty where these words mean nothing.
     free_joints : tuple of tuples of int
         Joints that can move along the singular family through each solution; mostly empty.
+    partial : bool
+        Whether the arm has two joints or more to spare: there may be solutions that are on no
+        family of these, and a seed finds its own.
     T : array, shape (4, 4)
         The target.
     pose_change : float
@@ -109,6 +118,11 @@ class IKSolutions:
     def free_joints(self) -> tuple[tuple[int, ...], ...]:
         """Joints that can move along a singular family, one tuple per solution."""
         return tuple(joints_of_mask(mask) for mask in self.codes[1].tolist())
+
+    @property
+    def partial(self) -> bool:
+        """Whether the arm has two joints or more to spare: these are members of a part."""
+        return self._problem.partial
 
     @property
     def T(self) -> Array:
@@ -230,4 +244,5 @@ class IKSolutions:
             values = " ".join(f"{v:9.5f}" for v in q)
             notes = [note for note in (branch, free and f"free joints {free}") if note]
             lines.append(f"{i}: {values}  residual {residual:.1e}  {'; '.join(notes)}".rstrip())
+        lines += [PARTIAL] if self.partial else []
         return "\n".join(lines)

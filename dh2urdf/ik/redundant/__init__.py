@@ -7,7 +7,7 @@ between them, `held_at_rest` holds idle joints, `searched` helps arms with weak 
 
 from dh2urdf.ik.redundant.held_at_rest import RedundantChain
 from dh2urdf.ik.redundant.held_values import select_held
-from dh2urdf.ik.redundant.searched import nearly_reaching
+from dh2urdf.ik.redundant.searched import SearchedSolver, nearly_reaching
 from dh2urdf.ik.redundant.self_motion import (
     MOST_MEMBERS,
     nearest_members,

@@ -107,6 +107,7 @@ class RedundantChain(SolverBase):
         self.values = list(itertools.product(*rows))
         self.one_by_one = HeldOneByOne(chain, self.held, task, self.values[0])
         self.kmax = max(self.one_by_one.kmax, MOST)
+        self.partial = len(self.held) > 1 and not self.alone
 
     @classmethod
     def obstacle(
@@ -132,10 +133,10 @@ class RedundantChain(SolverBase):
         names = ", ".join(self.chain.names[i] for i in self.held)
         if self.alone:
             whole = "a member of each family"
-        elif len(self.held) == 1:
-            whole = f"a member of each curve of solutions, those without one from {CURVES} starts"
-        else:
+        elif self.partial:
             whole = "members of a part of the solutions"
+        else:
+            whole = f"a member of each curve of solutions, those without one from {CURVES} starts"
         return (
             f"{names} held at rest or where the pose is reached: {whole}; a seed finds its own; "
             f"{self.one_by_one}"

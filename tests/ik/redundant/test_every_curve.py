@@ -75,8 +75,13 @@ def test_a_pose_beyond_a_redundant_arm_has_no_solution():
 
 
 def test_an_arm_with_two_joints_to_spare_says_that_it_holds_a_part():
-    """Surfaces of solutions are not walked; the words of the solver say so."""
+    """Surfaces of solutions are not walked; the solver's words and the answers say so."""
     table = dh2urdf.DHTable.from_array(
         rows("0 0 .3 0; 0 0 .2 0; 0 0 .25 0; 0 0 .2 0; 0 0 .1 0"), "standard", "theta d a alpha"
     )
-    assert "a part of the solutions" in dh2urdf.Robot.from_dh(table).solver.explain()
+    robot = dh2urdf.Robot.from_dh(table)
+    found = robot.ik(robot.fk(np.full(5, 0.4)), within_limits=False)
+    assert found.partial
+    assert all("a part of the solutions" in text for text in (robot.solver.explain(), str(found)))
+    robot = dh2urdf.Robot.from_dh(FOUR_IN_A_PLANE)
+    assert not robot.ik(robot.fk(np.full(4, 0.4)), within_limits=False).partial

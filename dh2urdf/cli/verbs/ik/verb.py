@@ -141,6 +141,10 @@ def ik_(
         emit_file(lesson_text(lesson, format or "text"))
     elif found:
         emit(solutions_text(arm, found, deg=deg, maker=words))
+        if found.partial:
+            from dh2urdf.ik.problem.solutions import PARTIAL
+
+            emit(PARTIAL)
     if reason:
         hidden = within_limits and "outside the joint limits" in reason
         hint = "; --no-within-limits shows them" if hidden else ""
