@@ -318,3 +318,13 @@ def test_an_arm_without_that_shape_has_no_words(refused):
         "dh2urdf: --words kuka: no ortho-parallel arm with a spherical wrist: axes 3 and 4 are not"
     )
     assert err.startswith(start)
+
+
+def test_an_arm_with_two_joints_to_spare_says_that_it_holds_a_part(run, tmp_path):
+    """Below its solutions."""
+    table = tmp_path / "five.csv"
+    head = "# convention: standard\n# units: m, rad\ntheta,d,a,alpha\n"
+    table.write_text(head + "q,0,.3,0\n" * 5)
+    status, out, _ = run("ik", str(table), "--xyz", "0.6", "0.3", "0", "--rpy", "0", "0", "0.4")
+    assert status == 0
+    assert out.endswith("members of a part of the solutions; --seed finds its own\n")

@@ -29,8 +29,6 @@ def joints_of_mask(mask: int) -> tuple[int, ...]:
     return tuple(i for i in range(mask.bit_length()) if mask >> i & 1)
 
 
-PARTIAL = "members of a part of the solutions; a seed finds its own"
-
 _NUMBER = Struct("=q").unpack_from
 
 
@@ -244,5 +242,6 @@ class IKSolutions:
             values = " ".join(f"{v:9.5f}" for v in q)
             notes = [note for note in (branch, free and f"free joints {free}") if note]
             lines.append(f"{i}: {values}  residual {residual:.1e}  {'; '.join(notes)}".rstrip())
-        lines += [PARTIAL] if self.partial else []
+        if self.partial:
+            lines.append("members of a part of the solutions; a seed finds its own")
         return "\n".join(lines)

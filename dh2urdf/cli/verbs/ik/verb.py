@@ -142,9 +142,7 @@ def ik_(
     elif found:
         emit(solutions_text(arm, found, deg=deg, maker=words))
         if found.partial:
-            from dh2urdf.ik.problem.solutions import PARTIAL
-
-            emit(PARTIAL)
+            emit("members of a part of the solutions; --seed finds its own")
     if reason:
         hidden = within_limits and "outside the joint limits" in reason
         hint = "; --no-within-limits shows them" if hidden else ""
