@@ -36,14 +36,14 @@ FAR = 4.0 * math.pi
 
 WEAK, BACK = 1e-10, 3
 """Singular value, relative to the largest, of a direction in which joints do not make up for others
-that were put on their bounds; Newton's steps for that."""
+that were put on their bounds, or in line; Newton's steps for that."""
 
 OVER = 1e-3
 """How far [rad or m] rounding takes the root of a solution over a bound at most: three that meet
 are known to the cube root of it, four to the fourth."""
 
 EXACT = 40.0 * ROUNDING
-"""Residual [m and rad] on the bound of one that was farther over it than ``CLUSTER``."""
+"""Residual [m and rad] of one that was put on a bound from farther than ``CLUSTER``, or in line."""
 
 
 def principal(angle):
@@ -73,19 +73,26 @@ def is_known(joints, q, count, p):
     return False
 
 
-def make_up(chain, T, q, free, most):
-    """Newton's method by the joints of q (n,) that are on no bound; the residual then.
+def bring_back(chain, T, q, mask, most, room):
+    """Newton's method by the joints of a mask, q (n,) in place, where others were put somewhere.
 
-    At a nearly double root others make up for what bounds took off, within the limits, by steps of
-    at most so much.
+    By steps of at most so much. At a nearly double root joints make up for what was taken off.
+    """
+    for _ in range(BACK):
+        _, largest = look_at_some(chain, T, q, mask, room)
+        add_step(chain, 1.0, q, room, WEAK * largest, most)
+
+
+def make_up(chain, T, q, free, most):
+    """:func:`bring_back` by the joints of q (n,) that are on no bound; the residual then.
+
+    Within the limits.
     """
     (_, joints), n, mask = chain, q.shape[0], 0
     room = make_damped(n), np.empty((n, n)), np.empty(n), np.empty(n)
     for i in range(n):
         mask |= (1 if joints[i, 1] < q[i] < joints[i, 2] else 0) << i
-    for _ in range(BACK):
-        _, largest = look_at_some(chain, T, q, mask, room)
-        add_step(chain, 1.0, q, room, WEAK * largest, most)
+    bring_back(chain, T, q, mask, most, room)
     _onto_bounds(joints, q, free)
     return pose_residual(chain, T, q)
 

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import add_step, look_at_some
+from dh2urdf.kernels.certificate import EXACT, bring_back
 from dh2urdf.kernels.newton import make_damped, pose_residual
 from dh2urdf.kernels.numbers import atan2, circle_pair, hypot, linear_trig, root_of_gap
 from dh2urdf.kernels.rigid import applied, applied_inverse, cross, dot, turned, turned_back
@@ -27,12 +27,8 @@ MEET = 1e-14
 NOTHING = 1e-11
 """The same [m] at which nothing but rounding is left of it, and joints 1 and 2 are free."""
 
-IN_LINE, EXACT = 1e-5, 4e-14
-"""How far a wrist may be out of line [rad] that is put there, and the residual then [m and rad]."""
-
-WEAK, BACK = 1e-10, 3
-"""Singular value, relative to the largest, of a direction in which the others do not make up for
-that; Newton's steps by them."""
+IN_LINE = 1e-5
+"""How far a wrist may be out of line [rad] that is put there."""
 
 OTHERS = 0b111111
 """The mask of the joints that move."""
@@ -156,9 +152,7 @@ def put_in_line(chain, T, form, reversed_, rows, count):
             continue
         trial[:] = q[k]
         trial[middle] += form[4, 6] * off
-        for _ in range(BACK):
-            _, largest = look_at_some(chain, T, trial, OTHERS - (1 << middle), room)
-            add_step(chain, 1.0, trial, room, WEAK * largest, IN_LINE)
+        bring_back(chain, T, trial, OTHERS - (1 << middle), IN_LINE, room)
         there = pose_residual(chain, T, trial)
         if there <= max(EXACT, residual[k]):
             q[k], residual[k] = trial, there
