@@ -5,6 +5,8 @@ by Newton's method; only the joints that may move do. Where the Jacobian is flat
 which nothing moves, as at a double root all along a family, Newton's method ends by all of them.
 """
 
+from itertools import islice
+
 import numpy as np
 from ik_referee import error_vectors, frames, gaps, jacobians, jacobians_at, larger_of, residuals
 
@@ -26,8 +28,11 @@ FINE = 1e-4
 STEP = 0.1
 """Steps of a walk round a family [rad or m], and their number each way; round a short loop they
 are shorter."""
-MOST = 150
+MOST = 250
 SHORT = 0.004
+
+TURN = int(2.0 * np.pi / STEP)
+"""Steps of a walk of one turn."""
 
 FLATTEST = 1e-3
 """Singular value, in parts of the next one, of the one direction of a curve among weak others."""
@@ -136,6 +141,20 @@ def round_walk(arm, p, T, free, ahead, step=STEP):
         yield p
         if k > 3 and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
             return
+
+
+def goes_on(arm, p, T, free):
+    """Whether a walk from p by these joints, both ways, is accepted for a turn, or comes round."""
+    sigma, V = directions(arm, p, free)
+    for way in V[sigma < FLAT * max(sigma[0], 1e-300)]:
+        steps = 0
+        for side in (1.0, -1.0):
+            points = list(islice(round_walk(arm, p, T, free, side * way), TURN))
+            steps += len(points)
+            round_ = len(points) > 4 and gaps(arm, points[-1], p) < 0.6 * STEP
+            if round_ or steps >= TURN:
+                return True
+    return False
 
 
 def on_family(arm, p, q, T, free, tolerance):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from dh_arm import arm_of
 from ik_referee import forward, gaps, jacobians, residuals, same_to_rounding
-from self_motions import LENGTHS, is_family, on_family
+from self_motions import LENGTHS, goes_on, is_family, on_family
 from structured import table_line
 
 import dh2urdf
@@ -160,9 +160,14 @@ def _check_solutions(tally, table, arm, solutions, T, q):
         if mask and not _named_rightly(arm, found, masks, k, T):
             tally.note("no family", table, q)
             break
-        if not mask and small < 1e-7 and is_family(arm, p, T, moving, SURE, LENGTHS[:1], False):
+        if not mask and small < 1e-7 and _has_no_name(arm, p, T, moving):
             tally.note("unnamed", table, q)
             break
+
+
+def _has_no_name(arm, p, T, moving):
+    """Whether an isolated solution is on a family: a part of a turn is sure, and the turn kept."""
+    return is_family(arm, p, T, moving, SURE, LENGTHS[:1], False) and goes_on(arm, p, T, moving)
 
 
 def _named_rightly(arm, found, masks, k, T):

@@ -110,6 +110,21 @@ def test_the_referee_misses_what_is_taken_away():
     assert tally.count["singular lost"] == tally.count["singular"]
 
 
+def test_the_referee_misses_names_that_are_taken_away():
+    """Axes 4 and 6 in line: what turns round them both goes on for a turn, and has to be named."""
+    table, q = dh2urdf.load_table("puma560"), np.array([[0.3, -0.7, 0.4, 0.2, 0.0, 0.5]])
+
+    def without_names(robot, Ts):
+        batch = anywhere(robot, Ts)
+        batch.free_mask[:] = 0
+        return batch
+
+    for answers, missing in ((anywhere, 0), (without_names, 1)):
+        tally = Tally("names")
+        judge(tally, table, q, answers)
+        assert tally.count["unnamed"] == missing
+
+
 def test_a_slice_of_structured_poses_loses_nothing_that_is_regular():
     """A few poses of each table that ships, and of random ones."""
     for name, poses in (("shipped", 8), ("random of 6", 4)):

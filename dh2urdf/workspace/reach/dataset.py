@@ -100,13 +100,18 @@ def to_dataset(settings: MapSettings, values: Values, attrs: dict[str, Any]) -> 
     return dataset
 
 
-def empty_values(settings: MapSettings) -> Values:
-    """Room for all variables."""
+def shapes(settings: MapSettings) -> dict[str, tuple[int, ...]]:
+    """The shape of each variable."""
     k = len(settings.turns)
     return {
-        name: np.empty((*settings.grid.shape, *[k] * (len(axes) - 3)), np.float32)
+        name: (*settings.grid.shape, *[k] * (len(axes) - 3))
         for name, axes in variables(settings).items()
     }
+
+
+def empty_values(settings: MapSettings) -> Values:
+    """Room for all variables."""
+    return {name: np.empty(shape, np.float32) for name, shape in shapes(settings).items()}
 
 
 class MapSummary(NamedTuple):

@@ -7,7 +7,6 @@ a measure where nothing is reached; the attribute ``complete`` becomes 1 after t
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,10 +31,12 @@ from dh2urdf.workspace.reach.dataset import (
     MapSummary,
     attributes,
     coordinates,
+    shapes,
     summary_of,
     variables,
 )
 from dh2urdf.workspace.reach.measured import MEASURES
+from dh2urdf.workspace.reach.same_map import refuse_others
 from dh2urdf.workspace.reach.settings import Block, MapSettings
 
 DONE = "progress/done"
@@ -67,23 +68,13 @@ def prepare(path: str, settings: MapSettings, said: dict[str, Any]) -> None:
             group = zarr.open_group(path, mode="w-", zarr_format=3, attributes=attrs)
         elif KEY not in group.attrs:
             raise _other(path)
-        _refuse_others(path, dict(group.attrs), said)
-        shapes = _shapes(settings)
-        if any(name not in group for name in shapes):
-            _make(zarr, group, settings, shapes)
-        for name, shape in shapes.items():
+        refuse_others(path, dict(group.attrs), said)
+        expected = {**shapes(settings), DONE: settings.counts}
+        if any(name not in group for name in expected):
+            _make(zarr, group, settings)
+        for name, shape in expected.items():
             if group[name].shape != shape:
                 raise ValueError(f"{name} has the shape {group[name].shape}, not {shape}")
-
-
-def _shapes(settings: MapSettings) -> dict[str, tuple[int, ...]]:
-    """The shape of each variable, and of the marks of blocks."""
-    turns = len(settings.turns)
-    shapes = {
-        name: (*settings.grid.shape, *[turns] * (len(axes) - 3))
-        for name, axes in variables(settings).items()
-    }
-    return {**shapes, DONE: settings.counts}
 
 
 def _opened(zarr: Any, path: str) -> Any:
@@ -112,50 +103,7 @@ def _other(path: str) -> OutputExistsError:
     return OutputExistsError(f"{path}: is there and no map of the reach; give another path")
 
 
-def _refuse_others(path: str, here: dict[str, Any], asked: dict[str, Any]) -> None:
-    """Refuse to go on with a map of other settings, naming the first."""
-    for key, value in asked[KEY].items():
-        was = here[KEY].get(key)
-        if was == value:
-            continue
-        if key == "chain":
-            chains = json.loads(here["chain"]), json.loads(asked["chain"])
-            what, was, now = _other_part(*chains)
-        else:
-            what, now = key, value
-        told, other = (str(v) if len(str(v)) <= 60 else "another" for v in (was, now))
-        raise ArgumentError(
-            f"{path}: is a map with {what} {told}, asked is {other}; maps are not mixed: give "
-            "another path, or the settings it was begun with"
-        )
-
-
-def _other_part(here: dict[str, Any], asked: dict[str, Any]) -> tuple[str, Any, Any]:
-    """The first joint, limit or link in which two chains differ, and both values."""
-    names, others = here["joint_names"], asked["joint_names"]
-    if names != others:
-        return "joints", ", ".join(names), ", ".join(others)
-    for k, name in enumerate(names):
-        for key in ("joint_types", "lower", "upper"):
-            a, b = here[key][k], asked[key][k]
-            if a != b:
-                what = {"joint_types": "type", "lower": "lower limit", "upper": "upper limit"}[key]
-                free = "none" if what.endswith("limit") else ""
-                return f"{what} of {name}", free if a is None else a, free if b is None else b
-    for name, a, b in zip(["the base", *names], here["links"], asked["links"], strict=True):
-        if a != b:
-            row, column = np.argwhere(np.asarray(a) != np.asarray(b))[0]
-            what = f"link after {name}, row {row + 1}, column {column + 1}:"
-            return what, a[row][column], b[row][column]
-    for key in ("value_names", "value_types", "value_lower", "value_upper", "matrix", "offset"):
-        a, b = here.get(key, "none"), asked.get(key, "none")
-        if a != b:
-            words = {"matrix": "couplings", "offset": "offsets of couplings"}
-            return words.get(key, f"{key.removeprefix('value_')} of q"), a, b
-    raise AssertionError("chains of another digest are the same")
-
-
-def _make(zarr: Any, group: Any, settings: MapSettings, shapes: dict[str, tuple[int, ...]]) -> None:
+def _make(zarr: Any, group: Any, settings: MapSettings) -> None:
     """All arrays, nothing in them but coordinates."""
     for name, (axes, values, attrs) in coordinates(settings).items():
         array = group.create_array(
@@ -167,20 +115,21 @@ def _make(zarr: Any, group: Any, settings: MapSettings, shapes: dict[str, tuple[
             overwrite=True,
         )
         array[...] = values
-    for name, axes in variables(settings).items():
+    across = variables(settings)
+    for name, shape in shapes(settings).items():
         group.create_array(
             name,
-            shape=shapes[name],
-            chunks=(*[settings.side] * 3, *shapes[name][3:]),
+            shape=shape,
+            chunks=(*[settings.side] * 3, *shape[3:]),
             dtype="float32",
             fill_value=np.nan,
-            dimension_names=axes,
+            dimension_names=across[name],
             attributes=attributes(name, dict(group.attrs)),
             overwrite=True,
         )
     group.create_array(
         DONE,
-        shape=shapes[DONE],
+        shape=settings.counts,
         chunks=(1, 1, 1),
         dtype="bool",
         fill_value=False,
