@@ -156,8 +156,17 @@ class Outputs(NamedTuple):
         return cls(q, residual, whole[k * (n + 3) :].view(np.int64), branch, free)
 
     def put(self, index: Integers, other: "Outputs") -> None:
-        """Put those of other arrays, with as many rows a pose or more, in place of some poses."""
-        k = self.q.shape[1]
+        """Put those of other arrays, with as many rows a pose or more, in place of some poses.
+
+        If not all fit, the dullest that are isolated are left out.
+        """
+        k, width = self.q.shape[1], other.q.shape[1]
+        if (other.counts > k).any():
+            dull = np.where(other.free != 0, 0.0, other.residual)
+            dull[np.arange(width) >= other.counts[:, None]] = np.inf
+            rows = np.sort(np.argsort(dull, axis=1, kind="stable")[:, :k], axis=1)
+            every = np.arange(len(rows))[:, None]
+            other = Outputs._make(x[every, rows] if x.ndim > 1 else x for x in other)
         for whole, part in zip(self, other, strict=True):
             whole[index] = part[:, :k] if part.ndim > 1 else np.minimum(part, k)
 

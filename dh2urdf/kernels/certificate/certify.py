@@ -149,12 +149,20 @@ def move(q, residual, branch, free, source, target):
 
 
 def copy_rows(source, count, target):
-    """Copy the first rows that fit; returns how many."""
+    """Copy rows; returns how many. If not all fit, the dullest that are isolated are left out."""
     (q, residual, branch, free), room = source, target[0].shape[0]
-    for k in range(min(count, room)):
+    while count > room:
+        worst = count - 1
+        for k in range(count):
+            if free[k] == 0 and (free[worst] != 0 or residual[k] > residual[worst]):
+                worst = k
+        count -= 1
+        for k in range(worst, count):
+            move(q, residual, branch, free, k + 1, k)
+    for k in range(count):
         target[0][k] = q[k]
         target[1][k], target[2][k], target[3][k] = residual[k], branch[k], free[k]
-    return min(count, room)
+    return count
 
 
 def certify_pose(chain, T, q, residual, branch, free, count, work):

@@ -75,10 +75,11 @@ def _come_back(chain, T, q, way, length, floor, mask, trial, room):
     return True
 
 
-def _arrives(chain, T, q, way, length, part, floor, mask, trial, room):
+def _arrives(chain, T, q, way, length, added, floor, mask, trial, room):
     """Whether Newton's method, from ``length`` along ``way``, ends on the family: in trial (n,).
 
-    Not if it comes back to q (n,), as it does at a double root.
+    There the residual is more by ``added`` at most. Not if it comes back to q (n,), as it does at
+    a double root.
     """
     if not _come_back(chain, T, q, way, length, floor, mask, trial, room):
         return False
@@ -87,15 +88,18 @@ def _arrives(chain, T, q, way, length, part, floor, mask, trial, room):
         aside = max(aside, abs(trial[i] - q[i] - length * way[i]))
     if floor < FLAT and aside > 0.5 * length:
         return False
-    added = part * ACCEPT * length / LENGTHS[0]
     return pose_residual(chain, T, trial) <= min(pose_residual(chain, T, q) + added, ACCEPT)
 
 
 def _walks(chain, T, q, way, length, part, floor, mask, trial, room):
-    """Whether a walk from q (n,) along ``way`` arrives at all of its parts; its end in trial."""
+    """Whether a walk from q (n,) along ``way`` arrives at all of its parts; its end in trial.
+
+    What it may add counts for the whole: it is uneven where a valley bends.
+    """
+    added = part * ACCEPT * length / LENGTHS[0]
     for k in range(PARTS):
         some = length * (PARTS - k) / PARTS
-        if not _arrives(chain, T, q, way, some, part, floor, mask, trial[k], room):
+        if not _arrives(chain, T, q, way, some, added, floor, mask, trial[k], room):
             return False
     return True
 

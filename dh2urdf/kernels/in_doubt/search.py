@@ -163,7 +163,11 @@ def search_beside(chain, T, q, count, room):
 
 
 def _try_starts(chain, goal, starts, patience, q, count, room):
-    """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen."""
+    """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen.
+
+    Plain steps may go to and fro where the pose changes by less than rounding along a valley, by
+    so much that they bend off it: Levenberg's go back across.
+    """
     (trial, best, dq, step, A, damped, _), least = room, math.inf
     most = patience * DAMPED, patience * STUCK, POLISH, DONE
     for s in range(starts.shape[0]):
@@ -176,6 +180,8 @@ def _try_starts(chain, goal, starts, patience, q, count, room):
         if not found and residual <= NEAR:
             ended = ENDED if patience == 1 else ALMOST
             found = _converges(chain, goal[1], trial, ended, A, step, damped)
+            if not found and pose_residual(chain, goal[1], trial) <= HALVED:
+                found = approach(chain, goal, most, trial, best, dq, damped) <= ended
         if found and count < q.shape[0] and _is_new(chain, goal[1], q, count, trial):
             q[count] = trial
             count += 1
