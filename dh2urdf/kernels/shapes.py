@@ -125,6 +125,11 @@ class Together(NamedTuple):
     ways: Lattice
 
 
+DULL = 1e-13
+"""Residual [m and rad] above which an isolated solution may be a point of a valley: where there is
+no room for all, those that are less come first, then members of families, then those."""
+
+
 class Outputs(NamedTuple):
     """Solutions of m poses, a row for each.
 
@@ -158,11 +163,12 @@ class Outputs(NamedTuple):
     def put(self, index: Integers, other: "Outputs") -> None:
         """Put those of other arrays, with as many rows a pose or more, in place of some poses.
 
-        If not all fit, the dullest that are isolated are left out.
+        If not all fit, the last by :data:`DULL` are left out.
         """
         k, width = self.q.shape[1], other.q.shape[1]
         if (other.counts > k).any():
-            dull = np.where(other.free != 0, 0.0, other.residual)
+            dull = np.where(other.residual > DULL, other.residual, 0.0)
+            dull[other.free != 0] = DULL
             dull[np.arange(width) >= other.counts[:, None]] = np.inf
             rows = np.sort(np.argsort(dull, axis=1, kind="stable")[:, :k], axis=1)
             every = np.arange(len(rows))[:, None]

@@ -13,6 +13,7 @@ import numpy as np
 
 from dh2urdf.kernels.certificate.directions import add_step, look_at_some
 from dh2urdf.kernels.newton import POLISH, make_damped, polish, pose_residual
+from dh2urdf.kernels.shapes import DULL
 
 ACCEPT = 1e-9
 """Largest residual of a solution [m and rad]."""
@@ -149,13 +150,14 @@ def move(q, residual, branch, free, source, target):
 
 
 def copy_rows(source, count, target):
-    """Copy rows; returns how many. If not all fit, the dullest that are isolated are left out."""
+    """Copy rows; returns how many. If not all fit, the last by ``DULL`` are left out."""
     (q, residual, branch, free), room = source, target[0].shape[0]
     while count > room:
-        worst = count - 1
+        worst, most = 0, 0.0
         for k in range(count):
-            if free[k] == 0 and (free[worst] != 0 or residual[k] > residual[worst]):
-                worst = k
+            dull = DULL if free[k] != 0 else residual[k] if residual[k] > DULL else 0.0
+            if dull >= most:
+                worst, most = k, dull
         count -= 1
         for k in range(worst, count):
             move(q, residual, branch, free, k + 1, k)
