@@ -44,6 +44,9 @@ STUCK = 12
 DONE = 1e-15
 """Residual [m and rad] at which nothing is left to gain."""
 
+VALLEY = 1e-3
+"""Apart by this much [rad or m] points of valleys are new."""
+
 SHARP, BESIDE = 4e-15, 100.0
 """Residual [m and rad] above which a solution may be beside a double one, and how far beside
 [rad], in square roots of it."""
@@ -124,11 +127,15 @@ def _converges(chain, T, q, ended, A, step, damped):
     return pose_residual(chain, T, q) <= ended
 
 
-def _is_new(chain, T, q, count, p):
-    """Whether p (6,) is none of the first rows of q (kmax, 6), at the accuracy of its residual."""
+def _is_new(chain, T, q, count, p, reach):
+    """Whether p (6,) is none of the first rows of q (kmax, 6), at the accuracy of its residual.
+
+    ``reach`` is the least that joints of another one are off.
+    """
     _, joints = chain
     residual = pose_residual(chain, T, p)
-    reach = CLUSTER if residual <= SHARP else max(CLUSTER, BESIDE * math.sqrt(residual))
+    if residual > SHARP:
+        reach = max(reach, BESIDE * math.sqrt(residual))
     for k in range(count):
         if same(joints, q[k], p, reach, NO_JOINT):
             return False
@@ -139,7 +146,7 @@ def _add_if_new(chain, T, q, count, trial, A, step, damped):
     """Append what Newton's method leads to from trial (6,), if it is new; the new count."""
     if not _converges(chain, T, trial, ENDED, A, step, damped):
         return count
-    if count < q.shape[0] and _is_new(chain, T, q, count, trial):
+    if count < q.shape[0] and _is_new(chain, T, q, count, trial, CLUSTER):
         q[count] = trial
         return count + 1
     return count
@@ -166,23 +173,30 @@ def _try_starts(chain, goal, starts, patience, q, count, room):
     """Append to q (kmax, 6) what starts (s, 6) lead to; the new count, the least residual seen.
 
     Plain steps may go to and fro where the pose changes by less than rounding along a valley, by
-    so much that they bend off it: Levenberg's go back across.
+    so much that they bend off it. Levenberg's go back across, to a point of the valley: from such
+    starts at last.
     """
     (trial, best, dq, step, A, damped, _), least = room, math.inf
     most = patience * DAMPED, patience * STUCK, POLISH, DONE
-    for s in range(starts.shape[0]):
-        if s == FEW and least > NEAR and count == 0:
+    ended = ENDED if patience == 1 else ALMOST
+    hovered = np.zeros(starts.shape[0], np.bool_)
+    for k in range(2 * starts.shape[0]):
+        s, again = k % starts.shape[0], k >= starts.shape[0]
+        if k == FEW and least > NEAR and count == 0:
             break
+        if again and not hovered[s]:
+            continue
         trial[:] = starts[s]
         residual = approach(chain, goal, most, trial, best, dq, damped)
         least = min(least, residual)
         found = residual <= ALMOST
         if not found and residual <= NEAR:
-            ended = ENDED if patience == 1 else ALMOST
             found = _converges(chain, goal[1], trial, ended, A, step, damped)
-            if not found and pose_residual(chain, goal[1], trial) <= HALVED:
+            hovered[s] = not found and pose_residual(chain, goal[1], trial) <= HALVED
+            if again and hovered[s]:
                 found = approach(chain, goal, most, trial, best, dq, damped) <= ended
-        if found and count < q.shape[0] and _is_new(chain, goal[1], q, count, trial):
+        reach = VALLEY if again else CLUSTER
+        if found and count < q.shape[0] and _is_new(chain, goal[1], q, count, trial, reach):
             q[count] = trial
             count += 1
     return count, least
