@@ -15,6 +15,7 @@ from dh2urdf.ik.arm.in_doubt import (
     far,
     from_starts,
     keep_known,
+    keep_most_apart,
     keep_sharp,
     room_in_doubt,
     search_in_doubt,

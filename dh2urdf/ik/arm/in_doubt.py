@@ -26,6 +26,12 @@ WIDTH = 128
 SHARP = 1e-11
 """Residual [m and rad] of a solution beside which a point of a valley is none."""
 
+KIND = 1e-3
+"""Joint distance [rad or m] within which rounding parts members of one family."""
+
+DULL = 1e-13
+"""Residual [m and rad] above which a solution is a point of a valley."""
+
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""
 
@@ -158,6 +164,26 @@ def far(chain: SerialChain, q: Array, p: Array) -> Array:
     turns = np.abs(np.remainder(gaps + np.pi, TWO_PI) - np.pi)
     largest: Array = np.where(chain.prismatic, np.abs(gaps), turns).max(axis=1)
     return largest
+
+
+def keep_most_apart(chain: SerialChain, out: Outputs, row: int, room: int) -> None:
+    """Bring those solutions of a pose to the front, in place, that are kept where room is short.
+
+    First those that are exact: one of the largest families, then always what is farthest from all
+    that are kept, by joints that are not free in both, and of what is near by the largest family.
+    So members of one family, parted by rounding, take no other's place.
+    """
+    count = out.counts[row]
+    q, bits = out.q[row, :count], out.free[row, :count, None] >> np.arange(chain.n) & 1
+    turn, kept = (out.residual[row, :count] > DULL).astype(np.int64), np.empty(room, np.int64)
+    away, size = np.zeros(count), bits.sum(axis=1)
+    for i in range(room):
+        last = kept[i] = np.lexsort((-away, np.where(away > KIND, -chain.n, -size), turn))[0]
+        gaps = far(chain, np.where(bits & bits[last], q[last], q), q[last])
+        away = np.minimum(away, gaps) if i else gaps
+        turn[last] = 2
+    for array in (out.q, out.residual, out.branch, out.free):
+        array[row, :room] = array[row, np.sort(kept)]
 
 
 def keep_sharp(out: Outputs, known: Array) -> None:

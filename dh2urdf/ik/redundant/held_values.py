@@ -15,6 +15,7 @@ from dh2urdf.ik.arm import (
     Task,
     branch_words_of,
     hold,
+    keep_most_apart,
     select_solver,
     spare_joints,
     without_end,
@@ -67,8 +68,13 @@ class HeldJoints:
         self.insert(found, out)
 
     def insert(self, found: Outputs, out: Outputs) -> None:
-        """Write solutions of the moving joints, and the held values between them."""
+        """Write solutions of the moving joints, and the held values between them.
+
+        Where there is no room for all, those that are most unlike each other.
+        """
         k = min(found.q.shape[1], out.q.shape[1])
+        for row in np.flatnonzero(found.counts > k):
+            keep_most_apart(self.inner.chain, found, int(row), k)
         out.counts[:] = np.minimum(found.counts, k)
         out.q[:, :k, self.moving], out.residual[:, :k] = found.q[:, :k], found.residual[:, :k]
         for i, value in self.held.items():

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import numpy as np
 
-from dh2urdf.kernels.certificate import move
-from dh2urdf.kernels.newton import STAYING, make_damped
+from dh2urdf.kernels.certificate import CLUSTER, is_singular, move, same
+from dh2urdf.kernels.newton import POSE, STAYING, make_damped, normal_equations, work_array
 from dh2urdf.kernels.numbers import entry
 from dh2urdf.kernels.redundant.self_motion import go_nearer, largest, walk_family, way_to
 from dh2urdf.kernels.shapes import AnyChain, Configuration, Flags, Floats, Goal, Some
@@ -22,6 +22,15 @@ STUCK = 1e-3
 
 BESIDE = 2.0
 """Distance of a solution from the points of a walk along its family, in steps of it."""
+
+LENGTH, MOST_STEPS = 0.1, 200
+"""Step of a walk along a family [rad or m], and how many each way."""
+
+SHARP = 1e-11
+"""Residual [m and rad] of a member of a family beside which a point of a valley is none."""
+
+ALIKE = 1e-14
+"""Residuals [m and rad] below which one member of a family is as good as another."""
 
 WELL = 1e-10
 """Residual [m and rad] on the way between solutions of one family: walked in another way, it is
@@ -94,6 +103,56 @@ def on_one_family(
     for k in range(others.shape[0]):
         found[k] = True
     members_among(chain, goal, length, held, q, others, trials, found, walk)
+
+
+def _ask_isolated(chain, T, rows, k, count, asked, work):
+    """Note isolated solutions, singular ones, that may be on the family of row k; if there are."""
+    (q, _, _, free), some = rows, False
+    for j in range(asked.shape[0]):
+        asked[j] = False
+        if j < count and free[j] == 0 and same(chain[1], q[k], q[j], CLUSTER, free[k]):
+            normal_equations(chain, T, q[j], work)
+            asked[j] = is_singular(work)
+            some = some or asked[j]
+    return some
+
+
+def _walk_to(chain, T, unit, q, mask, k, asked, walk):
+    """Keep those of the rows asked for that a walk from row k by the joints of a mask comes to."""
+    goal = POSE + STAYING * ((1 << q.shape[1]) - 1 - mask), T, unit
+    members_among(chain, goal, LENGTH, WELL, q[k], q, 0, asked, walk)
+
+
+def _drop(rows, k, count, gone):
+    """Drop solutions that are gone, the sharpest of which stands for row k; how many are left.
+
+    And where row k is then.
+    """
+    (q, residual, branch, free), kept, place = rows, 0, k
+    for j in range(count):
+        if not gone[j]:
+            place = kept if j == k else place
+            move(q, residual, branch, free, j, kept)
+            kept += 1
+        elif max(residual[j], ALIKE) < residual[place]:
+            q[place], residual[place] = q[j], residual[j]
+    return kept, place
+
+
+def take_in_isolated(chain, T, unit, rows, count, asked, walk):
+    """Drop isolated solutions of a pose that a walk along a family comes to; how many are left.
+
+    Beside an arm that moves freely a few of its solutions are exact, and a walk of one of them does
+    not see that the others are on its way. ``asked`` (k,) and ``walk`` (2, steps, n) are scratch.
+    """
+    (q, residual, _, free), k, work = rows, 0, work_array(rows[0].shape[1])
+    while k < count:
+        sharp = residual[k] <= SHARP
+        if sharp and free[k] != 0 and _ask_isolated(chain, T, rows, k, count, asked, work):
+            _walk_to(chain, T, unit, q, free[k], k, asked, walk)
+            count, k = _drop(rows, k, count, asked)
+        k += 1
+    return count
 
 
 def keep_one_of_each(chain, goal, q, residual, branch, free, count):

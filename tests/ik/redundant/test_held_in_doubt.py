@@ -1,5 +1,7 @@
 """A joint held where singularities nearly meet: closed forms leave solutions out, or families."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from dh_arm import arm_of
@@ -177,3 +179,106 @@ def test_with_elbow_and_wrist_straight_a_seed_enters_the_family_of_the_wrist(joi
     found = robot.ik(robot.fk(q), seed=q, locked={joint: q[joint]})
     assert found.free_joints[0] == (4, 6)
     assert np.abs(found.q[0] - q).max() < 1e-9
+
+
+H = np.pi / 2
+
+CRAMPED = [
+    ("kuka_iiwa7", 9, 6, UPRIGHT + np.array((H, np.pi, H, -np.pi, H, H, H))),
+    (
+        "bent",
+        4,
+        5,
+        np.array(
+            (
+                1.5707963267200278,
+                1.7573262425319682e-11,
+                9.76306297693364e-12,
+                1.5707963268909317,
+                2.0305028814674016e-10,
+                1.5707963268932568,
+                1.5707963269221914,
+            )
+        ),
+    ),
+    (
+        "bent",
+        None,
+        2,
+        np.array(
+            (
+                -1.5707963266787415,
+                3.141592653667389,
+                -9.620737434554694e-11,
+                1.570796326739327,
+                -3.141592653632525,
+                -3.141592653573725,
+                -1.5707963268094536,
+            )
+        ),
+    ),
+    (
+        "bent",
+        9,
+        6,
+        np.array(
+            (
+                2.0943966844993556,
+                3.1415930424866296,
+                -2.0943938894689977,
+                -1.5707967522140207,
+                2.0943953824038806,
+                -2.6179933594421136,
+                -1.5707960871258904,
+            )
+        ),
+    ),
+]
+
+
+def table_of(name):
+    """A table that ships, or an iiwa of other lengths whose elbow is bent at rest."""
+    if name != "bent":
+        return dh2urdf.load_table(name)
+    table, lengths = dh2urdf.load_table("kuka_iiwa14"), (0.4, 0.0, 0.49, 0.0, 0.52, 0.0, 0.11)
+    rows = [replace(row, d=d) for row, d in zip(table.rows, lengths, strict=True)]
+    rows[3] = replace(rows[3], theta=H)
+    return replace(table, rows=tuple(rows), name=name)
+
+
+@pytest.mark.parametrize(("name", "decimals", "joint", "q"), CRAMPED)
+def test_of_more_solutions_than_there_is_room_for_one_of_each_kind_is_kept(
+    name, decimals, joint, q
+):
+    """Members of one family, which rounded twists part, leave room for the others."""
+    table, tally = rounded(table_of(name), decimals), Tally("no room for all")
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={joint: q[joint]})
+
+    judge(tally, table, q[None], held, held=(joint,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
+
+
+ON_THE_WAY = [
+    ("franka_fer", None, 6, (-90, 0, 180, 135, 90, 0, 135)),
+    ("kuka_iiwa14", 4, 6, (-90, 0, 180, 135, 90, 0, 135)),
+]
+
+
+@pytest.mark.parametrize(("name", "decimals", "joint", "degrees"), ON_THE_WAY)
+def test_an_exact_solution_on_the_way_along_a_family_is_a_member_of_it(
+    name, decimals, joint, degrees
+):
+    """Beside a shoulder in line, where the arm moves freely, others reach the pose exactly."""
+    table, tally = rounded(dh2urdf.load_table(name), decimals), Tally("on the way")
+    off = (1.2e-5, -1.07e-7, 5.47e-6, 3.84e-6, 1.203e-5, 5.06e-6, 2.03e-6)
+    q = np.radians(degrees) + off
+
+    def held(robot, Ts):
+        return robot.ik_batch(Ts, within_limits=False, locked={joint: q[joint]})
+
+    judge(tally, table, q[None], held, held=(joint,))
+    assert tally.failures() == []
+    assert tally.count["singular lost"] == 0
