@@ -14,6 +14,7 @@ from dh2urdf.kernels.certificate import finish_batch, name_batch
 from dh2urdf.kernels.in_doubt import IN_DOUBT, MOST_STEPS, search_known, search_poses
 from dh2urdf.kernels.in_doubt import unite_families as keep_members
 from dh2urdf.kernels.redundant import WELL
+from dh2urdf.kernels.shapes import DULL
 from dh2urdf.transforms import Array
 
 STARTS = 64
@@ -28,9 +29,6 @@ SHARP = 1e-11
 
 KIND = 1e-3
 """Joint distance [rad or m] within which rounding parts members of one family."""
-
-DULL = 1e-13
-"""Residual [m and rad] above which a solution is a point of a valley."""
 
 SAME = 1e-6
 """Joint distance [rad or m] at which two solutions are one."""

@@ -44,6 +44,7 @@ from dh2urdf.kernels.certificate.finish import (
     finish_all,
     finish_batch,
     finish_families,
+    is_singular,
     merge_solutions,
     name_batch,
     name_families,

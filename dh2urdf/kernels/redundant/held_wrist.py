@@ -36,7 +36,7 @@ from dh2urdf.kernels.chain import held_links, held_pose, insert_held
 from dh2urdf.kernels.newton import POLISH, POSE, normal_equations, pose_residual, restore
 from dh2urdf.kernels.numbers import entry, sincos
 from dh2urdf.kernels.redundant.held_wrist_place import place_held, put_in_line
-from dh2urdf.kernels.redundant.one_family import MOST_STEPS, keep_one_of_each, take_in_isolated
+from dh2urdf.kernels.redundant.one_family import keep_one_of_each, take_in_isolated
 from dh2urdf.kernels.rigid import invert_pose, turned_back
 from dh2urdf.kernels.shapes import Floats, Held, Integers, Outputs, Poses
 from dh2urdf.kernels.spherical_wrist import append_wrist, tool_to_wrist
@@ -165,8 +165,7 @@ def solve_held_pose(arm, value, T, within_limits, out, scratch):
     left = turn_inside(chain, T, within_limits, *rest, left)
     if named:  # no branch is missing; families are not led into the limits, which takes accuracy
         name_families(chain, T, rest, left, True, work)
-        walk = np.empty((2, MOST_STEPS, 6))
-        left = take_in_isolated(chain, T, 1.0, rest, left, np.empty(MOST, np.bool_), walk)
+        left = take_in_isolated(chain, T, 1.0, rest, left)
         left = keep_one_of_each(chain, (POSE, T, 1.0), *rest, left)
     insert_held(which[HELD], value, scratch[7], q, free, left)
     return -1 - left if doubt else left

@@ -23,8 +23,8 @@ STUCK = 1e-3
 BESIDE = 2.0
 """Distance of a solution from the points of a walk along its family, in steps of it."""
 
-LENGTH, MOST_STEPS = 0.1, 200
-"""Step of a walk along a family [rad or m], and how many each way."""
+LENGTH, MOST_STEPS = 0.25, 12
+"""Step of a walk along a family [rad or m], and how many each way: a turn in all."""
 
 SHARP = 1e-11
 """Residual [m and rad] of a member of a family beside which a point of a valley is none."""
@@ -139,13 +139,15 @@ def _drop(rows, k, count, gone):
     return kept, place
 
 
-def take_in_isolated(chain, T, unit, rows, count, asked, walk):
+def take_in_isolated(chain, T, unit, rows, count):
     """Drop isolated solutions of a pose that a walk along a family comes to; how many are left.
 
     Beside an arm that moves freely a few of its solutions are exact, and a walk of one of them does
-    not see that the others are on its way. ``asked`` (k,) and ``walk`` (2, steps, n) are scratch.
+    not see that the others are on its way.
     """
     (q, residual, _, free), k, work = rows, 0, work_array(rows[0].shape[1])
+    asked = np.empty(rows[0].shape[0], np.bool_)
+    walk = np.empty((2, MOST_STEPS, rows[0].shape[1]))
     while k < count:
         sharp = residual[k] <= SHARP
         if sharp and free[k] != 0 and _ask_isolated(chain, T, rows, k, count, asked, work):
