@@ -44,8 +44,8 @@ STUCK = 12
 DONE = 1e-15
 """Residual [m and rad] at which nothing is left to gain."""
 
-VALLEY = 1e-3
-"""Apart by this much [rad or m] points of valleys are new."""
+VALLEY, LATE = 1e-3, 16
+"""Apart by this much [rad or m] points of valleys are new; most starts that are asked for one."""
 
 SHARP, BESIDE = 4e-15, 100.0
 """Residual [m and rad] above which a solution may be beside a double one, and how far beside
@@ -179,22 +179,24 @@ def _try_starts(chain, goal, starts, patience, q, count, room):
     (trial, best, dq, step, A, damped, _), least = room, math.inf
     most = patience * DAMPED, patience * STUCK, POLISH, DONE
     ended = ENDED if patience == 1 else ALMOST
-    hovered = np.zeros(starts.shape[0], np.bool_)
-    for k in range(2 * starts.shape[0]):
-        s, again = k % starts.shape[0], k >= starts.shape[0]
-        if k == FEW and least > NEAR and count == 0:
+    late, waiting, first = np.empty(LATE, np.int64), 0, starts.shape[0]
+    for k in range(first + LATE):
+        again = k >= first
+        if (again and k - first >= waiting) or (k == FEW and least > NEAR and count == 0):
             break
-        if again and not hovered[s]:
-            continue
+        s = late[k - first] if again else k
         trial[:] = starts[s]
         residual = approach(chain, goal, most, trial, best, dq, damped)
         least = min(least, residual)
         found = residual <= ALMOST
         if not found and residual <= NEAR:
             found = _converges(chain, goal[1], trial, ended, A, step, damped)
-            hovered[s] = not found and pose_residual(chain, goal[1], trial) <= HALVED
-            if again and hovered[s]:
+            hovers = not found and pose_residual(chain, goal[1], trial) <= HALVED
+            if hovers and again:
                 found = approach(chain, goal, most, trial, best, dq, damped) <= ended
+            elif hovers and waiting < LATE:
+                late[waiting] = s
+                waiting += 1
         reach = VALLEY if again else CLUSTER
         if found and count < q.shape[0] and _is_new(chain, goal[1], q, count, trial, reach):
             q[count] = trial
