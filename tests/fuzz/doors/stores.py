@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
+import dask
 from hostile import outcome
 
 from dh2urdf import Robot
@@ -61,8 +62,9 @@ async def _call(function, /, *given, **more):
 
 @contextmanager
 def _without_threads():
-    """Zarr without its thread for input and output, whose waiting takes most of the time."""
+    """Zarr and Dask without threads of theirs, whose waiting takes most of the time."""
     with (
+        dask.config.set(scheduler="synchronous"),
         patch.object(asyncio, "run_coroutine_threadsafe", _run),
         patch.object(asyncio, "to_thread", _call),
     ):
