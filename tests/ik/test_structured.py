@@ -33,8 +33,9 @@ SIZE = float(os.environ.get("SWEEP", "1"))
 
 NOTES = os.environ.get("SWEEP_NOTES")
 
-POSES, TABLES = int(120 * SIZE), int(60 * SIZE)
-"""Poses a table that ships, and tables of other classes, each with a third as many poses."""
+POSES, TABLES, MANY = int(120 * SIZE), int(60 * SIZE), int(2000 * SIZE)
+"""Poses a table that ships, and tables of other classes, each with a third as many poses; tables of
+which only a few poses are tried."""
 
 UNNAMED = 2e-3
 """Part of the poses of arms with slides with a family that may go unnamed, each of them listed."""
@@ -198,6 +199,13 @@ def test_structured_poses_lose_nothing(name, decimals):
     """All joints on a grid, or one or two of them, with noise from none to 1e-2."""
     poses = POSES if name == "shipped" else POSES // 3
     report(sweep(name, CLASSES[name](), poses, decimals))
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("decimals", ROUNDINGS)
+def test_structured_poses_of_many_tables_lose_nothing(decimals):
+    """Two poses of each of so many random tables."""
+    report(sweep("many of 6", random_tables(MANY, seed=1), 2, decimals))
 
 
 @pytest.mark.exhaustive
