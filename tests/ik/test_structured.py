@@ -38,7 +38,8 @@ POSES, TABLES, MANY = int(120 * SIZE), int(60 * SIZE), int(2000 * SIZE)
 which only a few poses are tried."""
 
 UNNAMED = 2e-3
-"""Part of the poses of arms with slides with a family that may go unnamed, each of them listed."""
+"""Part of the poses that may be on a family without a name, each of them listed: the referee walks
+a whole turn, solvers a hundredth of one, which may add a hundredth of what is accepted."""
 
 SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
 
@@ -71,18 +72,20 @@ def sweep(name, tables, poses, decimals=None, seed=0):
     return tally
 
 
-def report(tally, allowed=()):
-    """Print the figures, and fail with what may not be and is not allowed."""
+def report(tally):
+    """Print the figures, and fail with what may not be."""
     print("\n" + tally.line())
     if NOTES:
         with open(NOTES, "a") as file:
             file.writelines(f"{tally.name}; {note}\n" for note in tally.notes)
-    assert [note for note in tally.failures() if not note.startswith(allowed)] == []
+    allowed = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
+    faults = [note for note in tally.failures() if not (allowed and note.startswith("unnamed"))]
+    assert faults == []
 
 
 CLASSES = {
     "shipped": lambda: [table for table in shipped_tables() if len(table.rows) != 7],
-    "variants": lambda: [t for t in variant_tables(TABLES) if len(t.rows) != 7],
+    "variants": lambda: [t for t in variant_tables(5 * TABLES // 3) if len(t.rows) != 7],
     "random of 6": lambda: random_tables(TABLES),
     "random of 5": lambda: random_tables(TABLES // 4, joints=5),
     "random of 4": lambda: random_tables(TABLES // 4, joints=4),
@@ -152,10 +155,8 @@ def test_a_slice_of_structured_poses_with_slides_loses_nothing_that_is_regular()
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("decimals", ROUNDINGS)
 def test_structured_poses_with_slides_lose_nothing(decimals):
-    """As of other arms; of families that are not named there are two in a thousand at most."""
-    tally = sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals)
-    few = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
-    report(tally, "unnamed" if few else ())
+    """As of other arms."""
+    report(sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals))
 
 
 def followers_tally(away, multiplier, chains, poses):
