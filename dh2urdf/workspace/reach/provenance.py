@@ -2,11 +2,11 @@
 
 import hashlib
 import json
+from importlib.metadata import version
 from typing import Any
 
 import numpy as np
 
-from dh2urdf import __version__
 from dh2urdf.bounds import LENGTH
 from dh2urdf.dh import JointType
 from dh2urdf.dh_io import table_to_text
@@ -31,7 +31,7 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
     }
     return {
         "title": f"Reach of {robot.model.name}, {robot.tip} in {robot.base}",
-        "source": f"dh2urdf {__version__}, dh2urdf.workspace.reach_map",
+        "source": f"dh2urdf {version('dh2urdf')}, dh2urdf.workspace.reach_map",
         "robot": robot.model.name,
         "task": settings.task,
         "joint_limits": "kept" if settings.within_limits else "ignored",
@@ -40,7 +40,7 @@ def provenance(robot: Robot, settings: MapSettings) -> dict[str, Any]:
         "chain": json.dumps(arm),
         KEY: {
             "layout": LAYOUT,
-            "version": __version__,
+            "version": version("dh2urdf"),
             "robot": robot.model.name,
             "chain": _digest(json.dumps(arm).encode()),
             "step": settings.grid.step,
