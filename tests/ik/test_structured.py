@@ -38,8 +38,7 @@ POSES, TABLES, MANY = int(120 * SIZE), int(60 * SIZE), int(2000 * SIZE)
 which only a few poses are tried."""
 
 UNNAMED = 2e-3
-"""Part of the poses that may be on a family without a name, each of them listed: the referee walks
-a whole turn, solvers a hundredth of one, which may add a hundredth of what is accepted."""
+"""Part of the poses of arms with slides with a family that may go unnamed, each of them listed."""
 
 SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
 
@@ -72,15 +71,13 @@ def sweep(name, tables, poses, decimals=None, seed=0):
     return tally
 
 
-def report(tally):
-    """Print the figures, and fail with what may not be."""
+def report(tally, allowed=()):
+    """Print the figures, and fail with what may not be and is not allowed."""
     print("\n" + tally.line())
     if NOTES:
         with open(NOTES, "a") as file:
             file.writelines(f"{tally.name}; {note}\n" for note in tally.notes)
-    allowed = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
-    faults = [note for note in tally.failures() if not (allowed and note.startswith("unnamed"))]
-    assert faults == []
+    assert [note for note in tally.failures() if not note.startswith(allowed)] == []
 
 
 CLASSES = {
@@ -155,8 +152,10 @@ def test_a_slice_of_structured_poses_with_slides_loses_nothing_that_is_regular()
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("decimals", ROUNDINGS)
 def test_structured_poses_with_slides_lose_nothing(decimals):
-    """As of other arms."""
-    report(sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals))
+    """As of other arms; of families that are not named there are two in a thousand at most."""
+    tally = sweep("sliding of 6", sliding(5 * TABLES), POSES // 3, decimals)
+    few = tally.count["unnamed"] <= UNNAMED * tally.count["poses"]
+    report(tally, "unnamed" if few else ())
 
 
 def followers_tally(away, multiplier, chains, poses):

@@ -45,7 +45,8 @@ DONE = 1e-15
 """Residual [m and rad] at which nothing is left to gain."""
 
 VALLEY, LATE = 1e-3, 16
-"""Apart by this much [rad or m] points of valleys are new; most starts that are asked for one."""
+"""Apart by this much [rad or m] points of valleys are new, where four solutions meet they come to
+rest 1e-4 to either side; and most starts that are asked for one."""
 
 SHARP, BESIDE = 4e-15, 100.0
 """Residual [m and rad] above which a solution may be beside a double one, and how far beside
