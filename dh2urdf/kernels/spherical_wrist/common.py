@@ -58,6 +58,10 @@ PLANE = WORK + 2
 UNIT = 1.0
 """Added to the squared size of an arm that slides, whose other lengths may all be zero."""
 
+MEETING = 1e-6
+"""Length [m] of a slide from where it is singular, times the sine of the angle between axes 4 and
+6, from which a lane is clean."""
+
 
 def _resting(form):
     """The wrist centre behind a slide 3 at zero, in the axes of joint 2."""
@@ -178,6 +182,15 @@ def _wrists(form, n, S):
         S[BLOCK * DIRTY + i] += 1.0 if dirty else 0.0
 
 
+def _where_singularities_meet(form, n, S):
+    """Not clean are slides next to where joint 2 hardly turns the tool, beside an aligned wrist."""
+    _, _, height = _resting(form)
+    for i in side_by_side(n):
+        rise = S[BLOCK * (VALUES + 2) + i] + height
+        dirty = abs(rise) * S[BLOCK * (SIN + 4) + i] < MEETING
+        S[BLOCK * DIRTY + i] += S[BLOCK * VALID + i] if dirty else 0.0
+
+
 def _solve_block(arm, Ts, within_limits, first, n, outputs):
     """Poses Ts[first : first + n]; the count of one that is not clean is -1."""
     (_, joints), form, ends, slack = arm
@@ -191,6 +204,8 @@ def _solve_block(arm, Ts, within_limits, first, n, outputs):
     else:
         _elbows(form, slack, arms, S)
     _wrists(form, arms, S)
+    if form[2, 5] != 0.0:
+        _where_singularities_meet(form, arms, S)
     measure(form, ends[2], arms, S, 0, 0, 1, 2, 3, 4, 5)
     for i in side_by_side(arms):
         S[BLOCK * (RESIDUAL + 1) + i] = S[BLOCK * RESIDUAL + i]

@@ -245,7 +245,8 @@ def finish_wrists(arm, places, found, meet, T, within_limits, out, scratch):
     for k in range(left):
         deep = deep or rows[1][k] > DULL
     doubt = doubt or deep or (left < found and merged == 0)
-    name_families(chain, T, rows, left, doubt or meet, work)
+    slides = joints[0, 0] + joints[1, 0] + joints[2, 0] != 0.0
+    name_families(chain, T, rows, left, doubt or meet or slides, work)
     left = turn_inside(chain, T, within_limits, *rows, left)
     left = copy_rows(rows, left, out)
     return -1 - left - (DEEP if deep else 0) if doubt else left
