@@ -46,6 +46,7 @@ LISTED = {
     "random of 6, 9 digits": {"unnamed: random 0/50": 2, "no family: random 0/57": 1},
     "sliding of 6, exact": {"unnamed: sliding 0/173": 1},
     "seven held, 9 digits": {"unnamed: kuka_iiwa14": 1},
+    "many of 6, exact": {"unnamed: random 1/817": 1},
 }
 """What is known of families without a name, and of one that the referee does not walk, by class and
 arm: of each how many poses, all found, where three directions are flat or a loop is 1e-3 short."""
