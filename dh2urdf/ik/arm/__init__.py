@@ -35,6 +35,7 @@ from dh2urdf.ik.arm.limits import (
 )
 from dh2urdf.ik.arm.shared_tolerances import (
     ACCEPT,
+    ALMOST,
     FAMILY_RANK,
     INTERVAL_END,
     LIMIT_SLACK,

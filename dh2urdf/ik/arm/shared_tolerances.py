@@ -69,6 +69,10 @@ NEAR = (3e-10, 3e-9, 1e-7, 3e-6, 1e-4, 1e-3, 5e-3)
 nominal arm of a rounded or calibrated one is sought, the smallest that will do. Factory
 calibration changes parameters by up to 1e-3, and four of them are between two axes."""
 
+ALMOST = 2e-2
+"""Angle [rad] between neighbouring axes, of an arm with three that are parallel, by whose sine its
+equations divide in vain: regular poses are lost up to 5e-3, below 1e-6 all of them."""
+
 SLACK_OF_NEAR = 100.0
 """Slack of the nominal arm's equations per unit of its distance [m, rad] from the exact arm: lever
 arms are seldom a hundred times shorter than the arm. What it lets in by mistake is in doubt."""

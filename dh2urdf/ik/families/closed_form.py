@@ -10,6 +10,7 @@ import numpy as np
 from dh2urdf.chain import SerialChain
 from dh2urdf.engine import Step
 from dh2urdf.ik.arm import (
+    ALMOST,
     BRANCH_WORDS,
     NOMINAL,
     SLACK,
@@ -35,11 +36,6 @@ UPSIDE_DOWN = (BRANCH_WORDS[0], BRANCH_WORDS[1][::-1], BRANCH_WORDS[2])
 """Names of the branches where axis 1 points down in the base, from where the kernels look up."""
 
 STUCK = "the arm cannot move its tool in all six directions"
-
-
-ALMOST = 1e-3
-"""Angle [rad] between axes 5 and 6 by whose sine the equations of three parallel axes divide in
-vain: of poses of 1e-8 to 1e-5 they lose most, at 3e-4 two of 233."""
 
 
 class ClosedForm(SolverBase):
