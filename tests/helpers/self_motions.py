@@ -38,7 +38,8 @@ FLATTEST = 1e-3
 """Singular value, in parts of the next one, of the one direction of a curve among weak others."""
 
 SHARP = 1e-13
-"""Residual [m and rad] of the points of such a curve: between two of them it is more."""
+"""Residual [m and rad] of the points of such a curve, in directions in which the tool still moves:
+between two of them it is more."""
 
 ANGLES = 24
 """Directions round a point where curves may cross that are looked at."""
@@ -187,14 +188,14 @@ def on_curve(arm, p, q, T, free, tolerance):
         for k in range(4 * MOST):
             sigma, V = directions(arm, at, free)
             ahead = V[-1] * (side if ahead is None else np.sign(V[-1] @ ahead))
-            at, residual = sharpened(arm, at + 0.5 * STEP * ahead, T, free)
-            if sigma[-1] > FLATTEST * sigma[-2] or residual > SHARP:
+            at = sharpened(arm, at + 0.5 * STEP * ahead, T, free)
+            if sigma[-1] > FLATTEST * sigma[-2] or not keeps(arm, at, T, free):
                 break
             foot = at
             for _ in range(4 if gaps(arm, at, q) < STEP else 0):
                 way = directions(arm, foot, free)[1][-1]
-                foot, rest = sharpened(arm, foot + (way @ wrapped(arm, q - foot)) * way, T, free)
-                if gaps(arm, foot, q) <= tolerance and rest <= SHARP:
+                foot = sharpened(arm, foot + (way @ wrapped(arm, q - foot)) * way, T, free)
+                if gaps(arm, foot, q) <= tolerance and keeps(arm, foot, T, free):
                     return True
             if k > 3 and gaps(arm, at, p) < 0.3 * STEP:
                 break
@@ -202,11 +203,20 @@ def on_curve(arm, p, q, T, free, tolerance):
 
 
 def sharpened(arm, p, T, free):
-    """The solution next to p, across strong directions first and then by all but the flattest.
+    """The solution next to p, across strong directions first and then by all but the flattest."""
+    return newton(arm, newton(arm, p, T, free, FLAT, 8, 1e-14)[0], T, free, 1e-11, 12, 1e-15)[0]
 
-    And its residual.
+
+def keeps(arm, p, T, free):
+    """Whether the pose at p is accepted, and T to rounding but for where the tool hardly moves.
+
+    Of all that moves it least the effect may be rounding itself, and no point of a curve exact.
     """
-    return newton(arm, newton(arm, p, T, free, FLAT, 8, 1e-14)[0], T, free, 1e-11, 12, 1e-15)
+    placed = frames(arm, p)
+    error, J = error_vectors(placed[-1], T), jacobians_at(arm, placed)[:, free]
+    weakest = np.linalg.svd(J, full_matrices=False)[0][:, -1]
+    across = error if J.shape[1] > 6 else error - weakest * (weakest @ error)
+    return larger_of(error) <= ACCEPT and larger_of(across) <= SHARP
 
 
 def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS, crossing=True):

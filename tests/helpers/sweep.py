@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from dh_arm import arm_of
 from ik_referee import forward, gaps, jacobians, residuals, same_to_rounding
-from self_motions import LENGTHS, goes_on, is_family, on_family
+from self_motions import LENGTHS, back, goes_on, is_family, on_family
 from structured import table_line
 
 import dh2urdf
@@ -21,6 +21,9 @@ ACCEPT = 1e-9
 ROUNDING = 1e-12
 """What a solution may be off by, times its smallest singular value; and bounds of that [rad]."""
 LEAST, MOST = 1e-8, 1e-6
+
+NEAR = 0.1
+"""How far what is to be the same to rounding may be from a solution [rad or m]."""
 
 SURE = 1e-11
 """Residual of a short walk along a family that has to be named: round a circle it is accepted."""
@@ -96,8 +99,19 @@ def contains(arm, found, masks, q, T, tolerance, moving=slice(None)):
     for k in np.argsort(away):
         if masks[k] and on_family(arm, found[k], q, T, bits[k], MOST):
             return True
-    near = [k for k in np.argsort(away) if away[k] < 0.1]
-    return tolerance > LEAST and any(same_to_rounding(arm, found[k], q, T, moving) for k in near)
+    if tolerance <= LEAST:
+        return False
+    near = [found[k] for k in np.argsort(away) if away[k] < NEAR]
+    near += [p for k in np.flatnonzero(masks) for p in _members(arm, found[k], q, T, bits[k])]
+    return any(same_to_rounding(arm, p, q, T, moving) for p in near)
+
+
+def _members(arm, p, q, T, free):
+    """The member (n,) next to q of the family of p, if it is near."""
+    if gaps(arm, np.where(free, q, p), q) > NEAR:
+        return []
+    member, _ = back(arm, np.where(free, q, p), T, free)
+    return [member] if on_family(arm, p, member, T, free, MOST) else []
 
 
 def judge(tally, table, q, solve, robot=None, held=()):

@@ -4,6 +4,7 @@ Each class prints a line of figures; ``SWEEP=10`` in the environment takes ten t
 and what is lost or wrong is added to the file that ``SWEEP_NOTES`` names: so two commits compare.
 """
 
+import math
 import os
 import re
 from collections import Counter
@@ -13,7 +14,7 @@ import numpy as np
 import pytest
 from dh_arm import arm_of
 from follower_arms import AWAY, MULTIPLIERS, follower_chain
-from ik_referee import gaps, solve
+from ik_referee import forward, gaps, solve
 from structured import (
     ROUNDINGS,
     random_tables,
@@ -23,7 +24,7 @@ from structured import (
     structured_configurations,
     variant_tables,
 )
-from sweep import Tally, judge, judge_arm, smallest
+from sweep import MOST, Tally, contains, judge, judge_arm, smallest
 
 import dh2urdf
 from dh2urdf.conversions.write.table_chain import dh_to_chain
@@ -121,6 +122,22 @@ def test_the_referee_misses_what_is_taken_away():
     judge(tally, table, q, without_nearest)
     assert tally.count["regular lost"] == tally.count["regular"]
     assert tally.count["singular lost"] == tally.count["singular"]
+
+
+def test_members_are_the_same_to_rounding_where_the_tool_hardly_moves_and_nowhere_else():
+    """Axes 1 and 2, and 5 and 6, in line but for rounding, of which 5 and 6 are named as free.
+
+    What is solved is a member that is aside by less than the pose tells; farther off it tells.
+    """
+    table = rounded(random_tables(448, seed=1)[447], 4)
+    arm = arm_of(table)
+    q = np.array([math.pi, -math.pi / 2, 5 * math.pi / 6, math.pi / 6, math.pi / 3, math.pi / 6])
+    T = forward(arm, q[None])[0]
+    found = dh2urdf.Robot.from_dh(table).ik(T, within_limits=False)
+    masks = np.array([sum(1 << j for j in free) for free in found.free_joints])
+    aside = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 0.0])
+    told = [contains(arm, found.q, masks, q + x * aside, T, MOST) for x in (0.0, 1e-2, -1e-1)]
+    assert told == [True, False, False]
 
 
 def test_the_referee_misses_names_that_are_taken_away():
