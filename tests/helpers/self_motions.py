@@ -44,6 +44,9 @@ between two of them it is more."""
 ANGLES = 24
 """Directions round a point where curves may cross that are looked at."""
 
+REACHED = 1e-12
+"""Residual [m and rad] below which it is rounding that tells two of them apart."""
+
 
 def wrapped(arm, d):
     """Joint differences, angles in (-pi, pi]."""
@@ -239,15 +242,19 @@ def is_family(arm, p, T, free, accept=ACCEPT, lengths=LENGTHS, crossing=True):
 
 
 def crossing_ways(arm, p, T, free, length):
-    """Directions between two flat ones in which the pose is kept best: where curves cross at p."""
+    """Directions between two flat ones in which the pose is kept best: where curves cross at p.
+
+    Best is the point of the pose that is next; where the pose is not reached, the least residual.
+    """
     sigma, V = directions(arm, p, free)
     flat = V[sigma < FLAT * sigma[0]]
     if len(flat) != 2:
         return []
 
     def off(angle):
-        way = np.cos(angle) * flat[0] + np.sin(angle) * flat[1]
-        return newton(arm, p + length * way, T, free, FLAT, 8, 1e-14)[1]
+        start = p + length * (np.cos(angle) * flat[0] + np.sin(angle) * flat[1])
+        point, residual = newton(arm, start, T, free, FLAT, 8, 1e-14)
+        return np.linalg.norm(point - start) if residual < REACHED else 1.0 + residual
 
     angles = np.linspace(0.0, 2.0 * np.pi, ANGLES, endpoint=False)
     least = np.array([off(angle) for angle in angles])

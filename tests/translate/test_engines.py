@@ -12,7 +12,7 @@ from dh2urdf.translate.build import LEVELS, PLACE
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, leaves, recorded
 
-USUAL = ("gcc sanitized", "clang -O2", "zig -O3", "aarch64 -O3", "wasm32 -O2")
+USUAL = ("gcc sanitized", "clang -O0", "zig -O3", "aarch64 -O3", "wasm32 -O2")
 """What the daily suite compiles, where the tools are there."""
 
 ARMS = """
@@ -42,16 +42,18 @@ SLOW = {
     "finish_followers_16": 4,
     "try_followers_48": 2,
     "sample_followers": 3,
-    "referee_doubtful": 6,
-    "search_doubtful": 11,
-    "search_poses": 3,
+    "finish_general_6r": 5,
+    "solve_two_parallel": 2,
+    "referee_doubtful": 2,
+    "search_doubtful": 5,
+    "search_poses": 1,
     "search_valleys": 1,
     "search_starts": 1,
     "search_known": 1,
     "follow_candidates": 1,
     "widen_wrists": 2,
-    "widen_parallel": 3,
-    "add_curves": 5,
+    "widen_parallel": 1,
+    "add_curves": 3,
     "onward": 1,
     "find_starts": 1,
     "sweep_pose": 1,
