@@ -2,6 +2,7 @@
 
 Each class prints a line of figures; ``SWEEP=10`` in the environment takes ten times as many poses,
 and what is lost or wrong is added to the file that ``SWEEP_NOTES`` names: so two commits compare.
+``SWEEP_POSES=regular`` leaves out singular ones, which take most of the time.
 """
 
 import math
