@@ -27,9 +27,10 @@ FINE = 1e-4
 
 STEP = 0.1
 """Steps of a walk round a family [rad or m], and their number each way; round a short loop they
-are shorter."""
-MOST = 250
+are shorter, and where curves nearly cross, of which so many times more are made."""
+MOST = 400
 SHORT = 0.004
+SHORTER = 10
 
 TURN = int(2.0 * np.pi / STEP)
 """Steps of a walk of one turn."""
@@ -117,33 +118,40 @@ def walks_to(arm, p, q, T, free, tolerance, accept=ACCEPT):
 
 
 def tangent_at(arm, p, free, before):
-    """Unit direction of the family at p, nearest to that before; None where nothing is flat."""
+    """Unit direction of the family at p, nearest to that before; None where nothing is flat.
+
+    And the least singular value of the others: it is small where two curves nearly cross.
+    """
     sigma, V = directions(arm, p, free)
-    flat = V[sigma < FLAT * sigma[0]]
-    if not len(flat):
-        return None
-    ahead = flat.T @ (flat @ before)
+    flat = sigma < FLAT * sigma[0]
+    if not flat.any():
+        return None, 0.0
+    ahead = V[flat].T @ (V[flat] @ before)
     size = np.linalg.norm(ahead)
-    return ahead / size if size > 1e-3 else None
+    return ahead / size if size > 1e-3 else None, sigma[~flat].min(initial=np.inf)
 
 
-def round_walk(arm, p, T, free, ahead, step=STEP):
-    """Points of the family through p, on a walk that starts in a direction."""
-    start = p
-    for k in range(MOST):
-        ahead = tangent_at(arm, p, free, ahead)
+def round_walk(arm, p, T, free, ahead, step=STEP, careful=False):
+    """Points of the family through p, on a walk that starts in a direction.
+
+    Carefully, steps are shorter where another curve comes near, which a walk would go on by.
+    """
+    start, gone = p, 0.0
+    for _ in range(SHORTER * MOST if careful else MOST):
+        ahead, apart = tangent_at(arm, p, free, ahead)
         if ahead is None:
             return
-        for part in (step, 0.2 * step):  # where the curve bends, a shorter one
+        whole = min(step, max(apart, SHORT)) if careful else step
+        for part in (whole, 0.2 * whole):  # where the curve bends, a shorter one
             next_, residual = back(arm, p + part * ahead, T, free)
             way = wrapped(arm, next_ - p)
             if residual <= ACCEPT and 0.1 * part < np.linalg.norm(way) < 2.0 * part:
                 break
         else:
             return
-        p, ahead = next_, way
+        p, ahead, gone = next_, way, gone + np.linalg.norm(way)
         yield p
-        if k > 3 and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
+        if gone > 3.5 * step and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
             return
 
 
@@ -171,9 +179,12 @@ def on_family(arm, p, q, T, free, tolerance):
     flat = V[sigma < FLAT * sigma[0]]
     rng = np.random.default_rng(0)
     ways = flat if len(flat) == 1 else [v @ flat for v in rng.normal(size=(6, len(flat)))]
-    for step in (STEP, SHORT) if gaps(arm, p, q) < MOST * SHORT else (STEP,):
+    walks = [(STEP, False)]
+    walks += [(SHORT, False)] if gaps(arm, p, q) < MOST * SHORT else []
+    walks += [(STEP, True)] if len(flat) == 1 else []
+    for step, careful in walks:
         for way in (side * way for way in ways for side in (1.0, -1.0)):
-            for k, point in enumerate(round_walk(arm, p, T, free, way, step)):
+            for k, point in enumerate(round_walk(arm, p, T, free, way, step, careful)):
                 near = gaps(arm, point, q) < 3 * step or (len(flat) > 1 and k % 10 == 0)
                 if near and walks_to(arm, point, q, T, free, tolerance):
                     return True

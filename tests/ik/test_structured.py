@@ -49,9 +49,12 @@ LISTED = {
     "sliding of 6, exact": {"unnamed: sliding 0/173": 1},
     "seven held, 9 digits": {"unnamed: kuka_iiwa14": 1},
     "many of 6, exact": {"unnamed: random 1/817": 1},
+    "many of 6, 9 digits": {"singular lost: random 1/1088": 1},
+    "followers, 0 turns between, 0.5 times": {"singular lost: follower_chain(1001)": 1},
 }
-"""What is known of families without a name, and of one that the referee does not walk, by class and
-arm: of each how many poses, all found, where three directions are flat or a loop is 1e-3 short."""
+"""What is known, by class and arm, of how many poses: families without a name, all found, where
+three directions are flat or a loop is 1e-3 short; one that the referee does not walk; and the two
+configurations that are lost, on curves that few starts find."""
 
 SEVEN = [table for table in shipped_tables() if len(table.rows) == 7]
 
@@ -90,7 +93,8 @@ def report(tally):
     if NOTES:
         with open(NOTES, "a") as file:
             file.writelines(f"{tally.name}; {note}\n" for note in tally.notes)
-    arms = Counter(re.split(" (?:standard|modified): ", note)[0] for note in tally.failures())
+    ends = " (?:standard: |modified: |at q = )"
+    arms = Counter(re.split(ends, note)[0] for note in tally.failures())
     assert not arms - Counter(LISTED.get(tally.name, {})), "\n".join(tally.failures())
 
 
@@ -215,9 +219,9 @@ def test_a_slice_of_structured_poses_with_followers_loses_nothing_that_is_regula
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("multiplier", MULTIPLIERS)
 @pytest.mark.parametrize("away", AWAY)
-def test_structured_poses_with_followers_lose_nothing_that_is_regular(away, multiplier):
-    """As of other arms; of families that are not named there are some in a thousand."""
-    check_regular(followers_tally(away, multiplier, TABLES // 3, POSES // 4))
+def test_structured_poses_with_followers_lose_nothing(away, multiplier):
+    """As of other arms."""
+    report(followers_tally(away, multiplier, TABLES // 3, POSES // 4))
 
 
 @pytest.mark.exhaustive
