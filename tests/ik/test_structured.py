@@ -145,6 +145,38 @@ def test_members_are_the_same_to_rounding_where_the_tool_hardly_moves_and_nowher
     assert told == [True, False, False]
 
 
+LONG = {
+    524: (
+        -1.4577068903209045,
+        -4.7226889e-08,
+        -1.0719100384,
+        -0.7740820057,
+        2.783023093,
+        3.039136169,
+    ),
+    1509: (
+        1.57078904266,
+        1.57078988838,
+        -1.57080004735,
+        -1.57079476899,
+        3.14158734575,
+        1.57078076852,
+    ),
+}
+"""Configurations on long curves of two of many random tables of 9 digits; another curve comes
+within 1e-4 of the second."""
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("k", LONG)
+def test_a_family_is_walked_to_its_end_and_with_short_steps_where_another_is_near(k):
+    """The configuration is some 30 rad along the curve that is named, or by the other turning."""
+    table = rounded(random_tables(k + 1, seed=1)[k], 9)
+    tally = Tally("long")
+    judge(tally, table, np.array([LONG[k]]), anywhere)
+    assert tally.notes == []
+
+
 def test_the_referee_misses_names_that_are_taken_away():
     """Axes 4 and 6 in line: what turns round them both goes on for a turn, and has to be named."""
     table, q = dh2urdf.load_table("puma560"), np.array([[0.3, -0.7, 0.4, 0.2, 0.0, 0.5]])
