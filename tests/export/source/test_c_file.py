@@ -101,6 +101,10 @@ def test_what_is_told_with_a_joint_held_at_an_end_are_solutions(name, held, whol
     compare(arm, edges(arm.robot, rng, EVERY_DAY), whole)
 
 
+DAILY = ("nearly three parallel axes", "general 6R", "spherical shoulder")
+"""Which of the kinds that follow the daily suite has."""
+
+
 def other_arms():
     """Arms that are nearly of a family, of none, and of one seen from the tool."""
     rng = np.random.default_rng(0)
@@ -136,7 +140,13 @@ def other_arms():
     }
 
 
-@pytest.mark.parametrize(("solver", "table"), other_arms().items())
+OTHERS = [
+    pytest.param(solver, table, marks=() if solver in DAILY else pytest.mark.exhaustive)
+    for solver, table in other_arms().items()
+]
+
+
+@pytest.mark.parametrize(("solver", "table"), OTHERS)
 def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path):
     """Calibrated, general and mirrored arms: the same bits."""
     arm = Arm(Robot.from_dh(table), tmp_path)
@@ -150,6 +160,14 @@ def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path
 KINDS = dict.fromkeys([*FAMILIES.split(), *HELD])
 KINDS |= {"general 6R": other_arms()["general 6R"]}
 """Arms of each kind of kernels, and the tables of those that do not ship."""
+
+SOME = [
+    name
+    if name in ("ur5", "planar_rr", "rpr_new_frame", "stanford", "franka_fer", "general 6R")
+    else pytest.param(name, marks=pytest.mark.exhaustive)
+    for name in KINDS
+]
+"""The kinds; those that the daily suite leaves out are compiled there by other tests."""
 
 RARE = [pytest.param(name, marks=pytest.mark.exhaustive) for name in ("ur5", "fanuc_crx10ia")]
 """Arms whose kinds have others in the daily suite, compiled at length."""
@@ -245,7 +263,7 @@ def test_sanitizers_find_nothing_on_ten_thousand_poses(name, tmp_path):
     print(f"{name}: sanitizers silent at 10000 poses; {time.monotonic() - start:.0f} s")
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", SOME)
 def test_contraction_changes_the_last_digits_only(name, tmp_path):
     """Compiled for a processor that fuses products with sums, regular solutions move by 1e-12."""
     arm = whole_arm(name, tmp_path)
@@ -290,7 +308,7 @@ def test_what_is_no_pose_has_no_solutions(tmp_path):
     assert [len(arm.robot.ik(T)) for T in Ts[2:4]] == [0, 0]
 
 
-@pytest.mark.parametrize("name", KINDS)
+@pytest.mark.parametrize("name", SOME)
 def test_the_stack_that_is_stated_suffices(name, tmp_path):
     """The frames that gcc makes, not optimised, add up to no more."""
     arm = whole_arm(name, tmp_path)
