@@ -26,11 +26,15 @@ FINE = 1e-4
 """How far Newton's method by all directions may take what is accepted as it is [rad or m]."""
 
 STEP = 0.1
-"""Steps of a walk round a family [rad or m], and their number each way; round a short loop they
-are shorter, and where curves nearly cross, of which so many times more are made."""
+"""Steps of a walk round a family [rad or m], and their number each way, some 40 rad: curves of 31
+are known. Round a short loop they are shorter, and where curves nearly cross, of which so many
+times more are made."""
 MOST = 400
 SHORT = 0.004
 SHORTER = 10
+
+LEFT = 3.5
+"""Steps after which a walk may be back where it began."""
 
 TURN = int(2.0 * np.pi / STEP)
 """Steps of a walk of one turn."""
@@ -151,7 +155,7 @@ def round_walk(arm, p, T, free, ahead, step=STEP, careful=False):
             return
         p, ahead, gone = next_, way, gone + np.linalg.norm(way)
         yield p
-        if gone > 3.5 * step and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
+        if gone > LEFT * step and np.abs(wrapped(arm, p - start)).max() < 0.6 * step:
             return
 
 

@@ -170,7 +170,7 @@ within 1e-4 of the second."""
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("k", LONG)
 def test_a_family_is_walked_to_its_end_and_with_short_steps_where_another_is_near(k):
-    """The configuration is some 30 rad along the curve that is named, or by the other turning."""
+    """The configuration is 28 rad along the curve that is named, or past where another is near."""
     table = rounded(random_tables(k + 1, seed=1)[k], 9)
     tally = Tally("long")
     judge(tally, table, np.array([LONG[k]]), anywhere)

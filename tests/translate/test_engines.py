@@ -12,7 +12,7 @@ from dh2urdf.translate.build import LEVELS, PLACE
 from tests.translate import engines, replay, workload
 from tests.translate.record import call, differing, interpreted, leaves, recorded
 
-USUAL = ("gcc sanitized", "clang -O0", "zig -O3", "aarch64 -O3", "wasm32 -O2")
+USUAL = ("gcc sanitized", "clang -O2", "zig -O3", "aarch64 -O3", "wasm32 -O2")
 """What the daily suite compiles, where the tools are there."""
 
 ARMS = """

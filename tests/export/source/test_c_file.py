@@ -45,8 +45,13 @@ HELD = {"franka_fer": 6, "kuka_iiwa14": 2}
 SMALL = 16384
 """Bytes of the stack that an arm's functions take at most."""
 
-SAME, SAME_SOON = ("-O2", "-ffp-contract=off"), ("-O1", "-ffp-contract=off")
-"""Options with which every number is that of the robot; the second compile sooner."""
+SAME = ("-O2", "-ffp-contract=off")
+
+
+def daily(names, few):
+    """Names of a test's arms, of which the daily suite has a few and the marked one all."""
+    assert few <= set(names)
+    return [pytest.param(n, marks=() if n in few else pytest.mark.exhaustive) for n in names]
 
 
 def assert_same(found, batch):
@@ -86,7 +91,7 @@ def compare(arm, q, whole=1.0):
 def test_the_solutions_are_those_of_the_robot(name, tmp_path):
     """Without contraction every number is that of ``Robot.ik``, edge poses included."""
     arm, rng = Arm(Robot.from_dh(name), tmp_path, HELD.get(name)), np.random.default_rng(1)
-    arm.compile(*SAME_SOON)
+    arm.compile(*SAME)
     compare(arm, configurations(arm.robot, rng, EVERY_DAY), LEFT.get(name, 1.0))
     compare(arm, edges(arm.robot, rng, EVERY_DAY // 3), 0.0 if name in LEFT else 1.0)
 
@@ -97,12 +102,8 @@ def test_the_solutions_are_those_of_the_robot(name, tmp_path):
 def test_what_is_told_with_a_joint_held_at_an_end_are_solutions(name, held, whole, tmp_path):
     """Also at poses in doubt, of which the rest of the arm counts its solutions below zero."""
     arm, rng = Arm(Robot.from_dh(name), tmp_path, held), np.random.default_rng(1)
-    arm.compile(*SAME_SOON)
+    arm.compile(*SAME)
     compare(arm, edges(arm.robot, rng, EVERY_DAY), whole)
-
-
-DAILY = ("nearly three parallel axes", "general 6R", "spherical shoulder")
-"""Which of the kinds that follow the daily suite has."""
 
 
 def other_arms():
@@ -140,37 +141,28 @@ def other_arms():
     }
 
 
-OTHERS = [
-    pytest.param(solver, table, marks=() if solver in DAILY else pytest.mark.exhaustive)
-    for solver, table in other_arms().items()
-]
+OTHERS = other_arms()
 
 
-@pytest.mark.parametrize(("solver", "table"), OTHERS)
-def test_arms_of_other_families_answer_as_the_robot_does(solver, table, tmp_path):
+@pytest.mark.parametrize(
+    "solver", daily(OTHERS, {"nearly three parallel axes", "general 6R", "spherical shoulder"})
+)
+def test_arms_of_other_families_answer_as_the_robot_does(solver, tmp_path):
     """Calibrated, general and mirrored arms: the same bits."""
-    arm = Arm(Robot.from_dh(table), tmp_path)
+    arm = Arm(Robot.from_dh(OTHERS[solver]), tmp_path)
     assert arm.made.solver == solver.partition(",")[0]
-    arm.compile(*SAME_SOON)
+    arm.compile(*SAME)
     rng = np.random.default_rng(6)
     compare(arm, rng.uniform(-3.0, 3.0, (80, 6)))
     compare(arm, edges(arm.robot, rng, 60))
 
 
 KINDS = dict.fromkeys([*FAMILIES.split(), *HELD])
-KINDS |= {"general 6R": other_arms()["general 6R"]}
+KINDS |= {"general 6R": OTHERS["general 6R"]}
 """Arms of each kind of kernels, and the tables of those that do not ship."""
 
-SOME = [
-    name
-    if name in ("ur5", "planar_rr", "rpr_new_frame", "stanford", "franka_fer", "general 6R")
-    else pytest.param(name, marks=pytest.mark.exhaustive)
-    for name in KINDS
-]
-"""The kinds; those that the daily suite leaves out are compiled there by other tests."""
-
-RARE = [pytest.param(name, marks=pytest.mark.exhaustive) for name in ("ur5", "fanuc_crx10ia")]
-"""Arms whose kinds have others in the daily suite, compiled at length."""
+SOME = daily(KINDS, {"ur5", "planar_rr", "rpr_new_frame", "stanford", "franka_fer", "general 6R"})
+"""The kinds; those that are left out of the daily suite are compiled there by other tests."""
 
 SHIPPED = [name for name in list_tables() if not Robot.from_dh(name).is_coupled]
 """Arms that ship, but for those whose joints follow others, which are refused."""
@@ -288,7 +280,7 @@ def test_a_seed_sorts_and_turns_as_the_robot_does(tmp_path):
     """``ik_near`` gives what a seed gives to ``Robot.ik``, the seed first."""
     robot = Robot.from_dh("ur5")
     arm = Arm(robot, tmp_path)
-    arm.compile(*SAME_SOON)
+    arm.compile(*SAME)
     q = np.random.default_rng(5).uniform(-6.0, 6.0, (100, 6))
     for one, x, T in zip(arm.run(q)["near"], q, robot.fk(q), strict=True):
         whole = robot.ik(T, seed=x)
@@ -391,7 +383,9 @@ int main(void)
 
 
 @pytest.mark.parametrize("compiler", [c for c in ("gcc", "clang") if shutil.which(c)])
-@pytest.mark.parametrize("name", ["puma560", "xarm5", *RARE])
+@pytest.mark.parametrize(
+    "name", daily(["puma560", "ur5", "xarm5", "fanuc_crx10ia"], {"puma560", "xarm5"})
+)
 def test_compilers_that_inline_need_no_more_stack_than_is_stated(name, compiler, tmp_path):
     """What is written of a painted stack, at -O3, singular poses included."""
     made = export_solver(Robot.from_dh(name), tmp_path / "arm.h", prefix="arm")
